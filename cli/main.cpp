@@ -1,0 +1,5 @@
+#include "kernel/model/version.h"
+
+#include <cstdio>
+
+int main() { std::printf("oriel %s\n", oriel::kVersion); }

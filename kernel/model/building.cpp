@@ -1,0 +1,15 @@
+#include "kernel/model/building.h"
+
+#include <cmath>
+#include <utility>
+
+namespace oriel {
+
+Frame frame_of(const std::vector<Vec3>& points, std::string crs) {
+  Box box;
+  for (const Vec3 p : points) box.grow(p);
+  if (box.is_empty()) box.grow(Vec3{});
+  return {{std::floor(box.min.x), std::floor(box.min.y), std::floor(box.min.z)}, std::move(crs)};
+}
+
+}  // namespace oriel

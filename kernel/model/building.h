@@ -1,0 +1,52 @@
+#pragma once
+
+#include "kernel/model/vec3.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Where a building's local coordinates stand in the input's: input = local + origin_m. The origin
+/// is the minimum of the building's box, floored to whole metres, so that local coordinates are
+/// small and exact.
+struct Frame {
+  Vec3 origin_m;
+  /// The input's coordinate reference system as it was written there, or empty.
+  std::string crs;
+};
+
+/// An input polygon. Ring 0 is the outer ring, counter-clockwise seen from outside the building;
+/// further rings are holes, clockwise. Entries index Building::vertices; the first vertex is not
+/// repeated.
+struct Polygon {
+  std::vector<std::vector<int>> rings;
+  /// The polygon's number in reading order, counted over the whole chosen geometry from 0.
+  int source = -1;
+  /// Which solid of a MultiSolid or CompositeSolid; 0 otherwise.
+  int body = 0;
+  /// Which shell of its solid: 0 the exterior one, 1… cavities.
+  int shell = 0;
+  /// Semantic surface type, material or group in the input, or empty. It may delimit a feature,
+  /// never name it.
+  std::string hint;
+};
+
+/// One building (or building part) as read: polygons of one geometry at one level of detail.
+struct Building {
+  /// The CityObject's id, or the file's stem for formats without ids.
+  std::string id;
+  /// The chosen geometry's level of detail as written in the input ("2.2"), or empty.
+  std::string lod;
+  Frame frame;
+  /// True if the input states a solid (closed shells), false for loose surfaces.
+  bool is_solid = true;
+  std::vector<Vec3> vertices;
+  std::vector<Polygon> polygons;
+};
+
+/// The frame of points given in the input's coordinates: origin = their minimum floored to whole
+/// metres.
+Frame frame_of(const std::vector<Vec3>& points, std::string crs);
+
+}  // namespace oriel

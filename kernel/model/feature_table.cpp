@@ -1,0 +1,60 @@
+#include "kernel/model/feature_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace oriel {
+
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t require_column(std::string_view name, bool is_text) {
+  const auto column = column_of(name);
+  if (!column || (feature_schema()[*column].unit == Unit::text) != is_text)
+    throw std::logic_error("no attribute '" + std::string(name) + "' of that type in the schema");
+  return *column;
+}
+
+}  // namespace
+
+FeatureTable::FeatureTable(std::string building, std::size_t rows)
+    : building_(std::move(building)), ids_(rows), columns_(feature_schema().size()) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (feature_schema()[c].unit == Unit::text)
+      columns_[c].texts.resize(rows);
+    else
+      columns_[c].numbers.resize(rows, kMissing);
+  }
+}
+
+FeatureId FeatureTable::find(std::string_view id) const {
+  const auto found = std::ranges::find(ids_, id);
+  return found == ids_.end() ? FeatureId{} : FeatureId{static_cast<int>(found - ids_.begin())};
+}
+
+std::optional<double> FeatureTable::number(FeatureId row, std::size_t column) const {
+  const double value = columns_[column].numbers[row.index()];
+  if (std::isnan(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<double> FeatureTable::number(FeatureId row, std::string_view name) const {
+  return number(row, require_column(name, false));
+}
+
+const std::string& FeatureTable::text(FeatureId row, std::string_view name) const {
+  return columns_[require_column(name, true)].texts[row.index()];
+}
+
+void FeatureTable::set(FeatureId row, std::string_view name, double value) {
+  columns_[require_column(name, false)].numbers[row.index()] = value;
+}
+
+void FeatureTable::set(FeatureId row, std::string_view name, std::string value) {
+  columns_[require_column(name, true)].texts[row.index()] = std::move(value);
+}
+
+}  // namespace oriel

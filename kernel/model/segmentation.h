@@ -1,0 +1,136 @@
+#pragma once
+
+#include "kernel/model/ids.h"
+#include "kernel/model/issue.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/vec3.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// In which order features are split off (docs/segmentation.md): along existing edges first, or the
+/// paper's.
+enum class Order { natural, paper };
+
+/// What a feature is: material that sticks out, air that cuts in, air closed in on all sides, or an
+/// outline without depth.
+enum class Sense { protrusion, hole, cavity, imprint };
+
+/// A node of the CSG tree. A union says body = rest ∪ parts, a difference body = rest ∖ parts; a
+/// leaf is a cell. `rest` and `parts` hold one node per lump.
+struct CsgNode {
+  enum class Kind { leaf, unite, subtract };
+  Kind kind = Kind::leaf;
+  /// The split planes; none for a cavity and where a body of several lumps falls apart without a
+  /// cut.
+  std::vector<PlaneId> planes;
+  /// The key the order sorted by; missing where nothing was cut.
+  std::optional<double> value;
+  /// The paper's quality: new area / old area in the split planes.
+  std::optional<double> quality;
+  std::vector<NodeId> rest;
+  std::vector<NodeId> parts;
+  /// The leaf's cell.
+  CellId cell;
+};
+
+/// Why a leaf was not split further.
+enum class LeafFlag {
+  convex,  ///< nothing to split
+  own,     ///< convex but for the planes of the cut that made it, which are no split planes of it
+  no_candidate,  ///< not convex, and no valid candidate
+  cycle,         ///< a state came back: the safety net of the termination argument
+  budget         ///< the counted work budget is used up
+};
+
+/// A leaf of the tree as a closed body. The body of a solid is the sum of its cells with their
+/// signs: at every point the signs of the cells around it add up to 1 inside and 0 outside.
+struct Cell {
+  /// +1 solid, -1 void: the product of the signs on the leaf's path.
+  int sign = 1;
+  double volume_m3 = 0;
+  bool is_convex = true;
+  LeafFlag flag = LeafFlag::convex;
+  NodeId node;
+  /// Outward from the cell (also of a void); loops index Segmentation::vertices.
+  std::vector<Facet> facets;
+};
+
+/// A facet of a cell.
+struct CellFacet {
+  CellId cell;
+  int facet = -1;
+};
+
+/// A part that a node of the tree splits off, at any level: paper 4.
+struct Feature {
+  Sense sense = Sense::protrusion;
+  /// The feature in whose subtree this one was found, or invalid: the body.
+  FeatureId parent;
+  /// The feature (or invalid: the body) that owns the facet in which the largest cap lies.
+  FeatureId host;
+  /// That facet, all features on it taken away: of a wall, the facade. Missing for cavities.
+  std::optional<CellFacet> host_facet;
+  /// The node of the feature's own subtree.
+  NodeId node;
+  /// See CsgNode.
+  std::optional<double> value;
+  std::optional<double> quality;
+  double new_area_m2 = 0;
+  double old_area_m2 = 0;
+  /// The split planes, the one with the largest cap first. Outward from the rest.
+  std::vector<PlaneId> planes;
+  /// True if the cut follows existing edges of the body and splits no facet.
+  bool is_natural = false;
+  double volume_m3 = 0;
+  /// The area of the boundary without the caps.
+  double surface_m2 = 0;
+  Box box;
+  /// The vertices of the lump, sorted, without repetition; indices into Segmentation::vertices.
+  std::vector<int> vertices;
+  /// Input polygons that lie in the feature with most of their area, also those of features within
+  /// it; sorted.
+  std::vector<int> source_polygons;
+};
+
+/// Counts of the work, all independent of the machine.
+struct SegmentationStats {
+  std::size_t leaves = 0;
+  std::size_t inner = 0;
+  /// Bodies looked at: leaves + inner.
+  std::size_t recursions = 0;
+  /// Oriented planes, or sets of planes, tested for protrusions and for holes.
+  std::size_t protrusion_tests = 0;
+  std::size_t hole_tests = 0;
+  /// Candidates found by them.
+  std::size_t candidates = 0;
+};
+
+/// The whole result for one solid.
+struct Segmentation {
+  Order order = Order::natural;
+  /// The oriented split planes: Solid::planes, same ids.
+  std::vector<Plane> planes;
+  /// The solid's vertices, same indices, then those that cuts made.
+  std::vector<Vertex> vertices;
+  std::vector<CsgNode> nodes;
+  NodeId root;
+  std::vector<Cell> cells;
+  /// In the order of the tree, parents before what they contain.
+  std::vector<Feature> features;
+  SegmentationStats stats;
+  std::vector<Issue> issues;
+};
+
+/// "natural", "paper".
+std::string to_string(Order order);
+/// "protrusion", "hole", "cavity", "imprint".
+std::string to_string(Sense sense);
+/// "convex", "own", "no-candidate", "cycle", "budget".
+std::string to_string(LeafFlag flag);
+
+}  // namespace oriel

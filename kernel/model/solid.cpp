@@ -1,0 +1,61 @@
+#include "kernel/model/solid.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace oriel {
+
+double signed_area_m2(std::span<const Vertex> vertices, const Loop& loop, Vec3 normal) {
+  if (loop.size() < 3) return 0;
+  const auto at = [&](std::size_t i) { return vertices[static_cast<std::size_t>(loop[i])].point; };
+  const Vec3 base = at(0);
+  Vec3 sum;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    sum = sum + cross(at(i) - base, at(i + 1) - base);
+  return dot(sum, normal) / 2;
+}
+
+double area_m2(std::span<const Vertex> vertices, const Facet& facet, Vec3 normal) {
+  double area = 0;
+  for (const Loop& loop : facet.loops) area += signed_area_m2(vertices, loop, normal);
+  return area;
+}
+
+double volume_m3(const Solid& solid) {
+  double sum = 0;
+  for (const Facet& facet : solid.facets) {
+    const Plane& plane = solid.planes[facet.plane.index()];
+    sum += plane.offset_m * area_m2(solid.vertices, facet, plane.normal);
+  }
+  return sum / 3;
+}
+
+double surface_m2(const Solid& solid) {
+  double sum = 0;
+  for (const Facet& facet : solid.facets)
+    sum += area_m2(solid.vertices, facet, solid.planes[facet.plane.index()].normal);
+  return sum;
+}
+
+Box box_of(const Solid& solid) {
+  Box box;
+  for (const Facet& facet : solid.facets)
+    for (const Loop& loop : facet.loops)
+      for (const int v : loop) box.grow(solid.vertices[static_cast<std::size_t>(v)].point);
+  return box;
+}
+
+bool is_closed(const Solid& solid) {
+  std::vector<std::pair<int, int>> edges;
+  for (const Facet& facet : solid.facets)
+    for (const Loop& loop : facet.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        edges.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+  std::ranges::sort(edges);
+  auto opposite = edges;
+  for (auto& [from, to] : opposite) std::swap(from, to);
+  std::ranges::sort(opposite);
+  return !edges.empty() && edges == opposite;
+}
+
+}  // namespace oriel

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace oriel {
+
+/// A point or direction; metres in the frame of a building (z up) unless a name says otherwise.
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+
+  friend constexpr Vec3 operator+(Vec3 p, Vec3 q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+  friend constexpr Vec3 operator-(Vec3 p, Vec3 q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+  friend constexpr Vec3 operator-(Vec3 p) { return {-p.x, -p.y, -p.z}; }
+  friend constexpr Vec3 operator*(double s, Vec3 p) { return {s * p.x, s * p.y, s * p.z}; }
+  friend constexpr bool operator==(Vec3, Vec3) = default;
+};
+
+constexpr double dot(Vec3 p, Vec3 q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+
+constexpr Vec3 cross(Vec3 p, Vec3 q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+inline double length(Vec3 p) { return std::sqrt(dot(p, p)); }
+
+/// `p` scaled to length 1; the zero vector stays zero.
+inline Vec3 normalised(Vec3 p) {
+  const double size = length(p);
+  return size > 0 ? (1 / size) * p : p;
+}
+
+/// An axis-parallel box. The default is empty: min > max, and growing it by a point makes it that
+/// point.
+struct Box {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 min{kInfinity, kInfinity, kInfinity};
+  Vec3 max{-kInfinity, -kInfinity, -kInfinity};
+
+  [[nodiscard]] constexpr bool is_empty() const { return min.x > max.x; }
+
+  constexpr void grow(Vec3 p) {
+    min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+    max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+  }
+  constexpr void grow(const Box& box) {
+    if (box.is_empty()) return;
+    grow(box.min);
+    grow(box.max);
+  }
+  /// The box moved by `shift`.
+  [[nodiscard]] constexpr Box moved(Vec3 shift) const { return {min + shift, max + shift}; }
+  friend constexpr bool operator==(const Box&, const Box&) = default;
+};
+
+}  // namespace oriel

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace oriel::test {
+
+/// The folder of shared data: $ORIEL_SHARED, else ../shared beside the project; nothing if it is
+/// not there.
+inline std::optional<std::filesystem::path> shared_dir() {
+  const char* set = std::getenv("ORIEL_SHARED");
+  const std::filesystem::path dir = set != nullptr && *set != '\0'
+                                        ? std::filesystem::path(set)
+                                        : std::filesystem::path(ORIEL_SOURCE_DIR) / ".." / "shared";
+  if (!std::filesystem::exists(dir / "data")) return std::nullopt;
+  return dir;
+}
+
+}  // namespace oriel::test
+
+/// Names the shared data folder `dir`, or leaves the test with the line "skipped" where it is
+/// absent.
+#define ORIEL_NEEDS_SHARED(dir)                            \
+  const auto dir##_found = ::oriel::test::shared_dir();    \
+  if (!dir##_found) {                                      \
+    MESSAGE("skipped: no shared data (set ORIEL_SHARED)"); \
+    return;                                                \
+  }                                                        \
+  const std::filesystem::path& dir = *dir##_found
