@@ -40,6 +40,16 @@ std::string to_string(const Issue& issue) {
   return text;
 }
 
+Issue building_issue(Severity severity, std::string code, const std::string& building,
+                     std::string sentence) {
+  Issue issue;
+  issue.severity = severity;
+  issue.code = std::move(code);
+  issue.sentence = std::move(sentence);
+  issue.place.building = building;
+  return issue;
+}
+
 bool has_errors(const std::vector<Issue>& issues) {
   return std::ranges::any_of(issues, [](const Issue& i) { return i.severity == Severity::error; });
 }

@@ -39,6 +39,10 @@ std::string to_string(const Issue& issue);
 /// "error", "warning" or "note".
 std::string to_string(Severity severity);
 
+/// An issue about a building as a whole.
+Issue building_issue(Severity severity, std::string code, const std::string& building,
+                     std::string sentence);
+
 /// True if one of `issues` is an error.
 bool has_errors(const std::vector<Issue>& issues);
 

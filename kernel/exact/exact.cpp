@@ -1,0 +1,129 @@
+#include "kernel/exact/exact.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace oriel::exact {
+
+namespace {
+
+using Int256 = boost::multiprecision::int256_t;
+
+Int128 absolute(Int128 value) { return value < 0 ? -value : value; }
+
+Int128 gcd(Int128 p, Int128 q) {
+  p = absolute(p);
+  q = absolute(q);
+  while (q != 0) {
+    const Int128 rest = p % q;
+    p = q;
+    q = rest;
+  }
+  return p;
+}
+
+int sign_of(Int128 value) { return (value > 0) - (value < 0); }
+
+/// numerator / denominator to about one bit: the integer part and the fraction are divided apart.
+double divide(Int128 numerator, Int128 denominator) {
+  const Int128 whole = numerator / denominator;
+  const Int128 rest = numerator % denominator;
+  return static_cast<double>(whole) + static_cast<double>(static_cast<long double>(rest) /
+                                                          static_cast<long double>(denominator));
+}
+
+}  // namespace
+
+GridPoint round_to_grid(Vec3 point, double grid_m) {
+  return {std::llround(point.x / grid_m), std::llround(point.y / grid_m),
+          std::llround(point.z / grid_m)};
+}
+
+Vec3 to_metres(const GridPoint& point, double grid_m) {
+  return {static_cast<double>(point[0]) * grid_m, static_cast<double>(point[1]) * grid_m,
+          static_cast<double>(point[2]) * grid_m};
+}
+
+Vec3 to_metres(const Rational& point, double grid_m) {
+  return {divide(point.x, point.w) * grid_m, divide(point.y, point.w) * grid_m,
+          divide(point.z, point.w) * grid_m};
+}
+
+std::optional<std::array<std::int64_t, 3>> direction(const Vector128& vector) {
+  const Int128 divisor = gcd(gcd(vector[0], vector[1]), vector[2]);
+  if (divisor == 0) return std::nullopt;
+  Vector128 reduced{vector[0] / divisor, vector[1] / divisor, vector[2] / divisor};
+  const Int128 largest =
+      std::max({absolute(reduced[0]), absolute(reduced[1]), absolute(reduced[2])});
+  std::array<std::int64_t, 3> normal{};
+  for (std::size_t i = 0; i < 3; ++i)
+    normal[i] = largest <= kMaxNormal ? static_cast<std::int64_t>(reduced[i])
+                                      : std::llround(static_cast<long double>(reduced[i]) /
+                                                     static_cast<long double>(largest) *
+                                                     static_cast<long double>(kMaxNormal));
+  const std::int64_t common = std::gcd(std::gcd(normal[0], normal[1]), normal[2]);
+  for (auto& component : normal) component /= common;
+  return normal;
+}
+
+Int128 dot(const std::array<std::int64_t, 3>& normal, const GridPoint& point) {
+  return Int128{normal[0]} * point[0] + Int128{normal[1]} * point[1] + Int128{normal[2]} * point[2];
+}
+
+Plane make_plane(const std::array<std::int64_t, 3>& normal, std::int64_t offset, double grid_m) {
+  const Vec3 direction{static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                       static_cast<double>(normal[2])};
+  const double size = length(direction);
+  return {normal, offset, (1 / size) * direction, static_cast<double>(offset) / size * grid_m};
+}
+
+Plane opposite(const Plane& plane) {
+  return {{-plane.coefficients[0], -plane.coefficients[1], -plane.coefficients[2]},
+          -plane.offset,
+          -plane.normal,
+          -plane.offset_m};
+}
+
+std::optional<Rational> meet(const Plane& p, const Plane& q, const Plane& r) {
+  const auto minor = [](const Plane& s, const Plane& t, int i, int j) {
+    return Int128{s.coefficients[i]} * t.coefficients[j] -
+           Int128{s.coefficients[j]} * t.coefficients[i];
+  };
+  const auto crossed = [&](const Plane& s, const Plane& t) {
+    return Vector128{minor(s, t, 1, 2), minor(s, t, 2, 0), minor(s, t, 0, 1)};
+  };
+  const Vector128 qr = crossed(q, r), rp = crossed(r, p), pq = crossed(p, q);
+  Int128 w = qr[0] * p.coefficients[0] + qr[1] * p.coefficients[1] + qr[2] * p.coefficients[2];
+  if (w == 0) return std::nullopt;
+  Vector128 point{};
+  for (std::size_t i = 0; i < 3; ++i)
+    point[i] = qr[i] * p.offset + rp[i] * q.offset + pq[i] * r.offset;
+  if (w < 0) {
+    w = -w;
+    for (auto& component : point) component = -component;
+  }
+  return Rational{point[0], point[1], point[2], w};
+}
+
+std::optional<GridPoint> as_grid_point(const Rational& point) {
+  if (point.x % point.w != 0 || point.y % point.w != 0 || point.z % point.w != 0)
+    return std::nullopt;
+  return GridPoint{static_cast<std::int64_t>(point.x / point.w),
+                   static_cast<std::int64_t>(point.y / point.w),
+                   static_cast<std::int64_t>(point.z / point.w)};
+}
+
+int side(const Plane& plane, const GridPoint& point) {
+  return sign_of(dot(plane.coefficients, point) - plane.offset);
+}
+
+int side(const Plane& plane, const Rational& point) {
+  const Int256 value = Int256(point.x) * plane.coefficients[0] +
+                       Int256(point.y) * plane.coefficients[1] +
+                       Int256(point.z) * plane.coefficients[2] - Int256(point.w) * plane.offset;
+  return value.sign();
+}
+
+}  // namespace oriel::exact

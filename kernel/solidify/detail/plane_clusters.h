@@ -1,0 +1,26 @@
+#pragma once
+
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/solidify/detail/soup.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// The oriented planes of a soup: parallel ones share one integer normal (or its negative), and the
+/// same plane with opposite orientations has exactly negated coefficients. Sorted by normal, then
+/// offset, descending.
+struct PlaneClusters {
+  std::vector<Plane> planes;
+  /// For each polygon of the soup the index of its plane.
+  std::vector<int> plane_of;
+};
+
+/// Clusters polygons into planes, the largest polygon first. A polygon joins a plane, or a normal
+/// with an offset of its own, if it is tilted by no more than coplanar_deg and none of its vertices
+/// lies further off than plane_offset_m; a polygon so thin that its own normal is uncertain by more
+/// may be tilted by that much.
+PlaneClusters cluster_planes(const Soup& soup, const Tolerances& tolerances);
+
+}  // namespace oriel::detail

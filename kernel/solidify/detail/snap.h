@@ -1,0 +1,23 @@
+#pragma once
+
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/solidify/detail/facets.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// Puts the vertices of the drafted facets where their planes meet and makes the solid of them:
+/// facets, planes and vertices, without shells yet.
+///
+/// A vertex of three planes goes to their meeting. A vertex of more, or one whose meeting lies
+/// further than four times plane_offset_m from where it was (planes that are almost parallel meet
+/// anywhere), goes to the grid point next to the least-squares point of its planes, and lies on
+/// them by decree. Vertices that come to lie within weld_m of a neighbour on a loop become one with
+/// it; facets that vanish so are counted in `swallowed`. `component` loses the entries of vanished
+/// facets.
+Solid snap_vertices(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& shell,
+                    FacetDraft& draft, const Tolerances& tolerances, int& swallowed);
+
+}  // namespace oriel::detail

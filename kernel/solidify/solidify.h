@@ -1,0 +1,27 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/issue.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+
+namespace oriel {
+
+/// Makes a closed, oriented solid with planar facets out of a building's polygons.
+///
+/// Vertices are welded and rounded to a grid, polygons are clustered into oriented planes, adjacent
+/// polygons of one plane become one facet (rings kept: facets are never made from triangles), every
+/// shell is oriented outward (cavities inward), and the vertices are put where their planes meet.
+/// Shuffling the input changes nothing but the numbers in Facet::polygons.
+///
+/// What is no solid is set aside: no value, and an error that says why, with val3dity's number:
+///   E301 too few polygons (301), E302 shell not closed (302), E303 more than two facets at an edge
+///   that do not pair up (303), E307 polygons that cannot be oriented alike (307), E310 a shell
+///   without volume, E501 larger than the exact range (4 km at the default weld_m).
+/// Warnings and notes: E304 polygons dropped as degenerate after welding, E308 polygons turned
+/// round (307), E309 parts thinner than the tolerances that were swallowed.
+///
+/// Source: the B-rep of the paper's section 3.1; facts and reasons in docs/solidify.md.
+Checked<Solid> solidify(const Building& building, const Tolerances& tolerances);
+
+}  // namespace oriel
