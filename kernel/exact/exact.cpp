@@ -41,6 +41,12 @@ GridPoint round_to_grid(Vec3 point, double grid_m) {
           std::llround(point.z / grid_m)};
 }
 
+Rational round_finely(Vec3 point, double grid_m) {
+  constexpr std::int64_t kFiner = std::int64_t{1} << 20;
+  const GridPoint fine = round_to_grid(point, grid_m / kFiner);
+  return {fine[0], fine[1], fine[2], kFiner};
+}
+
 Vec3 to_metres(const GridPoint& point, double grid_m) {
   return {static_cast<double>(point[0]) * grid_m, static_cast<double>(point[1]) * grid_m,
           static_cast<double>(point[2]) * grid_m};
@@ -83,7 +89,7 @@ Plane opposite(const Plane& plane) {
   return {{-plane.coefficients[0], -plane.coefficients[1], -plane.coefficients[2]},
           -plane.offset,
           -plane.normal,
-          -plane.offset_m};
+          0 - plane.offset_m};
 }
 
 std::optional<Rational> meet(const Plane& p, const Plane& q, const Plane& r) {
@@ -108,6 +114,9 @@ std::optional<Rational> meet(const Plane& p, const Plane& q, const Plane& r) {
 }
 
 std::optional<GridPoint> as_grid_point(const Rational& point) {
+  const Int128 limit = point.w * kMaxCoordinate;
+  if (absolute(point.x) > limit || absolute(point.y) > limit || absolute(point.z) > limit)
+    return std::nullopt;
   if (point.x % point.w != 0 || point.y % point.w != 0 || point.z % point.w != 0)
     return std::nullopt;
   return GridPoint{static_cast<std::int64_t>(point.x / point.w),

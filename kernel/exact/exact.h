@@ -32,6 +32,10 @@ struct Rational {
 /// The nearest grid point to a point in metres; `grid_m` is a power of two.
 GridPoint round_to_grid(Vec3 point, double grid_m);
 
+/// The nearest point of a grid 2^20 times finer: as near as doubles of a building's size are told
+/// apart.
+Rational round_finely(Vec3 point, double grid_m);
+
 /// A grid point in metres: exact, as |coordinate| < 2^53.
 Vec3 to_metres(const GridPoint& point, double grid_m);
 

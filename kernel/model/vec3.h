@@ -12,7 +12,8 @@ struct Vec3 {
 
   friend constexpr Vec3 operator+(Vec3 p, Vec3 q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
   friend constexpr Vec3 operator-(Vec3 p, Vec3 q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-  friend constexpr Vec3 operator-(Vec3 p) { return {-p.x, -p.y, -p.z}; }
+  /// Of 0 makes 0, not -0, so that it prints well.
+  friend constexpr Vec3 operator-(Vec3 p) { return {0 - p.x, 0 - p.y, 0 - p.z}; }
   friend constexpr Vec3 operator*(double s, Vec3 p) { return {s * p.x, s * p.y, s * p.z}; }
   friend constexpr bool operator==(Vec3, Vec3) = default;
 };

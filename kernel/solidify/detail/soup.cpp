@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
@@ -83,14 +84,26 @@ std::vector<int> group_points(const std::vector<exact::GridPoint>& points, doubl
   return first;
 }
 
-/// The ring without repeated neighbours, turned to start at its smallest vertex; empty if
-/// degenerate.
-std::vector<int> clean_ring(std::vector<int> ring) {
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  if (ring.size() < 3) return {};
-  std::ranges::rotate(ring, std::ranges::min_element(ring));
-  return ring;
+/// The simple rings that a ring consists of: where it comes back to a vertex (it touches itself, or a bridge ties a hole
+/// to its outer ring) it is cut in two, and what has fewer than three vertices goes. Each starts at its smallest vertex.
+std::vector<std::vector<int>> simple_rings(const std::vector<int>& ring) {
+  std::vector<std::vector<int>> rings;
+  const auto keep = [&](std::vector<int> simple) {
+    if (simple.size() < 3) return;
+    std::ranges::rotate(simple, std::ranges::min_element(simple));
+    rings.push_back(std::move(simple));
+  };
+  std::vector<int> path;
+  for (const int v : ring) {
+    const auto seen = std::ranges::find(path, v);
+    if (seen != path.end()) {
+      keep({seen, path.end()});
+      path.erase(seen, path.end());
+    }
+    path.push_back(v);
+  }
+  keep(std::move(path));
+  return rings;
 }
 
 /// Replaces every entry by its place among the entries in use, which stay in order.
@@ -134,20 +147,18 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
   int dropped = 0;
   for (const Polygon& polygon : building.polygons) {
     SoupPolygon out{{}, polygon.source, polygon.body, polygon.shell};
-    for (std::size_t r = 0; r < polygon.rings.size(); ++r) {
-      std::vector<int> ring;
-      for (const int v : polygon.rings[r]) ring.push_back(welded(v));
-      ring = clean_ring(std::move(ring));
-      if (!ring.empty())
-        out.rings.push_back(std::move(ring));
-      else if (r == 0)
-        break;
+    for (const auto& ring : polygon.rings) {
+      std::vector<int> points;
+      for (const int v : ring) points.push_back(welded(v));
+      auto simple = simple_rings(points);
+      if (simple.empty() && out.rings.empty()) break;
+      std::ranges::move(simple, std::back_inserter(out.rings));
     }
     if (out.rings.empty()) {
       ++dropped;
       continue;
     }
-    std::sort(out.rings.begin() + 1, out.rings.end());
+    std::ranges::sort(out.rings);
     soup.polygons.push_back(std::move(out));
   }
   if (dropped > 0)

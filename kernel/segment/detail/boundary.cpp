@@ -1,0 +1,309 @@
+#include "kernel/segment/detail/boundary.h"
+
+#include "kernel/model/issue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace oriel::detail {
+
+double Boundary::area(int f) const {
+  double sum = 0;
+  for (const int l : facet(f).loops) sum += loop(l).area;
+  return sum;
+}
+
+double Boundary::area_on(Side side) const {
+  const auto found = on_side_.find(side);
+  return found == on_side_.end() || found->second.living == 0 ? 0 : found->second.area;
+}
+
+std::vector<int> Boundary::facets_on(Side side) const {
+  std::vector<int> living;
+  if (const auto found = on_side_.find(side); found != on_side_.end())
+    for (const int f : found->second.facets)
+      if (is_alive(f)) living.push_back(f);
+  return living;
+}
+
+std::vector<int> Boundary::living_facets() const {
+  std::vector<int> living;
+  for (int f = 0; f < facet_count(); ++f)
+    if (is_alive(f)) living.push_back(f);
+  return living;
+}
+
+Outline Boundary::outline(int l) const {
+  Outline points;
+  const int first = loop(l).first;
+  int e = first;
+  do {
+    points.push_back(at(e));
+    e = next(e);
+  } while (e != first);
+  return points;
+}
+
+std::vector<Outline> Boundary::outlines(int f) const {
+  std::vector<Outline> all;
+  for (const int l : facet(f).loops) all.push_back(outline(l));
+  return all;
+}
+
+double Boundary::volume() const {
+  double sum = 0;
+  for (int f = 0; f < facet_count(); ++f)
+    if (is_alive(f)) sum += world_->planes.offset_m(facet(f).side) * area(f);
+  return sum / 3;
+}
+
+bool Boundary::is_reflex(int e) const {
+  // One answer for both half-edges of an edge.
+  e = std::min(e, twin(e));
+  const Side mine = side_of_edge(e), theirs = side_of_edge(twin(e));
+  if (mine >> 1 == theirs >> 1) return false;
+  const Vec3 along = normalised(world_->points.at(target(e)) - at(e));
+  const double bend = dot(cross(world_->planes.normal(mine), world_->planes.normal(theirs)), along);
+  // The edge between two planes that hardly differ may run across their meeting: then the bulk of
+  // the neighbour says on which side it lies.
+  constexpr double kHardly = 0.02;
+  if (std::abs(bend) > kHardly) return bend < 0;
+  double above = 0;
+  for (const int l : facet(facet_of(twin(e))).loops)
+    for (const Vec3 p : outline(l))
+      above += dot(world_->planes.normal(mine), p) - world_->planes.offset_m(mine);
+  return above > 0;
+}
+
+int Boundary::add_edge(int origin) {
+  half_edges_.push_back({origin, -1, -1, -1, -1});
+  return half_edge_count() - 1;
+}
+
+int Boundary::add_facet(Side side, std::vector<int> sources, std::vector<CapMark> marks) {
+  const int f = facet_count();
+  facets_.push_back({side, {}, std::move(sources), std::move(marks)});
+  OnSide& on = on_side_[side];
+  on.facets.push_back(f);
+  ++on.living;
+  return f;
+}
+
+int Boundary::trace(int first) {
+  const int l = static_cast<int>(loops_.size());
+  loops_.push_back({first, -1, 0});
+  int e = first;
+  do {
+    half_edges_[index(e)].loop = l;
+    e = next(e);
+  } while (e != first);
+  return l;
+}
+
+void Boundary::attach(int l, int f) {
+  LoopRecord& record = loops_[index(l)];
+  record.facet = f;
+  record.area = signed_area(outline(l), world_->planes.normal(facet(f).side));
+  facets_[index(f)].loops.push_back(l);
+  on_side_[facet(f).side].area += record.area;
+}
+
+void Boundary::detach(int l) {
+  LoopRecord& record = loops_[index(l)];
+  on_side_[facet(record.facet).side].area -= record.area;
+  std::erase(facets_[index(record.facet)].loops, l);
+  record.facet = -1;
+}
+
+int Boundary::add_loop(int first, int f) {
+  const int l = trace(first);
+  attach(l, f);
+  return l;
+}
+
+void Boundary::kill_facet(int f) {
+  FacetRecord& record = facets_[index(f)];
+  while (!record.loops.empty()) detach(record.loops.back());
+  --on_side_[record.side].living;
+  record.side = -1;
+  record.marks.clear();
+}
+
+void Boundary::remove(const std::vector<int>& facets) {
+  for (const int f : facets) {
+    std::vector<int> edges;
+    for_each_edge(f, [&](int e) { edges.push_back(e); });
+    kill_facet(f);
+    for (const int e : edges) half_edges_[index(e)].next = -1;
+  }
+}
+
+void Boundary::split_edge(int e, int point) {
+  const int t = twin(e);
+  const int e2 = add_edge(point), t2 = add_edge(point);
+  half_edges_[index(e2)].loop = edge(e).loop;
+  half_edges_[index(t2)].loop = edge(t).loop;
+  const int after_e = next(e), after_t = next(t);
+  link(e, e2);
+  link(e2, after_e);
+  link(t, t2);
+  link(t2, after_t);
+  pair(e, t2);
+  pair(t, e2);
+}
+
+std::vector<int> Boundary::retrace(int f, const std::vector<int>& extra) {
+  const std::vector<int> old = facet(f).loops;
+  for (const int l : old) detach(l);
+  const int first_new = static_cast<int>(loops_.size());
+  std::vector<int> fresh;
+  for (const int e : extra)
+    if (edge(e).loop < first_new) fresh.push_back(trace(e));
+  for (const int l : old)
+    if (edge(loop(l).first).loop == l) fresh.push_back(l);
+  for (const int l : fresh) attach(l, f);
+  return part(f);
+}
+
+/// If the facet has several outer loops, all but the first become facets of their own, each with
+/// the holes inside it.
+std::vector<int> Boundary::part(int f) {
+  std::vector<int> outer, holes;
+  for (const int l : facet(f).loops) (loop(l).area > 0 ? outer : holes).push_back(l);
+  if (outer.size() <= 1) return {f};
+
+  const Vec3 normal = world_->planes.normal(facet(f).side);
+  std::vector<int> pieces{f};
+  std::vector<Outline> shapes;
+  for (const int l : outer) shapes.push_back(outline(l));
+  const std::vector<CapMark> marks = std::exchange(facets_[index(f)].marks, {});
+  for (std::size_t i = 1; i < outer.size(); ++i) {
+    const int piece = add_facet(facet(f).side, facet(f).sources);
+    detach(outer[i]);
+    attach(outer[i], piece);
+    pieces.push_back(piece);
+  }
+  for (const int l : holes) {
+    // The smallest outer loop around a point of the hole that is no vertex of it.
+    const auto inside = interior_point(std::vector<Outline>{outline(l)}, normal);
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; inside && i < outer.size(); ++i) {
+      const double area = loop(outer[i]).area;
+      if (area >= least || area <= -loop(l).area || !contains({&shapes[i], 1}, normal, *inside))
+        continue;
+      best = i;
+      least = area;
+    }
+    if (best == 0) continue;
+    detach(l);
+    attach(l, pieces[best]);
+  }
+  distribute_marks(pieces, marks);
+  return pieces;
+}
+
+void Boundary::distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks) {
+  if (marks.empty()) return;
+  std::vector<std::vector<Outline>> shapes;
+  for (const int f : pieces) shapes.push_back(outlines(f));
+  const Vec3 normal = world_->planes.normal(facet(pieces[0]).side);
+  for (const CapMark& mark : marks) {
+    std::size_t home = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (contains(shapes[i], normal, mark.point)) home = i;
+    facets_[index(pieces[home])].marks.push_back(mark);
+  }
+}
+
+/// Moves all of facet f to `target`, which lies on the same plane.
+void Boundary::merge(int target, int f) {
+  const std::vector<int> loops = facet(f).loops;
+  const std::vector<int> sources = facet(f).sources;
+  std::vector<CapMark> marks = std::move(facets_[index(f)].marks);
+  kill_facet(f);
+  for (const int l : loops) attach(l, target);
+  add_sources(target, sources);
+  auto& all = facets_[index(target)].marks;
+  all.insert(all.end(), marks.begin(), marks.end());
+}
+
+void Boundary::add_sources(int f, const std::vector<int>& sources) {
+  auto& all = facets_[index(f)].sources;
+  all.insert(all.end(), sources.begin(), sources.end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+void Boundary::cover(int cap, int covered) {
+  // What lay under the cap is inside the body now: neither its polygons nor its marks are on the
+  // surface any more.
+  facets_[index(covered)].sources.clear();
+  facets_[index(covered)].marks.clear();
+  merge(cap, covered);
+}
+
+/// Half-edges of the facet whose neighbour lies on the same side or is the facet itself, and their
+/// twins; sorted.
+std::vector<int> Boundary::seams_of(int cap) const {
+  std::vector<int> seams;
+  for_each_edge(cap, [&](int e) {
+    const int neighbour = facet_of(twin(e));
+    if (neighbour != cap && facet(neighbour).side != facet(cap).side) return;
+    seams.push_back(e);
+    if (neighbour != cap) seams.push_back(twin(e));
+  });
+  std::ranges::sort(seams);
+  return seams;
+}
+
+void Boundary::heal(int cap) {
+  const std::vector<int> seams = seams_of(cap);
+  if (seams.empty()) {
+    part(cap);
+    return;
+  }
+  std::vector<int> group{cap};
+  for (const int e : seams) group.push_back(facet_of(e));
+  std::ranges::sort(group);
+  group.erase(std::unique(group.begin(), group.end()), group.end());
+  const int target =
+      *std::ranges::max_element(group, {}, [&](int f) { return facet(f).loops.size(); });
+  for (const int f : group)
+    if (f != target) merge(target, f);
+  remove_seams(target, seams);
+}
+
+void Boundary::remove_seams(int f, const std::vector<int>& seams) {
+  std::vector<int> broken;
+  for (const int e : seams) broken.push_back(edge(e).loop);
+  std::ranges::sort(broken);
+  broken.erase(std::unique(broken.begin(), broken.end()), broken.end());
+  std::vector<int> kept;
+  const auto is_seam = [&](int e) { return std::ranges::binary_search(seams, e); };
+  for (const int l : broken) {
+    int e = loop(l).first;
+    do {
+      if (!is_seam(e)) kept.push_back(e);
+      e = next(e);
+    } while (e != loop(l).first);
+    detach(l);
+  }
+  for (const int e : kept) {
+    int after = next(e);
+    while (is_seam(after)) after = next(twin(after));
+    link(e, after);
+  }
+  for (const int e : seams) half_edges_[index(e)].next = -1;
+  const int first_new = static_cast<int>(loops_.size());
+  for (const int e : kept)
+    if (edge(e).loop < first_new) attach(trace(e), f);
+  if (facet(f).loops.empty())
+    kill_facet(f);
+  else
+    part(f);
+}
+
+}  // namespace oriel::detail

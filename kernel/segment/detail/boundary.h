@@ -1,0 +1,162 @@
+#pragma once
+
+#include "kernel/model/ids.h"
+#include "kernel/segment/detail/planar.h"
+#include "kernel/segment/detail/planes.h"
+#include "kernel/segment/detail/points.h"
+
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace oriel::detail {
+
+/// What all bodies of one segmentation share.
+struct World {
+  PlaneTable planes;
+  PointTable points;
+};
+
+/// A mark on a facet that follows it through cuts and merges: here lies the largest cap of a
+/// feature.
+struct CapMark {
+  FeatureId feature;
+  Vec3 point;  ///< inside the cap
+};
+
+/// The closed boundary of a body as half-edges with facets of several loops: one outer loop
+/// (counter-clockwise seen from outside) and its holes. Vertices are points of the World without
+/// any link back, so sheets may touch in a point or along a line without being joined. Facets are
+/// maximal but for seams: edges between coplanar facets that a cut is about to use or to heal.
+///
+/// Half-edges, loops and facets keep their numbers; removed ones are marked dead.
+class Boundary {
+ public:
+  struct HalfEdge {
+    int origin = -1;
+    int next = -1;  ///< -1: dead
+    int prev = -1;
+    int twin = -1;
+    int loop = -1;
+  };
+  struct LoopRecord {
+    int first = -1;
+    int facet = -1;   ///< -1: dead
+    double area = 0;  ///< signed about the facet's normal
+  };
+  struct FacetRecord {
+    Side side = -1;  ///< -1: dead
+    std::vector<int> loops;
+    std::vector<int> sources;  ///< facets of the solid it is made of, sorted
+    std::vector<CapMark> marks;
+  };
+
+  explicit Boundary(World& world) : world_(&world) {}
+
+  [[nodiscard]] World& world() const { return *world_; }
+
+  // -- Looking.
+  [[nodiscard]] int half_edge_count() const { return static_cast<int>(half_edges_.size()); }
+  [[nodiscard]] int facet_count() const { return static_cast<int>(facets_.size()); }
+  [[nodiscard]] const HalfEdge& edge(int e) const { return half_edges_[index(e)]; }
+  [[nodiscard]] const LoopRecord& loop(int l) const { return loops_[index(l)]; }
+  [[nodiscard]] const FacetRecord& facet(int f) const { return facets_[index(f)]; }
+  [[nodiscard]] bool is_alive_edge(int e) const { return edge(e).next >= 0; }
+  [[nodiscard]] bool is_alive(int f) const { return facet(f).side >= 0; }
+  [[nodiscard]] int next(int e) const { return edge(e).next; }
+  [[nodiscard]] int prev(int e) const { return edge(e).prev; }
+  [[nodiscard]] int twin(int e) const { return edge(e).twin; }
+  [[nodiscard]] int origin(int e) const { return edge(e).origin; }
+  [[nodiscard]] int target(int e) const { return edge(edge(e).twin).origin; }
+  [[nodiscard]] int facet_of(int e) const { return loop(edge(e).loop).facet; }
+  [[nodiscard]] Side side_of_edge(int e) const { return facet(facet_of(e)).side; }
+  [[nodiscard]] Vec3 at(int e) const { return world_->points.at(origin(e)); }
+  [[nodiscard]] double area(int f) const;
+  /// The area of all facets of a side.
+  [[nodiscard]] double area_on(Side side) const;
+  /// The living facets of a side, ascending.
+  [[nodiscard]] std::vector<int> facets_on(Side side) const;
+  [[nodiscard]] std::vector<int> living_facets() const;
+  [[nodiscard]] Outline outline(int l) const;
+  [[nodiscard]] std::vector<Outline> outlines(int f) const;
+  /// A third of the sum of plane offset × facet area.
+  [[nodiscard]] double volume() const;
+  /// The body bends inward along this edge: more than 180° of material around it.
+  [[nodiscard]] bool is_reflex(int e) const;
+  /// Calls `visit(half_edge)` for every half-edge of a facet; `visit` must not change the boundary.
+  template <class Visit>
+  void for_each_edge(int f, Visit visit) const {
+    for (const int l : facet(f).loops) {
+      const int first = loop(l).first;
+      int e = first;
+      do {
+        visit(e);
+        e = next(e);
+      } while (e != first);
+    }
+  }
+
+  // -- Making: raw pieces, linked by the caller, then made into loops and facets.
+  int add_edge(int origin);
+  void link(int e, int f) {
+    half_edges_[index(e)].next = f;
+    half_edges_[index(f)].prev = e;
+  }
+  void pair(int e, int f) {
+    half_edges_[index(e)].twin = f;
+    half_edges_[index(f)].twin = e;
+  }
+  /// A facet without loops.
+  int add_facet(Side side, std::vector<int> sources = {}, std::vector<CapMark> marks = {});
+  /// Makes the cycle through `first` a loop of facet `f`.
+  int add_loop(int first, int f);
+  void add_mark(int f, const CapMark& mark) { facets_[index(f)].marks.push_back(mark); }
+  void add_sources(int f, const std::vector<int>& sources);
+
+  /// Puts a new vertex `point` on an edge: e keeps its origin and ends at the point.
+  void split_edge(int e, int point);
+
+  // -- Re-shaping facets.
+  /// Forgets the loops of a facet and makes new ones of the cycles that its half-edges and `extra`
+  /// ones form now. If they have several outer loops the facet falls apart: the first keeps its
+  /// number. Returns all its pieces.
+  std::vector<int> retrace(int f, const std::vector<int>& extra);
+  /// Takes the facet `covered`, which faces the cap and lies under it, out of the cap: both vanish
+  /// where they lie on each other. To be followed by heal(cap).
+  void cover(int cap, int covered);
+  /// Removes the seams between a facet (a new cap) and its coplanar neighbours, so that facets are
+  /// maximal again.
+  void heal(int cap);
+  /// Removes facets with all their half-edges. Twins that stay must be paired anew.
+  void remove(const std::vector<int>& facets);
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  /// What lies on one side of a plane.
+  struct OnSide {
+    double area = 0;
+    std::vector<int> facets;  ///< ascending, with dead ones among them
+    int living = 0;
+  };
+  int trace(int first);
+  void attach(int l, int f);
+  void detach(int l);
+  void kill_facet(int f);
+  void merge(int target, int f);
+  std::vector<int> part(int f);
+  void distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks);
+  [[nodiscard]] std::vector<int> seams_of(int cap) const;
+  void remove_seams(int f, const std::vector<int>& seams);
+
+  World* world_;
+  std::vector<HalfEdge> half_edges_;
+  std::vector<LoopRecord> loops_;
+  std::vector<FacetRecord> facets_;
+  std::unordered_map<Side, OnSide> on_side_;
+};
+
+/// The boundary of one lump of a solid.
+Boundary boundary_of(const Solid& solid, int lump, World& world);
+
+}  // namespace oriel::detail

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "kernel/segment/detail/boundary.h"
+#include "kernel/segment/detail/lump.h"
+#include "kernel/segment/detail/section.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// One edge of a cap as the rest has it: along the rim of the lump (the half-edge there), or free:
+/// in the open, or inside the body, where two planes of the cut meet.
+struct CapEdge {
+  int rim = -1;
+  int from = -1, to = -1;  ///< points
+};
+
+/// A closed outline of a cap, counter-clockwise about the outward normal of the rest there.
+struct CapLoop {
+  std::vector<CapEdge> edges;
+};
+
+/// A cap: the new facet that closes the rest where a lump was.
+struct Cap {
+  Side side = -1;
+  std::vector<CapLoop> loops;
+  /// Facets of the opposite side under the cap: they vanish into the body, and so does the cap over
+  /// them.
+  std::vector<int> covered;
+};
+
+/// What a cut has made.
+struct Carved {
+  Boundary lump;
+  /// Points of everything that has changed: an edge without any of them between its ends is as it
+  /// was.
+  std::vector<int> touched;
+};
+
+/// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and
+/// returns its caps. Points that were made and the ends of edges that were split are added to
+/// `touched`.
+std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lump,
+                         std::vector<int>& touched);
+
+/// Takes the lump inside the rims of `caps` off the body. A protrusion goes with its surface; a
+/// hole is filled: its walls leave the body, and the lump is the air that was there, turned right
+/// side out. Caps close both, and facets of the rest are made maximal again. `mark` is left on the
+/// largest cap of the rest.
+///
+/// Throws GeometryError if the rims do not separate a lump; the body is then not to be used any
+/// more.
+Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
+                std::vector<int> touched);
+
+/// The connected pieces of a boundary, each with its cavities: one, unless a cut has parted the
+/// body. Pieces come in the order of their first facet.
+std::vector<Boundary> part_into_lumps(Boundary&& body);
+
+/// The cavities of a body as bodies of their own, turned right side out; `body` loses them. Usually
+/// none.
+std::vector<Boundary> take_out_cavities(Boundary& body);
+
+}  // namespace oriel::detail

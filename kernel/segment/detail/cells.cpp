@@ -1,0 +1,152 @@
+#include "kernel/segment/detail/cells.h"
+
+#include "kernel/exact/exact.h"
+
+#include <algorithm>
+
+namespace oriel::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Only two facets meet at the start of the half-edge: it lies on a straight edge.
+bool is_on_straight_edge(const Boundary& body, int e) {
+  return body.next(body.twin(e)) == body.twin(body.prev(e));
+}
+
+Loop corners(const Boundary& body, int l) {
+  Loop all, kept;
+  const int first = body.loop(l).first;
+  int e = first;
+  do {
+    all.push_back(body.origin(e));
+    if (!is_on_straight_edge(body, e)) kept.push_back(body.origin(e));
+    e = body.next(e);
+  } while (e != first);
+  return kept.size() >= 3 ? kept : all;
+}
+
+/// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
+/// most of it lies.
+std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
+  Box box;
+  for (const Vec3 p : polygon[0]) box.grow(p);
+  const auto middle = interior_point(polygon, normal);
+  if (!middle) return {};
+  std::vector<Vec3> samples{*middle};
+  const Vec3 any = std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  const Vec3 u = normalised(cross(any, normal)), v = cross(normal, u);
+  const double reach = length(box.max - box.min);
+  constexpr int kSteps = 8;
+  for (int i = -kSteps; i <= kSteps; ++i)
+    for (int j = -kSteps; j <= kSteps; ++j) {
+      const Vec3 p = *middle + (reach * i / kSteps) * u + (reach * j / kSteps) * v;
+      if (contains(polygon, normal, p)) samples.push_back(p);
+    }
+  return samples;
+}
+
+}  // namespace
+
+PlaneId CellWriter::plane_id(Side side) {
+  if (const PlaneId id = world_.planes.id_of(side); id.is_valid()) return id;
+  const auto [entry, is_new] =
+      extra_planes_.emplace(side, PlaneId{static_cast<int>(out_.planes.size())});
+  if (is_new) {
+    const Plane& plane = world_.planes.plane(side >> 1);
+    out_.planes.push_back((side & 1) != 0 ? exact::opposite(plane) : plane);
+  }
+  return entry->second;
+}
+
+CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
+                       FeatureId feature) {
+  const CellId id{static_cast<int>(out_.cells.size())};
+  Cell cell{sign, body.volume(), is_convex, flag, node, {}};
+  for (const int f : body.living_facets()) {
+    const auto& record = body.facet(f);
+    const CellFacet here{id, static_cast<int>(cell.facets.size())};
+    Facet facet{plane_id(record.side), {}, {}};
+    for (const int l : record.loops) facet.loops.push_back(corners(body, l));
+    const auto outer =
+        std::ranges::max_element(record.loops, {}, [&](int l) { return body.loop(l).area; });
+    std::swap(facet.loops[0], facet.loops[at(static_cast<int>(outer - record.loops.begin()))]);
+    for (const int source : record.sources) made_of_[source].push_back(here);
+    for (const CapMark& mark : record.marks) {
+      Feature& marked = out_.features[mark.feature.index()];
+      marked.host = feature;
+      marked.host_facet = here;
+    }
+    cell.facets.push_back(std::move(facet));
+  }
+  out_.cells.push_back(std::move(cell));
+  feature_of_cell_.push_back(feature);
+  return id;
+}
+
+void CellWriter::finish(const Building& building, const Solid& solid) {
+  for (int p = 0; p < world_.points.size(); ++p)
+    out_.vertices.push_back({world_.points.at(p), world_.points.is_meeting(p)});
+  attribute_polygons(building, solid);
+}
+
+/// Every input polygon goes to the cell facet that holds most of it, and to the features that facet
+/// is in: those of its cell, what those lie in, and what hosts them.
+void CellWriter::attribute_polygons(const Building& building, const Solid& solid) {
+  std::vector<const Polygon*> polygon_of_source;
+  for (const Polygon& polygon : building.polygons) {
+    if (std::ssize(polygon_of_source) <= polygon.source)
+      polygon_of_source.resize(at(polygon.source) + 1);
+    polygon_of_source[at(polygon.source)] = &polygon;
+  }
+  for (const auto& [source, cell_facets] : made_of_) {
+    const Facet& facet = solid.facets[at(source)];
+    const Vec3 normal = solid.planes[facet.plane.index()].normal;
+    std::vector<std::vector<Outline>> shapes;
+    for (const CellFacet& here : cell_facets) {
+      shapes.emplace_back();
+      for (const Loop& loop : out_.cells[here.cell.index()].facets[at(here.facet)].loops) {
+        shapes.back().emplace_back();
+        for (const int v : loop) shapes.back().back().push_back(out_.vertices[at(v)].point);
+      }
+    }
+    for (const int polygon : facet.polygons) {
+      std::size_t best = 0;
+      if (cell_facets.size() > 1) {
+        std::vector<Outline> rings;
+        for (const auto& ring : polygon_of_source[at(polygon)]->rings) {
+          rings.emplace_back();
+          for (const int v : ring) rings.back().push_back(building.vertices[at(v)]);
+        }
+        std::vector<int> hits(cell_facets.size(), 0);
+        for (const Vec3 p : samples_of(rings, normal))
+          for (std::size_t i = 0; i < shapes.size(); ++i)
+            hits[i] += contains(shapes[i], normal, p) ? 1 : 0;
+        best = static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
+      }
+      const CellFacet home = cell_facets[best];
+      out_.cells[home.cell.index()].facets[at(home.facet)].polygons.push_back(polygon);
+      std::vector<FeatureId> around{feature_of_cell_[home.cell.index()]};
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        const FeatureId id = around[i];
+        if (!id.is_valid()) continue;
+        Feature& feature = out_.features[id.index()];
+        if (!feature.source_polygons.empty() && feature.source_polygons.back() == polygon) continue;
+        feature.source_polygons.push_back(polygon);
+        around.push_back(feature.parent);
+        around.push_back(feature.host);
+      }
+    }
+  }
+  for (Feature& feature : out_.features) {
+    std::ranges::sort(feature.source_polygons);
+    feature.source_polygons.erase(
+        std::unique(feature.source_polygons.begin(), feature.source_polygons.end()),
+        feature.source_polygons.end());
+  }
+  for (Cell& cell : out_.cells)
+    for (Facet& facet : cell.facets) std::ranges::sort(facet.polygons);
+}
+
+}  // namespace oriel::detail

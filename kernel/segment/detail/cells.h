@@ -1,0 +1,41 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/segment/detail/boundary.h"
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Writes the leaves into the segmentation: their boundaries as cells, and which feature and which
+/// input polygon ended up where.
+class CellWriter {
+ public:
+  CellWriter(World& world, Segmentation& out) : world_(world), out_(out) {}
+
+  /// The id of an oriented plane; planes that only caps of parts have are added behind the solid's.
+  PlaneId plane_id(Side side);
+
+  /// Adds a leaf that lies in `feature` (invalid: in no feature).
+  CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
+             FeatureId feature);
+
+  /// Copies the points, and fills in what can be said only now that all leaves are there: hosts of
+  /// features, polygons of facets and features.
+  void finish(const Building& building, const Solid& solid);
+
+ private:
+  void attribute_polygons(const Building& building, const Solid& solid);
+
+  World& world_;
+  Segmentation& out_;
+  std::map<Side, PlaneId> extra_planes_;
+  std::vector<FeatureId> feature_of_cell_;
+  /// For each facet of the solid the cell facets made of it.
+  std::map<int, std::vector<CellFacet>> made_of_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,280 @@
+#include "kernel/segment/detail/choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace oriel::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Values closer than this are the same number computed twice.
+constexpr double kSame = 1e-9;  // tolerance of doubles, no tolerance of the model
+
+bool is_same_value(double p, double q) { return std::abs(p - q) <= kSame * std::max(p, q); }
+
+// The keys by which the passes of the orders sort one-plane candidates; nothing: not a candidate of
+// the pass.
+
+/// N1: natural pockets by new / (old + new), which is always below 1, natural protrusions by new /
+/// old below 1.
+std::optional<double> natural_key(const Region& region, double new_area, double old_area,
+                                  double limit) {
+  if (!region.is_natural) return std::nullopt;
+  if (!region.is_material) return new_area / (old_area + new_area);
+  const double value = new_area / old_area;
+  return value < limit ? std::optional(value) : std::nullopt;
+}
+
+/// N3: natural protrusions with more new area than old, by new / (old + new).
+std::optional<double> wide_natural_key(const Region& region, double new_area, double old_area,
+                                       double) {
+  if (!region.is_natural || !region.is_material) return std::nullopt;
+  return new_area / (old_area + new_area);
+}
+
+/// S and the paper's order: new / old, below 1.
+std::optional<double> strict_key(const Region&, double new_area, double old_area, double limit) {
+  const double value = new_area / old_area;
+  return value < limit ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
+                 std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work)
+    : body_(body),
+      world_(body.world()),
+      options_(options),
+      free_side_(free_side),
+      own_planes_(std::move(own_planes)),
+      stats_(stats),
+      work_(work),
+      slots_(2 * at(world_.planes.size())) {}
+
+void Chooser::changed_at(const std::vector<int>& points) {
+  for (int k = 0; k < world_.planes.class_count(); ++k) {
+    const auto ranks = world_.points.ranks(k);
+    int least = std::numeric_limits<int>::max(), most = -1;
+    for (const int p : points) {
+      least = std::min(least, ranks[at(p)]);
+      most = std::max(most, ranks[at(p)]);
+    }
+    // Ranks of planes are odd: plane i of the class has rank 2 i + 1.
+    const auto& planes = world_.planes.normal_class(k).planes;
+    for (int i = least / 2; i < std::ssize(planes) && 2 * i + 1 <= most; ++i)
+      for (int flip = 0; flip < 2; ++flip) slots_[at(2 * planes[at(i)] + flip)].is_stale = true;
+  }
+}
+
+void Chooser::refresh() {
+  for (int plane = 0; plane < world_.planes.size(); ++plane) {
+    const bool is_split_plane =
+        (body_.area_on(2 * plane) > 0 || body_.area_on(2 * plane + 1) > 0) &&
+        std::ranges::find(own_planes_, plane) == own_planes_.end();
+    for (int flip = 0; flip < 2; ++flip) {
+      Slot& slot = slots_[at(2 * plane + flip)];
+      if (!is_split_plane) slot.section = {};
+      if (!is_split_plane || !slot.is_stale) continue;
+      slot.section =
+          section_at(body_, plane, flip == 0 ? 1 : -1, {free_side_, options_.tolerances.weld_m});
+      slot.is_stale = false;
+      work_ += body_.half_edge_count();
+      const Side looking = 2 * plane + flip;
+      if (body_.area_on(looking) > 0) ++stats_.protrusion_tests;
+      if (body_.area_on(looking ^ 1) > 0) ++stats_.hole_tests;
+      for (const Region& region : slot.section.regions)
+        if (region.is_candidate && old_area(slot.section, region) > region.new_area)
+          ++stats_.candidates;
+    }
+  }
+}
+
+std::optional<Choice> Chooser::next() {
+  refresh();
+  return options_.order == Order::natural ? natural_next() : paper_next();
+}
+
+std::optional<Choice> Chooser::natural_next() {
+  if (auto choice = best_section_cut(natural_key, {})) return choice;
+  const std::vector<Patch> protrusions =
+      options_.max_order > 1 ? patches(false) : std::vector<Patch>{};
+  for (int order = 2; order <= options_.max_order; ++order)
+    if (auto choice = best_patch_cut(protrusions, order, order, true)) return choice;
+  if (auto choice = best_section_cut(wide_natural_key, {})) return choice;
+  return best_section_cut(strict_key,
+                          options_.max_order > 1 ? patches(true) : std::vector<Patch>{});
+}
+
+std::optional<Choice> Chooser::paper_next() {
+  if (auto choice = best_section_cut(strict_key, {})) return choice;
+  if (options_.max_order == 1) return std::nullopt;
+  const std::vector<Patch> holes = patches(true);
+  for (int order = 2; order <= options_.max_order; ++order)
+    if (auto choice = best_patch_cut(holes, order, order, false)) return choice;
+  return std::nullopt;
+}
+
+std::vector<Patch> Chooser::patches(bool is_hole) {
+  std::vector<Patch> found = find_patches(body_, is_hole, {own_planes_, options_.max_order});
+  work_ += body_.half_edge_count();
+  (is_hole ? stats_.hole_tests : stats_.protrusion_tests) += found.size();
+  stats_.candidates += found.size();
+  return found;
+}
+
+/// Smaller value, then hole before protrusion, larger volume of all parts, order of the planes.
+bool Chooser::is_better(const Choice& p, const Choice& q) const {
+  if (!is_same_value(p.value, q.value)) return p.value < q.value;
+  if (p.is_hole != q.is_hole) return p.is_hole;
+  if (!is_same_value(p.volume, q.volume)) return p.volume > q.volume;
+  const auto order = [&](const Choice& c) {
+    std::vector<std::tuple<double, double, double, double>> planes;
+    for (const Side s : c.sides) {
+      const Vec3 n = world_.planes.normal(s);
+      planes.emplace_back(n.x, n.y, n.z, world_.planes.offset_m(s));
+    }
+    return planes;
+  };
+  return order(p) > order(q);
+}
+
+/// Floods from the candidate and gives it the key of its whole lump. False if it is no feature, or
+/// none of the pass.
+bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
+  const Section& section = candidate.slot->section;
+  const Region& region = section.regions[at(candidate.region)];
+  candidate.lump = finder.find(candidate.region);
+  candidate.is_checked = true;
+  const Lump& lump = candidate.lump;
+  if (!lump.is_finite || lump.volume <= 0 || (!region.is_material && !lump.has_bend)) return false;
+  for (const int r : lump.regions) {
+    const auto value =
+        key(section.regions[at(r)], lump.new_area, old_area(section, region), limit());
+    if (!value) return false;
+    candidate.key = *value;
+  }
+  // A lump in front of several regions is one candidate, that of the first region that is one.
+  const auto first = std::ranges::find_if(
+      lump.regions, [&](int r) { return section.regions[at(r)].is_candidate; });
+  return *first == candidate.region;
+}
+
+/// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
+/// features are dropped.
+void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
+  std::map<const Slot*, LumpFinder> finders;
+  const double group = 1 + std::max(kSame, options_.tolerances.value_rel);
+  while (!candidates.empty()) {
+    double least = candidates[0].key;
+    for (const Candidate& c : candidates) least = std::min(least, c.key);
+    bool is_settled = true;
+    std::erase_if(candidates, [&](Candidate& c) {
+      if (c.is_checked || c.key > least * group) return false;
+      is_settled = false;
+      LumpFinder& finder = finders.try_emplace(c.slot, body_, c.slot->section).first->second;
+      return !check(c, key, finder);
+    });
+    if (is_settled) return;
+  }
+}
+
+std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch>& rivals) {
+  std::vector<Candidate> candidates;
+  for (Slot& slot : slots_)
+    for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
+      const Region& region = slot.section.regions[at(r)];
+      const double old = region.is_candidate ? old_area(slot.section, region) : 0;
+      if (old <= 0) continue;
+      if (const auto value = key(region, region.new_area, old, limit()))
+        candidates.push_back({&slot, r, *value, false, {}});
+    }
+  check_leaders(candidates, key);
+  std::optional<Choice> best;
+  std::map<std::pair<const Slot*, bool>, bool> is_done;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& c : candidates) least = std::min(least, c.key);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool is_material =
+        candidates[i].slot->section.regions[at(candidates[i].region)].is_material;
+    if (!is_same_value(candidates[i].key, least) || is_done[{candidates[i].slot, is_material}])
+      continue;
+    is_done[{candidates[i].slot, is_material}] = true;
+    Choice choice = choice_of(candidates, i);
+    if (!best || is_better(choice, *best)) best = std::move(choice);
+  }
+  if (auto rival = best_patch_cut(rivals, 2, options_.max_order, true);
+      rival && (!best || is_better(*rival, *best)))
+    return rival;
+  return best;
+}
+
+/// The leader with all lumps of the same plane and kind whose value is the same within value_rel.
+Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const {
+  const Candidate& first = candidates[leader];
+  const Section& section = first.slot->section;
+  const Region& region = section.regions[at(first.region)];
+  Choice choice;
+  choice.is_hole = !region.is_material;
+  choice.is_natural = true;
+  choice.value = first.key;
+  choice.old_area = old_area(section, region);
+  choice.quality = first.lump.new_area / choice.old_area;
+  choice.sides = {section.split_side(region)};
+  choice.section = &section;
+  for (const Candidate& c : candidates) {
+    if (c.slot != first.slot || !c.is_checked ||
+        c.key > first.key * (1 + std::max(kSame, options_.tolerances.value_rel)))
+      continue;
+    if (section.regions[at(c.region)].is_material != region.is_material) continue;
+    choice.lumps.push_back(c.lump);
+    choice.volume += c.lump.volume;
+    for (const int r : c.lump.regions) choice.is_natural &= section.regions[at(r)].is_natural;
+  }
+  return choice;
+}
+
+std::optional<Choice> Chooser::best_patch_cut(std::vector<Patch> patches, int min_order,
+                                              int max_order, bool is_natural) {
+  std::erase_if(patches, [&](const Patch& p) {
+    return p.order() < min_order || p.order() > max_order || p.new_area / p.old_area >= limit();
+  });
+  std::optional<Choice> best;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    Choice choice = choice_of(patches, i, is_natural);
+    if (!best || is_better(choice, *best)) best = std::move(choice);
+  }
+  return best;
+}
+
+Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader,
+                          bool is_natural) const {
+  const Patch& first = patches[leader];
+  const auto sides_of = [](const Patch& p) {
+    std::vector<Side> sides;
+    for (const Cap& cap : p.caps) sides.push_back(cap.side);
+    std::ranges::sort(sides);
+    return sides;
+  };
+  Choice choice;
+  choice.is_hole = first.is_hole;
+  choice.is_natural = is_natural;
+  choice.old_area = first.old_area;
+  choice.value = choice.quality = first.new_area / first.old_area;
+  choice.sides = sides_of(first);
+  for (const Patch& p : patches) {
+    const double value = p.new_area / p.old_area;
+    if (p.is_hole != first.is_hole || sides_of(p) != choice.sides) continue;
+    if (value < choice.value * (1 - kSame) ||
+        value > choice.value * (1 + std::max(kSame, options_.tolerances.value_rel)))
+      continue;
+    choice.patches.push_back(p);
+    choice.volume += p.volume;
+  }
+  return choice;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+#include "kernel/segment/detail/lump.h"
+#include "kernel/segment/detail/patch.h"
+#include "kernel/segment/detail/section.h"
+#include "kernel/segment/segment.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace oriel::detail {
+
+/// What the planes of one cut split off in one step: an n-ary node of the tree. Either lumps in
+/// front of one plane, or patches that several planes cap.
+struct Choice {
+  bool is_hole = false;
+  bool is_natural = false;
+  double value = 0;    ///< the key the order sorts by, of the best part
+  double quality = 0;  ///< new area / old area of the best part
+  double volume = 0;   ///< of all parts
+  std::vector<Side> sides;
+  double old_area = 0;
+
+  const Section* section = nullptr;  ///< for one plane
+  std::vector<Lump> lumps;
+  std::vector<Patch> patches;  ///< for several
+};
+
+/// Finds the best cut of one body, step after step. Sections of planes that a cut has not touched
+/// are kept.
+class Chooser {
+ public:
+  /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
+  /// body.
+  Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
+          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work);
+
+  /// The best cut by the order, or nothing: the body is a leaf.
+  std::optional<Choice> next();
+
+  /// Tells that the body has changed at these points and nowhere else.
+  void changed_at(const std::vector<int>& points);
+
+ private:
+  struct Slot {
+    bool is_stale = true;
+    Section section;
+  };
+  /// A region as a candidate of the pass at hand.
+  struct Candidate {
+    Slot* slot = nullptr;
+    int region = -1;
+    double key = 0;
+    bool is_checked = false;
+    Lump lump;
+  };
+  using Key = std::optional<double> (*)(const Region&, double new_area, double old_area,
+                                        double limit);
+
+  void refresh();
+  std::optional<Choice> natural_next();
+  std::optional<Choice> paper_next();
+  std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
+  void check_leaders(std::vector<Candidate>& candidates, Key key) const;
+  bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
+  std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order,
+                                       bool is_natural);
+  Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
+  Choice choice_of(const std::vector<Patch>& patches, std::size_t leader, bool is_natural) const;
+  [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
+  std::vector<Patch> patches(bool is_hole);
+  [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
+  [[nodiscard]] double old_area(const Section& section, const Region& region) const {
+    return body_.area_on(section.split_side(region));
+  }
+
+  const Boundary& body_;
+  World& world_;
+  const SegmentOptions& options_;
+  Side free_side_;
+  std::vector<int> own_planes_;
+  SegmentationStats& stats_;
+  std::int64_t& work_;
+  std::vector<Slot> slots_;  ///< 2 · plane + (0: in front, 1: behind)
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,181 @@
+#include "kernel/segment/detail/lump.h"
+
+#include <algorithm>
+
+namespace oriel::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+LumpFinder::LumpFinder(const Boundary& body, const Section& section)
+    : body_(body),
+      section_(section),
+      normal_class_(body.world().planes.class_of(section.plane)),
+      plane_rank_(body.world().planes.rank_of(section.plane)),
+      material_region_(section.loops.size(), -1),
+      air_region_(section.loops.size(), -1),
+      edge_stamp_(at(body.half_edge_count()), 0),
+      crossing_stamp_(section.crossings.size(), 0),
+      facet_stamp_(at(body.facet_count()), 0) {
+  crossing_of_edge_.reserve(section.crossings.size());
+  for (int c = 0; c < std::ssize(section.crossings); ++c) {
+    crossing_of_edge_[section.crossings[at(c)].edge] = c;
+    crossings_of_facet_[body.facet_of(section.crossings[at(c)].edge)].push_back(c);
+  }
+  for (int r = 0; r < std::ssize(section.regions); ++r)
+    for (const int l : section.regions[at(r)].loops)
+      (section.regions[at(r)].is_material ? material_region_ : air_region_)[at(l)] = r;
+}
+
+bool LumpFinder::is_up(int point) const {
+  return (body_.world().points.rank(point, normal_class_) - plane_rank_) * section_.direction > 0;
+}
+
+Lump LumpFinder::find(int region) {
+  const Region& start = section_.regions[at(region)];
+  is_material_ = start.is_material;
+  ++stamp_;
+  stack_.clear();
+  facets_.clear();
+  patch_volume_ = 0;
+  lump_ = {};
+  for (const int l : start.loops) push(section_.crossings[at(section_.loops[at(l)].first)].edge);
+  do {
+    while (!stack_.empty()) {
+      const int e = stack_.back();
+      stack_.pop_back();
+      visit(e);
+    }
+    tie_enclosed_loops();
+    // A region that was reached is a contact as a whole: the loops inside it belong to the lump
+    // too.
+    for (const int r : lump_.regions)
+      for (const int l : section_.regions[at(r)].loops)
+        push(section_.crossings[at(section_.loops[at(l)].first)].edge);
+  } while (!stack_.empty());
+
+  std::ranges::sort(lump_.regions);
+  const Side looking = 2 * section_.plane + (section_.direction > 0 ? 0 : 1);
+  double cap_area = 0;
+  for (const int r : lump_.regions) {
+    cap_area += section_.regions[at(r)].area;
+    lump_.new_area += section_.regions[at(r)].new_area;
+  }
+  lump_.volume = (is_material_ ? 1 : -1) * patch_volume_ -
+                 body_.world().planes.offset_m(looking) * cap_area / 3;
+  return lump_;
+}
+
+void LumpFinder::push(int e) {
+  if (edge_stamp_[at(e)] == stamp_) return;
+  edge_stamp_[at(e)] = stamp_;
+  stack_.push_back(e);
+}
+
+/// Half-edges that start on the looked-at side. From each the flood goes on along its facet and
+/// over to the neighbour.
+void LumpFinder::visit(int e) {
+  const int f = body_.facet_of(e);
+  if (facet_stamp_[at(f)] != stamp_) {
+    facet_stamp_[at(f)] = stamp_;
+    facets_.push_back(f);
+  }
+  const int t = body_.twin(e);
+  if (!lump_.has_bend && body_.is_reflex(e)) lump_.has_bend = true;
+  if (is_up(body_.target(e))) {
+    add_segment(e, body_.at(e), body_.at(t));
+    push(body_.next(e));
+    push(t);
+  } else {
+    reach(crossing_of(e));
+  }
+  push(body_.next(t));
+  const int before = body_.prev(e);
+  push(is_up(body_.origin(before)) ? before : body_.twin(before));
+}
+
+void LumpFinder::reach(int c) {
+  if (crossing_stamp_[at(c)] == stamp_) return;
+  crossing_stamp_[at(c)] = stamp_;
+  const Crossing& crossing = section_.crossings[at(c)];
+  const Crossing& partner = section_.crossings[at(crossing.next)];
+  const int up = body_.twin(crossing.edge);
+  add_segment(crossing.edge, body_.at(crossing.edge), crossing.at);
+  add_segment(crossing.edge, crossing.at, partner.at);
+  add_segment(up, crossing.at, body_.at(crossing.edge));
+  push(partner.edge);
+
+  const int region = (is_material_ ? material_region_ : air_region_)[at(crossing.loop)];
+  if (region < 0)
+    lump_.is_finite = false;
+  else if (std::ranges::find(lump_.regions, region) == lump_.regions.end())
+    lump_.regions.push_back(region);
+}
+
+/// What a directed piece of a facet's outline adds to a third of offset × area.
+void LumpFinder::add_segment(int e, Vec3 from, Vec3 to) {
+  const Side side = body_.side_of_edge(e);
+  const auto& planes = body_.world().planes;
+  patch_volume_ += planes.offset_m(side) * dot(planes.normal(side), cross(from, to)) / 6;
+}
+
+/// A loop that lies wholly in a piece of a facet is not met on the way along the piece's outline,
+/// nor the outline on the way along the loop: whichever was reached brings the other.
+void LumpFinder::tie_enclosed_loops() {
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    const int f = facets_[i];
+    const bool is_cut = crossings_of_facet_.contains(f);
+    for (const int l : body_.facet(f).loops) {
+      if (!is_wholly_up(l)) continue;
+      if (is_cut)
+        tie_loop_to_piece(f, l);
+      else
+        push(body_.loop(l).first);
+    }
+  }
+}
+
+bool LumpFinder::is_wholly_up(int loop) const {
+  const int first = body_.loop(loop).first;
+  int e = first;
+  do {
+    if (!is_up(body_.origin(e))) return false;
+    e = body_.next(e);
+  } while (e != first);
+  return true;
+}
+
+void LumpFinder::tie_loop_to_piece(int facet, int loop) {
+  const int first = body_.loop(loop).first;
+  const bool has_loop = edge_stamp_[at(first)] == stamp_;
+  const Vec3 normal = body_.world().planes.normal(body_.facet(facet).side);
+  for (const int c : crossings_of_facet_.at(facet)) {
+    const bool has_piece = crossing_stamp_[at(c)] == stamp_;
+    if (has_piece == has_loop) continue;
+    const Outline piece = piece_outline(c);
+    if (!contains({&piece, 1}, normal, body_.at(first))) continue;
+    push(has_piece ? first : section_.crossings[at(c)].edge);
+    return;
+  }
+}
+
+/// The outline of the piece of a facet that the chord from crossing c bounds.
+Outline LumpFinder::piece_outline(int c) const {
+  Outline points;
+  const int start = c;
+  do {
+    points.push_back(section_.crossings[at(c)].at);
+    c = section_.crossings[at(c)].next;
+    points.push_back(section_.crossings[at(c)].at);
+    int e = body_.next(body_.twin(section_.crossings[at(c)].edge));
+    for (; is_up(body_.target(e)); e = body_.next(e)) points.push_back(body_.at(e));
+    points.push_back(body_.at(e));
+    c = crossing_of(e);
+  } while (c != start);
+  return points;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "kernel/segment/detail/section.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A connected piece of material (or air) in front of a section plane: what a cut there would split
+/// off.
+struct Lump {
+  std::vector<int> regions;  ///< of the section, ascending: all its contacts with the plane
+  double new_area = 0;
+  double volume = 0;
+  /// Of air: it does not run out into the open. Material is always finite.
+  bool is_finite = true;
+  /// Its wall holds a reflex edge of the body, so it lies in two or more planes.
+  bool has_bend = false;
+};
+
+/// Finds lumps by flooding the surface from a region, without cutting anything: the cost is the
+/// lump's size.
+class LumpFinder {
+ public:
+  LumpFinder(const Boundary& body, const Section& section);
+
+  /// The lump in front of region `region`.
+  [[nodiscard]] Lump find(int region);
+
+ private:
+  void push(int e);
+  void visit(int e);
+  void reach(int crossing);
+  void add_segment(int e, Vec3 from, Vec3 to);
+  void tie_enclosed_loops();
+  void tie_loop_to_piece(int facet, int loop);
+  [[nodiscard]] bool is_wholly_up(int loop) const;
+  [[nodiscard]] Outline piece_outline(int crossing) const;
+  [[nodiscard]] bool is_up(int point) const;
+  [[nodiscard]] int crossing_of(int e) const { return crossing_of_edge_.at(e); }
+
+  const Boundary& body_;
+  const Section& section_;
+  int normal_class_;
+  int plane_rank_;
+  std::unordered_map<int, int> crossing_of_edge_;
+  std::unordered_map<int, std::vector<int>>
+      crossings_of_facet_;  ///< those at which a chord in it begins
+  /// For each loop the region of material and of air that it bounds, -1: none.
+  std::vector<int> material_region_, air_region_;
+
+  // The flood at hand.
+  bool is_material_ = true;
+  int stamp_ = 0;
+  std::vector<int> edge_stamp_, crossing_stamp_, facet_stamp_;
+  std::vector<int> stack_, facets_;
+  double patch_volume_ = 0;
+  Lump lump_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,95 @@
+#include "kernel/segment/detail/planar.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace oriel::detail {
+
+namespace {
+
+/// The two axes that are left when the normal's largest one is dropped.
+struct Axes {
+  double Vec3::*u;
+  double Vec3::*v;
+  double Vec3::*dropped;
+};
+
+Axes axes_for(Vec3 normal) {
+  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+  if (z >= x && z >= y) return {&Vec3::x, &Vec3::y, &Vec3::z};
+  if (y >= x) return {&Vec3::x, &Vec3::z, &Vec3::y};
+  return {&Vec3::y, &Vec3::z, &Vec3::x};
+}
+
+template <class Visit>
+void for_each_edge(std::span<const Outline> outlines, Visit visit) {
+  for (const Outline& outline : outlines)
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      visit(outline[i], outline[(i + 1) % outline.size()]);
+}
+
+/// Where the line v = level cuts the outlines, sorted along u.
+std::vector<double> crossings(std::span<const Outline> outlines, const Axes& axes, double level) {
+  std::vector<double> cuts;
+  for_each_edge(outlines, [&](Vec3 p, Vec3 q) {
+    if ((p.*axes.v > level) == (q.*axes.v > level)) return;
+    const double t = (level - p.*axes.v) / (q.*axes.v - p.*axes.v);
+    cuts.push_back(p.*axes.u + t * (q.*axes.u - p.*axes.u));
+  });
+  std::ranges::sort(cuts);
+  return cuts;
+}
+
+}  // namespace
+
+double signed_area(const Outline& outline, Vec3 normal) {
+  Vec3 sum;
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+    sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
+  return dot(sum, normal) / 2;
+}
+
+bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point) {
+  const Axes axes = axes_for(normal);
+  bool is_inside = false;
+  for_each_edge(outlines, [&](Vec3 p, Vec3 q) {
+    if ((p.*axes.v > point.*axes.v) == (q.*axes.v > point.*axes.v)) return;
+    const double t = (point.*axes.v - p.*axes.v) / (q.*axes.v - p.*axes.v);
+    if (point.*axes.u < p.*axes.u + t * (q.*axes.u - p.*axes.u)) is_inside = !is_inside;
+  });
+  return is_inside;
+}
+
+std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal) {
+  const Axes axes = axes_for(normal);
+  std::vector<double> levels;
+  for (const Outline& outline : outlines)
+    for (const Vec3 p : outline) levels.push_back(p.*axes.v);
+  std::ranges::sort(levels);
+  // The middle of the tallest gap between vertices: the line there meets no vertex.
+  double level = 0, tallest = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    if (levels[i] - levels[i - 1] <= tallest) continue;
+    tallest = levels[i] - levels[i - 1];
+    level = (levels[i] + levels[i - 1]) / 2;
+  }
+  if (tallest == 0) return std::nullopt;
+  const std::vector<double> cuts = crossings(outlines, axes, level);
+  double longest = 0;
+  Vec3 point;
+  for (std::size_t i = 1; i < cuts.size(); i += 2) {
+    if (cuts[i] - cuts[i - 1] <= longest) continue;
+    longest = cuts[i] - cuts[i - 1];
+    point.*axes.u = (cuts[i] + cuts[i - 1]) / 2;
+    point.*axes.v = level;
+  }
+  if (longest == 0) return std::nullopt;
+  const Vec3 on_plane = outlines.front().front();
+  point.*axes.dropped = 0;
+  const double missing = dot(on_plane, normal) - dot(point, normal);
+  point.*axes.dropped = missing / (normal.*axes.dropped);
+  return point;
+}
+
+}  // namespace oriel::detail

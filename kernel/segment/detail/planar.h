@@ -1,0 +1,25 @@
+#pragma once
+
+#include "kernel/model/vec3.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+/// Plane figures given as loops of points in space, all in one plane.
+namespace oriel::detail {
+
+using Outline = std::vector<Vec3>;
+
+/// The signed area of a closed outline about a unit normal: positive if counter-clockwise.
+double signed_area(const Outline& outline, Vec3 normal);
+
+/// True if `point` is inside: even-odd over all outlines, seen along the normal's largest axis.
+/// Points on an outline may fall on either side.
+bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point);
+
+/// A point inside the figure, as far from its outlines as the longest chord through the middle of
+/// its height allows; nothing if the figure has no area.
+std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal);
+
+}  // namespace oriel::detail

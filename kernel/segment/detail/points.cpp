@@ -1,0 +1,134 @@
+#include "kernel/segment/detail/points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Doubles of points and planes are right to some 1e-12 m within the 4 km that the grid allows: a
+/// signed distance beyond this is certain, and below it the exact test decides. Not a tolerance: it
+/// changes no answer.
+constexpr double kCertain_m = 1e-9;
+
+/// As near as the meeting of three planes comes to a segment that it lies on, in doubles.
+constexpr double kOnSegment_m = 1e-10;
+
+bool is_on_segment(Vec3 p, Vec3 from, Vec3 along) {
+  const double t = dot(p - from, along) / dot(along, along);
+  return t >= 0 && t <= 1 && length(p - (from + t * along)) <= kOnSegment_m;
+}
+
+}  // namespace
+
+PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
+    : grid_m_(solid.grid_m),
+      planes_(planes),
+      points_(solid.vertices.size()),
+      ranks_(index(planes.class_count())) {
+  for (const Facet& facet : solid.facets)
+    for (const Loop& loop : facet.loops)
+      for (const int v : loop) points_[index(v)].planes.push_back(planes.side_of(facet.plane) >> 1);
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    Point& point = points_[v];
+    std::ranges::sort(point.planes);
+    point.planes.erase(std::unique(point.planes.begin(), point.planes.end()), point.planes.end());
+    point.is_by_decree = !solid.vertices[v].is_meeting;
+    if (point.is_by_decree) {
+      point.at = solid.vertices[v].point;
+      point.grid = exact::round_to_grid(point.at, grid_m_);
+      continue;
+    }
+    const auto where = exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
+                                   planes.plane(point.planes[2]));
+    place(point, *where);
+  }
+}
+
+void PointTable::place(Point& point, const exact::Rational& where) const {
+  point.grid = exact::as_grid_point(where);
+  point.rational = where;
+  point.at = point.grid ? exact::to_metres(*point.grid, grid_m_) : exact::to_metres(where, grid_m_);
+}
+
+int PointTable::exact_side(const Point& point, int plane) const {
+  return point.grid ? exact::side(planes_.plane(plane), *point.grid)
+                    : exact::side(planes_.plane(plane), point.rational);
+}
+
+int PointTable::own_rank(const Point& point, int k) const {
+  for (const int plane : point.planes)
+    if (planes_.class_of(plane) == k) return planes_.rank_of(plane);
+  const auto& c = planes_.normal_class(k);
+  const double along = dot(c.normal, point.at);
+  auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
+  for (; i < std::ssize(c.offsets_m) &&
+         c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;
+       ++i) {
+    const int side = exact_side(point, c.planes[static_cast<std::size_t>(i)]);
+    if (side == 0) return 2 * static_cast<int>(i) + 1;
+    if (side < 0) break;
+  }
+  return 2 * static_cast<int>(i);
+}
+
+int PointTable::compute_rank(int p, int k) {
+  const Point& point = points_[index(p)];
+  const int own = own_rank(point, k);
+  if (point.low < 0) return own;
+  const auto [least, most] =
+      std::minmax(ranks_[index(k)][index(point.low)], ranks_[index(k)][index(point.high)]);
+  return std::clamp(own, least, most);
+}
+
+std::span<const int> PointTable::ranks(int k) {
+  auto& ranks = ranks_[index(k)];
+  ranks.reserve(points_.size());
+  for (int p = static_cast<int>(ranks.size()); p < size(); ++p) ranks.push_back(compute_rank(p, k));
+  return ranks;
+}
+
+int PointTable::side(int point, int plane) {
+  const int difference = rank(point, planes_.class_of(plane)) - planes_.rank_of(plane);
+  return (difference > 0) - (difference < 0);
+}
+
+int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
+  Point point;
+  point.planes = {f, g, plane};
+  std::ranges::sort(point.planes);
+  point.low = low;
+  point.high = high;
+  const Vec3 from = at(low), along = at(high) - from;
+  const Plane& cut = planes_.plane(plane);
+  const auto where = exact::meet(planes_.plane(f), planes_.plane(g), cut);
+  if (where) place(point, *where);
+  if (!where || !is_on_segment(point.at, from, along)) {
+    // A vertex by decree lies beside the line on which its planes meet. The edge is the segment
+    // between its ends, and the point must lie on that, or cutting the edge would change the areas
+    // of its facets.
+    const double t = (cut.offset_m - dot(cut.normal, from)) / dot(cut.normal, along);
+    point.is_by_decree = true;
+    place(point, exact::round_finely(from + std::clamp(t, 0.0, 1.0) * along, grid_m_));
+  }
+  points_.push_back(std::move(point));
+  return size() - 1;
+}
+
+std::optional<int> PointTable::meet(int p, int q, int r) {
+  std::vector<int> planes{p, q, r};
+  std::ranges::sort(planes);
+  for (int i = size() - 1; i >= 0; --i)
+    if (points_[index(i)].low < 0 && std::ranges::includes(points_[index(i)].planes, planes))
+      return i;
+  const auto where = exact::meet(planes_.plane(p), planes_.plane(q), planes_.plane(r));
+  if (!where) return std::nullopt;
+  Point point;
+  point.planes = std::move(planes);
+  place(point, *where);
+  points_.push_back(std::move(point));
+  return size() - 1;
+}
+
+}  // namespace oriel::detail

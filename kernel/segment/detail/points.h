@@ -1,0 +1,63 @@
+#pragma once
+
+#include "kernel/exact/exact.h"
+#include "kernel/model/solid.h"
+#include "kernel/segment/detail/planes.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// The vertices of a solid and those that cuts make, with their ranks in every class of planes.
+///
+/// A rank is decided once: by incidence (a point knows the planes it lies on), else by doubles
+/// where they are certain, else exactly. Everything the kernel asks of positions is a comparison of
+/// ranks; coordinates serve for measuring.
+class PointTable {
+ public:
+  /// The solid's vertices keep their indices.
+  PointTable(const Solid& solid, const PlaneTable& planes);
+
+  [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
+  [[nodiscard]] Vec3 at(int point) const { return points_[index(point)].at; }
+  /// True if the point is known by the three planes it was made of.
+  [[nodiscard]] bool is_meeting(int point) const { return !points_[index(point)].is_by_decree; }
+
+  /// The ranks of all points in class k, by point; valid until the next point is added.
+  [[nodiscard]] std::span<const int> ranks(int k);
+  [[nodiscard]] int rank(int point, int k) { return ranks(k)[index(point)]; }
+  /// -1, 0, +1: behind, on, in front of a plane as its class has it.
+  [[nodiscard]] int side(int point, int plane);
+
+  /// The point where an edge (the meeting of planes f and g, from `low` to `high`) crosses `plane`.
+  /// Its ranks lie between those of the edge's ends, whatever rounding there was in a vertex by
+  /// decree.
+  int cross_edge(int f, int g, int low, int high, int plane);
+
+  /// The point where three planes meet; nothing if they do not. The same point for the same three.
+  std::optional<int> meet(int p, int q, int r);
+
+ private:
+  struct Point {
+    Vec3 at;
+    std::vector<int> planes;  ///< sorted
+    bool is_by_decree = false;
+    std::optional<exact::GridPoint> grid;
+    exact::Rational rational;
+    int low = -1, high = -1;  ///< the ends of the edge it was made on
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void place(Point& point, const exact::Rational& where) const;
+  [[nodiscard]] int exact_side(const Point& point, int plane) const;
+  int compute_rank(int point, int k);
+  int own_rank(const Point& point, int k) const;
+
+  double grid_m_;
+  const PlaneTable& planes_;
+  std::vector<Point> points_;
+  std::vector<std::vector<int>> ranks_;
+};
+
+}  // namespace oriel::detail

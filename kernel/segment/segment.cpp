@@ -1,0 +1,283 @@
+#include "kernel/segment/segment.h"
+
+#include "kernel/segment/detail/carve.h"
+#include "kernel/segment/detail/cells.h"
+#include "kernel/segment/detail/choice.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using detail::Boundary;
+using detail::Choice;
+using detail::Side;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A body that waits to be segmented, and where it belongs.
+struct Task {
+  Boundary body;
+  NodeId node;
+  FeatureId feature;            ///< the body is in it; invalid: the solid itself
+  int sign = 1;                 ///< -1 for air
+  std::vector<int> own_planes;  ///< no split planes of this body
+};
+
+class Segmenter {
+ public:
+  Segmenter(const Building& building, const Solid& solid, const SegmentOptions& options)
+      : building_(building),
+        solid_(solid),
+        options_(options),
+        world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)},
+        cells_(world_, out_) {}
+
+  Segmentation run() {
+    out_.order = options_.order;
+    out_.planes = solid_.planes;
+    start();
+    while (!tasks_.empty()) {
+      Task task = std::move(tasks_.back());
+      tasks_.pop_back();
+      split(std::move(task));
+    }
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  /// The solid's lumps: one is the root itself, several hang under a root that cuts nothing.
+  void start() {
+    out_.root = add_node();
+    int lumps = 0;
+    for (const Shell& shell : solid_.shells) lumps = std::max(lumps, shell.lump + 1);
+    for (const FacetId ground : lowest_downward_facets())
+      ground_ = world_.planes.side_of(solid_.facets[ground.index()].plane);
+    std::vector<Boundary> bodies;
+    for (int lump = 0; lump < lumps; ++lump) bodies.push_back(boundary_of(solid_, lump, world_));
+    hang(std::move(bodies), {}, 1, {}, out_.root);
+  }
+
+  /// Facets that face straight down at the foot of the solid.
+  std::vector<FacetId> lowest_downward_facets() const {
+    std::vector<FacetId> lowest;
+    double least = std::numeric_limits<double>::infinity();
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      const Plane& plane = solid_.planes[solid_.facets[at(f)].plane.index()];
+      if (plane.normal.z > -1 + 1e-9 /* tolerance of doubles */ || -plane.offset_m >= least)
+        continue;
+      least = -plane.offset_m;
+      lowest = {FacetId{f}};
+    }
+    return lowest;
+  }
+
+  NodeId add_node() {
+    out_.nodes.emplace_back();
+    return NodeId{static_cast<int>(out_.nodes.size()) - 1};
+  }
+  CsgNode& node(NodeId id) { return out_.nodes[id.index()]; }
+
+  /// Puts bodies under a node: a single one takes the node itself, several become its `rest`.
+  void hang(std::vector<Boundary> bodies, FeatureId feature, int sign,
+            const std::vector<int>& own_planes, NodeId id) {
+    if (bodies.size() == 1) {
+      tasks_.push_back({std::move(bodies[0]), id, feature, sign, own_planes});
+      return;
+    }
+    node(id).kind = CsgNode::Kind::unite;
+    for (Boundary& body : bodies) {
+      const NodeId child = add_node();
+      node(id).rest.push_back(child);
+      tasks_.push_back({std::move(body), child, feature, sign, own_planes});
+    }
+  }
+
+  /// Splits one body down to its leaf: each round is a node of the tree.
+  void split(Task task) {
+    take_out_cavities(task);
+    detail::Chooser chooser(task.body, options_, ground_, task.own_planes, out_.stats, work_);
+    while (true) {
+      if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
+      if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
+      const auto choice = chooser.next();
+      if (!choice)
+        return add_leaf(task, task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own);
+      const std::vector<int> touched = cut(task, *choice);
+      chooser.changed_at(touched);
+      if (may_have_parted_) {
+        may_have_parted_ = false;
+        auto lumps = part_into_lumps(std::move(task.body));
+        if (lumps.size() > 1) return hang_rest(task, std::move(lumps));
+        task.body = std::move(lumps[0]);
+        take_out_cavities(task);
+      }
+    }
+  }
+
+  void hang_rest(const Task& task, std::vector<Boundary> lumps) {
+    // The node made last has one rest, a leaf so far: the lumps take its place.
+    CsgNode& parent = node(parent_of_rest_);
+    parent.rest.clear();
+    for (std::size_t i = 0; i < lumps.size(); ++i) {
+      const NodeId child = i == 0 ? task.node : add_node();
+      node(parent_of_rest_).rest.push_back(child);
+      tasks_.push_back({std::move(lumps[i]), child, task.feature, task.sign, task.own_planes});
+    }
+  }
+
+  [[nodiscard]] bool is_convex(const Boundary& body) const {
+    for (int e = 0; e < body.half_edge_count(); ++e)
+      if (body.is_alive_edge(e) && e < body.twin(e) && body.is_reflex(e)) return false;
+    return true;
+  }
+
+  void take_out_cavities(Task& task) {
+    std::vector<Boundary> cavities = detail::take_out_cavities(task.body);
+    if (cavities.empty()) return;
+    CsgNode& here = node(task.node);
+    here.kind = CsgNode::Kind::subtract;
+    here.value = here.quality = 0;
+    const NodeId rest = add_node();
+    node(task.node).rest = {rest};
+    for (Boundary& cavity : cavities) {
+      Feature feature;
+      feature.sense = Sense::cavity;
+      feature.value = feature.quality = 0;
+      add_part(task, std::move(cavity), std::move(feature), {});
+    }
+    parent_of_rest_ = task.node;
+    task.node = rest;
+  }
+
+  /// Carries out a choice: makes its node and the parts' tasks, and leaves the rest in the task.
+  /// Returns what was touched.
+  std::vector<int> cut(Task& task, const Choice& choice) {
+    CsgNode& here = node(task.node);
+    here.kind = choice.is_hole ? CsgNode::Kind::subtract : CsgNode::Kind::unite;
+    here.value = choice.value;
+    here.quality = choice.quality;
+    for (const Side side : choice.sides) here.planes.push_back(cells_.plane_id(side));
+    std::ranges::sort(here.planes);
+    const NodeId rest = add_node();
+    node(task.node).rest = {rest};
+
+    std::vector<int> touched;
+    for (const detail::Lump& lump : choice.lumps) {
+      const auto caps = imprint(task.body, *choice.section, lump, touched);
+      std::size_t loops = 0;
+      for (const detail::Cap& cap : caps) loops += cap.loops.size() + cap.covered.size();
+      may_have_parted_ |= loops > 1;
+      take_off_part(task, choice, caps, lump.new_area, touched);
+    }
+    for (const detail::Patch& patch : choice.patches) {
+      may_have_parted_ = true;
+      take_off_part(task, choice, patch.caps, patch.new_area, touched);
+    }
+    parent_of_rest_ = task.node;
+    task.node = rest;
+    return touched;
+  }
+
+  void take_off_part(Task& task, const Choice& choice, const std::vector<detail::Cap>& caps,
+                     double new_area, std::vector<int>& touched) {
+    const FeatureId id{static_cast<int>(out_.features.size())};
+    auto carved = take_off(task.body, caps, choice.is_hole, id, std::move(touched));
+    touched = std::move(carved.touched);
+    Feature feature;
+    feature.sense = choice.is_hole ? Sense::hole : Sense::protrusion;
+    feature.quality = new_area / choice.old_area;
+    feature.value = choice.value;
+    feature.new_area_m2 = new_area;
+    feature.old_area_m2 = choice.old_area;
+    feature.is_natural = choice.is_natural;
+    for (const Side side : choice.sides) feature.planes.push_back(cells_.plane_id(side));
+    std::vector<int> own_planes;
+    if (!choice.is_hole && choice.sides.size() > 1)
+      for (const Side side : choice.sides) own_planes.push_back(side >> 1);
+    double cap_area = 0;
+    for (const detail::Cap& cap : caps) cap_area += area_of(cap);
+    feature.surface_m2 = -cap_area;
+    add_part(task, std::move(carved.lump), std::move(feature), std::move(own_planes));
+  }
+
+  [[nodiscard]] double area_of(const detail::Cap& cap) const {
+    double area = 0;
+    for (const detail::CapLoop& loop : cap.loops) {
+      detail::Outline outline;
+      for (const detail::CapEdge& edge : loop.edges) outline.push_back(world_.points.at(edge.from));
+      area += detail::signed_area(outline, world_.planes.normal(cap.side));
+    }
+    return area;
+  }
+
+  void add_part(const Task& task, Boundary body, Feature feature, std::vector<int> own_planes) {
+    const NodeId id = add_node();
+    node(task.node).parts.push_back(id);
+    feature.node = id;
+    feature.parent = task.feature;
+    feature.volume_m3 = body.volume();
+    for (const int f : body.living_facets()) {
+      feature.surface_m2 += body.area(f);
+      body.for_each_edge(f, [&](int e) { feature.vertices.push_back(body.origin(e)); });
+    }
+    std::ranges::sort(feature.vertices);
+    feature.vertices.erase(std::unique(feature.vertices.begin(), feature.vertices.end()),
+                           feature.vertices.end());
+    for (const int v : feature.vertices) feature.box.grow(world_.points.at(v));
+    const int sign = feature.sense == Sense::protrusion ? task.sign : -task.sign;
+    const FeatureId feature_id{static_cast<int>(out_.features.size())};
+    out_.features.push_back(std::move(feature));
+    std::vector<Boundary> bodies;
+    bodies.push_back(std::move(body));
+    hang(std::move(bodies), feature_id, sign, own_planes, id);
+  }
+
+  void add_leaf(const Task& task, LeafFlag flag) {
+    const bool convex = flag == LeafFlag::convex;
+    node(task.node).cell = cells_.add(task.body, task.node, task.sign, convex, flag, task.feature);
+    if (flag == LeafFlag::budget && !is_out_of_budget_) {
+      is_out_of_budget_ = true;
+      out_.issues.push_back(building_issue(
+          Severity::warning, "E502", building_.id,
+          fmt::format("the work budget of {} half-edges is used up; the rest stays unsplit",
+                      options_.budget)));
+    }
+  }
+
+  void finish() {
+    cells_.finish(building_, solid_);
+    SegmentationStats& stats = out_.stats;
+    stats.leaves = out_.cells.size();
+    stats.inner = out_.nodes.size() - stats.leaves;
+    stats.recursions = out_.nodes.size();
+  }
+
+  const Building& building_;
+  const Solid& solid_;
+  const SegmentOptions& options_;
+  Segmentation out_;
+  detail::World world_;
+  detail::CellWriter cells_;
+  Side ground_ = -1;
+  std::vector<Task> tasks_;
+  std::int64_t work_ = 0;
+  bool may_have_parted_ = false;
+  bool is_out_of_budget_ = false;
+  NodeId parent_of_rest_;
+};
+
+}  // namespace
+
+Segmentation segment(const Building& building, const Solid& solid, const SegmentOptions& options) {
+  return Segmenter(building, solid, options).run();
+}
+
+}  // namespace oriel
