@@ -1,0 +1,86 @@
+#include "examples/generator/generate.h"
+
+#include "examples/generator/check.h"
+#include "examples/generator/facade_layout.h"
+#include "examples/generator/plan.h"
+#include "examples/generator/roof_layout.h"
+#include "examples/generator/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace oriel::generator {
+namespace {
+
+/// Faces of the exact body are planar; a micrometre is what the check itself may round. Once
+/// corners are turned (and rounded) or shaken it is not asked.
+constexpr Um kFlatness = 1;
+/// Houses of one run stand in rows of this length.
+constexpr int kHousesInRow = 200;
+
+void check(const Body& body, std::optional<Um> flatness, const Options& options, int index) {
+  const std::vector<std::string> faults = find_faults(body, flatness);
+  if (faults.empty()) return;
+  throw std::logic_error("house " + std::to_string(index) + " of seed " +
+                         std::to_string(options.seed) + " is no valid solid: " + faults.front());
+}
+
+Body build(const Options& options, int index) {
+  Random random(options.seed, static_cast<std::uint64_t>(index));
+  const Plan plan = draw_plan(options, random);
+  Draft draft;
+  House house = build_house(draft, plan.massing);
+  lay_out_roof(draft, house, plan, random);
+  lay_out_facades(draft, house, plan, random);
+  Body body = draft.close();
+  body.roof = name_of(plan.massing.roof);
+  body.storeys = plan.storeys;
+  return body;
+}
+
+void rotate(Body& body, double angle_deg) {
+  const double angle_rad = angle_deg * std::numbers::pi / 180;
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  for (Point& p : body.vertices) {
+    const auto x = static_cast<double>(p.x), y = static_cast<double>(p.y);
+    p.x = std::llround(c * x - s * y);
+    p.y = std::llround(s * x + c * y);
+  }
+}
+
+void shake(Body& body, Um noise, Random& random) {
+  for (Point& p : body.vertices) {
+    p.x += random.between(-noise, noise, 1);
+    p.y += random.between(-noise, noise, 1);
+    p.z += random.between(-noise, noise, 1);
+  }
+}
+
+/// Room for one house with all that sticks out of it.
+Um lot_size(const Options& options) {
+  const Um widest = std::max(options.width.high, options.depth.high);
+  const Um by_windows = Um{options.windows} * 200'000;
+  return std::max(widest, by_windows) * 2 + 20'000'000;
+}
+
+}  // namespace
+
+Body generate(const Options& options, int index) {
+  Body body = build(options, index);
+  check(body, kFlatness, options, index);
+  Random random(~options.seed, static_cast<std::uint64_t>(index));
+  if (options.rotate_deg != 0) rotate(body, options.rotate_deg);
+  if (options.noise > 0) shake(body, options.noise, random);
+  // Last, so that the triangles of a shaken polygon do not fold over each other.
+  if (options.triangulate) body = triangulated(body, random);
+  const Um lot = lot_size(options);
+  const Point place{index % kHousesInRow * lot, index / kHousesInRow * lot, 0};
+  for (Point& p : body.vertices) p = p + place;
+  const bool has_moved = options.triangulate || options.rotate_deg != 0 || options.noise > 0;
+  if (has_moved) check(body, std::nullopt, options, index);
+  return body;
+}
+
+}  // namespace oriel::generator

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "examples/generator/body.h"
+
+namespace oriel::test {
+
+/// How many edges of the triangulated body pierce one of its triangles. 0 for a body that does not
+/// cross itself; quadratic, so for houses only.
+int count_crossings(const generator::Body& body);
+
+}  // namespace oriel::test
