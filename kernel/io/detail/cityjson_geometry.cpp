@@ -1,0 +1,239 @@
+#include "kernel/io/detail/cityjson_geometry.h"
+
+#include "kernel/io/detail/rings.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+std::string_view found_kind(const std::optional<dom::element>& element) {
+  if (!element) return "nothing";
+  switch (element->type()) {
+    case dom::element_type::OBJECT:
+      return "an object";
+    case dom::element_type::ARRAY:
+      return "an array";
+    case dom::element_type::STRING:
+      return "a string";
+    case dom::element_type::BOOL:
+      return "true or false";
+    case dom::element_type::NULL_VALUE:
+      return "null";
+    default:
+      return "a number";
+  }
+}
+
+std::optional<GeometryKind> kind_of_geometry(std::string_view type) {
+  if (type == "MultiSurface" || type == "CompositeSurface") return GeometryKind{0, false};
+  if (type == "Solid") return GeometryKind{1, true};
+  if (type == "MultiSolid" || type == "CompositeSolid") return GeometryKind{2, true};
+  return std::nullopt;
+}
+
+GeometryReader::GeometryReader(const std::vector<Vec3>& stored, const Transform& transform)
+    : stored_(stored), transform_(transform), local_of_(stored.size(), -1) {}
+
+std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kind,
+                                          Building& building) {
+  polygons_.clear();
+  used_.clear();
+  warnings_.clear();
+  fault_.reset();
+  has_repeats_ = false;
+  const auto boundaries = member(geometry, "boundaries");
+  if (!boundaries)
+    fail("E201", "the geometry has no 'boundaries'");
+  else if (read_bodies(*boundaries, kind) && place_vertices(building))
+    building.is_solid = kind.is_solid;
+  for (const std::size_t number : used_) local_of_[number] = -1;
+  if (fault_) return fault_;
+
+  const auto semantics = member(geometry, "semantics");
+  if (const auto object = as_object(semantics))
+    read_hints(*object, *boundaries, kind);
+  else if (semantics && !semantics->is_null())
+    warnings_.push_back({"E208", fmt::format("'semantics' is {}; expected an object, so none are "
+                                             "read",
+                                             found_kind(semantics))});
+  if (has_repeats_)
+    warnings_.push_back({"E312",
+                         "a ring names a vertex twice in a row; it is read once (val3dity 102 "
+                         "CONSECUTIVE_POINTS_SAME)"});
+  if (auto degenerate = find_degenerate(polygons_, building.vertices))
+    warnings_.push_back(std::move(*degenerate));
+  building.polygons = std::move(polygons_);
+  return std::nullopt;
+}
+
+bool GeometryReader::fail(std::string code, std::string sentence) {
+  fault_ = {std::move(code), std::move(sentence)};
+  return false;
+}
+
+bool GeometryReader::read_bodies(dom::element boundaries, GeometryKind kind) {
+  body_ = 0;
+  shell_ = 0;
+  if (kind.depth == 0) {
+    if (!read_surfaces(boundaries)) return false;
+  } else if (kind.depth == 1) {
+    if (!read_shells(boundaries)) return false;
+  } else {
+    const auto bodies = as_array(boundaries);
+    if (!bodies)
+      return fail("E202", fmt::format("'boundaries' is {}; expected an array of solids",
+                                      found_kind(boundaries)));
+    for (const dom::element body : *bodies) {
+      if (!read_shells(body)) return false;
+      ++body_;
+    }
+  }
+  if (polygons_.empty())
+    return fail("E313", "the geometry has no polygon (val3dity 902 EMPTY_PRIMITIVE)");
+  return true;
+}
+
+bool GeometryReader::read_shells(dom::element body) {
+  const auto shells = as_array(body);
+  if (!shells)
+    return fail("E202",
+                fmt::format("a solid is {}; expected an array of shells", found_kind(body)));
+  shell_ = 0;
+  for (const dom::element shell : *shells) {
+    if (!read_surfaces(shell)) return false;
+    ++shell_;
+  }
+  return true;
+}
+
+bool GeometryReader::read_surfaces(dom::element shell) {
+  const auto surfaces = as_array(shell);
+  if (!surfaces)
+    return fail("E202", fmt::format("a list of surfaces is {}; expected an array of surfaces",
+                                    found_kind(shell)));
+  for (const dom::element surface : *surfaces) {
+    const std::size_t number = polygons_.size();
+    const auto rings = as_array(surface);
+    if (!rings)
+      return fail("E202", fmt::format("polygon {} is {}; expected an array of rings", number,
+                                      found_kind(surface)));
+    polygons_.push_back({{}, static_cast<int>(number), body_, shell_, ""});
+    for (const dom::element ring : *rings)
+      if (!read_ring(ring)) return false;
+  }
+  return true;
+}
+
+bool GeometryReader::read_ring(dom::element element) {
+  const std::size_t polygon = polygons_.size() - 1;
+  const auto numbers = as_array(element);
+  if (!numbers)
+    return fail("E202", fmt::format("a ring of polygon {} is {}; expected an array of vertex "
+                                    "numbers",
+                                    polygon, found_kind(element)));
+  std::vector<int> ring;
+  for (const dom::element value : *numbers) {
+    const auto number = as_integer(value);
+    if (!number)
+      return fail("E202", fmt::format("a ring of polygon {} holds {}; expected a whole number",
+                                      polygon, found_kind(value)));
+    if (*number < 0 || static_cast<std::size_t>(*number) >= stored_.size())
+      return fail("E203", fmt::format("polygon {} uses vertex {}; there are {} vertices, counted "
+                                      "from 0",
+                                      polygon, *number, stored_.size()));
+    const auto index = static_cast<std::size_t>(*number);
+    if (std::isnan(stored_[index].x))
+      return fail("E202", fmt::format("polygon {} uses vertex {}, which is not an array of three "
+                                      "whole numbers",
+                                      polygon, index));
+    ring.push_back(local_vertex(index));
+  }
+  const std::size_t count = ring.size();
+  ring = without_repeats(std::move(ring));
+  has_repeats_ = has_repeats_ || ring.size() < count;
+  polygons_.back().rings.push_back(std::move(ring));
+  return true;
+}
+
+int GeometryReader::local_vertex(std::size_t number) {
+  int& local = local_of_[number];
+  if (local < 0) {
+    local = static_cast<int>(used_.size());
+    used_.push_back(number);
+  }
+  return local;
+}
+
+bool GeometryReader::place_vertices(Building& building) {
+  const Vec3 scale = transform_.scale;
+  const Vec3 translate = transform_.translate;
+  std::vector<Vec3> points;
+  points.reserve(used_.size());
+  for (const std::size_t number : used_) {
+    const Vec3 v = stored_[number];
+    points.push_back(translate + Vec3{scale.x * v.x, scale.y * v.y, scale.z * v.z});
+  }
+  fault_ = find_beyond_limits(points);
+  if (fault_) return false;
+  building.frame = frame_of(points, std::move(building.frame.crs));
+  const Vec3 shift = translate - building.frame.origin_m;
+  building.vertices.clear();
+  building.vertices.reserve(used_.size());
+  for (const std::size_t number : used_) {
+    const Vec3 v = stored_[number];
+    building.vertices.push_back(shift + Vec3{scale.x * v.x, scale.y * v.y, scale.z * v.z});
+  }
+  return true;
+}
+
+void GeometryReader::read_hints(dom::object semantics, dom::element boundaries, GeometryKind kind) {
+  std::vector<std::string_view> types;
+  const auto surfaces = as_array(member(semantics, "surfaces"));
+  if (surfaces)
+    for (const dom::element surface : *surfaces) {
+      const auto object = as_object(surface);
+      const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+      types.push_back(type.value_or(std::string_view()));
+    }
+  std::size_t next = 0;
+  const bool fits = flatten(boundaries, member(semantics, "values"), kind.depth, types, next);
+  if (!surfaces || !fits)
+    warnings_.push_back({"E208",
+                         "the semantics do not fit the geometry: 'values' must repeat the shape of "
+                         "'boundaries' with numbers of 'surfaces' or null; what fits is read"});
+}
+
+bool GeometryReader::flatten(dom::element boundaries, const std::optional<dom::element>& values,
+                             int depth, const std::vector<std::string_view>& types,
+                             std::size_t& next) {
+  const auto entries = as_array(values);
+  bool fits = entries || !values || values->is_null();
+  std::optional<dom::array::iterator> entry;
+  if (entries) entry = entries->begin();
+  const auto parts = as_array(boundaries);  // read before, so it is one
+  for (const dom::element part : *parts) {
+    std::optional<dom::element> value;
+    if (entry && *entry != entries->end()) {
+      value = **entry;
+      ++*entry;
+    } else if (entry) {
+      fits = false;
+    }
+    if (depth > 0) {
+      fits = flatten(part, value, depth - 1, types, next) && fits;
+      continue;
+    }
+    const auto number = as_integer(value);
+    const bool is_known =
+        number && *number >= 0 && static_cast<std::size_t>(*number) < types.size();
+    if (is_known) polygons_[next].hint = types[static_cast<std::size_t>(*number)];
+    fits = fits && (is_known || !value || value->is_null());
+    ++next;
+  }
+  return fits && !(entry && *entry != entries->end());
+}
+
+}  // namespace oriel::detail

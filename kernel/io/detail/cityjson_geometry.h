@@ -1,0 +1,67 @@
+#pragma once
+
+#include "kernel/io/detail/cityjson_source.h"
+#include "kernel/io/detail/dom.h"
+#include "kernel/io/detail/text.h"
+#include "kernel/model/building.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace oriel::detail {
+
+/// How a geometry type nests its polygons.
+struct GeometryKind {
+  /// Levels of arrays above the list of surfaces: 0 MultiSurface, 1 Solid (shells), 2 MultiSolid
+  /// (solids, shells).
+  int depth = 0;
+  bool is_solid = false;
+};
+
+/// The kind of a type that is read: MultiSurface, CompositeSurface, Solid, MultiSolid,
+/// CompositeSolid. Nothing for others.
+std::optional<GeometryKind> kind_of_geometry(std::string_view type);
+
+/// Turns geometries of one file into polygons of buildings.
+class GeometryReader {
+ public:
+  /// `stored` are the file's vertices as they stand there (whole numbers, NaN where the file has
+  /// none); it and `transform` must outlive the reader.
+  GeometryReader(const std::vector<Vec3>& stored, const Transform& transform);
+
+  /// Fills the frame, solidity, vertices and polygons of `building` from a geometry of a kind that
+  /// is read. Local coordinates are (translate - origin) + scale × integer, so that they keep the
+  /// integer's digits. Says what is wrong, if anything: E201, E202, E203, E313, E501, E502.
+  std::optional<Fault> read(dom::object geometry, GeometryKind kind, Building& building);
+
+  /// What was odd in the last geometry: E208, E311, E312.
+  [[nodiscard]] const std::vector<Fault>& warnings() const { return warnings_; }
+
+ private:
+  bool read_bodies(dom::element boundaries, GeometryKind kind);
+  bool read_shells(dom::element body);
+  bool read_surfaces(dom::element shell);
+  bool read_ring(dom::element element);
+  int local_vertex(std::size_t number);
+  bool place_vertices(Building& building);
+  void read_hints(dom::object semantics, dom::element boundaries, GeometryKind kind);
+  bool flatten(dom::element boundaries, const std::optional<dom::element>& values, int depth,
+               const std::vector<std::string_view>& types, std::size_t& next);
+  bool fail(std::string code, std::string sentence);
+
+  const std::vector<Vec3>& stored_;
+  const Transform& transform_;
+  /// The building's vertex for each of the file's, -1 where it has none yet.
+  std::vector<int> local_of_;
+  /// The file's vertex for each of the building's.
+  std::vector<std::size_t> used_;
+  std::vector<Polygon> polygons_;
+  int body_ = 0;
+  int shell_ = 0;
+  bool has_repeats_ = false;
+  std::optional<Fault> fault_;
+  std::vector<Fault> warnings_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,204 @@
+#include "kernel/io/detail/cityjson_reader.h"
+
+#include "kernel/io/detail/cityjson_geometry.h"
+#include "kernel/io/detail/cityjson_objects.h"
+#include "kernel/io/detail/dom.h"
+#include "kernel/io/detail/json_check.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Vec3> as_vector(const std::optional<dom::element>& element) {
+  const auto array = as_array(element);
+  if (!array) return std::nullopt;
+  std::array<double, 3> numbers{};
+  std::size_t count = 0;
+  for (const dom::element value : *array) {
+    const auto number = as_number(value);
+    if (!number || count == 3) return std::nullopt;
+    numbers[count++] = *number;
+  }
+  if (count != 3) return std::nullopt;
+  return Vec3{numbers[0], numbers[1], numbers[2]};
+}
+
+/// Checks the members that say what kind of file this is.
+std::optional<Fault> check_type(dom::object root, std::string_view expected) {
+  const auto type = member(root, "type");
+  if (as_string(type) != expected)
+    return Fault{"E107", fmt::format("is JSON, but not {}: its 'type' is {}", expected,
+                                     type && type->is_string() ? in_quotes(*as_string(type))
+                                                               : std::string(found_kind(type)))};
+  if (expected != "CityJSON") return std::nullopt;
+  const auto version = member(root, "version");
+  const std::string_view text = as_string(version).value_or(std::string_view());
+  if (text == "1.1" || text == "2.0") return std::nullopt;
+  return Fault{"E108",
+               fmt::format("CityJSON version {}; expected \"1.1\" or \"2.0\" (cjio upgrade "
+                           "brings older files up to date)",
+                           text.empty() ? std::string(found_kind(version)) : in_quotes(text))};
+}
+
+std::optional<Fault> read_transform(dom::object root, Transform& transform) {
+  const auto element = member(root, "transform");
+  if (!element) return Fault{"E201", "has no 'transform', which CityJSON 1.1 and 2.0 require"};
+  const auto object = as_object(element);
+  const auto scale = object ? as_vector(member(*object, "scale")) : std::nullopt;
+  const auto translate = object ? as_vector(member(*object, "translate")) : std::nullopt;
+  if (!scale || !translate)
+    return Fault{"E202", "'transform' must hold 'scale' and 'translate', three numbers each"};
+  if (!(scale->x > 0 && scale->y > 0 && scale->z > 0))
+    return Fault{"E202", "'scale' of 'transform' must be three numbers above 0"};
+  transform = {*scale, *translate};
+  return std::nullopt;
+}
+
+/// The file's vertices; NaN for one that is not three whole numbers.
+std::vector<Vec3> read_vertices(dom::array array) {
+  std::vector<Vec3> vertices;
+  vertices.reserve(array.size());
+  for (const dom::element element : array) {
+    const Vec3 v = as_vector(element).value_or(Vec3{kNaN, kNaN, kNaN});
+    const bool is_whole =
+        v.x == std::floor(v.x) && v.y == std::floor(v.y) && v.z == std::floor(v.z);
+    vertices.push_back(is_whole ? v : Vec3{kNaN, kNaN, kNaN});
+  }
+  return vertices;
+}
+
+std::string read_crs(dom::object root) {
+  const auto metadata = as_object(member(root, "metadata"));
+  const auto crs = metadata ? as_string(member(*metadata, "referenceSystem")) : std::nullopt;
+  return std::string(crs.value_or(std::string_view()));
+}
+
+/// The members that hold the model.
+struct Model {
+  dom::object objects;
+  std::vector<Vec3> vertices;
+};
+
+std::optional<Fault> read_model(dom::object root, Model& model) {
+  const auto objects = member(root, "CityObjects");
+  const auto vertices = member(root, "vertices");
+  for (const auto& [name, element] : {std::pair("CityObjects", objects), {"vertices", vertices}})
+    if (!element) return Fault{"E201", fmt::format("has no '{}'", name)};
+  if (!objects->is_object())
+    return Fault{"E202",
+                 fmt::format("'CityObjects' is {}; expected an object", found_kind(objects))};
+  if (!vertices->is_array())
+    return Fault{"E202", fmt::format("'vertices' is {}; expected an array", found_kind(vertices))};
+  model.objects = *as_object(objects);
+  model.vertices = read_vertices(*as_array(vertices));
+  return std::nullopt;
+}
+
+}  // namespace
+
+struct CityJsonReader::State {
+  dom::parser parser;
+  std::optional<std::string> lod;
+  SequenceHeader header;
+
+  std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
+  void read_buildings(const Model& model, const TextName& name, Document& document,
+                      CityJsonSource& source, std::vector<Issue>& issues) const;
+};
+
+CityJsonReader::CityJsonReader(std::optional<std::string> lod) : state_(std::make_unique<State>()) {
+  state_->lod = std::move(lod);
+}
+
+CityJsonReader::~CityJsonReader() = default;
+
+const SequenceHeader& CityJsonReader::header() const { return state_->header; }
+
+std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const TextName& name,
+                                                  dom::object& root) {
+  const bool has_padding = text.capacity() - text.size() >= simdjson::SIMDJSON_PADDING;
+  dom::element element;
+  const auto error = parser.parse(text.data(), text.size(), !has_padding).get(element);
+  if (error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS) return std::nullopt;
+  if (auto issue = find_json_error(name, text)) return issue;
+  return error_in(name,
+                  {"E104", fmt::format("not valid JSON: {}", simdjson::error_message(error))});
+}
+
+void CityJsonReader::State::read_buildings(const Model& model, const TextName& name,
+                                           Document& document, CityJsonSource& source,
+                                           std::vector<Issue>& issues) const {
+  const std::vector<ObjectEntry> entries = list_objects(model.objects);
+  const std::vector<Choice> choices = choose_geometries(entries, lod);
+  GeometryReader geometries(model.vertices, source.transform);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const ObjectEntry& entry = entries[i];
+    const auto report = [&](Severity severity, const Fault& fault) {
+      issues.push_back(finding_of(name, severity, entry.id, fault));
+    };
+    if (entry.has_instances)
+      report(Severity::note, {"E206", "geometry templates (GeometryInstance) are not read"});
+    if (choices[i].finding) report(choices[i].severity, *choices[i].finding);
+    const GeometryEntry* chosen = choices[i].geometry;
+    if (chosen == nullptr) continue;
+    Building building;
+    building.id = entry.id;
+    building.lod = chosen->lod;
+    building.frame.crs = header.crs;
+    if (const auto fault = geometries.read(chosen->object, chosen->kind, building)) {
+      report(Severity::error, *fault);
+      continue;
+    }
+    for (const Fault& warning : geometries.warnings()) report(Severity::warning, warning);
+    document.buildings.push_back(std::move(building));
+    source.places.push_back({entry.number, chosen->number});
+  }
+  if (entries.empty() && name.line == 0) {
+    issues.push_back(error_in(name, {"E209", "has no Building and no BuildingPart"}));
+    issues.back().severity = Severity::warning;
+  }
+}
+
+Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
+                                       const std::optional<SequenceHeader>& header) {
+  Checked<Document> result;
+  const auto refuse = [&](const Fault& fault) {
+    result.issues.push_back(error_in(name, fault));
+    return std::move(result);
+  };
+  dom::object root;
+  if (auto issue = state_->parse(text, name, root)) {
+    result.issues.push_back(std::move(*issue));
+    return result;
+  }
+  if (const auto fault = check_type(root, header ? "CityJSONFeature" : "CityJSON"))
+    return refuse(*fault);
+  state_->header = header.value_or(SequenceHeader{{}, read_crs(root)});
+  if (!header)
+    if (const auto fault = read_transform(root, state_->header.transform)) return refuse(*fault);
+  Model model;
+  if (const auto fault = read_model(root, model)) return refuse(*fault);
+
+  auto source = std::make_shared<CityJsonSource>();
+  source->transform = state_->header.transform;
+  source->is_feature = header.has_value();
+  Document document;
+  document.name = name.line > 0 ? fmt::format("{}:{}", name.file, name.line) : name.file;
+  document.format = name.line > 0 ? Format::cityjson_seq : Format::cityjson;
+  state_->read_buildings(model, name, document, *source, result.issues);
+  source->text = std::move(text);
+  document.source = std::move(source);
+  result.value = std::move(document);
+  return result;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+namespace oriel::detail {
+
+/// The bytes of a file, or of stdin for "-", in order.
+class Input {
+ public:
+  /// The most bytes that one record may have: simdjson counts in 32 bits.
+  static constexpr std::size_t kMaxBytes = 4'000'000'000;
+
+  /// Opens `path`. Throws InputError E101 with the system's reason if that fails.
+  explicit Input(std::string path);
+  ~Input();
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  /// Everything up to the end of the input. Throws InputError E101 if reading fails, E505 beyond
+  /// kMaxBytes. Room for simdjson's padding is reserved behind the text.
+  std::string read_all();
+
+  /// The next line without its line end (LF or CRLF) into `line`; false at the end of the input.
+  /// Throws as `read_all`.
+  bool read_line(std::string& line);
+
+ private:
+  bool fill();
+
+  std::string path_;
+  int descriptor_ = -1;
+  std::string buffer_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace oriel::detail

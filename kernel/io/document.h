@@ -1,0 +1,29 @@
+#pragma once
+
+#include "kernel/io/format.h"
+#include "kernel/model/building.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+namespace detail {
+struct CityJsonSource;
+}
+
+/// One record of a file: a whole CityJSON, OBJ or OFF file, or one line of a CityJSONSeq. It keeps
+/// the text it was read from, so that writing leaves every byte alone that it need not change.
+struct Document {
+  /// The record's name in messages: the file, and for CityJSONSeq the line (`tile.city.jsonl:12`).
+  std::string name;
+  Format format = Format::cityjson;
+  /// The buildings that could be read, in the order of the file. The header line of a CityJSONSeq
+  /// is a record without buildings.
+  std::vector<Building> buildings;
+  /// The CityJSON text and where the buildings stand in it; null for other formats.
+  std::shared_ptr<const detail::CityJsonSource> source;
+};
+
+}  // namespace oriel

@@ -1,0 +1,106 @@
+#include "kernel/io/reader.h"
+
+#include "kernel/io/detail/cityjson_reader.h"
+#include "kernel/io/detail/input.h"
+#include "kernel/io/detail/mesh_reader.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+Format format_to_read(const std::string& path, const ReadOptions& options) {
+  const auto format = options.format ? options.format : format_of(path);
+  const detail::TextName name{path == "-" ? "stdin" : path, 0};
+  if (!format)
+    throw InputError(detail::error_in(
+        name, {"E106",
+               "the format is unknown; expected a name in .city.json, .city.jsonl, .obj or "
+               ".off, or --from cityjson, cityjsonseq, obj or off"}));
+  if (*format == Format::stl)
+    throw InputError(
+        detail::error_in(name, {"E106", "STL is written only: it has no polygons to read"}));
+  return *format;
+}
+
+bool is_blank(const std::string& line) {
+  return line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+}  // namespace
+
+struct Reader::State {
+  State(std::string path, ReadOptions options)
+      : format(format_to_read(path, options)),
+        name{path == "-" ? "stdin" : path, 0},
+        input(std::move(path)),
+        cityjson(std::move(options.lod)) {}
+
+  std::string read_text();
+  Checked<Document> read_file();
+  std::optional<Checked<Document>> read_line();
+
+  Format format;
+  detail::TextName name;
+  detail::Input input;
+  detail::CityJsonReader cityjson;
+  std::optional<detail::SequenceHeader> header;
+  bool is_done = false;
+};
+
+Reader::Reader(std::string path, ReadOptions options)
+    : state_(std::make_unique<State>(std::move(path), std::move(options))) {}
+
+Reader::~Reader() = default;
+Reader::Reader(Reader&&) noexcept = default;
+Reader& Reader::operator=(Reader&&) noexcept = default;
+
+Format Reader::format() const { return state_->format; }
+
+std::optional<Checked<Document>> Reader::next() {
+  if (state_->is_done) return std::nullopt;
+  if (state_->format == Format::cityjson_seq) return state_->read_line();
+  state_->is_done = true;
+  return state_->read_file();
+}
+
+std::string Reader::State::read_text() {
+  std::string text = input.read_all();
+  if (const std::size_t bom = text.size() - detail::without_bom(text).size(); bom > 0)
+    text.erase(0, bom);
+  return text;
+}
+
+Checked<Document> Reader::State::read_file() {
+  std::string text = read_text();
+  if (text.empty()) return {std::nullopt, {detail::error_in(name, {"E102", "the file is empty"})}};
+  if (format == Format::obj) return detail::read_obj(text, name);
+  if (format == Format::off) return detail::read_off(text, name);
+  return cityjson.read(std::move(text), name, std::nullopt);
+}
+
+std::optional<Checked<Document>> Reader::State::read_line() {
+  std::string line;
+  do {
+    if (!input.read_line(line)) {
+      is_done = true;
+      if (header) return std::nullopt;
+      return Checked<Document>{
+          std::nullopt,
+          {detail::error_in({name.file, 0}, {"E102",
+                                             "the file is empty; expected a CityJSON "
+                                             "header line"})}};
+    }
+    ++name.line;
+    if (name.line == 1) line.erase(0, line.size() - detail::without_bom(line).size());
+  } while (is_blank(line));
+  auto record = cityjson.read(std::move(line), name, header);
+  if (!header && record.value) header = cityjson.header();
+  if (!header) is_done = true;
+  return record;
+}
+
+}  // namespace oriel

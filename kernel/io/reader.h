@@ -1,0 +1,53 @@
+#pragma once
+
+#include "kernel/io/document.h"
+#include "kernel/io/format.h"
+#include "kernel/model/issue.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace oriel {
+
+/// How to read.
+struct ReadOptions {
+  /// The level of detail to take, exactly as written in the input. Default: of each building with
+  /// its parts the highest that occurs.
+  std::optional<std::string> lod;
+  /// The format. Default: what the file's name says.
+  std::optional<Format> format;
+};
+
+/// Reads a file record by record, in bounded memory for CityJSONSeq.
+///
+/// CityJSON 1.1 and 2.0: every Building and BuildingPart with a geometry of the chosen level of
+/// detail becomes a Building; of several such geometries the first solid, else the first surface.
+/// OBJ and OFF: one Building, its id the file's stem; a solid if the faces are one closed connected
+/// shell.
+///
+/// What is wrong with the data comes back as issues (docs/errors.md). A fault in one building costs
+/// that building, a fault in a line of a CityJSONSeq that line.
+class Reader {
+ public:
+  /// Opens `path`, or stdin for "-". Throws InputError: E101 the file cannot be opened; E106 the
+  /// format is unknown (no known extension and no ReadOptions::format), or is written only.
+  explicit Reader(std::string path, ReadOptions options = {});
+  ~Reader();
+  Reader(Reader&&) noexcept;
+  Reader& operator=(Reader&&) noexcept;
+
+  /// The next record, or nothing at the end. Without a value the record cannot be used and its
+  /// issues say why. The first record of a CityJSONSeq is its header line; without a header there
+  /// are no further records. Throws InputError E101 if reading fails half-way, E505 for a record of
+  /// more than 4 GB.
+  std::optional<Checked<Document>> next();
+
+  [[nodiscard]] Format format() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace oriel
