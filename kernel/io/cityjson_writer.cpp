@@ -1,0 +1,274 @@
+#include "kernel/io/detail/cityjson_geometry.h"
+#include "kernel/io/detail/fresh_cityjson.h"
+#include "kernel/io/detail/geometry_text.h"
+#include "kernel/io/detail/json_text.h"
+#include "kernel/io/detail/raw_json.h"
+#include "kernel/io/detail/semantics_text.h"
+#include "kernel/io/detail/vertex_pool.h"
+#include "kernel/io/writer.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using detail::append_json;
+using detail::append_json_key;
+using detail::decoded;
+using detail::RawNode;
+
+/// The root object of `text` and what stands around it.
+std::string_view root_of(std::string_view text) {
+  const std::size_t start = text.find('{');
+  return text.substr(start, detail::end_of_value(text, start) - start);
+}
+
+/// Sets members in the object under `key`, which is made if it is not there.
+void set_members(RawNode& node, std::string_view key, const Members& members) {
+  if (members.empty()) return;
+  const std::string_view existing = node.value_of(key);
+  RawNode object(RawNode::is_object(existing) ? existing : "{}");
+  for (const auto& [name, value] : members) {
+    std::string text;
+    std::visit([&](const auto& known) { append_json(text, known); }, value);
+    object.set(name, std::move(text));
+  }
+  node.set(key, object.text());
+}
+
+/// Adds to the array of ids under `key` those that are not in it.
+void add_ids(RawNode& node, std::string_view key, const std::vector<Installation>& added) {
+  const std::string_view existing = node.value_of(key);
+  RawNode array(RawNode::is_array(existing) ? existing : "[]");
+  std::unordered_set<std::string> ids;
+  for (std::size_t i = 0; i < array.size(); ++i) ids.insert(decoded(array.value(i)));
+  bool is_changed = false;
+  for (const Installation& installation : added) {
+    if (!ids.insert(installation.id).second) continue;
+    std::string text;
+    append_json(text, std::string_view(installation.id));
+    array.push_back(std::move(text));
+    is_changed = true;
+  }
+  if (is_changed) node.set(key, array.text());
+}
+
+/// Takes ids out of the array under `key`; an array that gets empty goes too.
+bool remove_ids(RawNode& node, std::string_view key, const std::unordered_set<std::string>& ids) {
+  const std::string_view existing = node.value_of(key);
+  if (!RawNode::is_array(existing)) return false;
+  RawNode array(existing);
+  std::size_t removed = 0;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    if (!ids.contains(decoded(array.value(i)))) continue;
+    array.erase(i);
+    ++removed;
+  }
+  if (removed == array.size() && removed > 0)
+    node.erase(key);
+  else if (removed > 0)
+    node.set(key, array.text());
+  return removed > 0;
+}
+
+class CityJsonWriter {
+ public:
+  CityJsonWriter(const detail::CityJsonSource& source, const Document& document)
+      : source_(source),
+        document_(document),
+        root_(root_of(source.text)),
+        objects_(root_.value_of("CityObjects")) {}
+
+  std::string write(const std::vector<LabelledBuilding>& labelled,
+                    const std::vector<std::string>& removed) {
+    make_pool(labelled);
+    for (const LabelledBuilding& building : labelled) relabel(building);
+    if (!removed.empty()) remove({removed.begin(), removed.end()});
+    if (pool_) exchange_vertices();
+    root_.set("CityObjects", objects_.text());
+    const std::string_view text = source_.text;
+    const std::string_view root = root_of(text);
+    const auto start = static_cast<std::size_t>(root.data() - text.data());
+    std::string result(text.substr(0, start));
+    result += root_.text();
+    result += text.substr(start + root.size());
+    if (document_.format == Format::cityjson_seq) result += '\n';
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::size_t building_index(const std::string& id) const {
+    const auto found = std::ranges::find(document_.buildings, id, &Building::id);
+    if (found == document_.buildings.end())
+      throw std::logic_error("no building '" + id + "' in " + document_.name);
+    return static_cast<std::size_t>(found - document_.buildings.begin());
+  }
+
+  /// Starts the exchange of vertices if a geometry is replaced.
+  void make_pool(const std::vector<LabelledBuilding>& labelled) {
+    std::vector<detail::PlacedSolid> solids;
+    for (const LabelledBuilding& building : labelled)
+      if (building.geometry)
+        solids.push_back(
+            {&*building.geometry, &document_.buildings[building_index(building.building)].frame});
+    if (solids.empty()) return;
+    digits_ = source_.is_feature ? 0 : detail::finer_digits(source_.transform, solids);
+    pool_.emplace(root_.value_of("vertices"), source_.transform, digits_);
+  }
+
+  void relabel(const LabelledBuilding& labelled) {
+    const std::size_t index = building_index(labelled.building);
+    const detail::GeometryPlace place = source_.places[index];
+    RawNode object(objects_.value(place.object));
+    RawNode geometries(object.value_of("geometry"));
+    RawNode geometry(geometries.value(place.geometry));
+    const std::vector<std::string> polygons =
+        labelled.geometry ? replace_geometry(geometry, labelled, document_.buildings[index].frame)
+                          : fill_geometry(geometry, labelled);
+    const std::string lod(geometry.value_of("lod"));
+    geometries.set(place.geometry, geometry.text());
+    object.set("geometry", geometries.text());
+    if (labelled.geometry) object.erase("geographicalExtent");
+    set_members(object, "attributes", labelled.attributes);
+    add_ids(object, "children", labelled.installations);
+    objects_.set(place.object, object.text());
+    for (const Installation& installation : labelled.installations)
+      put_object(installation.id, installation_text(installation, labelled, polygons, lod));
+  }
+
+  /// Adds the labels to a geometry that stays. Returns the texts of its polygons if an installation
+  /// shares them.
+  static std::vector<std::string> fill_geometry(RawNode& geometry,
+                                                const LabelledBuilding& labelled) {
+    const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
+    auto [shape, polygons] = detail::geometry_of(geometry.value_of("boundaries"), kind->depth,
+                                                 !labelled.installations.empty());
+    const std::string_view existing = geometry.value_of("semantics");
+    std::string semantics =
+        detail::filled_semantics(existing, shape, labelled.surface_of_polygon, labelled.surfaces);
+    if (semantics != existing) geometry.set("semantics", std::move(semantics));
+    return std::move(polygons);
+  }
+
+  /// Puts the labelled building's own geometry in the place of the one that is there. Returns the
+  /// texts of its facets.
+  std::vector<std::string> replace_geometry(RawNode& geometry, const LabelledBuilding& labelled,
+                                            const Frame& frame) {
+    detail::SolidText solid =
+        detail::solid_text(*labelled.geometry, pool_->add({&*labelled.geometry, &frame}));
+    std::vector<int> surfaces;
+    for (const int facet : solid.order) {
+      const auto index = static_cast<std::size_t>(facet);
+      const bool has_surface = index < labelled.surface_of_polygon.size();
+      surfaces.push_back(has_surface ? labelled.surface_of_polygon[index] : -1);
+    }
+    std::string type;
+    append_json(type, solid.type);
+    geometry.set("type", std::move(type));
+    geometry.set("boundaries", std::move(solid.boundaries));
+    for (const std::string_view key : {"semantics", "material", "texture"}) geometry.erase(key);
+    std::string semantics = detail::filled_semantics("", solid.shape, surfaces, labelled.surfaces);
+    if (!semantics.empty()) geometry.set("semantics", std::move(semantics));
+    return std::move(solid.facets);
+  }
+
+  static std::string installation_text(const Installation& installation,
+                                       const LabelledBuilding& labelled,
+                                       const std::vector<std::string>& polygons,
+                                       const std::string& lod) {
+    std::string boundaries = "[";
+    std::vector<int> surfaces;
+    for (std::size_t i = 0; i < installation.polygons.size(); ++i) {
+      const std::string& polygon = polygons.at(static_cast<std::size_t>(installation.polygons[i]));
+      if (polygon.empty()) continue;
+      boundaries += (boundaries.size() > 1 ? "," : "") + polygon;
+      surfaces.push_back(i < installation.surfaces.size() ? installation.surfaces[i] : -1);
+    }
+    const detail::GeometryShape shape{0, {{static_cast<int>(surfaces.size())}}};
+    const std::string semantics = detail::filled_semantics("", shape, surfaces, labelled.surfaces);
+
+    Members attributes = installation.attributes;
+    std::erase_if(attributes, [](const auto& member) { return member.first == "oriel_geometry"; });
+    attributes.emplace_back("oriel_geometry", std::string("shared"));
+    std::string text = R"({"type":"BuildingInstallation","attributes":{)";
+    detail::append_members(text, attributes);
+    text += R"(},"parents":[)";
+    append_json(text, std::string_view(labelled.building));
+    text += R"(],"geometry":[{"type":"MultiSurface","lod":)" + lod;
+    text += R"(,"boundaries":)" + boundaries + "]";
+    if (!semantics.empty()) text += R"(,"semantics":)" + semantics;
+    return text + "}]}";
+  }
+
+  /// Replaces the CityObject `id`, or appends it.
+  void put_object(const std::string& id, std::string text) {
+    if (object_of_.empty())
+      for (std::size_t i = 0; i < objects_.size(); ++i) object_of_.try_emplace(objects_.key(i), i);
+    const auto [found, is_new] = object_of_.try_emplace(id, objects_.size());
+    if (is_new)
+      objects_.append(id, std::move(text));
+    else
+      objects_.set(found->second, std::move(text));
+  }
+
+  void remove(const std::unordered_set<std::string>& ids) {
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (ids.contains(objects_.key(i))) {
+        objects_.erase(i);
+        continue;
+      }
+      if (!RawNode::is_object(objects_.value(i))) continue;
+      RawNode object(objects_.value(i));
+      const bool lost_children = remove_ids(object, "children", ids);
+      const bool lost_parents = remove_ids(object, "parents", ids);
+      if (lost_children || lost_parents) objects_.set(i, object.text());
+    }
+  }
+
+  /// Drops the vertices that nothing uses any more and writes the new numbers everywhere.
+  void exchange_vertices() {
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      if (!objects_.is_erased(i)) pool_->mark_used(objects_.value(i));
+    pool_->renumber();
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      objects_.set(i, pool_->renumbered(objects_.value(i)));
+    root_.set("vertices", pool_->text());
+    if (digits_ == 0) return;
+    const Vec3 scale = source_.transform.scale;
+    std::string text;
+    detail::append_json_array(text, std::array{detail::scaled_down(scale.x, digits_),
+                                               detail::scaled_down(scale.y, digits_),
+                                               detail::scaled_down(scale.z, digits_)});
+    RawNode transform(root_.value_of("transform"));
+    transform.set("scale", std::move(text));
+    root_.set("transform", transform.text());
+  }
+
+  const detail::CityJsonSource& source_;
+  const Document& document_;
+  RawNode root_;
+  RawNode objects_;
+  std::unordered_map<std::string, std::size_t> object_of_;
+  std::optional<detail::VertexPool> pool_;
+  /// By how many powers of ten the file's scale gets finer.
+  int digits_ = 0;
+};
+
+}  // namespace
+
+std::string write_cityjson(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                           const WriteOptions& options) {
+  if (document.source)
+    return CityJsonWriter(*document.source, document).write(labelled, options.removed);
+  const detail::CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
+  return CityJsonWriter(fresh, document).write(labelled, options.removed);
+}
+
+}  // namespace oriel

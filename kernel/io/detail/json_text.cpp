@@ -1,0 +1,71 @@
+#include "kernel/io/detail/json_text.h"
+
+#include "kernel/io/detail/text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+template <class Number>
+void append_number(std::string& out, Number number) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  out.append(digits.data(), end);
+}
+
+/// `text` with every byte that is no UTF-8 replaced by U+FFFD.
+std::string repaired(std::string_view text) {
+  std::string result;
+  while (const auto bad = find_non_utf8(text)) {
+    result.append(text.substr(0, *bad)).append("\xEF\xBF\xBD");
+    text.remove_prefix(*bad + 1);
+  }
+  return result.append(text);
+}
+
+}  // namespace
+
+void append_json(std::string& out, std::string_view text) {
+  if (find_non_utf8(text)) return append_json(out, std::string_view(repaired(text)));
+  out += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out.append({'\\', c});
+    else if (static_cast<unsigned char>(c) < 0x20U)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  out += '"';
+}
+
+void append_json(std::string& out, double number) {
+  if (std::isfinite(number))
+    append_number(out, number);
+  else
+    out += "null";
+}
+
+void append_json(std::string& out, std::int64_t number) { append_number(out, number); }
+void append_json(std::string& out, int number) { append_number(out, number); }
+void append_json(std::string& out, bool value) { out += value ? "true" : "false"; }
+
+void append_json_key(std::string& out, std::string_view key) {
+  if (!out.empty() && out.back() != '{') out += ',';
+  append_json(out, key);
+  out += ':';
+}
+
+std::string shortest(double number) {
+  std::string text;
+  append_number(text, number);
+  return text;
+}
+
+}  // namespace oriel::detail

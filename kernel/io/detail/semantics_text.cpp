@@ -1,0 +1,221 @@
+#include "kernel/io/detail/semantics_text.h"
+
+#include "kernel/io/detail/json_text.h"
+#include "kernel/io/detail/raw_json.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <variant>
+
+namespace oriel::detail {
+
+namespace {
+
+std::vector<std::string_view> elements_of(std::string_view text) {
+  std::vector<std::string_view> elements;
+  if (RawNode::is_array(text))
+    for_each_element(text, [&](std::string_view element) { elements.push_back(element); });
+  return elements;
+}
+
+/// The number that stands in "values", or -1 for null and whatever names no surface.
+int surface_number(std::string_view text, int surfaces) {
+  int number = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number && number >= 0 && number < surfaces ? number : -1;
+}
+
+/// "values" as one number a polygon; null stands for all it contains.
+std::vector<int> flat_values(std::string_view values, const GeometryShape& shape, int surfaces) {
+  std::vector<int> flat;
+  const auto part = [](const std::vector<std::string_view>& parts, std::size_t i) {
+    return i < parts.size() ? parts[i] : std::string_view("null");
+  };
+  const std::vector<std::string_view> top = elements_of(values);
+  for (std::size_t body = 0; body < shape.counts.size(); ++body) {
+    const auto shells = shape.depth == 2 ? elements_of(part(top, body)) : top;
+    for (std::size_t shell = 0; shell < shape.counts[body].size(); ++shell) {
+      const auto polygons = shape.depth == 0 ? top : elements_of(part(shells, shell));
+      for (int i = 0; i < shape.counts[body][shell]; ++i)
+        flat.push_back(surface_number(part(polygons, static_cast<std::size_t>(i)), surfaces));
+    }
+  }
+  return flat;
+}
+
+std::string nested_values(const std::vector<int>& flat, const GeometryShape& shape) {
+  std::string text;
+  std::size_t next = 0;
+  const char* body_separator = shape.depth == 2 ? "[" : "";
+  for (const std::vector<int>& body : shape.counts) {
+    text += body_separator;
+    const char* shell_separator = shape.depth > 0 ? "[" : "";
+    for (const int count : body) {
+      text += shell_separator;
+      text += '[';
+      for (int i = 0; i < count; ++i, ++next) {
+        if (i > 0) text += ',';
+        if (flat[next] < 0)
+          text += "null";
+        else
+          append_json(text, flat[next]);
+      }
+      text += ']';
+      shell_separator = ",";
+    }
+    if (shape.depth > 0) text += body.empty() ? "[]" : "]";
+    body_separator = ",";
+  }
+  if (shape.depth == 2) text += shape.counts.empty() ? "[]" : "]";
+  return text;
+}
+
+/// The semantic surfaces of one geometry while ours are added.
+class Filling {
+ public:
+  Filling(std::string_view existing, const GeometryShape& shape,
+          const std::vector<SemanticSurface>& surfaces)
+      : shape_(shape), surfaces_(surfaces), number_of_(surfaces.size(), -1) {
+    if (!RawNode::is_object(existing)) return;
+    const RawNode semantics(existing);
+    existing_ = elements_of(semantics.value_of("surfaces"));
+    flat_ = flat_values(semantics.value_of("values"), shape, static_cast<int>(existing_.size()));
+  }
+
+  /// Gives ours to the polygons that have none; false if no polygon takes one.
+  bool fill(std::span<const int> wanted) {
+    flat_.resize(polygon_count(), -1);
+    const std::size_t count = std::min(wanted.size(), flat_.size());
+    for (std::size_t i = 0; i < count; ++i)
+      if (flat_[i] < 0 && is_surface(wanted[i])) number_of_[index(wanted[i])] = 0;
+    int next = static_cast<int>(existing_.size());
+    for (int& number : number_of_)
+      if (number == 0) number = next++;
+    link_parents(wanted.first(count));
+    bool is_filled = false;
+    for (std::size_t i = 0; i < count; ++i)
+      if (flat_[i] < 0 && is_surface(wanted[i])) {
+        flat_[i] = number_of_[index(wanted[i])];
+        is_filled = true;
+      }
+    return is_filled;
+  }
+
+  [[nodiscard]] std::string surfaces_text() const {
+    std::string text = "[";
+    for (std::size_t i = 0; i < existing_.size(); ++i) {
+      if (i > 0) text += ',';
+      text += with_children(i);
+    }
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      if (number_of_[s] < 0) continue;
+      if (text.size() > 1) text += ',';
+      append_surface(text, s);
+    }
+    return text + "]";
+  }
+
+  [[nodiscard]] std::string values_text() const { return nested_values(flat_, shape_); }
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  [[nodiscard]] bool is_surface(int surface) const {
+    return surface >= 0 && index(surface) < surfaces_.size();
+  }
+
+  [[nodiscard]] std::size_t polygon_count() const {
+    std::size_t count = 0;
+    for (const auto& body : shape_.counts)
+      for (const int polygons : body) count += index(polygons);
+    return count;
+  }
+
+  [[nodiscard]] bool is_opening(int number) const {
+    const std::string_view text = existing_[index(number)];
+    const std::string type =
+        RawNode::is_object(text) ? decoded(RawNode(text).value_of("type")) : "";
+    return type == "Window" || type == "Door";
+  }
+
+  /// Finds for each surface that is added the number of its parent, which may be one that is there.
+  void link_parents(std::span<const int> wanted) {
+    std::vector<int> instead(surfaces_.size(), -1);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (is_surface(wanted[i]) && flat_[i] >= 0 && instead[index(wanted[i])] < 0 &&
+          !is_opening(flat_[i]))
+        instead[index(wanted[i])] = flat_[i];
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+      const int parent = surfaces_[s].parent;
+      if (number_of_[s] < 0 || !is_surface(parent)) continue;
+      const int added = number_of_[index(parent)];
+      const int number = added >= 0 ? added : instead[index(parent)];
+      if (number < 0) continue;
+      parent_of_[s] = number;
+      children_of_[number].push_back(number_of_[s]);
+    }
+  }
+
+  /// The text of a surface that is there, with the children it gains.
+  [[nodiscard]] std::string with_children(std::size_t number) const {
+    const auto added = children_of_.find(static_cast<int>(number));
+    if (added == children_of_.end() || !RawNode::is_object(existing_[number]))
+      return std::string(existing_[number]);
+    RawNode surface(existing_[number]);
+    const std::string_view listed = surface.value_of("children");
+    RawNode children(RawNode::is_array(listed) ? listed : "[]");
+    for (const int child : added->second) children.push_back(std::to_string(child));
+    surface.set("children", children.text());
+    return surface.text();
+  }
+
+  void append_surface(std::string& text, std::size_t s) const {
+    text += '{';
+    append_json_key(text, "type");
+    append_json(text, surfaces_[s].type);
+    if (const auto parent = parent_of_.find(s); parent != parent_of_.end()) {
+      append_json_key(text, "parent");
+      append_json(text, parent->second);
+    }
+    if (const auto children = children_of_.find(number_of_[s]); children != children_of_.end()) {
+      append_json_key(text, "children");
+      append_json_array(text, children->second);
+    }
+    append_members(text, surfaces_[s].members);
+    text += '}';
+  }
+
+  const GeometryShape& shape_;
+  const std::vector<SemanticSurface>& surfaces_;
+  std::vector<std::string_view> existing_;
+  /// The surface of each polygon in the output's numbers, -1 for none.
+  std::vector<int> flat_;
+  /// The output's number of each of our surfaces, -1 if it is not added.
+  std::vector<int> number_of_;
+  std::map<std::size_t, int> parent_of_;
+  std::map<int, std::vector<int>> children_of_;
+};
+
+}  // namespace
+
+void append_members(std::string& out, const Members& members) {
+  for (const auto& [key, value] : members) {
+    append_json_key(out, key);
+    std::visit([&](const auto& known) { append_json(out, known); }, value);
+  }
+}
+
+std::string filled_semantics(std::string_view existing, const GeometryShape& shape,
+                             std::span<const int> surface_of_polygon,
+                             const std::vector<SemanticSurface>& surfaces) {
+  Filling filling(existing, shape, surfaces);
+  if (!filling.fill(surface_of_polygon)) return std::string(existing);
+  RawNode semantics(RawNode::is_object(existing) ? existing : "{}");
+  semantics.set("surfaces", filling.surfaces_text());
+  semantics.set("values", filling.values_text());
+  return semantics.text();
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "kernel/io/document.h"
+#include "kernel/model/labelled_building.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// What to write besides the labels.
+struct WriteOptions {
+  /// Ids of CityObjects to leave out, such as installations that were generalised away. They also
+  /// leave the `children` and `parents` of all other objects.
+  std::vector<std::string> removed;
+};
+
+/// The document as CityJSON with its labels: one file, or of a CityJSONSeq one line with its line
+/// end. What the labels do not concern stays byte for byte.
+///
+/// - Without LabelledBuilding::geometry the chosen geometry keeps its boundaries and gains
+///   semantics: polygons that have a semantic surface keep it, the others get ours, appended behind
+///   the surfaces that are there. Openings have `parent`, and their wall lists them in `children`.
+/// - With it the geometry becomes a Solid (a MultiSolid if it has several lumps) with the facets as
+///   polygons; its material and texture go, and vertices that nothing uses any more leave the file.
+///   New vertices are rounded to the transform's scale; if that is coarser than 1 mm, or would move
+///   a vertex off a facet's plane by more than 2 mm, or would make two vertices one, the file gets
+///   a scale finer by a power of ten. A line of a CityJSONSeq keeps its header's transform.
+/// - Installations become BuildingInstallation objects, children of their building; one with the
+///   same id is replaced. Attributes of the building are added; one with the same name is replaced.
+/// - A document that was not read from CityJSON becomes a CityJSON 2.0 file: lod "3" where the
+///   building has none, scale 0.001, or 1e-6 if the coordinates are no multiples of that.
+///
+/// Writing what was read back with the same labels gives the same bytes. Throws std::logic_error if
+/// a labelled building is not one of the document.
+std::string write_cityjson(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                           const WriteOptions& options = {});
+
+}  // namespace oriel

@@ -1,0 +1,42 @@
+#include "kernel/io/detail/json_text.h"
+
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <rapidcheck.h>
+
+namespace oriel::detail {
+namespace {
+
+TEST_SUITE("kernel/io") {
+  TEST_CASE("any bytes make a JSON string and UTF-8 survives") {
+    CHECK(rc::check([](const std::string& bytes) {
+      std::string text;
+      append_json(text, std::string_view(bytes));
+      RC_ASSERT(nlohmann::json::accept(text));
+    }));
+    std::string text;
+    append_json(text, std::string_view("caf\u00e9 \"\\\n"));
+    CHECK(text == "\"caf\u00e9 \\\"\\\\\\u000a\"");
+    text.clear();
+    append_json(text, std::string_view("a\xE9z"));
+    CHECK(text == "\"a\xEF\xBF\xBDz\"");
+  }
+
+  TEST_CASE("numbers read back to the same double and what is not finite is null") {
+    CHECK(rc::check([](double number) {
+      std::string text;
+      append_json(text, number);
+      if (std::isfinite(number)) RC_ASSERT(nlohmann::json::parse(text).get<double>() == number);
+    }));
+    CHECK(shortest(5403766.115) == "5403766.115");
+    std::string text;
+    append_json_array(text, std::vector<double>{0.1, std::numeric_limits<double>::infinity()});
+    CHECK(text == "[0.1,null]");
+  }
+}
+
+}  // namespace
+}  // namespace oriel::detail
