@@ -1,0 +1,104 @@
+#include "kernel/io/output_file.h"
+
+#include "kernel/io/detail/text.h"
+#include "kernel/model/issue.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+constexpr std::size_t kBuffer = 1 << 20;
+/// Leftovers of crashed runs that may stand in the way of a temporary name.
+constexpr int kMaxTries = 1000;
+
+/// `path` with links at its end resolved; `path` itself if there is no such file yet.
+std::string resolved(const std::string& path) {
+  std::error_code error;
+  const auto target = std::filesystem::canonical(path, error);
+  return error ? path : target.string();
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(resolved(path_)) {
+  if (path_ == "-") {
+    descriptor_ = STDOUT_FILENO;
+    return;
+  }
+  struct stat found {};
+  const bool exists = ::stat(target_.c_str(), &found) == 0;
+  if (exists && S_ISDIR(found.st_mode)) fail(EISDIR);
+  if (exists && !S_ISREG(found.st_mode)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno);
+    return;
+  }
+  open_temporary();
+  if (exists) ::fchmod(descriptor_, found.st_mode & 07777U);
+}
+
+void OutputFile::open_temporary() {
+  const std::string stem = target_ + ".tmp-" + std::to_string(::getpid()) + "-";
+  for (int i = 0; i < kMaxTries; ++i) {
+    const std::string name = stem + std::to_string(i);
+    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) {
+      temporary_ = name;
+      return;
+    }
+    if (errno != EEXIST) break;
+  }
+  fail(errno);
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::fail(int reason) {
+  const detail::TextName name{path_ == "-" ? "stdout" : path_, 0};
+  throw OutputError(detail::error_in(
+      name, {"E601", "cannot be written: " + std::generic_category().message(reason)}));
+}
+
+void OutputFile::append(std::string_view bytes) {
+  buffer_ += bytes;
+  if (buffer_.size() >= kBuffer) flush();
+}
+
+void OutputFile::flush() {
+  std::string_view left = buffer_;
+  while (!left.empty()) {
+    const ssize_t count = ::write(descriptor_, left.data(), left.size());
+    if (count < 0 && errno != EINTR) fail(errno);
+    if (count > 0) left.remove_prefix(static_cast<std::size_t>(count));
+  }
+  buffer_.clear();
+}
+
+void OutputFile::commit() {
+  flush();
+  if (temporary_.empty()) return;
+  if (::fsync(descriptor_) != 0) fail(errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  temporary_.clear();
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.append(bytes);
+  file.commit();
+}
+
+}  // namespace oriel
