@@ -1,0 +1,280 @@
+#include "interpret/annotate.h"
+
+#include "interpret/detail/evaluator.h"
+#include "interpret/detail/names.h"
+#include "interpret/detail/pack.h"
+#include "interpret/detail/polygon_shape.h"
+#include "kernel/model/version.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+using rules::Emission;
+using rules::HostKind;
+
+std::size_t index(int id) { return static_cast<std::size_t>(id); }
+
+/// What a feature is written as.
+struct Role {
+  const Emission* emission = nullptr;
+  /// The class that has the emission: the label or what it is a kind of.
+  std::string label;
+  std::string subclass;
+
+  [[nodiscard]] bool is_installation() const {
+    return emission != nullptr && emission->type == "BuildingInstallation";
+  }
+  [[nodiscard]] bool is_opening() const { return emission != nullptr && !is_installation(); }
+};
+
+Role role_of(const rules::Pack& pack, const std::string& label) {
+  for (rules::ClassId id = rules::index_of(pack.classes, label); id != rules::kNoClass;
+       id = pack.classes[index(id)].parent) {
+    const rules::Class& c = pack.classes[index(id)];
+    if (c.emission) return {&*c.emission, c.name, c.name == label ? "" : label};
+  }
+  return {};
+}
+
+/// Four digits are enough to compare and keep the files short.
+double rounded(double score) { return std::round(score * 1e4) / 1e4; }
+
+class Annotator {
+ public:
+  Annotator(const Building& building, const Segmentation& segmentation, const FeatureTable& table,
+            const Interpretation& interpretation, const RuleBase& base,
+            const AnnotateOptions& options)
+      : building_(building),
+        segmentation_(segmentation),
+        table_(table),
+        interpretation_(interpretation),
+        base_(base),
+        options_(options) {}
+
+  LabelledBuilding run();
+
+ private:
+  void find_roles();
+  void find_polygons();
+  void find_owners();
+  void add_surfaces();
+  void add_parents();
+  void add_installations();
+  void add_attributes();
+
+  /// Features that list a polygon, the smallest first.
+  [[nodiscard]] const std::vector<int>& features_of(const Polygon& polygon) const {
+    return owners_[index(polygon.source)];
+  }
+  /// The smallest feature that lists the polygon and has a role, or -1.
+  [[nodiscard]] int find_labelled(const Polygon& polygon) const;
+  [[nodiscard]] std::string type_of(const Polygon& polygon) const;
+  [[nodiscard]] std::string type_of_top(const Polygon& polygon) const;
+  [[nodiscard]] int surface_around(const Feature& opening) const;
+  [[nodiscard]] Members members_of(int feature) const;
+  [[nodiscard]] bool is_host_surface(const Polygon& polygon) const;
+
+  const Building& building_;
+  const Segmentation& segmentation_;
+  const FeatureTable& table_;
+  const Interpretation& interpretation_;
+  const RuleBase& base_;
+  const AnnotateOptions& options_;
+  std::vector<Role> roles_;
+  /// By source; null for numbers that no polygon has.
+  std::vector<const Polygon*> polygons_;
+  std::vector<std::vector<int>> owners_;
+  /// The surface of every opening that has one.
+  std::map<int, int> opening_surfaces_;
+  double lowest_m_ = 0;
+  LabelledBuilding result_;
+};
+
+LabelledBuilding Annotator::run() {
+  result_.building = building_.id;
+  find_roles();
+  find_polygons();
+  find_owners();
+  add_surfaces();
+  add_parents();
+  add_installations();
+  add_attributes();
+  return std::move(result_);
+}
+
+void Annotator::find_roles() {
+  roles_.resize(segmentation_.features.size());
+  for (const Verdict& verdict : interpretation_.verdicts)
+    roles_[verdict.feature.index()] = role_of(base_.pack(), verdict.label);
+}
+
+void Annotator::find_polygons() {
+  int count = 0;
+  for (const Polygon& polygon : building_.polygons) count = std::max(count, polygon.source + 1);
+  polygons_.assign(index(count), nullptr);
+  for (const Polygon& polygon : building_.polygons) polygons_[index(polygon.source)] = &polygon;
+}
+
+void Annotator::find_owners() {
+  const auto& features = segmentation_.features;
+  std::vector<int> order(features.size());
+  std::iota(order.begin(), order.end(), 0);
+  // Of equal volumes, such as imprints, the later feature is the inner one.
+  std::ranges::sort(order, {}, [&](int f) { return std::pair(features[index(f)].volume_m3, -f); });
+  owners_.resize(polygons_.size());
+  for (const int feature : order)
+    for (const int polygon : features[index(feature)].source_polygons)
+      owners_[index(polygon)].push_back(feature);
+}
+
+int Annotator::find_labelled(const Polygon& polygon) const {
+  for (const int feature : features_of(polygon))
+    if (roles_[index(feature)].emission != nullptr) return feature;
+  return -1;
+}
+
+void Annotator::add_surfaces() {
+  Box box;
+  for (const Polygon& polygon : building_.polygons) box.grow(rules::box_of(building_, polygon));
+  lowest_m_ = box.min.z;
+  result_.surface_of_polygon.assign(owners_.size(), -1);
+  for (const Polygon& polygon : building_.polygons) {
+    const auto next = static_cast<int>(result_.surfaces.size());
+    int& surface = result_.surface_of_polygon[index(polygon.source)];
+    const int feature = find_labelled(polygon);
+    if (feature < 0 || !roles_[index(feature)].is_opening()) {
+      surface = next;
+      result_.surfaces.push_back({type_of(polygon), -1, {}});
+      continue;
+    }
+    const auto [found, is_new] = opening_surfaces_.try_emplace(feature, next);
+    surface = found->second;
+    if (is_new)
+      result_.surfaces.push_back({roles_[index(feature)].emission->type, -1, members_of(feature)});
+  }
+}
+
+std::string Annotator::type_of(const Polygon& polygon) const {
+  const rules::Hosts& hosts = base_.pack().hosts;
+  const double inclination = rules::inclination_deg(rules::area_vector(building_, polygon));
+  switch (rules::kind_of_facet(hosts, inclination)) {
+    case HostKind::roof:
+      return type_of_top(polygon);
+    case HostKind::ground: {
+      const double bottom = rules::box_of(building_, polygon).min.z;
+      const bool is_ground = bottom <= lowest_m_ + hosts.ground_reach_m;
+      return is_ground ? "GroundSurface" : "OuterCeilingSurface";
+    }
+    default:
+      return "WallSurface";
+  }
+}
+
+std::string Annotator::type_of_top(const Polygon& polygon) const {
+  const int labelled = find_labelled(polygon);
+  if (labelled >= 0) return roles_[index(labelled)].emission->top;
+  const auto& features = features_of(polygon);
+  if (features.empty()) return "RoofSurface";
+  const FeatureId innermost{features.front()};
+  const auto host = table_.number(innermost, "host_inclination");
+  const bool is_in_wall = host && rules::kind_of_facet(base_.pack().hosts, *host) == HostKind::wall;
+  const bool is_recess = segmentation_.features[innermost.index()].sense == Sense::hole;
+  return is_in_wall && is_recess ? "OuterFloorSurface" : "RoofSurface";
+}
+
+bool Annotator::is_host_surface(const Polygon& polygon) const {
+  const int surface = result_.surface_of_polygon[index(polygon.source)];
+  if (surface < 0) return false;
+  const std::string& type = result_.surfaces[index(surface)].type;
+  return type == "WallSurface" || type == "RoofSurface";
+}
+
+/// Of the polygons of the facet that the opening lies in, the nearest one that is a wall or a roof;
+/// of several the largest, then the first.
+int Annotator::surface_around(const Feature& opening) const {
+  if (!opening.host_facet) return -1;
+  const Cell& cell = segmentation_.cells[opening.host_facet->cell.index()];
+  std::optional<std::tuple<double, double, int>> best;
+  for (const int source : cell.facets[index(opening.host_facet->facet)].polygons) {
+    const Polygon* polygon = polygons_[index(source)];
+    if (polygon == nullptr || !is_host_surface(*polygon)) continue;
+    const double distance = rules::distance_m(rules::box_of(building_, *polygon), opening.box);
+    const double area = length(rules::area_vector(building_, *polygon));
+    const std::tuple key(distance, -area, source);
+    if (!best || key < *best) best = key;
+  }
+  return best ? result_.surface_of_polygon[index(std::get<2>(*best))] : -1;
+}
+
+void Annotator::add_parents() {
+  for (const auto& [feature, surface] : opening_surfaces_)
+    result_.surfaces[index(surface)].parent =
+        surface_around(segmentation_.features[index(feature)]);
+}
+
+Members Annotator::members_of(int feature) const {
+  const Verdict& verdict = interpretation_.verdicts[index(feature)];
+  const Role& role = roles_[index(feature)];
+  Members members = {{"oriel_id", table_.id(verdict.feature)}, {"oriel_label", role.label}};
+  if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
+  members.emplace_back("oriel_score", rounded(verdict.score));
+  members.emplace_back("oriel_rule", verdict.rule);
+  return members;
+}
+
+void Annotator::add_installations() {
+  std::vector<std::vector<int>> polygons(roles_.size());
+  for (const Polygon& polygon : building_.polygons)
+    for (const int feature : features_of(polygon))
+      if (roles_[index(feature)].is_installation()) {
+        polygons[index(feature)].push_back(polygon.source);
+        break;
+      }
+  for (std::size_t feature = 0; feature < roles_.size(); ++feature) {
+    if (polygons[feature].empty()) continue;
+    const Emission& emission = *roles_[feature].emission;
+    Installation installation;
+    installation.id = table_.id(FeatureId{static_cast<int>(feature)});
+    installation.attributes = {{"class", emission.class_code}};
+    const auto code = emission.function.find(options_.codelist);
+    if (code != emission.function.end()) {
+      installation.attributes.emplace_back("function", code->second);
+      installation.attributes.emplace_back("oriel_codelist", options_.codelist);
+    }
+    for (auto& member : members_of(static_cast<int>(feature)))
+      installation.attributes.push_back(std::move(member));
+    std::ranges::sort(polygons[feature]);
+    for (const int polygon : polygons[feature])
+      installation.surfaces.push_back(result_.surface_of_polygon[index(polygon)]);
+    installation.polygons = std::move(polygons[feature]);
+    result_.installations.push_back(std::move(installation));
+  }
+}
+
+void Annotator::add_attributes() {
+  result_.attributes = {{"oriel_version", std::string(kVersion)},
+                        {"oriel_pack", base_.name() + " " + base_.version()},
+                        {"oriel_pack_sha256", base_.sha256()}};
+  for (const auto& attribute : options_.attributes) result_.attributes.push_back(attribute);
+}
+
+}  // namespace
+
+LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
+                          const FeatureTable& table, const FeatureGraph& /*graph*/,
+                          const Interpretation& interpretation, const RuleBase& base,
+                          const AnnotateOptions& options) {
+  return Annotator(building, segmentation, table, interpretation, base, options).run();
+}
+
+}  // namespace oriel

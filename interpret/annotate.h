@@ -1,0 +1,43 @@
+#pragma once
+
+#include "interpret/rule_base.h"
+#include "kernel/model/building.h"
+#include "kernel/model/feature_graph.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/labelled_building.h"
+#include "kernel/model/segmentation.h"
+
+#include <string>
+
+namespace oriel {
+
+struct AnnotateOptions {
+  /// Which codes installations get, one of RuleBase::codelists(); a class without a code in it gets
+  /// neither `function` nor `oriel_codelist`.
+  std::string codelist = "sig3d";
+  /// Written on the building after oriel_version, oriel_pack and oriel_pack_sha256; such as
+  /// oriel_config_sha256.
+  Members attributes;
+};
+
+/// What is to be written about a building whose features were labelled (docs/formats.md).
+///
+/// Every input polygon gets a semantic surface. A polygon belongs to the smallest feature that
+/// lists it; features without a label pass it on to the next larger one. All polygons of a feature
+/// whose class the pack emits as Window or Door make one surface, whose parent is the surface of
+/// the wall or roof polygon around it (-1 if there is none). Every other polygon is a surface by
+/// itself, named by its normal and the pack's `hosts:`: WallSurface; looking up RoofSurface, or
+/// OuterFloorSurface on a feature whose class says so and in unlabelled recesses of walls; looking
+/// down GroundSurface near the building's lowest point and OuterCeilingSurface above.
+///
+/// Every feature whose class is emitted as BuildingInstallation and that has polygons becomes an
+/// Installation with all its polygons but those of installations inside it.
+///
+/// `segmentation`, `table`, `graph` and `interpretation` are of `building`, with the same features.
+LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
+                          const FeatureTable& table, const FeatureGraph& graph,
+                          const Interpretation& interpretation, const RuleBase& base,
+                          const AnnotateOptions& options = {});
+
+}  // namespace oriel

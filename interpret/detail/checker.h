@@ -1,0 +1,99 @@
+#pragma once
+
+#include "interpret/detail/findings.h"
+#include "interpret/detail/names.h"
+#include "interpret/detail/pack.h"
+#include "interpret/detail/syntax.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace oriel::rules {
+
+/// How many operands and operators one expression, and all of a pack, may come to after macros are
+/// put in.
+inline constexpr std::size_t kMostInExpression = 10'000;
+inline constexpr std::size_t kMostInPack = 200'000;
+
+/// Looks up every name of an expression and gives every part its type and dimension. Typed
+/// expressions go into `pack.code`; what is wrong goes into `findings`:
+/// R204 … R208 unknown names, R222 too large, R230 dimensions differ, R231 a unit is missing,
+/// R232 the wrong type, R234 unknown word, R235 mm@map outside generalise, R236 self or other out
+/// of reach, R247 a macro that needs itself.
+class Checker {
+ public:
+  Checker(Pack& pack, Names& names, Findings& findings)
+      : pack_(&pack), names_(&names), findings_(&findings) {}
+
+  /// Inside `generalise:` lengths may be stated in mm@map.
+  void allow_map_units(bool is_allowed) { is_map_allowed_ = is_allowed; }
+
+  /// A condition, or kNoExpr and an error.
+  ExprId condition(const Syntax& syntax);
+  /// A number or a condition, or kNoExpr and an error.
+  ExprId term(const Syntax& syntax);
+  /// A number of no feature, with the dimension if one is given; or kNoExpr and an error.
+  ExprId constant(const Syntax& syntax, std::optional<Dimension> dimension = {});
+
+ private:
+  ExprId check(const Syntax& syntax);
+  ExprId check_by_kind(const Syntax& syntax);
+  bool is_too_much(Span where);
+
+  // Names.
+  ExprId check_number(const Syntax& syntax);
+  ExprId check_parameter(const Syntax& syntax);
+  ExprId check_name(const Syntax& syntax);
+  ExprId check_attribute(const Syntax& syntax, int column);
+  ExprId check_macro(const Syntax& syntax, Macro& macro);
+  ExprId check_is(const Syntax& syntax);
+  ExprId check_host(const Syntax& syntax, int level);
+  ExprId check_quantifier(const Syntax& syntax);
+  ExprId make_quantifier(Op op, int relation, int level, ExprId where, Span span);
+  std::optional<int> level_of(const Syntax& syntax);
+  void report_unknown_name(const Syntax& syntax);
+  void report_unknown_class(const Syntax& syntax);
+
+  // Operators.
+  ExprId check_call(const Syntax& syntax);
+  ExprId check_negate(const Syntax& syntax);
+  ExprId check_logic(const Syntax& syntax, Op op);
+  ExprId check_binary(const Syntax& syntax);
+  ExprId check_arithmetic(const Syntax& syntax);
+  ExprId check_comparison(const Syntax& syntax);
+  ExprId check_range(const Syntax& syntax);
+  ExprId check_list(const Syntax& syntax);
+  ExprId check_similarity(const Syntax& syntax);
+  ExprId check_as_number(const Syntax& syntax);
+  ExprId check_as_condition(const Syntax& syntax);
+  ExprId check_word(const Syntax& syntax, ExprId text);
+  bool expect_same(const Syntax& left, ExprId left_id, const Syntax& right, ExprId right_id);
+  bool report_missing_unit(const Syntax& number, const Syntax& other, Dimension wanted);
+
+  ExprId add(Expr expr);
+  [[nodiscard]] const Expr& at(ExprId id) const {
+    return pack_->code[static_cast<std::size_t>(id)];
+  }
+  [[nodiscard]] std::string_view text_of(const Syntax& syntax) const;
+  ExprId fail(const char* code, Span where, std::string sentence);
+  int word_number(const std::string& word);
+
+  Pack* pack_;
+  Names* names_;
+  Findings* findings_;
+  bool is_map_allowed_ = false;
+  int macro_depth_ = 0;
+  int level_ = 0;
+  /// Operands and operators looked at: of the expression at hand, and of the pack.
+  std::size_t in_expression_ = 0;
+  std::size_t in_pack_ = 0;
+};
+
+/// "a length", "yes or no", "a text".
+std::string describe(const Expr& expr);
+
+/// True for a number that was written without a unit.
+bool is_bare_number(const Syntax& syntax);
+
+}  // namespace oriel::rules

@@ -1,0 +1,221 @@
+#include "interpret/detail/checker.h"
+#include "interpret/detail/parser.h"
+#include "interpret/detail/suggest.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel::rules {
+
+namespace {
+
+const std::vector<std::string>& host_kinds() {
+  static const std::vector<std::string> kinds = {"wall", "roof", "ground"};
+  return kinds;
+}
+
+bool contains(const std::vector<std::string>& list, std::string_view name) {
+  return std::ranges::find(list, name) != list.end();
+}
+
+}  // namespace
+
+ExprId Checker::check_parameter(const Syntax& syntax) {
+  const int index = index_of(pack_->params, syntax.name);
+  if (index < 0) {
+    if (contains(names_->broken_params, syntax.name)) return kNoExpr;
+    return fail("R206", syntax.span,
+                fmt::format("unknown param '{}'{}", syntax.name,
+                            did_you_mean(syntax.name, names_of(pack_->params))));
+  }
+  names_->is_param_used[static_cast<std::size_t>(index)] = true;
+  const Param& param = pack_->params[static_cast<std::size_t>(index)];
+  return add(
+      {.op = Op::parameter, .dimension = param.dimension, .index = index, .span = syntax.span});
+}
+
+std::optional<int> Checker::level_of(const Syntax& syntax) {
+  const bool is_in_macro = macro_depth_ > 0;
+  if (syntax.scope == Syntax::Scope::here) return level_;
+  if (syntax.scope == Syntax::Scope::self && level_ <= 1) return 0;
+  if (syntax.scope == Syntax::Scope::other && level_ >= 1 && !is_in_macro) return level_;
+  std::string sentence = "'self' does not reach into a quantifier inside a quantifier";
+  if (syntax.scope == Syntax::Scope::other)
+    sentence = is_in_macro ? "a macro cannot say 'other'; it is used outside 'where', too"
+                           : "'other' has a meaning only after 'where'";
+  findings_->error("R236", syntax.span, sentence);
+  return std::nullopt;
+}
+
+ExprId Checker::check_name(const Syntax& syntax) {
+  if (const auto column = column_of(syntax.name))
+    return check_attribute(syntax, static_cast<int>(*column));
+  const int macro = index_of(names_->macros, syntax.name);
+  if (macro >= 0 && syntax.scope == Syntax::Scope::here)
+    return check_macro(syntax, names_->macros[static_cast<std::size_t>(macro)]);
+  if (!contains(names_->broken_macros, syntax.name)) report_unknown_name(syntax);
+  return kNoExpr;
+}
+
+void Checker::report_unknown_name(const Syntax& syntax) {
+  const auto macros = names_of(names_->macros);
+  std::vector<std::string> candidates = names_of(feature_schema());
+  candidates.insert(candidates.end(), macros.begin(), macros.end());
+  const std::string near = nearest(syntax.name, candidates);
+  const bool is_macro = contains(macros, near);
+  findings_->error(is_macro ? "R208" : "R204", syntax.name_span,
+                   fmt::format("unknown {} '{}'{}", is_macro ? "macro" : "attribute", syntax.name,
+                               did_you_mean(syntax.name, candidates)));
+}
+
+ExprId Checker::check_attribute(const Syntax& syntax, int column) {
+  const auto level = level_of(syntax);
+  if (!level) return kNoExpr;
+  const Unit unit = feature_schema()[static_cast<std::size_t>(column)].unit;
+  Expr expr{.op = Op::attribute,
+            .dimension = dimension_of(unit),
+            .index = column,
+            .level = *level,
+            .span = syntax.span};
+  expr.levels = 1U << static_cast<unsigned>(*level);
+  if (unit == Unit::text) expr.type = Type::text;
+  if (unit == Unit::yes_no) {
+    expr.op = Op::flag;
+    expr.type = Type::yes_no;
+  }
+  return add(std::move(expr));
+}
+
+ExprId Checker::check_macro(const Syntax& syntax, Macro& macro) {
+  if (macro.is_open)
+    return fail("R247", syntax.span, fmt::format("the macro '{}' needs itself", macro.name));
+  if (macro_depth_ >= kDeepestExpression)
+    return fail("R222", syntax.span, "macros nest no deeper than 64 levels");
+  macro.is_used = true;
+  macro.is_open = true;
+  ++macro_depth_;
+  const ExprId id = check(macro.body);
+  --macro_depth_;
+  macro.is_open = false;
+  return id;
+}
+
+ExprId Checker::check_is(const Syntax& syntax) {
+  const auto level = level_of(syntax);
+  if (!level) return kNoExpr;
+  if (syntax.is_of_host) return check_host(syntax, *level);
+  const ClassId id = index_of(pack_->classes, syntax.name);
+  if (id < 0) {
+    report_unknown_class(syntax);
+    return kNoExpr;
+  }
+  Expr expr{
+      .op = Op::is_class, .type = Type::yes_no, .index = id, .level = *level, .span = syntax.span};
+  expr.levels = 1U << static_cast<unsigned>(*level);
+  return add(std::move(expr));
+}
+
+void Checker::report_unknown_class(const Syntax& syntax) {
+  const std::string& name = syntax.name;
+  if (!syntax.is_of_host && contains(host_kinds(), name)) {
+    findings_->error("R205", syntax.name_span,
+                     fmt::format("'{}' is a kind of host facet: write 'host is {}'", name, name));
+    return;
+  }
+  auto candidates = names_of(pack_->classes);
+  if (syntax.is_of_host)
+    candidates.insert(candidates.end(), host_kinds().begin(), host_kinds().end());
+  findings_->error("R205", syntax.name_span,
+                   fmt::format("unknown class '{}'{}", name, did_you_mean(name, candidates)));
+}
+
+/// host is wall: by the inclination of the host's facet. host is CLASS: exists(host where is
+/// CLASS).
+ExprId Checker::check_host(const Syntax& syntax, int level) {
+  const auto kind = std::ranges::find(host_kinds(), syntax.name);
+  if (kind != host_kinds().end()) {
+    const int index = static_cast<int>(kind - host_kinds().begin());
+    Expr expr{.op = Op::facet_is,
+              .type = Type::yes_no,
+              .index = index,
+              .level = level,
+              .span = syntax.span};
+    expr.levels = 1U << static_cast<unsigned>(level);
+    return add(std::move(expr));
+  }
+  const ClassId id = index_of(pack_->classes, syntax.name);
+  if (id < 0) {
+    report_unknown_class(syntax);
+    return kNoExpr;
+  }
+  Expr test{.op = Op::is_class,
+            .type = Type::yes_no,
+            .index = id,
+            .level = level + 1,
+            .span = syntax.span};
+  test.levels = 1U << static_cast<unsigned>(level + 1);
+  const ExprId where = add(std::move(test));
+  return where == kNoExpr ? kNoExpr
+                          : make_quantifier(Op::exists, index_of(relation_schema(), "host"), level,
+                                            where, syntax.span);
+}
+
+ExprId Checker::check_quantifier(const Syntax& syntax) {
+  const int relation = index_of(relation_schema(), syntax.relation);
+  if (relation < 0)
+    return fail("R207", syntax.relation_span,
+                fmt::format("unknown relation '{}'{}", syntax.relation,
+                            did_you_mean(syntax.relation, names_of(relation_schema()))));
+  // `host is CLASS` needs one level more.
+  if (level_ + 2 >= kMostLevels)
+    return fail("R222", syntax.span, "quantifiers nest no deeper than two levels");
+  ExprId where = kNoExpr;
+  if (!syntax.children.empty()) {
+    ++level_;
+    where = check_as_condition(syntax.children[0]);
+    --level_;
+    if (where == kNoExpr) return kNoExpr;
+  }
+  const Op op = syntax.name == "exists" ? Op::exists
+                : syntax.name == "none" ? Op::none
+                : syntax.name == "all"  ? Op::all
+                                        : Op::count;
+  return make_quantifier(op, relation, level_, where, syntax.span);
+}
+
+/// Conditions on the other feature alone are pushed out of the join: they are evaluated once for
+/// every feature, not once for every pair.
+ExprId Checker::make_quantifier(Op op, int relation, int level, ExprId where, Span span) {
+  const unsigned self = 1U << static_cast<unsigned>(level);
+  const unsigned other = self << 1U;
+  Expr expr{.op = op,
+            .type = op == Op::count ? Type::number : Type::yes_no,
+            .index = relation,
+            .level = level,
+            .span = span};
+  expr.levels = self;
+  std::vector<ExprId> filters, joins;
+  std::vector<ExprId> conditions;
+  if (where != kNoExpr)
+    conditions = at(where).op == Op::all_of ? at(where).args : std::vector<ExprId>{where};
+  for (const ExprId id : conditions)
+    ((at(id).levels & ~other) == 0 ? filters : joins).push_back(id);
+  const auto conjunction = [&](std::vector<ExprId> ids) {
+    if (ids.size() < 2) return ids.empty() ? kNoExpr : ids[0];
+    return add({.op = Op::all_of, .type = Type::yes_no, .args = std::move(ids), .span = span});
+  };
+  expr.filter = conjunction(std::move(filters));
+  expr.join = conjunction(std::move(joins));
+  for (const ExprId id : {expr.filter, expr.join}) {
+    if (id == kNoExpr) continue;
+    expr.levels |= at(id).levels & ~other;
+    expr.height = std::max(expr.height, at(id).height + 1);
+  }
+  return add(std::move(expr));
+}
+
+}  // namespace oriel::rules

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace oriel::rules {
+
+/// A pack of the folder rules/ that was built into the library (interpret/CMakeLists.txt).
+struct EmbeddedPack {
+  std::string_view name;
+  std::string_view text;
+};
+
+/// All of them, sorted by name.
+std::span<const EmbeddedPack> embedded();
+
+}  // namespace oriel::rules

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "interpret/detail/facts.h"
+#include "interpret/detail/pack.h"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace oriel::rules {
+
+/// Features are evaluated so many at a time, so that what is in between stays in the cache.
+inline constexpr std::size_t kBlock = 512;
+
+/// For whom an expression is evaluated: `size` slots (at most kBlock), each with one feature for
+/// every level the expression reads.
+struct Frame {
+  std::array<const int*, kMostLevels> rows{};
+  std::size_t size = 0;
+  /// Where an entry is Truth::no the answer is not needed and may be anything; null: all are
+  /// needed.
+  const Truth* needed = nullptr;
+};
+
+/// What a facet of that inclination is.
+HostKind kind_of_facet(const Hosts& hosts, double inclination_deg);
+
+/// The inclinations of a kind of facet.
+HostRange range_of(const Hosts& hosts, HostKind kind);
+
+/// Evaluates expressions of a pack over the features of a building. Numbers that are unknown are
+/// NaN.
+class Evaluator {
+ public:
+  Evaluator(const Pack& pack, const Facts& facts)
+      : pack_(&pack), facts_(&facts), columns_(pack.code.size()) {}
+
+  /// To be called when memberships have changed: forgets what was evaluated for all features.
+  void forget();
+
+  void numbers(ExprId id, const Frame& frame, std::span<double> out);
+  void truths(ExprId id, const Frame& frame, std::span<Truth> out);
+
+  /// How the others of a quantifier answer.
+  struct Tally {
+    int yes = 0;
+    int unknown = 0;
+    int total = 0;
+  };
+  /// The answers for each slot of `frame`.
+  void tally(ExprId id, const Frame& frame, std::span<Tally> out);
+
+ private:
+  [[nodiscard]] const Expr& at(ExprId id) const {
+    return pack_->code[static_cast<std::size_t>(id)];
+  }
+
+  void gather(const Expr& expr, const Frame& frame, std::span<double> out) const;
+  void apply_all(const Expr& expr, const Frame& frame, std::span<double> out);
+  void count(ExprId id, const Frame& frame, std::span<double> out);
+
+  void flag(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
+  void compare(const Expr& expr, const Frame& frame, std::span<Truth> out);
+  void in_range(const Expr& expr, const Frame& frame, std::span<Truth> out);
+  void in_list(const Expr& expr, const Frame& frame, std::span<Truth> out);
+  void similar(const Expr& expr, const Frame& frame, std::span<Truth> out);
+  void combine(const Expr& expr, const Frame& frame, std::span<Truth> out);
+  void membership(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
+  void facet_kind(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
+  void quantify(ExprId id, const Frame& frame, std::span<Truth> out);
+
+  /// The answers of an expression of one level for all features, kept until forget().
+  const std::vector<Truth>& column(ExprId id, int level);
+
+  struct Pairs;
+  void flush(const Expr& expr, Pairs& pairs, std::span<Tally> out);
+
+  const Pack* pack_;
+  const Facts* facts_;
+  std::vector<std::vector<Truth>> columns_;
+  std::vector<ExprId> kept_;
+};
+
+}  // namespace oriel::rules

@@ -1,0 +1,110 @@
+#include "interpret/detail/arithmetic.h"
+#include "interpret/detail/fold.h"
+#include "interpret/detail/labelling.h"
+
+#include <algorithm>
+
+namespace oriel::rules {
+
+namespace {
+
+using TruthBlock = std::array<Truth, kBlock>;
+
+bool is_any_left(std::span<const Truth> truths) {
+  return std::ranges::any_of(truths, [](Truth t) { return t != Truth::no; });
+}
+
+/// A ramp's ends at the params' values.
+struct Ends {
+  double from = 0;
+  double to = 0;
+};
+
+std::optional<Ends> ends_of(const Pack& pack, const std::optional<Ramp>& ramp) {
+  if (!ramp) return std::nullopt;
+  return Ends{fold(pack, ramp->from).value_or(kUnknown), fold(pack, ramp->to).value_or(kUnknown)};
+}
+
+/// 0 below the ramp, 1 above it; a ramp without width is a step that belongs to the upper side.
+double climb(Ends ends, double x) {
+  if (x >= ends.to) return 1;
+  if (x <= ends.from) return 0;
+  return (x - ends.from) / (ends.to - ends.from);
+}
+
+/// The same downhill: 1 up to the ramp's start, 0 from its end on.
+double descend(Ends ends, double x) {
+  if (x <= ends.from) return 1;
+  if (x >= ends.to) return 0;
+  return (ends.to - x) / (ends.to - ends.from);
+}
+
+/// Weighted means of the known terms; a feature for which none is known makes the rule unknown.
+void score(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
+           Judgement& judgement) {
+  std::array<double, kBlock> sum{}, weight{}, term;
+  for (const ScoreTerm& t : rule.score) {
+    judge_term(pack, t, evaluator, frame, std::span(term).first(frame.size));
+    for (std::size_t i = 0; i < frame.size; ++i) {
+      if (std::isnan(term[i])) continue;
+      sum[i] += t.weight * term[i];
+      weight[i] += t.weight;
+    }
+  }
+  for (std::size_t i = 0; i < frame.size; ++i) {
+    judgement.score[i] = weight[i] > 0 ? sum[i] / weight[i] : 0;
+    if (weight[i] == 0) judgement.truth[i] = std::min(judgement.truth[i], Truth::unknown);
+  }
+}
+
+}  // namespace
+
+void judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator, const Frame& frame,
+                std::span<double> out) {
+  if (pack.code[static_cast<std::size_t>(term.value)].type == Type::yes_no) {
+    TruthBlock truths;
+    evaluator.truths(term.value, frame, std::span(truths).first(out.size()));
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = truths[i] == Truth::unknown ? kUnknown : truths[i] == Truth::yes ? 1 : 0;
+    return;
+  }
+  const auto rise = ends_of(pack, term.rise);
+  const auto fall = ends_of(pack, term.fall);
+  evaluator.numbers(term.value, frame, out);
+  for (double& value : out) {
+    if (std::isnan(value)) continue;
+    const double up = rise ? climb(*rise, value) : 1;
+    const double down = fall ? descend(*fall, value) : 1;
+    value = std::min(up, down);
+  }
+}
+
+void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
+           Judgement& judgement) {
+  const auto truth = std::span(judgement.truth).first(frame.size);
+  for (std::size_t i = 0; i < frame.size; ++i)
+    truth[i] = frame.needed == nullptr || frame.needed[i] != Truth::no ? Truth::yes : Truth::no;
+  Frame open = frame;
+  open.needed = truth.data();
+  TruthBlock answers;
+  const auto answer = std::span(answers).first(frame.size);
+  for (const ExprId id : rule.require) {
+    if (!is_any_left(truth)) return;
+    evaluator.truths(id, open, answer);
+    std::ranges::transform(truth, answer, truth.begin(),
+                           [](Truth p, Truth q) { return std::min(p, q); });
+  }
+  for (const ExprId id : rule.unless) {
+    if (!is_any_left(truth)) return;
+    evaluator.truths(id, open, answer);
+    std::ranges::transform(truth, answer, truth.begin(),
+                           [](Truth p, Truth veto) { return veto == Truth::yes ? Truth::no : p; });
+  }
+  if (!is_any_left(truth)) return;
+  if (rule.score.empty())
+    std::ranges::fill(std::span(judgement.score).first(frame.size), 1.0);
+  else
+    score(pack, rule, evaluator, open, judgement);
+}
+
+}  // namespace oriel::rules

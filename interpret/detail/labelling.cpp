@@ -1,0 +1,162 @@
+#include "interpret/detail/labelling.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace oriel::rules {
+
+namespace {
+
+std::size_t index(int id) { return static_cast<std::size_t>(id); }
+
+}  // namespace
+
+Labelling::Labelling(const Pack& pack, Facts& facts)
+    : pack_(&pack),
+      facts_(&facts),
+      evaluator_(pack, facts),
+      choices_(facts.rows),
+      first_candidate_(facts.rows, -1),
+      is_unknown_(pack.classes.size()) {}
+
+std::vector<Choice> Labelling::run() {
+  for (const Step& step : pack_->steps) {
+    if (step.is_decision)
+      run_decision(step);
+    else
+      run_predicates(step);
+  }
+  return std::move(choices_);
+}
+
+/// Predicates that need each other start from "no" everywhere and are raised until nothing changes:
+/// their least fixpoint, whatever the order.
+void Labelling::run_predicates(const Step& step) {
+  bool has_changed = true;
+  while (has_changed) {
+    has_changed = false;
+    for (const int id : step.rules) has_changed = apply_predicate(rule(id)) || has_changed;
+    has_changed = has_changed && step.is_recursive;
+  }
+}
+
+bool Labelling::apply_predicate(const Rule& rule) {
+  evaluator_.forget();
+  bool has_changed = false;
+  Frame frame;
+  Judgement judgement;
+  std::vector<Truth> truths(facts_->rows);
+  for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
+    frame.size = std::min(kBlock, facts_->rows - begin);
+    frame.rows[0] = facts_->row_numbers.data() + begin;
+    judge(*pack_, rule, evaluator_, frame, judgement);
+    std::copy_n(judgement.truth.begin(), frame.size,
+                truths.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
+  for (std::size_t row = 0; row < truths.size(); ++row)
+    has_changed = raise_membership(rule.label, row, truths[row]) || has_changed;
+  return has_changed;
+}
+
+/// Also raises what `id` is a kind of, where that is the union of its subclasses.
+bool Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
+  if (truth == Truth::no) return false;
+  bool has_changed = false;
+  for (ClassId at = id; at != kNoClass; at = pack_->classes[index(at)].parent) {
+    const Class& c = pack_->classes[index(at)];
+    if (at != id && c.is_abstract && c.has_rules) continue;
+    Truth& member = facts_->membership[index(at)][row];
+    has_changed = has_changed || truth > member;
+    member = std::max(member, truth);
+  }
+  return has_changed;
+}
+
+void Labelling::run_decision(const Step& step) {
+  evaluator_.forget();
+  candidates_.clear();
+  std::ranges::fill(first_candidate_, -1);
+  for (const int id : step.rules) {
+    auto& unknown = is_unknown_[index(rule(id).label)];
+    if (unknown.empty()) unknown.assign(facts_->rows, false);
+  }
+  for (const int id : step.rules) collect(id);
+  for (std::size_t row = 0; row < facts_->rows; ++row) decide(row);
+  settle_membership(step);
+}
+
+/// A label is final, but a later stratum may refine it to a subclass.
+bool Labelling::is_open(std::size_t row, ClassId label) const {
+  const int winner = choices_[row].rule;
+  if (winner < 0) return true;
+  const ClassId decided = rule(winner).label;
+  return decided != label && is_within(pack_->classes, label, decided);
+}
+
+void Labelling::collect(int id) {
+  std::array<Truth, kBlock> open;
+  Frame frame;
+  frame.needed = open.data();
+  Judgement judgement;
+  const ClassId label = rule(id).label;
+  for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
+    frame.size = std::min(kBlock, facts_->rows - begin);
+    frame.rows[0] = facts_->row_numbers.data() + begin;
+    for (std::size_t i = 0; i < frame.size; ++i) open[i] = truth_of(is_open(begin + i, label));
+    judge(*pack_, rule(id), evaluator_, frame, judgement);
+    for (std::size_t i = 0; i < frame.size; ++i) {
+      const std::size_t row = begin + i;
+      if (judgement.truth[i] == Truth::unknown) is_unknown_[index(label)][row] = true;
+      if (judgement.truth[i] != Truth::yes) continue;
+      candidates_.push_back({id, judgement.score[i], first_candidate_[row]});
+      first_candidate_[row] = static_cast<int>(candidates_.size()) - 1;
+    }
+  }
+}
+
+/// By what wins: enough score, then priority, then score, then the rule's id.
+bool Labelling::beats(const Candidate& p, const Candidate& q) const {
+  const bool is_p_enough = p.score >= pack_->decide.min_score;
+  const bool is_q_enough = q.score >= pack_->decide.min_score;
+  if (is_p_enough != is_q_enough) return is_p_enough;
+  const Rule& first = rule(p.rule);
+  const Rule& second = rule(q.rule);
+  if (first.priority != second.priority) return first.priority > second.priority;
+  if (p.score != q.score) return p.score > q.score;
+  return first.id < second.id;
+}
+
+void Labelling::decide(std::size_t row) {
+  const Candidate* best = nullptr;
+  for (int c = first_candidate_[row]; c >= 0; c = candidates_[index(c)].next)
+    if (best == nullptr || beats(candidates_[index(c)], *best)) best = &candidates_[index(c)];
+  if (best == nullptr || best->score < pack_->decide.min_score) return;
+  const Rule& winner = rule(best->rule);
+  Choice choice{best->rule, best->score, best->score, -1, false};
+  const Candidate* second = nullptr;
+  for (int c = first_candidate_[row]; c >= 0; c = candidates_[index(c)].next) {
+    const Candidate& other = candidates_[index(c)];
+    if (rule(other.rule).label == winner.label) continue;
+    if (second == nullptr || beats(other, *second)) second = &other;
+    if (rule(other.rule).priority != winner.priority) continue;
+    choice.margin = std::min(choice.margin, best->score - other.score);
+    choice.is_ambiguous = choice.margin < pack_->decide.ambiguous_below;
+  }
+  if (second != nullptr) choice.runner_up = second->rule;
+  choices_[row] = choice;
+}
+
+/// A feature that is decided is no other class of this stratum, though a rule for it was unknown.
+void Labelling::settle_membership(const Step& step) {
+  for (std::size_t row = 0; row < facts_->rows; ++row) {
+    const int winner = choices_[row].rule;
+    if (winner >= 0) raise_membership(rule(winner).label, row, Truth::yes);
+    for (const int id : step.rules) {
+      const ClassId label = rule(id).label;
+      if (is_unknown_[index(label)][row] && is_open(row, label))
+        raise_membership(label, row, Truth::unknown);
+    }
+  }
+}
+
+}  // namespace oriel::rules

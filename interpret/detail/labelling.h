@@ -1,0 +1,81 @@
+#pragma once
+
+#include "interpret/detail/evaluator.h"
+#include "interpret/detail/facts.h"
+#include "interpret/detail/pack.h"
+
+#include <span>
+#include <vector>
+
+namespace oriel::rules {
+
+/// How a rule judges one block of features.
+struct Judgement {
+  std::array<Truth, kBlock> truth;
+  /// Where `truth` is yes: 0…1.
+  std::array<double, kBlock> score;
+};
+
+/// Judges the features of `frame` by `rule`: `require` holds only on yes, `unless` vetoes only on
+/// yes; a rule without score scores 1, and one of whose score terms none is known is unknown.
+/// Where frame.needed is no, the truth is no.
+void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
+           Judgement& judgement);
+
+/// 0…1, or NaN where the term is unknown: how the values of a term are judged.
+void judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator, const Frame& frame,
+                std::span<double> out);
+
+/// What was decided for one feature.
+struct Choice {
+  /// The rule that won, or -1.
+  int rule = -1;
+  double score = 0;
+  double margin = 0;
+  /// The best rule for another label, or -1.
+  int runner_up = -1;
+  bool is_ambiguous = false;
+};
+
+/// Runs the rules of a pack over one building, stratum by stratum. Afterwards `facts.membership`
+/// says of every feature and class whether it is one.
+class Labelling {
+ public:
+  Labelling(const Pack& pack, Facts& facts);
+
+  std::vector<Choice> run();
+
+ private:
+  struct Candidate {
+    int rule = -1;
+    double score = 0;
+    /// The next candidate of the same feature, or -1.
+    int next = -1;
+  };
+
+  void run_predicates(const Step& step);
+  bool apply_predicate(const Rule& rule);
+  void run_decision(const Step& step);
+  void collect(int rule);
+  [[nodiscard]] bool is_open(std::size_t row, ClassId label) const;
+  void decide(std::size_t row);
+  [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
+  void settle_membership(const Step& step);
+  bool raise_membership(ClassId id, std::size_t row, Truth truth);
+
+  [[nodiscard]] const Rule& rule(int id) const {
+    return pack_->rules[static_cast<std::size_t>(id)];
+  }
+
+  const Pack* pack_;
+  Facts* facts_;
+  Evaluator evaluator_;
+  std::vector<Choice> choices_;
+  /// Candidates of the decision at hand, and the first of every feature, or -1.
+  std::vector<Candidate> candidates_;
+  std::vector<int> first_candidate_;
+  /// Classes whose rules were unknown for a feature: bit by row, per class of the decision at hand.
+  std::vector<std::vector<bool>> is_unknown_;
+};
+
+}  // namespace oriel::rules

@@ -1,0 +1,141 @@
+#include "interpret/detail/load.h"
+
+#include "interpret/detail/loader.h"
+#include "interpret/detail/section.h"
+#include "interpret/detail/sha256.h"
+#include "interpret/detail/strata.h"
+#include "interpret/detail/yaml_tree.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::rules {
+
+namespace {
+
+constexpr const char* kSchema = "oriel/1";
+
+/// More would make the checks of a pack from a stranger slow.
+constexpr std::size_t kMostClasses = 256;
+constexpr std::size_t kMostNames = 1024;
+
+const std::vector<std::string>& top_keys() {
+  static const std::vector<std::string> keys = {"schema", "pack",  "params", "hosts", "classes",
+                                                "macros", "rules", "decide", "emit",  "generalise"};
+  return keys;
+}
+
+/// Sections of the language that this version does not have yet.
+const std::vector<std::string>& later_keys() {
+  static const std::vector<std::string> keys = {"extends", "relations", "groups", "iterate"};
+  return keys;
+}
+
+void check_schema(Section& top, Findings& findings) {
+  const YamlNode* schema = top.require("schema");
+  if (schema == nullptr) return;
+  const auto text = read_text(*schema, "'schema'", findings);
+  if (text && *text != kSchema)
+    findings.error("R212", schema->span,
+                   "the schema is " + std::string(kSchema) + ", not '" + *text + "'");
+}
+
+std::size_t size_of(const YamlNode* node) {
+  return node == nullptr ? 0 : std::max(node->entries.size(), node->items.size());
+}
+
+bool is_small_enough(const Section& top, Findings& findings) {
+  bool is_small = true;
+  const auto check = [&](const char* key, std::size_t most) {
+    const YamlNode* node = top.find(key);
+    if (size_of(node) <= most) return;
+    is_small = false;
+    findings.error(
+        "R213", node->span,
+        std::string("'") + key + "' has no more than " + std::to_string(most) + " entries");
+  };
+  check("classes", kMostClasses);
+  for (const char* key : {"params", "macros", "rules", "emit", "generalise"})
+    check(key, kMostNames);
+  return is_small;
+}
+
+void read_sections(Section& top, Loader& loader) {
+  const auto read = [&](const YamlNode* node, void (*reader)(const YamlNode&, Loader&)) {
+    if (node != nullptr) reader(*node, loader);
+  };
+  read(top.require("pack"), read_header);
+  read(top.find("params"), read_params);
+  read(top.find("hosts"), read_hosts);
+  read(top.find("classes"), read_classes);
+  read(top.find("macros"), read_macros);
+  read(top.require("rules"), read_rules);
+  read(top.find("decide"), read_decide);
+  read(top.find("emit"), read_emit);
+  read(top.find("generalise"), read_generalise);
+}
+
+/// A macro that no rule uses is checked all the same.
+void report_unused_macros(Loader& loader) {
+  std::vector<const Macro*> unused;
+  for (const Macro& macro : loader.names.macros)
+    if (!macro.is_used) unused.push_back(&macro);
+  for (const Macro* macro : unused) {
+    loader.findings.warning("R242", macro->span,
+                            fmt::format("the macro '{}' is never used", macro->name));
+    loader.checker.term(macro->body);
+  }
+}
+
+void report_unused_params(const Loader& loader) {
+  for (std::size_t i = 0; i < loader.pack.params.size(); ++i)
+    if (const Param& param = loader.pack.params[i]; !loader.names.is_param_used[i])
+      loader.findings.warning("R241", param.span,
+                              fmt::format("the param '{}' is never used", param.name));
+}
+
+/// A class called window or door is written as what it says, unless the pack says otherwise.
+void add_default_emissions(Pack& pack) {
+  for (Class& c : pack.classes) {
+    if (c.emission || (c.name != "window" && c.name != "door")) continue;
+    c.emission = Emission{c.name == "window" ? "Window" : "Door", "", {}, "RoofSurface"};
+  }
+}
+
+void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
+  check_traps(root, findings);
+  Section top(root, "a pack", top_keys(), findings, later_keys());
+  if (!top.is_map()) return;
+  check_schema(top, findings);
+  if (!is_small_enough(top, findings)) return;
+  Loader loader(pack, findings);
+  read_sections(top, loader);
+  if (findings.has_errors()) return;
+  report_unused_macros(loader);
+  report_unused_params(loader);
+  find_strata(pack, findings);
+  add_default_emissions(pack);
+}
+
+}  // namespace
+
+std::shared_ptr<const Pack> load(std::string text, std::string file, std::vector<Issue>& issues) {
+  const std::string digest = sha256(text);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  auto pack = std::make_shared<Pack>(Source(std::move(file), std::move(text)));
+  pack->sha256 = digest;
+  Findings findings(pack->source);
+  const std::size_t bad = find_bad_byte(pack->source.text());
+  if (bad != std::string_view::npos)
+    findings.error("R200", {bad, bad}, "this is no UTF-8 text");
+  else if (const auto root = parse_yaml(findings))
+    read_pack(*root, *pack, findings);
+  issues = findings.issues();
+  return findings.has_errors() ? nullptr : pack;
+}
+
+}  // namespace oriel::rules

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "interpret/detail/pack.h"
+#include "kernel/model/issue.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace oriel::rules {
+
+/// The pack in `text`, or null if it has errors; `issues` is set to all findings. `file` names it
+/// in places.
+std::shared_ptr<const Pack> load(std::string text, std::string file, std::vector<Issue>& issues);
+
+}  // namespace oriel::rules

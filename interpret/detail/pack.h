@@ -1,0 +1,148 @@
+#pragma once
+
+#include "interpret/detail/expr.h"
+#include "interpret/detail/source.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel::rules {
+
+using ClassId = int;
+inline constexpr ClassId kNoClass = -1;
+
+struct Param {
+  std::string name;
+  double value = 0;
+  Dimension dimension;
+  std::optional<std::pair<double, double>> range;
+  std::string why;
+  Span span;
+};
+
+/// How often a class is expected: `typical: {per storey: 2 .. 12}`.
+struct Typical {
+  std::string per;
+  double low = 0;
+  double high = 0;
+};
+
+/// How objects of a class are written: `emit:`.
+struct Emission {
+  std::string type;
+  std::string class_code;
+  /// Code list -> code.
+  std::map<std::string, std::string> function;
+  /// What its faces that look up are.
+  std::string top;
+};
+
+struct Class {
+  std::string name;
+  ClassId parent = kNoClass;
+  bool is_abstract = false;
+  /// True if a rule names it as its label. An abstract class without rules is the union of its
+  /// subclasses.
+  bool has_rules = false;
+  std::vector<Typical> typical;
+  std::optional<Emission> emission;
+  Span span;
+};
+
+/// A ramp from 0 to 1 (rise) or from 1 to 0 (fall).
+struct Ramp {
+  ExprId from = kNoExpr;
+  ExprId to = kNoExpr;
+};
+
+/// One term of a score: a number judged by its ramps, or a condition (1 if it holds, else 0).
+struct ScoreTerm {
+  ExprId value = kNoExpr;
+  std::optional<Ramp> rise;
+  std::optional<Ramp> fall;
+  double weight = 1;
+};
+
+struct Rule {
+  std::string id;
+  ClassId label = kNoClass;
+  int priority = 0;
+  std::vector<ExprId> require;
+  std::vector<ExprId> unless;
+  std::vector<ScoreTerm> score;
+  Span span;
+};
+
+/// Rules that are run together: those of one strongly connected component of predicates, or all
+/// rules of one stratum that compete for the label.
+struct Step {
+  bool is_decision = false;
+  /// Predicates that need each other run to their least fixpoint.
+  bool is_recursive = false;
+  /// Indices into Pack::rules.
+  std::vector<int> rules;
+};
+
+/// An angle's range that makes a facet a wall, a roof or a ground; bounds included, walls first.
+struct HostRange {
+  double low_deg = 0;
+  double high_deg = 0;
+};
+
+struct Hosts {
+  HostRange wall{75, 105};
+  HostRange roof{0, 75};
+  HostRange ground{105, 180};
+  /// A face that looks down is ground if it lies no higher than this over the building's lowest
+  /// point.
+  double ground_reach_m = 0.5;
+};
+
+struct Decide {
+  double min_score = 0;
+  double ambiguous_below = 0;
+};
+
+/// An entry of `generalise:`.
+struct Entry {
+  std::string id;
+  double scale_from = 0;
+  double scale_to = 0;
+  /// kNoClass: any feature.
+  ClassId target = kNoClass;
+  ExprId when = kNoExpr;
+  std::string operation;
+  Span span;
+};
+
+/// A pack, checked: every name is looked up and every expression has a type.
+struct Pack {
+  explicit Pack(Source text) : source(std::move(text)) {}
+
+  Source source;
+  std::string sha256;
+  std::string name;
+  std::string version;
+  Hosts hosts;
+  std::vector<Param> params;
+  std::vector<Class> classes;
+  std::vector<Rule> rules;
+  std::vector<Step> steps;
+  Decide decide;
+  std::vector<Entry> entries;
+  Code code;
+  /// The words that texts are compared with; the value of a text is the number of its word.
+  std::vector<std::string> words;
+};
+
+/// True if `id` is `ancestor` or beneath it.
+inline bool is_within(const std::vector<Class>& classes, ClassId id, ClassId ancestor) {
+  while (id != kNoClass && id != ancestor) id = classes[static_cast<std::size_t>(id)].parent;
+  return id == ancestor && id != kNoClass;
+}
+
+}  // namespace oriel::rules

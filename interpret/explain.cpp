@@ -1,0 +1,87 @@
+#include "interpret/explain.h"
+
+#include "interpret/detail/labelling.h"
+#include "interpret/detail/proof.h"
+
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using rules::Evaluator;
+using rules::ExprId;
+using rules::Pack;
+using rules::Prover;
+using rules::Rule;
+using rules::Truth;
+
+std::vector<ConditionReport> prove(Prover& prover, const std::vector<ExprId>& conditions) {
+  std::vector<ConditionReport> reports;
+  for (const ExprId id : conditions)
+    for (ConditionReport& report : prover.conditions(id)) reports.push_back(std::move(report));
+  return reports;
+}
+
+/// `unless` is one condition to the rule, whatever `and` joins in it.
+std::vector<ConditionReport> prove_vetoes(Prover& prover, const std::vector<ExprId>& conditions) {
+  std::vector<ConditionReport> reports;
+  for (const ExprId id : conditions) reports.push_back(prover.condition(id));
+  return reports;
+}
+
+RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, Prover& prover) {
+  const rules::Class& label = pack.classes[static_cast<std::size_t>(rule.label)];
+  RuleReport report;
+  report.id = rule.id;
+  report.label = label.name;
+  report.priority = rule.priority;
+  report.is_predicate = label.is_abstract;
+  report.place = pack.source.place(rule.span.begin);
+  rules::Judgement judgement;
+  rules::judge(pack, rule, evaluator, prover.frame(), judgement);
+  report.outcome = judgement.truth[0] == Truth::yes       ? Outcome::holds
+                   : judgement.truth[0] == Truth::unknown ? Outcome::unknown
+                                                          : Outcome::fails;
+  if (report.outcome == Outcome::holds) report.score = judgement.score[0];
+  report.require = prove(prover, rule.require);
+  report.unless = prove_vetoes(prover, rule.unless);
+  for (const rules::ScoreTerm& term : rule.score) report.terms.push_back(prover.term(term));
+  return report;
+}
+
+bool is_better(const RuleReport& p, const RuleReport& q) {
+  if (p.priority != q.priority) return p.priority > q.priority;
+  return p.score != q.score ? p.score > q.score : p.id < q.id;
+}
+
+std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    if (reports[i].is_predicate || reports[i].outcome != Outcome::holds) continue;
+    if (!best || is_better(reports[i], reports[*best])) best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                    const Interpretation& interpretation, FeatureId feature) {
+  const Pack& pack = base.pack();
+  rules::Facts facts(pack, table, graph);
+  rules::Labelling(pack, facts).run();
+  Evaluator evaluator(pack, facts);
+  Prover prover(pack, table, evaluator, feature.value);
+  Explanation explanation;
+  explanation.building = table.building();
+  explanation.feature = table.id(feature);
+  explanation.verdict = interpretation.verdicts[feature.index()];
+  explanation.min_score = pack.decide.min_score;
+  for (const Rule& rule : pack.rules)
+    explanation.rules.push_back(report_of(pack, rule, evaluator, prover));
+  explanation.best = find_best(explanation.rules);
+  return explanation;
+}
+
+}  // namespace oriel

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "interpret/rule_base.h"
+#include "kernel/model/feature_graph.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/interpretation.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+enum class Outcome { fails, unknown, holds };
+
+/// One condition of a rule, judged for one feature.
+struct ConditionReport {
+  /// As it stands in the pack, and where.
+  std::string text;
+  Place place;
+  Outcome outcome = Outcome::unknown;
+  /// What was found, what was asked for and by how much it is missed: "height = 0.61 m",
+  /// "<= 0.60 m", "misses by 0.01 m"; empty where that makes no sense.
+  std::string value;
+  std::string bound;
+  std::string miss;
+  /// Attributes of the feature that have no value.
+  std::vector<std::string> missing;
+  /// What `and`, `or` and `not` are made of.
+  std::vector<ConditionReport> parts;
+};
+
+/// One term of a score.
+struct TermReport {
+  std::string text;
+  Place place;
+  /// 0…1; missing where the term is unknown and drops out with its weight.
+  std::optional<double> judged;
+  double weight = 1;
+  std::string value;
+  /// "rises 1.60 m .. 2.00 m, falls 2.60 m .. 3.20 m".
+  std::string bound;
+  std::vector<std::string> missing;
+};
+
+struct RuleReport {
+  std::string id;
+  std::string label;
+  int priority = 0;
+  /// True if the label is abstract: the rule does not compete.
+  bool is_predicate = false;
+  Place place;
+  Outcome outcome = Outcome::unknown;
+  /// Where the rule holds.
+  double score = 0;
+  std::vector<ConditionReport> require;
+  std::vector<ConditionReport> unless;
+  std::vector<TermReport> terms;
+};
+
+/// Why a feature has its label, or none: the whole proof, in the order of the pack.
+struct Explanation {
+  std::string building;
+  std::string feature;
+  Verdict verdict;
+  double min_score = 0;
+  /// The rule that would be first if `min_score` were 0: an index into `rules`.
+  std::optional<std::size_t> best;
+  std::vector<RuleReport> rules;
+};
+
+/// Runs the pack again over the building and judges every condition of every rule for `feature`,
+/// which must be a row of `table`. `interpretation` is that of the same pack, table and graph.
+Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                    const Interpretation& interpretation, FeatureId feature);
+
+/// For a terminal: the verdict, then every rule with its conditions, a line each, with
+/// file:line:column.
+std::string to_text(const Explanation& explanation);
+
+/// The same as one JSON object on one line (docs/rules.md).
+std::string to_json(const Explanation& explanation);
+
+}  // namespace oriel

@@ -1,0 +1,97 @@
+#include "interpret/detail/json_text.h"
+#include "interpret/explain.h"
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::json_number;
+using rules::json_string;
+
+const char* name_of(Outcome outcome) {
+  if (outcome == Outcome::unknown) return "unknown";
+  return outcome == Outcome::holds ? "holds" : "fails";
+}
+
+std::string member(const char* name, const std::string& json) {
+  return fmt::format("{}:{}", json_string(name), json);
+}
+
+/// `,"name":json`
+std::string next(const char* name, const std::string& json) {
+  return fmt::format(",{}", member(name, json));
+}
+
+template <class Element, class Write>
+std::string list(const std::vector<Element>& elements, Write write) {
+  std::string text;
+  for (const Element& element : elements) {
+    if (!text.empty()) text += ",";
+    text += write(element);
+  }
+  return fmt::format("[{}]", text);
+}
+
+std::string place_json(const Place& place) {
+  return fmt::format(R"({{"file":{},"line":{},"column":{}}})", json_string(place.file), place.line,
+                     place.column);
+}
+
+std::string condition_json(const ConditionReport& report) {
+  std::string text = member("text", json_string(report.text));
+  text += next("place", place_json(report.place));
+  text += next("outcome", json_string(name_of(report.outcome)));
+  if (!report.value.empty()) text += next("value", json_string(report.value));
+  if (!report.bound.empty()) text += next("bound", json_string(report.bound));
+  if (!report.miss.empty()) text += next("miss", json_string(report.miss));
+  if (!report.missing.empty()) text += next("missing", list(report.missing, json_string));
+  if (!report.parts.empty()) text += next("parts", list(report.parts, condition_json));
+  return fmt::format("{{{}}}", text);
+}
+
+std::string term_json(const TermReport& report) {
+  std::string text = member("text", json_string(report.text));
+  text += next("place", place_json(report.place));
+  text += next("judged", report.judged ? json_number(*report.judged) : "null");
+  text += next("weight", json_number(report.weight));
+  text += next("value", json_string(report.value));
+  text += next("bound", json_string(report.bound));
+  if (!report.missing.empty()) text += next("missing", list(report.missing, json_string));
+  return fmt::format("{{{}}}", text);
+}
+
+std::string rule_json(const RuleReport& rule) {
+  std::string text = member("id", json_string(rule.id));
+  text += next("label", json_string(rule.label));
+  text += next("priority", std::to_string(rule.priority));
+  text += next("predicate", rule.is_predicate ? "true" : "false");
+  text += next("place", place_json(rule.place));
+  text += next("outcome", json_string(name_of(rule.outcome)));
+  text += next("score", rule.outcome == Outcome::holds ? json_number(rule.score) : "null");
+  text += next("require", list(rule.require, condition_json));
+  text += next("unless", list(rule.unless, condition_json));
+  text += next("terms", list(rule.terms, term_json));
+  return fmt::format("{{{}}}", text);
+}
+
+}  // namespace
+
+std::string to_json(const Explanation& explanation) {
+  const Verdict& verdict = explanation.verdict;
+  std::string text = member("building", json_string(explanation.building));
+  text += next("feature", json_string(explanation.feature));
+  text += next("label", json_string(verdict.label));
+  text += next("score", json_number(verdict.score));
+  text += next("margin", json_number(verdict.margin));
+  text += next("rule", json_string(verdict.rule));
+  text += next("runner_up", json_string(verdict.runner_up));
+  text += next("min_score", json_number(explanation.min_score));
+  text += next("best",
+               explanation.best ? json_string(explanation.rules[*explanation.best].id) : "null");
+  text += next("rules", list(explanation.rules, rule_json));
+  return fmt::format("{{{}}}", text);
+}
+
+}  // namespace oriel

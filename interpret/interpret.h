@@ -1,0 +1,21 @@
+#pragma once
+
+#include "interpret/rule_base.h"
+#include "kernel/model/feature_graph.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/interpretation.h"
+
+namespace oriel {
+
+/// Labels the features of one building by the rules of a pack: one verdict for every row of
+/// `table`, in their order. A label is a concrete class of the pack, or empty where no rule holds
+/// with enough score. Rules run in strata; within one the highest priority wins, then the highest
+/// score, then the smallest rule id (docs/rules.md, "Meaning").
+///
+/// Depends on the table's values and the graph's pairs alone: the same for features in another
+/// order. Issues: R260 (note) for every verdict whose margin is below the pack's
+/// `decide: ambiguous_below`.
+Interpretation interpret(const RuleBase& base, const FeatureTable& table,
+                         const FeatureGraph& graph);
+
+}  // namespace oriel

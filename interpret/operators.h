@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// An argument that an operator takes in a pack: `do: {enlarge: {to: 0.5 mm@map, anchor: sill}}`.
+struct OperatorArgument {
+  std::string name;
+  /// "length", "ratio" or "word".
+  std::string kind;
+  std::string meaning;
+};
+
+/// What a pack may ask for under `do:`.
+struct OperatorKind {
+  std::string name;
+  std::string meaning;
+  std::vector<OperatorArgument> arguments;
+  /// False for the names that are kept for operators to come; a pack that uses one is refused
+  /// (R252).
+  bool is_built = false;
+};
+
+/// All operators by name; `omit` is built.
+const std::vector<OperatorKind>& operator_table();
+
+}  // namespace oriel

@@ -1,0 +1,116 @@
+#include "interpret/plan.h"
+
+#include "interpret/detail/labelling.h"
+#include "interpret/detail/names.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::ClassId;
+using rules::Entry;
+using rules::kBlock;
+using rules::Truth;
+
+InputError bad_scale(double scale) {
+  Issue issue;
+  issue.code = "R250";
+  issue.sentence = fmt::format("a target scale is 1:N with N of at least 1, not 1:{}", scale);
+  return InputError(std::move(issue));
+}
+
+/// The class of every feature, kNoClass for those without a label of this pack.
+std::vector<ClassId> labels_of(const rules::Pack& pack, const Interpretation& interpretation,
+                               std::size_t rows) {
+  std::vector<ClassId> labels(rows, rules::kNoClass);
+  for (const Verdict& verdict : interpretation.verdicts)
+    if (verdict.feature.is_valid() && verdict.feature.index() < rows)
+      labels[verdict.feature.index()] = rules::index_of(pack.classes, verdict.label);
+  return labels;
+}
+
+/// Predicates are found again by their rules; a decided class is what the interpretation says.
+void set_membership(const rules::Pack& pack, const std::vector<ClassId>& labels,
+                    rules::Facts& facts) {
+  rules::Labelling(pack, facts).run();
+  for (ClassId id = 0; id < static_cast<ClassId>(pack.classes.size()); ++id) {
+    const rules::Class& c = pack.classes[static_cast<std::size_t>(id)];
+    if (c.is_abstract && c.has_rules) continue;
+    auto& members = facts.membership[static_cast<std::size_t>(id)];
+    for (std::size_t row = 0; row < facts.rows; ++row)
+      members[row] = rules::truth_of(rules::is_within(pack.classes, labels[row], id));
+  }
+}
+
+bool is_asking_for_class(const rules::Code& code, rules::ExprId id) {
+  if (id == rules::kNoExpr) return false;
+  const rules::Expr& expr = code[static_cast<std::size_t>(id)];
+  if (expr.op == rules::Op::is_class) return true;
+  for (const rules::ExprId arg : expr.args)
+    if (is_asking_for_class(code, arg)) return true;
+  return is_asking_for_class(code, expr.filter) || is_asking_for_class(code, expr.join);
+}
+
+/// Marks the features of a block that `entry` fits.
+void find_fitting(const rules::Pack& pack, const Entry& entry, const std::vector<ClassId>& labels,
+                  rules::Evaluator& evaluator, rules::Frame frame, std::span<Truth> fits) {
+  for (std::size_t i = 0; i < frame.size; ++i) {
+    const ClassId label = labels[static_cast<std::size_t>(frame.rows[0][i])];
+    const bool is_meant =
+        entry.target == rules::kNoClass || rules::is_within(pack.classes, label, entry.target);
+    fits[i] = rules::truth_of(is_meant);
+  }
+  if (entry.when == rules::kNoExpr) return;
+  std::array<Truth, kBlock> answers;
+  frame.needed = fits.data();
+  evaluator.truths(entry.when, frame, std::span(answers).first(frame.size));
+  for (std::size_t i = 0; i < frame.size; ++i) fits[i] = std::min(fits[i], answers[i]);
+}
+
+}  // namespace
+
+Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+          const Interpretation& interpretation, double scale_denominator) {
+  if (!std::isfinite(scale_denominator) || scale_denominator < 1)
+    throw bad_scale(scale_denominator);
+  const rules::Pack& pack = base.pack();
+  const std::vector<ClassId> labels = labels_of(pack, interpretation, table.rows());
+  rules::Facts facts(pack, table, graph);
+  facts.scale = scale_denominator;
+  const bool needs_classes = std::ranges::any_of(
+      pack.entries, [&](const Entry& e) { return is_asking_for_class(pack.code, e.when); });
+  if (needs_classes) set_membership(pack, labels, facts);
+
+  std::vector<const Entry*> chosen(facts.rows, nullptr);
+  rules::Evaluator evaluator(pack, facts);
+  for (const Entry& entry : pack.entries) {
+    if (scale_denominator < entry.scale_from || scale_denominator > entry.scale_to) continue;
+    for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
+      rules::Frame frame;
+      frame.size = std::min(kBlock, facts.rows - begin);
+      frame.rows[0] = facts.row_numbers.data() + begin;
+      std::array<Truth, kBlock> fits;
+      find_fitting(pack, entry, labels, evaluator, frame, std::span(fits).first(frame.size));
+      for (std::size_t i = 0; i < frame.size; ++i)
+        if (fits[i] == Truth::yes && chosen[begin + i] == nullptr) chosen[begin + i] = &entry;
+    }
+  }
+
+  Plan result;
+  result.scale = scale_denominator;
+  for (std::size_t row = 0; row < chosen.size(); ++row)
+    if (chosen[row] != nullptr)
+      result.steps.push_back(
+          {FeatureId{static_cast<int>(row)}, chosen[row]->operation, chosen[row]->id});
+  return result;
+}
+
+}  // namespace oriel

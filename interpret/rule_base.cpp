@@ -1,0 +1,90 @@
+#include "interpret/rule_base.h"
+
+#include "interpret/detail/embedded.h"
+#include "interpret/detail/load.h"
+#include "interpret/detail/pack.h"
+#include "interpret/detail/suggest.h"
+#include "interpret/detail/yaml_tree.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace oriel {
+
+namespace {
+
+Checked<RuleBase> refuse(const std::string& path, std::string sentence) {
+  Issue issue;
+  issue.code = "R200";
+  issue.sentence = std::move(sentence);
+  issue.place.file = path;
+  return {std::nullopt, {std::move(issue)}};
+}
+
+/// The first bytes of a file, one more than a pack may have at most; nothing if it cannot be read.
+std::optional<std::string> read_file(const std::string& path) {
+  std::error_code problem;
+  if (std::filesystem::is_directory(path, problem)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::string text(rules::kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) return std::nullopt;
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+}  // namespace
+
+const std::string& RuleBase::name() const { return pack_->name; }
+const std::string& RuleBase::version() const { return pack_->version; }
+const std::string& RuleBase::file() const { return pack_->source.file(); }
+const std::string& RuleBase::sha256() const { return pack_->sha256; }
+std::size_t RuleBase::rule_count() const { return pack_->rules.size(); }
+
+std::vector<std::string> RuleBase::labels() const {
+  std::vector<std::string> names;
+  for (const rules::Class& c : pack_->classes)
+    if (!c.is_abstract) names.push_back(c.name);
+  return names;
+}
+
+std::vector<std::string> RuleBase::codelists() const {
+  std::set<std::string> lists;
+  for (const rules::Class& c : pack_->classes)
+    if (c.emission)
+      for (const auto& [list, code] : c.emission->function) lists.insert(list);
+  return {lists.begin(), lists.end()};
+}
+
+Checked<RuleBase> load_pack(std::string text, std::string file) {
+  Checked<RuleBase> checked;
+  if (auto pack = rules::load(std::move(text), std::move(file), checked.issues))
+    checked.value.emplace(std::move(pack));
+  return checked;
+}
+
+Checked<RuleBase> load_pack_file(const std::string& path) {
+  if (const auto text = embedded_pack(path)) return load_pack(std::string(*text), path + ".yaml");
+  auto text = read_file(path);
+  if (!text)
+    return refuse(path, "there is no pack here that can be read; the packs built in are: " +
+                            rules::join(embedded_packs()));
+  return load_pack(std::move(*text), path);
+}
+
+std::optional<std::string_view> embedded_pack(std::string_view name) {
+  for (const rules::EmbeddedPack& pack : rules::embedded())
+    if (pack.name == name) return pack.text;
+  return std::nullopt;
+}
+
+std::vector<std::string> embedded_packs() {
+  std::vector<std::string> names;
+  for (const rules::EmbeddedPack& pack : rules::embedded()) names.emplace_back(pack.name);
+  return names;
+}
+
+}  // namespace oriel

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "kernel/model/issue.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace rules {
+struct Pack;
+}
+
+/// A rule pack that was checked and is ready to be run. A handle: copies share the pack, which
+/// never changes, so that threads may use one at a time.
+class RuleBase {
+ public:
+  explicit RuleBase(std::shared_ptr<const rules::Pack> pack) : pack_(std::move(pack)) {}
+
+  /// As the pack states them.
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] const std::string& version() const;
+  /// The name it was loaded under, as places show it.
+  [[nodiscard]] const std::string& file() const;
+  /// Of the pack's text, 64 hexadecimal digits.
+  [[nodiscard]] const std::string& sha256() const;
+  /// The labels it may give, in the order of the pack.
+  [[nodiscard]] std::vector<std::string> labels() const;
+  [[nodiscard]] std::size_t rule_count() const;
+  /// The code lists that `emit:` has codes for, sorted.
+  [[nodiscard]] std::vector<std::string> codelists() const;
+
+  /// The inside, for interpret's own files.
+  [[nodiscard]] const rules::Pack& pack() const { return *pack_; }
+
+ private:
+  std::shared_ptr<const rules::Pack> pack_;
+};
+
+/// The pack in `text` (docs/rules.md is the language), called `file` in places. All findings come
+/// at once, in the order of the text, each with code (R2xx), file:line:column, source line and
+/// caret; with an error among them there is no value. Nothing is read but `text`.
+Checked<RuleBase> load_pack(std::string text, std::string file);
+
+/// The embedded pack called `path`, else the pack in the file at `path`. R200 if there is neither.
+Checked<RuleBase> load_pack_file(const std::string& path);
+
+/// The text of a pack that was built into the library ("residential"), or nothing.
+std::optional<std::string_view> embedded_pack(std::string_view name);
+
+/// The names of the packs that were built in, sorted.
+std::vector<std::string> embedded_packs();
+
+}  // namespace oriel

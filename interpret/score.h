@@ -1,0 +1,95 @@
+#pragma once
+
+#include "kernel/model/vec3.h"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+/// Something a labelling found.
+struct Prediction {
+  std::string building;
+  std::string id;
+  std::string label;
+  /// In the input's coordinates.
+  Box box;
+};
+
+/// Something that is there.
+struct ExpectedObject {
+  std::string building;
+  std::string id;
+  std::string label;
+  /// "installation" makes an object of label `other` one that nobody named.
+  std::string subclass;
+  /// The feature's box where the truth has one (pane and niche), else the object's.
+  Box box;
+  /// False for objects that are not in the stripped model.
+  bool has_faces = true;
+};
+
+struct ScoreOptions {
+  /// Boxes are grown by this on every side before they are compared.
+  double grow_m = 0.05;
+  /// Intersection over union from which on two boxes match.
+  double min_iou = 0.5;
+  /// Labels of the truth that no feature is expected to have.
+  std::vector<std::string> not_scored = {"wall", "roof", "ground", "other"};
+};
+
+/// How a class was found. Ratios without a denominator are NaN.
+struct ClassScore {
+  std::size_t true_positives = 0;
+  std::size_t false_positives = 0;
+  std::size_t false_negatives = 0;
+
+  [[nodiscard]] double precision() const;
+  [[nodiscard]] double recall() const;
+  [[nodiscard]] double f1() const;
+};
+
+/// One thing that went wrong: an object that was not found (no prediction), a prediction of nothing
+/// (no object), or an object that was called something else.
+struct Miss {
+  std::string building;
+  std::string truth_id;
+  std::string truth_label;
+  std::string prediction_id;
+  std::string prediction_label;
+  double iou = 0;
+};
+
+struct Score {
+  /// By label: those of the truth that are scored, and those that were predicted.
+  std::map<std::string, ClassScore> classes;
+  /// (label of the truth, predicted label) -> count; "-" stands for nothing there, nothing found.
+  std::map<std::pair<std::string, std::string>, std::size_t> confusion;
+  /// Sorted by building, label and id.
+  std::vector<Miss> misses;
+  /// Predictions on objects that are left out.
+  std::size_t neutral = 0;
+
+  /// The mean F1 of the classes that the truth has; NaN if it has none.
+  [[nodiscard]] double macro_f1() const;
+};
+
+/// Compares predictions with the truth of the same buildings. A prediction matches an object of the
+/// same building and label whose grown box has IoU >= min_iou; one to one, the largest IoU first,
+/// ties by the ids. Objects without faces, and `other` installations, are left out; a prediction
+/// that meets one of them (IoU >= min_iou) and nothing else is left out, too. What remains is
+/// wrong; where it meets an object of another label the confusion table says which. Predictions
+/// without a label are not looked at.
+Score score(const std::vector<Prediction>& predictions, const std::vector<ExpectedObject>& truth,
+            const ScoreOptions& options = {});
+
+/// A table for a terminal: a line a class, the macro-F1, what was taken for what, and the misses.
+std::string to_text(const Score& score);
+
+/// The same as one JSON object on one line (docs/formats.md).
+std::string to_json(const Score& score);
+
+}  // namespace oriel
