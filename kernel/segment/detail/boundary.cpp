@@ -104,8 +104,11 @@ int Boundary::trace(int first) {
 
 void Boundary::attach(int l, int f) {
   LoopRecord& record = loops_[index(l)];
+  const Outline points = outline(l);
   record.facet = f;
-  record.area = signed_area(outline(l), world_->planes.normal(facet(f).side));
+  record.area = signed_area(points, world_->planes.normal(facet(f).side));
+  // A loop of no width is the outer loop of a sliver: no hole is so thin.
+  record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(points);
   facets_[index(f)].loops.push_back(l);
   on_side_[facet(f).side].area += record.area;
 }
@@ -171,7 +174,7 @@ std::vector<int> Boundary::retrace(int f, const std::vector<int>& extra) {
 /// the holes inside it.
 std::vector<int> Boundary::part(int f) {
   std::vector<int> outer, holes;
-  for (const int l : facet(f).loops) (loop(l).area > 0 ? outer : holes).push_back(l);
+  for (const int l : facet(f).loops) (loop(l).is_hole ? holes : outer).push_back(l);
   if (outer.size() <= 1) return {f};
 
   const Vec3 normal = world_->planes.normal(facet(f).side);

@@ -43,7 +43,8 @@ class Boundary {
   struct LoopRecord {
     int first = -1;
     int facet = -1;   ///< -1: dead
-    double area = 0;  ///< signed about the facet's normal
+    double area = 0;       ///< signed about the facet's normal
+    bool is_hole = false;  ///< else an outer loop, be it a sliver
   };
   struct FacetRecord {
     Side side = -1;  ///< -1: dead

@@ -242,15 +242,14 @@ Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, Feat
 }
 
 std::vector<Boundary> part_into_lumps(Boundary&& body) {
-  const auto pieces = pieces_of(body);
   std::vector<Boundary> lumps;
-  if (pieces.size() == 1) {
+  std::vector<std::vector<int>> outers, cavities;
+  for (const auto& piece : pieces_of(body))
+    (volume_of(body, piece) > 0 ? outers : cavities).push_back(piece);
+  if (outers.size() <= 1) {
     lumps.push_back(std::move(body));
     return lumps;
   }
-  std::vector<std::vector<int>> outers, cavities;
-  for (const auto& piece : pieces)
-    (volume_of(body, piece) > 0 ? outers : cavities).push_back(piece);
   std::vector<std::vector<int>> all = outers;
   for (const auto& cavity : cavities) {
     const Vec3 eye = body.at(body.loop(body.facet(cavity[0]).loops[0]).first);

@@ -150,7 +150,7 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
   candidate.lump = finder.find(candidate.region);
   candidate.is_checked = true;
   const Lump& lump = candidate.lump;
-  if (!lump.is_finite || lump.volume <= 0 || (!region.is_material && !lump.has_bend)) return false;
+  if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 || (!region.is_material && !lump.has_bend)) return false;
   for (const int r : lump.regions) {
     const auto value =
         key(section.regions[at(r)], lump.new_area, old_area(section, region), limit());

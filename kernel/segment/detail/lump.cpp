@@ -15,6 +15,7 @@ LumpFinder::LumpFinder(const Boundary& body, const Section& section)
       section_(section),
       normal_class_(body.world().planes.class_of(section.plane)),
       plane_rank_(body.world().planes.rank_of(section.plane)),
+      previous_(section.crossings.size(), -1),
       material_region_(section.loops.size(), -1),
       air_region_(section.loops.size(), -1),
       edge_stamp_(at(body.half_edge_count()), 0),
@@ -23,6 +24,7 @@ LumpFinder::LumpFinder(const Boundary& body, const Section& section)
   crossing_of_edge_.reserve(section.crossings.size());
   for (int c = 0; c < std::ssize(section.crossings); ++c) {
     crossing_of_edge_[section.crossings[at(c)].edge] = c;
+    previous_[at(section.crossings[at(c)].next)] = c;
     crossings_of_facet_[body.facet_of(section.crossings[at(c)].edge)].push_back(c);
   }
   for (int r = 0; r < std::ssize(section.regions); ++r)
@@ -108,11 +110,21 @@ void LumpFinder::reach(int c) {
   add_segment(up, crossing.at, body_.at(crossing.edge));
   push(partner.edge);
 
+  if (!has_sound_pieces(c)) lump_.is_sound = false;
   const int region = (is_material_ ? material_region_ : air_region_)[at(crossing.loop)];
   if (region < 0)
     lump_.is_finite = false;
   else if (std::ranges::find(lump_.regions, region) == lump_.regions.end())
     lump_.regions.push_back(region);
+}
+
+/// The pieces of the facet on both sides of the chord have area.
+bool LumpFinder::has_sound_pieces(int c) const {
+  const int f = body_.facet_of(section_.crossings[at(c)].edge);
+  const Vec3 normal = body_.world().planes.normal(body_.facet(f).side);
+  const Outline upper = piece_outline(c), lower = lower_outline(c);
+  return signed_area(upper, normal) > -kThin_m * perimeter(upper) &&
+         signed_area(lower, normal) > -kThin_m * perimeter(lower);
 }
 
 /// What a directed piece of a facet's outline adds to a third of offset × area.
@@ -174,6 +186,22 @@ Outline LumpFinder::piece_outline(int c) const {
     for (; is_up(body_.target(e)); e = body_.next(e)) points.push_back(body_.at(e));
     points.push_back(body_.at(e));
     c = crossing_of(e);
+  } while (c != start);
+  return points;
+}
+
+/// The outline of the piece below the chord.
+Outline LumpFinder::lower_outline(int c) const {
+  Outline points;
+  const int start = c;
+  do {
+    points.push_back(section_.crossings[at(c)].at);
+    int e = body_.next(section_.crossings[at(c)].edge);
+    for (; !is_up(body_.target(e)); e = body_.next(e)) points.push_back(body_.at(e));
+    points.push_back(body_.at(e));
+    const int end = crossing_of(body_.twin(e));
+    points.push_back(section_.crossings[at(end)].at);
+    c = previous_[at(end)];
   } while (c != start);
   return points;
 }

@@ -15,6 +15,9 @@ struct Lump {
   double volume = 0;
   /// Of air: it does not run out into the open. Material is always finite.
   bool is_finite = true;
+  /// Its pieces of facets have positive area. A hole that pokes out of its facet (bad input) makes pieces turned inside
+  /// out, and no cut there separates anything.
+  bool is_sound = true;
   /// Its wall holds a reflex edge of the body, so it lies in two or more planes.
   bool has_bend = false;
 };
@@ -32,11 +35,13 @@ class LumpFinder {
   void push(int e);
   void visit(int e);
   void reach(int crossing);
+  [[nodiscard]] bool has_sound_pieces(int crossing) const;
   void add_segment(int e, Vec3 from, Vec3 to);
   void tie_enclosed_loops();
   void tie_loop_to_piece(int facet, int loop);
   [[nodiscard]] bool is_wholly_up(int loop) const;
   [[nodiscard]] Outline piece_outline(int crossing) const;
+  [[nodiscard]] Outline lower_outline(int crossing) const;
   [[nodiscard]] bool is_up(int point) const;
   [[nodiscard]] int crossing_of(int e) const { return crossing_of_edge_.at(e); }
 
@@ -47,6 +52,7 @@ class LumpFinder {
   std::unordered_map<int, int> crossing_of_edge_;
   std::unordered_map<int, std::vector<int>>
       crossings_of_facet_;  ///< those at which a chord in it begins
+  std::vector<int> previous_;  ///< where the chord that ends at a crossing begins
   /// For each loop the region of material and of air that it bounds, -1: none.
   std::vector<int> material_region_, air_region_;
 

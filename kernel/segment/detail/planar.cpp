@@ -50,6 +50,12 @@ double signed_area(const Outline& outline, Vec3 normal) {
   return dot(sum, normal) / 2;
 }
 
+double perimeter(const Outline& outline) {
+  double sum = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) sum += length(outline[(i + 1) % outline.size()] - outline[i]);
+  return sum;
+}
+
 bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point) {
   const Axes axes = axes_for(normal);
   bool is_inside = false;

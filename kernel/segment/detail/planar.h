@@ -11,8 +11,14 @@ namespace oriel::detail {
 
 using Outline = std::vector<Vec3>;
 
+/// A figure thinner than this (its area below kThin_m times its perimeter) may have an area of either sign by rounding.
+inline constexpr double kThin_m = 1e-9;
+
 /// The signed area of a closed outline about a unit normal: positive if counter-clockwise.
 double signed_area(const Outline& outline, Vec3 normal);
+
+/// The length of a closed outline.
+double perimeter(const Outline& outline);
 
 /// True if `point` is inside: even-odd over all outlines, seen along the normal's largest axis.
 /// Points on an outline may fall on either side.

@@ -84,7 +84,6 @@ int PointTable::compute_rank(int p, int k) {
 
 std::span<const int> PointTable::ranks(int k) {
   auto& ranks = ranks_[index(k)];
-  ranks.reserve(points_.size());
   for (int p = static_cast<int>(ranks.size()); p < size(); ++p) ranks.push_back(compute_rank(p, k));
   return ranks;
 }

@@ -155,10 +155,7 @@ class Sectioner {
 
   /// Thinner than weld_m, as a keel that touches the plane is.
   [[nodiscard]] bool is_sliver(const Outline& points, double area) const {
-    double around = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      around += length(points[(i + 1) % points.size()] - points[i]);
-    return std::abs(area) < options_.weld_m * around / 2;
+    return std::abs(area) < options_.weld_m * perimeter(points) / 2;
   }
 
   /// A loop with what is needed to find the loops inside it.
