@@ -74,8 +74,8 @@ struct Explanation {
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
                     const Interpretation& interpretation, FeatureId feature);
 
-/// For a terminal: the verdict, then every rule with its conditions, a line each, with
-/// file:line:column.
+/// For a terminal: the verdict, then every rule with its conditions and, if it holds, the terms of
+/// its score, a line each, with file:line:column.
 std::string to_text(const Explanation& explanation);
 
 /// The same as one JSON object on one line (docs/rules.md).

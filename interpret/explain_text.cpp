@@ -60,6 +60,7 @@ void add_rule(const RuleReport& rule, std::vector<Line>& lines) {
     add_condition(report, mark_of(report.outcome), 4, lines);
   for (const ConditionReport& report : rule.unless)
     add_condition(report, veto_mark_of(report.outcome), 4, lines);
+  if (rule.outcome != Outcome::holds) return;
   for (const TermReport& term : rule.terms) {
     const std::string judged = term.judged ? fmt::format("{:.2f}", *term.judged) : "-";
     lines.push_back({4,

@@ -19,7 +19,7 @@ std::optional<double> fold(const Pack& pack, ExprId id, std::optional<double> sc
   }
   if (expr.op == Op::map_length) {
     if (!scale) return std::nullopt;
-    return values[0] / 1000 * *scale;
+    return values[0] * *scale / 1000;
   }
   double result = values[0];
   if (values.size() == 1) return apply(expr.op, result);

@@ -57,6 +57,10 @@ const char* yes_or_no(Truth truth) {
   return truth == Truth::yes ? "yes" : "no";
 }
 
+std::string misses_by(double distance, Dimension dimension) {
+  return "misses by " + write(distance, dimension, 0);
+}
+
 }  // namespace
 
 Frame Prover::frame() const {
@@ -187,7 +191,7 @@ void Prover::compare(const Expr& expr, ConditionReport& report) {
   if (at(right).op != Op::constant) report.bound += " (" + text_of(right) + ")";
   const double distance = std::abs(value - bound);
   if (at(left).type == Type::number && distance > 0)
-    report.miss = "misses by " + write(distance, at(left).dimension);
+    report.miss = misses_by(distance, at(left).dimension);
 }
 
 void Prover::range(ExprId value, double low, double high, ConditionReport& report) {
@@ -197,7 +201,7 @@ void Prover::range(ExprId value, double low, double high, ConditionReport& repor
   report.value = show_named(value, nearest);
   report.bound =
       fmt::format("in {} .. {}", write(low, dimension, found), write(high, dimension, found));
-  report.miss = "misses by " + write(std::abs(found - nearest), dimension);
+  report.miss = misses_by(std::abs(found - nearest), dimension);
 }
 
 void Prover::list(const Expr& expr, ConditionReport& report) {
@@ -228,7 +232,7 @@ void Prover::facet(const Expr& expr, ConditionReport& report) {
       fmt::format("in {} .. {}", write(range.low_deg, kAngle), write(range.high_deg, kAngle));
   if (!found) return;
   const double distance = std::max(range.low_deg - *found, *found - range.high_deg);
-  if (distance > 0) report.miss = "misses by " + write(distance, kAngle);
+  if (distance > 0) report.miss = misses_by(distance, kAngle);
 }
 
 /// "not natural": what stands below is shown, turned round.
@@ -238,8 +242,8 @@ void Prover::negation(const Expr& expr, ConditionReport& report) {
     report.parts.push_back(std::move(inner));
     return;
   }
-  report.value = inner.value;
-  report.bound = inner.bound.empty() ? "not" : "not " + inner.bound;
+  report.value = inner.bound.empty() ? "not " + inner.value : inner.value;
+  if (!inner.bound.empty()) report.bound = "not " + inner.bound;
 }
 
 TermReport Prover::term(const ScoreTerm& term) {

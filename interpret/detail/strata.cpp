@@ -56,10 +56,21 @@ class QuestionFinder {
   void ask(const Expr& expr, bool is_strict) {
     const ClassId reader = pack_->rules[index(rule_)].label;
     for (const ClassId read : members_of(pack_->classes, expr.index)) {
+      if (is_refining(expr, reader) && !is_strictly_within(reader, read)) continue;
       const bool is_decided = !pack_->classes[index(read)].is_abstract;
       const bool is_new = asked_.emplace(read, is_strict || is_decided).second;
       if (is_new) questions_->push_back({reader, read, is_strict || is_decided, expr.span});
     }
+  }
+
+  /// A rule for a subclass that asks `self is CLASS` refines that label. Only features that have
+  /// it, or one between, can get the subclass, so that the other subclasses do not matter.
+  [[nodiscard]] bool is_refining(const Expr& expr, ClassId reader) const {
+    const bool is_abstract = pack_->classes[index(expr.index)].is_abstract;
+    return expr.level == 0 && !is_abstract && is_strictly_within(reader, expr.index);
+  }
+  [[nodiscard]] bool is_strictly_within(ClassId id, ClassId ancestor) const {
+    return id != ancestor && is_within(pack_->classes, id, ancestor);
   }
 
   const Pack* pack_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 namespace oriel::test {
 
@@ -48,7 +49,7 @@ class Scene {
     FeatureTable table("house", features_.size());
     for (std::size_t row = 0; row < features_.size(); ++row) {
       const FeatureId id{static_cast<int>(row)};
-      table.set_id(id, "f" + std::to_string(row));
+      table.set_id(id, fmt::format("f{}", row));
       for (const auto& [name, value] : features_[row]) set(table, id, name, value);
     }
     return table;
