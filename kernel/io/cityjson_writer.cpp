@@ -84,7 +84,10 @@ class CityJsonWriter {
       : source_(source),
         document_(document),
         root_(root_of(source.text)),
-        objects_(root_.value_of("CityObjects")) {}
+        objects_(root_.value_of("CityObjects")) {
+    for (std::size_t i = 0; i < document.buildings.size(); ++i)
+      building_of_.try_emplace(document.buildings[i].id, i);
+  }
 
   std::string write(const std::vector<LabelledBuilding>& labelled,
                     const std::vector<std::string>& removed) {
@@ -105,10 +108,10 @@ class CityJsonWriter {
 
  private:
   [[nodiscard]] std::size_t building_index(const std::string& id) const {
-    const auto found = std::ranges::find(document_.buildings, id, &Building::id);
-    if (found == document_.buildings.end())
+    const auto found = building_of_.find(id);
+    if (found == building_of_.end())
       throw std::logic_error("no building '" + id + "' in " + document_.name);
-    return static_cast<std::size_t>(found - document_.buildings.begin());
+    return found->second;
   }
 
   /// Starts the exchange of vertices if a geometry is replaced.
@@ -255,6 +258,9 @@ class CityJsonWriter {
   const Document& document_;
   RawNode root_;
   RawNode objects_;
+  /// Indices into Document::buildings by id.
+  std::unordered_map<std::string_view, std::size_t> building_of_;
+  /// Members of `objects_` by id, made when the first is looked for.
   std::unordered_map<std::string, std::size_t> object_of_;
   std::optional<detail::VertexPool> pool_;
   /// By how many powers of ten the file's scale gets finer.

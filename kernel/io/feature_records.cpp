@@ -6,6 +6,7 @@
 #include "kernel/io/detail/words.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ RecordFormat format_to_use(const std::string& path) {
                   ".jsonl"}));
 }
 
-/// Calls `visit(index)` for the ids in a list joined by ';'.
+/// The parts of a list joined by ';'.
 std::vector<std::string> split(std::string_view list) {
   std::vector<std::string> parts;
   while (!list.empty()) {
@@ -89,7 +90,7 @@ std::optional<std::string> set_polygons(FeatureRecord& record, const std::string
   record.source_polygons.clear();
   for (const std::string& part : split(cell)) {
     const auto number = detail::as_whole(part);
-    if (!number)
+    if (!number || *number < 0 || *number > std::numeric_limits<int>::max())
       return fmt::format("'source_polygons' holds {}; expected whole numbers",
                          detail::in_quotes(part));
     record.source_polygons.push_back(static_cast<int>(*number));

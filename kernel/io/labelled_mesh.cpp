@@ -125,11 +125,13 @@ void add_solid(LabelledMesh& mesh, const Solid& solid, Vec3 origin_m,
 
 void append_mesh(LabelledMesh& mesh, const Document& document,
                  const std::vector<LabelledBuilding>& labelled) {
+  std::map<std::string_view, const LabelledBuilding*> labels_of;
+  for (const LabelledBuilding& one : labelled) labels_of.try_emplace(one.building, &one);
   for (const Building& building : document.buildings) {
-    const auto found = std::ranges::find(labelled, building.id, &LabelledBuilding::building);
     LabelledBuilding bare;
     bare.building = building.id;
-    const LabelledBuilding& labels = found == labelled.end() ? bare : *found;
+    const auto found = labels_of.find(building.id);
+    const LabelledBuilding& labels = found == labels_of.end() ? bare : *found->second;
     if (labels.geometry)
       add_solid(mesh, *labels.geometry, building.frame.origin_m, labels);
     else

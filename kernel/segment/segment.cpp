@@ -203,7 +203,8 @@ class Segmenter {
     if (!choice.is_hole && choice.sides.size() > 1)
       for (const Side side : choice.sides) own_planes.push_back(side >> 1);
     double cap_area = 0;
-    for (const detail::Cap& cap : caps) cap_area += area_of(cap);
+    for (const detail::Cap& cap : caps)
+      if (!cap.is_taken) cap_area += area_of(cap);
     feature.surface_m2 = -cap_area;
     add_part(task, std::move(carved.lump), std::move(feature), std::move(own_planes));
   }

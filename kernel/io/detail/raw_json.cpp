@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -43,24 +45,60 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
+constexpr std::uint64_t every_byte(std::uint64_t byte) { return byte * 0x0101010101010101ULL; }
+
+/// The high bit of each byte of `word` that is 0.
+constexpr std::uint64_t zero_bytes(std::uint64_t word) {
+  constexpr std::uint64_t kLow = every_byte(0x7F);
+  return ~(((word & kLow) + kLow) | word | kLow);
+}
+
+/// The high bit of each of the eight bytes at `bytes` that is a quote or a bracket, the first byte
+/// lowest. All four brackets, and no other byte that JSON has outside strings, are 0x7F when bits
+/// 1, 2 and 5 are set.
+std::uint64_t structural_bytes(const char* bytes) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, bytes, sizeof word);
+  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
+  return zero_bytes((word | every_byte(0x26)) ^ every_byte(0x7F)) |
+         zero_bytes(word ^ every_byte('"'));
+}
+
+/// Counts brackets up to the one that closes what was opened.
+class DepthCounter {
+ public:
+  /// Takes a bracket; true if it is the last one. Of brackets only those that open have bit 1.
+  bool close_at(char bracket) {
+    depth_ += (bracket & 2) - 1;
+    return depth_ == 0;
+  }
+
+ private:
+  int depth_ = 0;
+};
+
 /// The offset behind the object or array whose opening bracket is `text[at]`.
 std::size_t end_of_container(std::string_view text, std::size_t at) {
-  std::size_t depth = 0;
-  while (at < text.size()) {
-    switch (kind_of(text[at])) {
-      case quote:
-        at = end_of_string(text, at);
-        continue;
-      case open:
-        ++depth;
+  constexpr std::size_t kStep = sizeof(std::uint64_t);
+  DepthCounter counter;
+  while (at + kStep <= text.size()) {
+    std::size_t next = at + kStep;
+    for (std::uint64_t found = structural_bytes(&text[at]); found != 0; found &= found - 1) {
+      const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(found)) / 8;
+      if (text[i] == '"') {
+        next = end_of_string(text, i);
         break;
-      case close:
-        if (--depth == 0) return at + 1;
-        break;
-      default:
-        break;
+      }
+      if (counter.close_at(text[i])) return i + 1;
     }
-    ++at;
+    at = next;
+  }
+  for (; at < text.size(); ++at) {
+    const ByteKind kind = kind_of(text[at]);
+    if (kind == quote)
+      at = end_of_string(text, at) - 1;
+    else if ((kind == open || kind == close) && counter.close_at(text[at]))
+      return at + 1;
   }
   return text.size();
 }

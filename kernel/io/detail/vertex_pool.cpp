@@ -56,7 +56,7 @@ bool keeps_shape(const PlacedSolid& placed, const Transform& transform) {
         const Vec3 point = solid.vertices[static_cast<std::size_t>(v)].point;
         const Vec3 moved =
             local_point(rounded(point, *placed.frame, transform), *placed.frame, transform);
-        if (std::abs(dot(plane.normal, moved) - plane.offset_m) > kOffPlane_m) return false;
+        if (std::abs(dot(plane.normal, moved - point)) > kOffPlane_m) return false;
         used.insert(v);
       }
   }
@@ -83,9 +83,8 @@ std::optional<std::array<std::int64_t, 3>> key_of(std::string_view vertex) {
   std::size_t count = 0;
   bool is_good = RawNode::is_array(vertex);
   const auto read = [&](std::string_view number) {
-    if (count == 3) return void(is_good = false);
-    const auto [end, error] =
-        std::from_chars(number.data(), number.data() + number.size(), key[count++]);
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(),
+                                              key[std::min<std::size_t>(count++, 2)]);
     is_good = is_good && error == std::errc() && end == number.data() + number.size();
   };
   if (is_good) for_each_element(vertex, read);

@@ -42,7 +42,7 @@ class Boundary {
   };
   struct LoopRecord {
     int first = -1;
-    int facet = -1;   ///< -1: dead
+    int facet = -1;        ///< -1: dead
     double area = 0;       ///< signed about the facet's normal
     bool is_hole = false;  ///< else an outer loop, be it a sliver
   };

@@ -141,6 +141,7 @@ class Remover {
         for (const CapMark& mark : body_.facet(g).marks) lump.add_mark(f, mark);
         lump.add_sources(f, body_.facet(g).sources);
       }
+      if (cap.is_taken) lump.add_sources(f, body_.facet(facet_beyond(cap)).sources);
       cap_facets_.push_back(f);
     }
     for (const auto& [rim, e] : of_rim) lump.pair(e, copier_.copy_of(rim));
@@ -164,12 +165,30 @@ class Remover {
     for (std::size_t i = 0; i < caps_.size(); ++i)
       for (const int g : caps_[i].covered) body_.cover(facets[i], g);
     leave_mark(facets, mark);
-    for (const int f : facets)
+    for (std::size_t i = 0; i < caps_.size(); ++i) {
+      int f = facets[i];
+      if (caps_[i].is_taken) {
+        const int ground = facet_beyond(caps_[i]);
+        body_.cover(ground, f);
+        f = ground;
+      }
       if (body_.is_alive(f)) body_.heal(f);
+    }
+  }
+
+  /// The facet beyond the rim of a cap.
+  [[nodiscard]] int facet_beyond(const Cap& cap) const {
+    for (const CapLoop& loop : cap.loops)
+      for (const CapEdge& edge : loop.edges)
+        if (edge.rim >= 0) return body_.facet_of(twin_of_rim_.at(edge.rim));
+    throw GeometryError("a cap without a rim");
   }
 
   void leave_mark(const std::vector<int>& facets, FeatureId mark) {
-    const int largest = *std::ranges::max_element(facets, {}, [&](int f) { return body_.area(f); });
+    int largest = -1;
+    for (std::size_t i = 0; i < facets.size(); ++i)
+      if (!caps_[i].is_taken && (largest < 0 || body_.area(facets[i]) > body_.area(largest)))
+        largest = facets[i];
     const auto shape = body_.outlines(largest);
     if (const auto inside =
             interior_point(shape, body_.world().planes.normal(body_.facet(largest).side)))

@@ -27,6 +27,9 @@ struct Cap {
   /// Facets of the opposite side under the cap: they vanish into the body, and so does the cap over
   /// them.
   std::vector<int> covered;
+  /// No new facet, but a part of an old one (of the ground, under a lump) that goes with the lump:
+  /// the facet beyond the rim, whose side is the opposite of `side`.
+  bool is_taken = false;
 };
 
 /// What a cut has made.

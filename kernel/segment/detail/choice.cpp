@@ -119,7 +119,8 @@ std::optional<Choice> Chooser::paper_next() {
 }
 
 std::vector<Patch> Chooser::patches(bool is_hole) {
-  std::vector<Patch> found = find_patches(body_, is_hole, {own_planes_, options_.max_order});
+  std::vector<Patch> found =
+      find_patches(body_, is_hole, {own_planes_, options_.max_order, free_side_});
   work_ += body_.half_edge_count();
   (is_hole ? stats_.hole_tests : stats_.protrusion_tests) += found.size();
   stats_.candidates += found.size();
@@ -150,7 +151,9 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
   candidate.lump = finder.find(candidate.region);
   candidate.is_checked = true;
   const Lump& lump = candidate.lump;
-  if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 || (!region.is_material && !lump.has_bend)) return false;
+  if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 ||
+      (!region.is_material && !lump.has_bend))
+    return false;
   for (const int r : lump.regions) {
     const auto value =
         key(section.regions[at(r)], lump.new_area, old_area(section, region), limit());
@@ -240,7 +243,8 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
 std::optional<Choice> Chooser::best_patch_cut(std::vector<Patch> patches, int min_order,
                                               int max_order, bool is_natural) {
   std::erase_if(patches, [&](const Patch& p) {
-    return p.order() < min_order || p.order() > max_order || p.new_area / p.old_area >= limit();
+    const int order = static_cast<int>(p.sides().size());
+    return order < min_order || order > max_order || p.new_area / p.old_area >= limit();
   });
   std::optional<Choice> best;
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -253,21 +257,15 @@ std::optional<Choice> Chooser::best_patch_cut(std::vector<Patch> patches, int mi
 Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader,
                           bool is_natural) const {
   const Patch& first = patches[leader];
-  const auto sides_of = [](const Patch& p) {
-    std::vector<Side> sides;
-    for (const Cap& cap : p.caps) sides.push_back(cap.side);
-    std::ranges::sort(sides);
-    return sides;
-  };
   Choice choice;
   choice.is_hole = first.is_hole;
   choice.is_natural = is_natural;
   choice.old_area = first.old_area;
   choice.value = choice.quality = first.new_area / first.old_area;
-  choice.sides = sides_of(first);
+  choice.sides = first.sides();
   for (const Patch& p : patches) {
     const double value = p.new_area / p.old_area;
-    if (p.is_hole != first.is_hole || sides_of(p) != choice.sides) continue;
+    if (p.is_hole != first.is_hole || p.sides() != choice.sides) continue;
     if (value < choice.value * (1 - kSame) ||
         value > choice.value * (1 + std::max(kSame, options_.tolerances.value_rel)))
       continue;

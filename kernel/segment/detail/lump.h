@@ -15,8 +15,8 @@ struct Lump {
   double volume = 0;
   /// Of air: it does not run out into the open. Material is always finite.
   bool is_finite = true;
-  /// Its pieces of facets have positive area. A hole that pokes out of its facet (bad input) makes pieces turned inside
-  /// out, and no cut there separates anything.
+  /// Its pieces of facets have positive area. A hole that pokes out of its facet (bad input) makes
+  /// pieces turned inside out, and no cut there separates anything.
   bool is_sound = true;
   /// Its wall holds a reflex edge of the body, so it lies in two or more planes.
   bool has_bend = false;
@@ -51,7 +51,7 @@ class LumpFinder {
   int plane_rank_;
   std::unordered_map<int, int> crossing_of_edge_;
   std::unordered_map<int, std::vector<int>>
-      crossings_of_facet_;  ///< those at which a chord in it begins
+      crossings_of_facet_;     ///< those at which a chord in it begins
   std::vector<int> previous_;  ///< where the chord that ends at a crossing begins
   /// For each loop the region of material and of air that it bounds, -1: none.
   std::vector<int> material_region_, air_region_;

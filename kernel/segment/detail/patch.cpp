@@ -22,6 +22,7 @@ struct Component {
   std::vector<int> facets;
   std::vector<int> rim;     ///< half-edges of its facets, their twins beyond
   std::vector<Side> sides;  ///< beyond the rim, ascending
+  Side ground = -1;         ///< one of the sides, if the patch stands on the ground
 };
 
 /// Caps for one component, or nothing.
@@ -67,7 +68,11 @@ class Capper {
   }
 
   std::optional<Cap> cap_on(Side side) {
-    Cap cap{side, {}, {}};
+    Cap cap{side, {}, {}, false};
+    if (side == component_.ground) {
+      cap.side = side ^ 1;
+      cap.is_taken = true;
+    }
     std::map<int, bool> is_done;
     for (const int start : component_.rim) {
       if (label_[start] != side || is_done[start]) continue;
@@ -116,7 +121,8 @@ class Capper {
   /// to `side`, or where a third plane of the corner meets them.
   std::optional<Stop> next_stop(Side side, Side other, int point) {
     const Vec3 line = cross(world_.planes.normal(side), world_.planes.normal(other));
-    const Vec3 ahead = corner_ == Corner::concave ? -line : line;
+    const bool is_at_ground = side == component_.ground || other == component_.ground;
+    const Vec3 ahead = corner_ == Corner::concave && !is_at_ground ? -line : line;
     const double here = dot(ahead, world_.points.at(point));
     std::optional<Stop> nearest;
     double least = std::numeric_limits<double>::infinity();
@@ -139,7 +145,7 @@ class Capper {
   [[nodiscard]] bool is_on_corner(int point) {
     return std::ranges::all_of(component_.sides, [&](Side side) {
       const int level = world_.points.side(point, side >> 1) * ((side & 1) != 0 ? -1 : 1);
-      return corner_ == Corner::concave ? level >= 0 : level <= 0;
+      return corner_ == Corner::concave && side != component_.ground ? level >= 0 : level <= 0;
     });
   }
 
@@ -164,7 +170,7 @@ class PatchFinder {
   std::vector<Patch> run() {
     std::vector<Patch> patches;
     for (int f = 0; f < body_.facet_count(); ++f) {
-      if (!body_.is_alive(f) || component_of_[at(f)] >= 0) continue;
+      if (!body_.is_alive(f) || component_of_[at(f)] >= 0 || is_ground(f)) continue;
       const Component component = grow(f);
       if (!can_be_capped(component)) continue;
       if (auto patch = cap(component)) patches.push_back(std::move(*patch));
@@ -176,6 +182,10 @@ class PatchFinder {
   /// Inside a hole surfaces meet in reflex edges, on a protrusion in convex ones.
   [[nodiscard]] bool ties(int e) const { return body_.is_reflex(e) == is_hole_; }
 
+  [[nodiscard]] bool is_ground(int f) const {
+    return !is_hole_ && body_.facet(f).side == options_.free_side;
+  }
+
   Component grow(int start) {
     Component component;
     const int number = start;
@@ -184,7 +194,7 @@ class PatchFinder {
     for (std::size_t i = 0; i < component.facets.size(); ++i)
       body_.for_each_edge(component.facets[i], [&](int e) {
         const int g = body_.facet_of(body_.twin(e));
-        if (component_of_[at(g)] >= 0 || !ties(e)) return;
+        if (component_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) return;
         component_of_[at(g)] = number;
         component.facets.push_back(g);
       });
@@ -195,6 +205,7 @@ class PatchFinder {
         if (component_of_[at(g)] == number) return;
         component.rim.push_back(e);
         component.sides.push_back(body_.facet(g).side);
+        if (is_ground(g)) component.ground = options_.free_side;
       });
     std::ranges::sort(component.rim);
     std::ranges::sort(component.sides);
@@ -205,8 +216,9 @@ class PatchFinder {
 
   [[nodiscard]] bool can_be_capped(const Component& component) const {
     const auto& sides = component.sides;
-    if (component.facets.size() < 2 || sides.size() < 2 || std::ssize(sides) > options_.max_order)
-      return false;
+    const std::ptrdiff_t order = std::ssize(sides) - (component.ground >= 0 ? 1 : 0);
+    if (component.facets.size() < 2 || order < 2 || order > options_.max_order) return false;
+    if (component.ground >= 0 && order > 2) return false;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       if (std::ranges::find(options_.own_planes, sides[i] >> 1) != options_.own_planes.end())
         return false;
@@ -232,6 +244,7 @@ class PatchFinder {
       body_.for_each_edge(f, [&](int e) {
         int most = -1, least = 1;
         for (const Side side : component.sides) {
+          if (side == component.ground) continue;
           most = std::max(most, level(body_.origin(e), side));
           least = std::min(least, level(body_.origin(e), side));
         }
@@ -293,6 +306,7 @@ class PatchFinder {
       double area = 0;
       for (const Outline& outline : shape) area += signed_area(outline, normal);
       cap_sum += world_.planes.offset_m(cap.side) * area;
+      if (cap.is_taken) continue;
       for (const int g : body_.facets_on(cap.side ^ 1)) {
         if (std::ranges::binary_search(patch.facets, g)) continue;
         const auto inside = interior_point(body_.outlines(g), normal);
@@ -317,6 +331,14 @@ class PatchFinder {
 };
 
 }  // namespace
+
+std::vector<Side> Patch::sides() const {
+  std::vector<Side> sides;
+  for (const Cap& cap : caps)
+    if (!cap.is_taken) sides.push_back(cap.side);
+  std::ranges::sort(sides);
+  return sides;
+}
 
 std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options) {
   return PatchFinder(body, is_hole, options).run();

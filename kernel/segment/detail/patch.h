@@ -16,13 +16,17 @@ struct Patch {
   double new_area = 0;
   double old_area = 0;
   double volume = 0;
-  [[nodiscard]] int order() const { return static_cast<int>(caps.size()); }
+  /// The split planes: those of its caps but the ground.
+  [[nodiscard]] std::vector<Side> sides() const;
 };
 
 struct PatchOptions {
   /// Planes that are no split planes of the body: those of the cut that made it.
   std::vector<int> own_planes;
   int max_order = 4;
+  /// The ground (-1: none): of protrusions with two planes, the rim may leave out a part of it, see
+  /// Cap::is_taken.
+  Side free_side = -1;
 };
 
 /// The patches of holes, or of protrusions, that two to four planes can cap (paper, section 4,

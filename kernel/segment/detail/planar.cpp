@@ -52,7 +52,8 @@ double signed_area(const Outline& outline, Vec3 normal) {
 
 double perimeter(const Outline& outline) {
   double sum = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) sum += length(outline[(i + 1) % outline.size()] - outline[i]);
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    sum += length(outline[(i + 1) % outline.size()] - outline[i]);
   return sum;
 }
 

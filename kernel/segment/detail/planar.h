@@ -11,7 +11,8 @@ namespace oriel::detail {
 
 using Outline = std::vector<Vec3>;
 
-/// A figure thinner than this (its area below kThin_m times its perimeter) may have an area of either sign by rounding.
+/// A figure thinner than this (its area below kThin_m times its perimeter) may have an area of
+/// either sign by rounding.
 inline constexpr double kThin_m = 1e-9;
 
 /// The signed area of a closed outline about a unit normal: positive if counter-clockwise.
