@@ -114,21 +114,17 @@ class Segmenter {
       chooser.changed_at(touched);
       if (may_have_parted_) {
         may_have_parted_ = false;
-        auto lumps = part_into_lumps(std::move(task.body));
-        if (lumps.size() > 1) return hang_rest(task, std::move(lumps));
-        task.body = std::move(lumps[0]);
-        take_out_cavities(task);
+        if (!is_connected(task.body)) return hang_rest(std::move(task));
       }
     }
   }
 
-  void hang_rest(const Task& task, std::vector<Boundary> lumps) {
-    // The node made last has one rest, a leaf so far: the lumps take its place.
-    CsgNode& parent = node(parent_of_rest_);
-    parent.rest.clear();
+  /// The rest that the last cut has left is in pieces: its lumps become the `rest` of the node made last.
+  void hang_rest(Task task) {
+    std::vector<Boundary> lumps = detail::part_into_lumps(task.body);
     for (std::size_t i = 0; i < lumps.size(); ++i) {
       const NodeId child = i == 0 ? task.node : add_node();
-      node(parent_of_rest_).rest.push_back(child);
+      if (i > 0) node(parent_of_rest_).rest.push_back(child);
       tasks_.push_back({std::move(lumps[i]), child, task.feature, task.sign, task.own_planes});
     }
   }

@@ -74,6 +74,9 @@ class Remover {
     close_lump();
     for (const int f : copier_.facets())
       body_.for_each_edge(f, [&](int e) { touched.push_back(body_.origin(e)); });
+    for (const Cap& cap : caps_)
+      for (const CapLoop& loop : cap.loops)
+        for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
     body_.remove(copier_.facets());
     close_rest(mark);
     return {std::move(copier_.boundary()), std::move(touched)};
@@ -260,15 +263,13 @@ Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, Feat
   return Remover(body, caps, is_hole).run(mark, std::move(touched));
 }
 
-std::vector<Boundary> part_into_lumps(Boundary&& body) {
+bool is_connected(const Boundary& body) { return pieces_of(body).size() == 1; }
+
+std::vector<Boundary> part_into_lumps(const Boundary& body) {
   std::vector<Boundary> lumps;
   std::vector<std::vector<int>> outers, cavities;
   for (const auto& piece : pieces_of(body))
     (volume_of(body, piece) > 0 ? outers : cavities).push_back(piece);
-  if (outers.size() <= 1) {
-    lumps.push_back(std::move(body));
-    return lumps;
-  }
   std::vector<std::vector<int>> all = outers;
   for (const auto& cavity : cavities) {
     const Vec3 eye = body.at(body.loop(body.facet(cavity[0]).loops[0]).first);

@@ -56,9 +56,11 @@ std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lum
 Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
                 std::vector<int> touched);
 
-/// The connected pieces of a boundary, each with its cavities: one, unless a cut has parted the
-/// body. Pieces come in the order of their first facet.
-std::vector<Boundary> part_into_lumps(Boundary&& body);
+/// True if all facets hang together: no cavity, and no cut has parted the body.
+bool is_connected(const Boundary& body);
+
+/// The connected pieces of a body, each with its cavities, in the order of their first facets.
+std::vector<Boundary> part_into_lumps(const Boundary& body);
 
 /// The cavities of a body as bodies of their own, turned right side out; `body` loses them. Usually
 /// none.
