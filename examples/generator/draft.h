@@ -23,9 +23,6 @@ class Draft {
   /// The new object's number. Its name is made from its class (or, for decor, its subclass) and an
   /// ordinal.
   int add_object(Object object);
-  [[nodiscard]] const Object& object(int number) const {
-    return objects_[static_cast<std::size_t>(number)];
-  }
 
   FacetId add_facet(Owner owner);
   /// Sums the ring into the facet, which is made first if it is kNewFacet. Equal neighbouring

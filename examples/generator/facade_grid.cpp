@@ -15,7 +15,7 @@ FacadeGrid::FacadeGrid(const Panel& panel, const Plan& plan) : plan_(plan) {
   // Where eaves hang over, the usable part ends up to half a metre below the wall's top.
   rows_ = static_cast<int>((panel.usable.v1 + 600_mm - plan.base) / plan.storey_height);
   rows_ = std::min(rows_, plan.storeys);
-  is_taken_.assign(static_cast<std::size_t>(columns_ * rows_), false);
+  is_taken_.assign(index(0, rows_), false);
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column) {
       const Rect place = rect({column, row});

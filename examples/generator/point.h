@@ -61,7 +61,6 @@ struct Frame {
 /// A position in the (u, v) plane of a frame.
 struct Uv {
   Um u = 0, v = 0;
-  friend constexpr bool operator==(Uv, Uv) = default;
 };
 
 /// A rectangle in the (u, v) plane of a frame.
