@@ -71,10 +71,13 @@ Body generate(const Options& options, int index) {
   Body body = build(options, index);
   check(body, kFlatness, options, index);
   Random random(~options.seed, static_cast<std::uint64_t>(index));
+  // An exact body is cut while it is exact: rounded corners that were in line would make slivers. A
+  // shaken one is cut last: triangles that are shaken would fold over each other.
+  const bool is_exact = options.noise == 0;
+  if (options.triangulate && is_exact) body = triangulated(body, random);
   if (options.rotate_deg != 0) rotate(body, options.rotate_deg);
   if (options.noise > 0) shake(body, options.noise, random);
-  // Last, so that the triangles of a shaken polygon do not fold over each other.
-  if (options.triangulate) body = triangulated(body, random);
+  if (options.triangulate && !is_exact) body = triangulated(body, random);
   const Um lot = lot_size(options);
   const Point place{index % kHousesInRow * lot, index / kHousesInRow * lot, 0};
   for (Point& p : body.vertices) p = p + place;

@@ -83,7 +83,7 @@ struct Options {
   int windows = 0;
   bool has_storeys = false;
 
-  /// Applied to the finished body, in this order.
+  /// Applied to the finished body.
   double rotate_deg = 0;
   /// Every coordinate is moved by at most this.
   Um noise = 0;
