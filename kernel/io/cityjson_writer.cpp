@@ -20,7 +20,6 @@ namespace oriel {
 namespace {
 
 using detail::append_json;
-using detail::append_json_key;
 using detail::decoded;
 using detail::RawNode;
 

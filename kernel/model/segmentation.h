@@ -56,6 +56,8 @@ struct Cell {
   bool is_convex = true;
   LeafFlag flag = LeafFlag::convex;
   NodeId node;
+  /// The innermost feature the cell is in, or invalid: the body.
+  FeatureId feature;
   /// Outward from the cell (also of a void); loops index Segmentation::vertices.
   std::vector<Facet> facets;
 };

@@ -5,6 +5,7 @@
 #include "kernel/segment/detail/choice.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -171,37 +172,45 @@ class Segmenter {
       std::size_t loops = 0;
       for (const detail::Cap& cap : caps) loops += cap.loops.size() + cap.covered.size();
       may_have_parted_ |= loops > 1;
-      take_off_part(task, choice, caps, lump.new_area, touched);
+      take_off_part(task, choice, caps, {lump.new_area, lump.value}, touched);
     }
     for (const detail::Patch& patch : choice.patches) {
       may_have_parted_ = true;
-      take_off_part(task, choice, patch.caps, patch.new_area, touched);
+      take_off_part(task, choice, patch.caps, {patch.new_area, patch.new_area / patch.old_area}, touched);
     }
     parent_of_rest_ = task.node;
     task.node = rest;
     return touched;
   }
 
-  void take_off_part(Task& task, const Choice& choice, const std::vector<detail::Cap>& caps,
-                     double new_area, std::vector<int>& touched) {
+  struct Measures {
+    double new_area;
+    double value;
+  };
+
+  void take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps, Measures measures,
+                     std::vector<int>& touched) {
     const FeatureId id{static_cast<int>(out_.features.size())};
     auto carved = take_off(task.body, caps, choice.is_hole, id, std::move(touched));
     touched = std::move(carved.touched);
+    std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
+    std::ranges::stable_sort(caps, std::greater{}, [&](const detail::Cap& cap) { return area_of(cap); });
+
     Feature feature;
     feature.sense = choice.is_hole ? Sense::hole : Sense::protrusion;
-    feature.quality = new_area / choice.old_area;
-    feature.value = choice.value;
-    feature.new_area_m2 = new_area;
+    feature.value = measures.value;
+    feature.quality = measures.new_area / choice.old_area;
+    feature.new_area_m2 = measures.new_area;
     feature.old_area_m2 = choice.old_area;
     feature.is_natural = choice.is_natural;
-    for (const Side side : choice.sides) feature.planes.push_back(cells_.plane_id(side));
     std::vector<int> own_planes;
+    for (const detail::Cap& cap : caps) {
+      const PlaneId plane = cells_.plane_id(cap.side);
+      if (std::ranges::find(feature.planes, plane) == feature.planes.end()) feature.planes.push_back(plane);
+      feature.surface_m2 -= area_of(cap);
+    }
     if (!choice.is_hole && choice.sides.size() > 1)
       for (const Side side : choice.sides) own_planes.push_back(side >> 1);
-    double cap_area = 0;
-    for (const detail::Cap& cap : caps)
-      if (!cap.is_taken) cap_area += area_of(cap);
-    feature.surface_m2 = -cap_area;
     add_part(task, std::move(carved.lump), std::move(feature), std::move(own_planes));
   }
 

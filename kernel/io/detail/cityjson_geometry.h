@@ -32,7 +32,7 @@ class GeometryReader {
 
   /// Fills the frame, solidity, vertices and polygons of `building` from a geometry of a kind that
   /// is read. Local coordinates are (translate - origin) + scale × integer, so that they keep the
-  /// integer's digits. Says what is wrong, if anything: E201, E202, E203, E313, E501, E502.
+  /// integer's digits. Says what is wrong, if anything: E201, E202, E203, E313, E501, E506.
   std::optional<Fault> read(dom::object geometry, GeometryKind kind, Building& building);
 
   /// What was odd in the last geometry: E208, E311, E312.

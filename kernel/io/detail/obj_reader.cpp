@@ -84,7 +84,7 @@ class ObjReader {
                       {"E109", fmt::format("{} is not a number", in_quotes(*word))});
       if (!std::isfinite(*number))
         return report(words_.offset(),
-                      {"E502", fmt::format("the coordinate is {}; expected a finite number",
+                      {"E506", fmt::format("the coordinate is {}; expected a finite number",
                                            in_quotes(*word))});
       numbers.push_back(*number);
     }

@@ -73,7 +73,7 @@ class OffReader {
       if (!number)
         return fail("E110", fmt::format("vertex {} is not three numbers", mesh_.points.size()));
       if (!std::isfinite(*number))
-        return fail("E502", fmt::format("the coordinate is {}; expected a finite number",
+        return fail("E506", fmt::format("the coordinate is {}; expected a finite number",
                                         in_quotes(*word)));
       coordinate = *number;
     }

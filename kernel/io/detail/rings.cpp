@@ -48,7 +48,7 @@ std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points) {
   for (const Vec3 p : points) {
     for (const double x : {p.x, p.y, p.z})
       if (!(std::abs(x) <= kMaxCoordinate_m))
-        return Fault{"E502",
+        return Fault{"E506",
                      fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
     box.grow(p);
   }

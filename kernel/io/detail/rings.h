@@ -21,7 +21,7 @@ std::vector<int> without_repeats(std::vector<int> ring);
 std::optional<Fault> find_degenerate(const std::vector<Polygon>& polygons,
                                      const std::vector<Vec3>& points);
 
-/// E502 if a point (in the input's coordinates) is not finite or too far out, E501 if they are too
+/// E506 if a point (in the input's coordinates) is not finite or too far out, E501 if they are too
 /// far apart for one building.
 std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points);
 

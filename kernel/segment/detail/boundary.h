@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/model/ids.h"
-#include "kernel/segment/detail/planar.h"
+#include "kernel/geometry/planar.h"
 #include "kernel/segment/detail/planes.h"
 #include "kernel/segment/detail/points.h"
 

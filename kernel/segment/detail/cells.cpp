@@ -1,6 +1,6 @@
 #include "kernel/segment/detail/cells.h"
 
-#include "kernel/exact/exact.h"
+#include "kernel/geometry/exact.h"
 
 #include <algorithm>
 
@@ -63,7 +63,7 @@ PlaneId CellWriter::plane_id(Side side) {
 CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
                        FeatureId feature) {
   const CellId id{static_cast<int>(out_.cells.size())};
-  Cell cell{sign, body.volume(), is_convex, flag, node, {}};
+  Cell cell{sign, body.volume(), is_convex, flag, node, feature, {}};
   for (const int f : body.living_facets()) {
     const auto& record = body.facet(f);
     const CellFacet here{id, static_cast<int>(cell.facets.size())};
@@ -81,7 +81,6 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
     cell.facets.push_back(std::move(facet));
   }
   out_.cells.push_back(std::move(cell));
-  feature_of_cell_.push_back(feature);
   return id;
 }
 
@@ -127,7 +126,7 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
       }
       const CellFacet home = cell_facets[best];
       out_.cells[home.cell.index()].facets[at(home.facet)].polygons.push_back(polygon);
-      std::vector<FeatureId> around{feature_of_cell_[home.cell.index()]};
+      std::vector<FeatureId> around{out_.cells[home.cell.index()].feature};
       for (std::size_t i = 0; i < around.size(); ++i) {
         const FeatureId id = around[i];
         if (!id.is_valid()) continue;

@@ -33,7 +33,6 @@ class CellWriter {
   World& world_;
   Segmentation& out_;
   std::map<Side, PlaneId> extra_planes_;
-  std::vector<FeatureId> feature_of_cell_;
   /// For each facet of the solid the cell facets made of it.
   std::map<int, std::vector<CellFacet>> made_of_;
 };

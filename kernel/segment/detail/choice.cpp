@@ -234,6 +234,7 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
       continue;
     if (section.regions[at(c.region)].is_material != region.is_material) continue;
     choice.lumps.push_back(c.lump);
+    choice.lumps.back().value = c.key;
     choice.volume += c.lump.volume;
     for (const int r : c.lump.regions) choice.is_natural &= section.regions[at(r)].is_natural;
   }

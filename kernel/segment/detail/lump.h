@@ -13,6 +13,7 @@ struct Lump {
   std::vector<int> regions;  ///< of the section, ascending: all its contacts with the plane
   double new_area = 0;
   double volume = 0;
+  double value = 0;  ///< the key that the order sorts it by
   /// Of air: it does not run out into the open. Material is always finite.
   bool is_finite = true;
   /// Its pieces of facets have positive area. A hole that pokes out of its facet (bad input) makes

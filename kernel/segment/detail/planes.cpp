@@ -1,6 +1,6 @@
 #include "kernel/segment/detail/planes.h"
 
-#include "kernel/exact/exact.h"
+#include "kernel/geometry/exact.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/exact/exact.h"
+#include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/detail/planes.h"
 

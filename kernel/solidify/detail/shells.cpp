@@ -1,6 +1,6 @@
 #include "kernel/solidify/detail/shells.h"
 
-#include "kernel/exact/exact.h"
+#include "kernel/geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>

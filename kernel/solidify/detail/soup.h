@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/exact/exact.h"
+#include "kernel/geometry/exact.h"
 #include "kernel/model/building.h"
 #include "kernel/model/issue.h"
 #include "kernel/model/tolerances.h"

@@ -1,4 +1,4 @@
-#include "kernel/segment/detail/planar.h"
+#include "kernel/geometry/planar.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "kernel/exact/exact.h"
+#include "kernel/geometry/exact.h"
 
 #include <cmath>
 #include <numeric>

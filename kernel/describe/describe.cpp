@@ -1,0 +1,259 @@
+#include "kernel/describe/describe.h"
+
+#include "kernel/describe/detail/relations.h"
+#include "kernel/describe/detail/shape.h"
+#include "kernel/describe/detail/site.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using detail::Extent;
+using detail::InFacade;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A feature with what several attributes need of it.
+struct Subject {
+  FeatureId id;
+  const Feature* feature;
+  std::vector<Vec3> points;
+  detail::StandingBox box;
+  std::optional<Vec3> normal;  ///< of the largest cap, outward from the rest; missing for cavities
+  Vec3 across{1, 0, 0};        ///< horizontal along the host's facet
+};
+
+/// Horizontal in the plane of the cap; for a level cap, along the longer side of the standing box.
+Vec3 direction_across(Vec3 normal, const detail::StandingBox& box) {
+  const Vec3 across = cross({0, 0, 1}, normal);
+  constexpr double kLevel =
+      1e-6;  // tolerance of doubles: below it the cap has no horizontal direction of its own
+  return length(across) > kLevel ? normalised(across) : box.along;
+}
+
+Subject subject_of(const Segmentation& segmentation, FeatureId id) {
+  const Feature& feature = segmentation.features[id.index()];
+  Subject subject{id, &feature, detail::points_of(segmentation, feature), {}, std::nullopt};
+  subject.box = detail::standing_box(subject.points);
+  if (!feature.planes.empty()) {
+    subject.normal = segmentation.planes[feature.planes.front().index()].normal;
+    subject.across = direction_across(*subject.normal, subject.box);
+  }
+  return subject;
+}
+
+void describe_cut(FeatureTable& table, const Subject& s) {
+  const Feature& f = *s.feature;
+  table.set(s.id, "sense", to_string(f.sense));
+  table.set(s.id, "natural", f.is_natural ? 1 : 0);
+  if (f.value) table.set(s.id, "value", *f.value);
+  if (f.quality) table.set(s.id, "quality", *f.quality);
+  table.set(s.id, "new_area", f.new_area_m2);
+  table.set(s.id, "old_area", f.old_area_m2);
+  table.set(s.id, "volume", f.volume_m3);
+  table.set(s.id, "surface", f.surface_m2);
+  table.set(s.id, "split_order", static_cast<double>(f.planes.size()));
+}
+
+void describe_size(FeatureTable& table, const Subject& s) {
+  const auto [a, b, c] = s.box.edges();
+  table.set(s.id, "a", a);
+  table.set(s.id, "b", b);
+  table.set(s.id, "c", c);
+  table.set(s.id, "silhouette", a * b);
+  table.set(s.id, "width", detail::extent_along(s.points, s.across).size());
+  table.set(s.id, "height_of", s.box.height);
+  if (!s.normal) return;
+  table.set(s.id, "depth", detail::extent_along(s.points, *s.normal).size());
+  const double inclination = detail::inclination_deg(*s.normal);
+  table.set(s.id, "inclination", inclination);
+  constexpr double kLevel_deg = 0.5;  // as coplanar_deg: a cap this level faces nowhere
+  if (inclination < kLevel_deg || inclination > 180 - kLevel_deg) return;
+  const double azimuth = std::atan2(s.normal->x, s.normal->y) * 180 / std::numbers::pi;
+  table.set(s.id, "azimuth", azimuth < 0 ? azimuth + 360 : azimuth);
+}
+
+/// How far the feature sticks out of the box of the cell it sits on: the paper's difference of
+/// bounding boxes.
+void describe_growth(FeatureTable& table, const Subject& s, const Segmentation& segmentation) {
+  if (!s.feature->host_facet) return;
+  const auto host =
+      detail::points_of(segmentation, segmentation.cells[s.feature->host_facet->cell.index()]);
+  const auto beyond = [&](Vec3 direction) {
+    return std::max(0.0, detail::extent_along(s.points, direction).high -
+                             detail::extent_along(host, direction).high);
+  };
+  table.set(s.id, "growth_up", beyond({0, 0, 1}));
+  table.set(s.id, "growth_down", beyond({0, 0, -1}));
+  table.set(s.id, "growth_out", beyond(*s.normal));
+  table.set(s.id, "growth_side", std::max(beyond(s.across), beyond(-s.across)));
+}
+
+/// Where the ground is looked for: below the middle of the cap, a little inside the body.
+Vec3 foot_of(const Subject& s) {
+  Vec3 middle = 0.5 * (s.feature->box.min + s.feature->box.max);
+  if (!s.normal) return middle;
+  constexpr double kInside_m = 0.01;  // off the wall's own plane, so that the facet below it is met
+  const Extent out = detail::extent_along(s.points, *s.normal);
+  // The cap is the inner end of a protrusion and the outer end of a hole.
+  const double cap = s.feature->sense == Sense::hole ? out.high : out.low;
+  return middle + (cap - dot(middle, *s.normal) - kInside_m) * *s.normal;
+}
+
+/// The ground at the foot of a feature. Where that is the underside of a part that itself hangs in
+/// the air (a window of a bay), the ground at the foot of that part, if it is lower.
+detail::Foot ground_of(const Subject& s, const Segmentation& segmentation,
+                       const detail::Site& site) {
+  detail::Foot foot = site.ground_at(foot_of(s), s.feature->host_facet);
+  CellId cell = foot.cell;
+  for (std::size_t steps = 0; cell.is_valid() && steps < segmentation.cells.size(); ++steps) {
+    const FeatureId carrier = segmentation.cells[cell.index()].feature;
+    if (!carrier.is_valid() || carrier == s.id) break;
+    const Subject carrying = subject_of(segmentation, carrier);
+    const detail::Foot below = site.ground_at(foot_of(carrying), carrying.feature->host_facet);
+    if (below.ground_m >= foot.ground_m) break;
+    foot = below;
+    cell = below.cell;
+  }
+  return foot;
+}
+
+void describe_place(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
+                    const detail::Site& site) {
+  const Box& box = s.feature->box;
+  const auto& facet = s.feature->host_facet;
+  const detail::Foot foot = ground_of(s, segmentation, site);
+  table.set(s.id, "height", box.min.z - foot.ground_m);
+  table.set(s.id, "top", box.max.z - foot.ground_m);
+  table.set(s.id, "ground_source", foot.source);
+  table.set(s.id, "below_ridge", site.ridge_m() - box.max.z);
+  if (!facet) return;
+  const Facet& host = segmentation.cells[facet->cell.index()].facets[at(facet->facet)];
+  table.set(s.id, "host_inclination",
+            detail::inclination_deg(segmentation.planes[host.plane.index()].normal));
+  if (const auto eaves = site.eaves_m(facet->cell))
+    table.set(s.id, "above_eaves", box.min.z - *eaves);
+}
+
+double distance_to_segment(Vec3 p, Vec3 from, Vec3 to) {
+  const Vec3 along = to - from;
+  const double t = std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0);
+  return length(p - (from + t * along));
+}
+
+/// The smallest distance of the cap's corners to the outline of the host's facet.
+void describe_edge_gap(FeatureTable& table, const Subject& s, const Segmentation& segmentation) {
+  if (!s.feature->host_facet) return;
+  const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
+  const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
+  constexpr double kOnPlane_m =
+      1e-6;  // tolerance of doubles: the corners of the cap lie on its plane
+  double gap = Box::kInfinity;
+  for (const Vec3 p : s.points) {
+    if (std::abs(dot(plane.normal, p) - plane.offset_m) > kOnPlane_m) continue;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      gap = std::min(gap, distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
+  }
+  if (gap < Box::kInfinity) table.set(s.id, "edge_gap", gap);
+}
+
+/// 64-bit FNV-1a, written in 13 characters of base 32.
+std::string hashed(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  std::string digits;
+  for (int i = 0; i < 13; ++i, hash /= 32) digits += "0123456789abcdefghjkmnpqrstvwxyz"[hash % 32];
+  return digits;
+}
+
+void name_features(FeatureTable& table, const Building& building,
+                   const Segmentation& segmentation) {
+  const auto millimetres = [](double metres) { return std::llround(metres * 1000); };
+  std::map<std::string, int> uses;
+  for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
+    const Feature& f = segmentation.features[i];
+    const Box box = f.box.moved(building.frame.origin_m);
+    std::string content = fmt::format("{}|{}|{}", building.id, building.lod, to_string(f.sense));
+    for (const double c : {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z})
+      content += fmt::format("|{}", millimetres(c));
+    if (!f.planes.empty()) {
+      const Vec3 n = segmentation.planes[f.planes.front().index()].normal;
+      content += fmt::format("|{}|{}|{}", millimetres(n.x), millimetres(n.y), millimetres(n.z));
+    }
+    // Features that agree in all this (parts of one box) are told apart by their order.
+    const int use = uses[content]++;
+    table.set_id(
+        FeatureId{static_cast<int>(i)},
+        fmt::format("f{}", hashed(use == 0 ? content : fmt::format("{}|{}", content, use))));
+  }
+}
+
+void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
+                      const std::vector<int>& group_of, const char* name) {
+  std::map<std::pair<int, Sense>, int> counts;
+  for (std::size_t i = 0; i < subjects.size(); ++i)
+    if (group_of[i] >= 0) ++counts[{group_of[i], subjects[i].feature->sense}];
+  for (std::size_t i = 0; i < subjects.size(); ++i)
+    if (group_of[i] >= 0)
+      table.set(subjects[i].id, name, counts[{group_of[i], subjects[i].feature->sense}]);
+}
+
+InFacade in_facade(const Subject& s, int facade) {
+  const auto [a, b, c] = s.box.edges();
+  return {facade,
+          s.feature->sense,
+          detail::extent_along(s.points, s.across),
+          detail::extent_along(s.points, {0, 0, 1}),
+          a,
+          b};
+}
+
+/// A hole in a steep facet.
+bool is_opening(const Subject& s) {
+  return s.feature->sense == Sense::hole && s.normal && std::abs(s.normal->z) < 0.5;
+}
+
+}  // namespace
+
+Description describe(const Building& building, const Segmentation& segmentation) {
+  Description out{FeatureTable(building.id, segmentation.features.size()), {}};
+  const detail::Site site(segmentation);
+  const std::vector<int> facades = detail::facades_of(segmentation);
+  std::vector<Subject> subjects;
+  std::vector<InFacade> placed;
+  std::vector<char> openings;
+  for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
+    subjects.push_back(subject_of(segmentation, FeatureId{static_cast<int>(i)}));
+    const Subject& s = subjects.back();
+    describe_cut(out.table, s);
+    describe_size(out.table, s);
+    describe_growth(out.table, s, segmentation);
+    describe_place(out.table, s, segmentation, site);
+    describe_edge_gap(out.table, s, segmentation);
+    placed.push_back(in_facade(s, facades[i]));
+    openings.push_back(is_opening(s) ? 1 : 0);
+  }
+  const std::vector<int> storeys = detail::storeys_of(placed, openings);
+  for (std::size_t i = 0; i < subjects.size(); ++i)
+    if (storeys[i] >= 0) out.table.set(subjects[i].id, "storey", storeys[i]);
+  count_companions(out.table, subjects, facades, "per_facade");
+  count_companions(out.table, subjects, storeys, "per_storey");
+  name_features(out.table, building, segmentation);
+  out.graph = detail::relate(segmentation, placed, storeys);
+  return out;
+}
+
+}  // namespace oriel

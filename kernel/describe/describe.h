@@ -1,0 +1,26 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/feature_graph.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/segmentation.h"
+
+namespace oriel {
+
+/// What is known of the features of one building without any rule: their attributes and how they
+/// stand to each other.
+struct Description {
+  FeatureTable table;
+  FeatureGraph graph;
+};
+
+/// Fills every attribute of feature_schema() that can be told, and every relation of
+/// relation_schema().
+///
+/// Ids are made of the building, its level of detail, the host plane, and the place and size of the
+/// feature to the millimetre: they do not depend on the order of the input. Source: paper 5.1
+/// (dimensions, difference of bounding boxes) and 5.2 (inclination, height over ground, similarity,
+/// containment); docs/describe.md says how each is measured.
+Description describe(const Building& building, const Segmentation& segmentation);
+
+}  // namespace oriel

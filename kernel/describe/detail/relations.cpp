@@ -1,0 +1,145 @@
+#include "kernel/describe/detail/relations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace oriel::detail {
+
+namespace {
+
+using Pair = FeatureGraph::Pair;
+
+/// How far apart features may stand to be beside or above one another, and to be alike in the
+/// neighbourhood.
+constexpr double kNextTo_m = 1;
+constexpr double kNeighbourhood_m = 6;
+constexpr double kAlike = 0.1;
+
+FeatureId id(std::size_t i) { return FeatureId{static_cast<int>(i)}; }
+
+double overlap(const Extent& p, const Extent& q) {
+  return std::min(p.high, q.high) - std::max(p.low, q.low);
+}
+
+bool is_like(double p, double q) { return std::abs(p - q) <= kAlike * std::max(p, q); }
+
+bool is_alike(const InFacade& p, const InFacade& q) {
+  const double distance =
+      std::hypot(p.across.middle() - q.across.middle(), p.height.middle() - q.height.middle());
+  return p.sense == q.sense && is_like(p.a, q.a) && is_like(p.b, q.b) &&
+         distance <= kNeighbourhood_m;
+}
+
+bool is_beside(const InFacade& p, const InFacade& q) {
+  return overlap(p.height, q.height) > 0 && -overlap(p.across, q.across) <= kNextTo_m;
+}
+
+/// q is above p.
+bool is_above(const InFacade& p, const InFacade& q) {
+  const double gap = q.height.low - p.height.high;
+  return overlap(p.across, q.across) > 0 && q.height.middle() > p.height.middle() &&
+         std::abs(gap) <= kNextTo_m;
+}
+
+/// Members of each group, by number.
+std::map<int, std::vector<std::size_t>> members(const std::vector<int>& group_of) {
+  std::map<int, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < group_of.size(); ++i)
+    if (group_of[i] >= 0) groups[group_of[i]].push_back(i);
+  return groups;
+}
+
+std::vector<Pair> contained(const Segmentation& segmentation) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
+    FeatureId host = segmentation.features[i].host;
+    // A chain of hosts is no longer than the number of features.
+    for (std::size_t steps = 0; host.is_valid() && steps < segmentation.features.size(); ++steps) {
+      pairs.emplace_back(host, id(i));
+      host = segmentation.features[host.index()].host;
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<int> facades_of(const Segmentation& segmentation) {
+  std::map<std::pair<CellId, int>, int> numbers;
+  std::vector<int> facades;
+  for (const Feature& feature : segmentation.features) {
+    if (!feature.host_facet) {
+      facades.push_back(-1);
+      continue;
+    }
+    const auto key = std::pair(feature.host_facet->cell, feature.host_facet->facet);
+    facades.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
+  }
+  return facades;
+}
+
+std::vector<int> storeys_of(const std::vector<InFacade>& features,
+                            const std::vector<char>& is_opening) {
+  std::vector<std::size_t> openings;
+  for (std::size_t i = 0; i < features.size(); ++i)
+    if (is_opening[i]) openings.push_back(i);
+  std::ranges::sort(openings, {},
+                    [&](std::size_t i) { return std::tuple(features[i].height.middle(), i); });
+  std::vector<int> storeys(features.size(), -1);
+  // Sorted by their middles, the members of a storey follow one another; each is compared with the
+  // storey's tallest kin so far, so that a chain of half-level windows does not tie two storeys
+  // together.
+  int storey = -1;
+  Extent kin;
+  for (const std::size_t i : openings) {
+    const Extent& height = features[i].height;
+    if (storey < 0 || overlap(kin, height) < 0.5 * std::max(kin.size(), height.size())) {
+      ++storey;
+      kin = height;
+    } else if (height.size() > kin.size()) {
+      kin = height;
+    }
+    storeys[i] = storey;
+  }
+  return storeys;
+}
+
+FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
+                    const std::vector<int>& storeys) {
+  std::vector<Pair> hosts, same_facade, same_storey, alike, beside, above;
+  for (std::size_t i = 0; i < segmentation.features.size(); ++i)
+    if (segmentation.features[i].host.is_valid())
+      hosts.emplace_back(id(i), segmentation.features[i].host);
+
+  std::vector<int> facades;
+  for (const InFacade& f : features) facades.push_back(f.facade);
+  for (const auto& [facade, group] : members(facades))
+    for (const std::size_t i : group)
+      for (const std::size_t j : group) {
+        if (i == j) continue;
+        const InFacade &p = features[i], &q = features[j];
+        same_facade.emplace_back(id(i), id(j));
+        if (is_alike(p, q)) alike.emplace_back(id(i), id(j));
+        if (is_beside(p, q)) beside.emplace_back(id(i), id(j));
+        if (is_above(p, q)) above.emplace_back(id(i), id(j));
+      }
+  for (const auto& [storey, group] : members(storeys))
+    for (const std::size_t i : group)
+      for (const std::size_t j : group)
+        if (i != j) same_storey.emplace_back(id(i), id(j));
+
+  FeatureGraph graph;
+  graph.set("host", std::move(hosts));
+  graph.set("contains", contained(segmentation));
+  graph.set("same_facade", std::move(same_facade));
+  graph.set("same_storey", std::move(same_storey));
+  graph.set("alike", std::move(alike));
+  graph.set("beside", std::move(beside));
+  graph.set("above", std::move(above));
+  return graph;
+}
+
+}  // namespace oriel::detail

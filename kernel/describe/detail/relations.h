@@ -1,0 +1,33 @@
+#pragma once
+
+#include "kernel/describe/detail/shape.h"
+#include "kernel/model/feature_graph.h"
+#include "kernel/model/segmentation.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// A feature as seen in its facade: intervals along the facade's horizontal and in height.
+struct InFacade {
+  int facade = -1;  ///< -1: none
+  Sense sense = Sense::protrusion;
+  Extent across;
+  Extent height;
+  double a = 0, b = 0;
+};
+
+/// Facades: features whose largest caps lie in the same facet share a number, counted in feature
+/// order; -1 without cap.
+std::vector<int> facades_of(const Segmentation& segmentation);
+
+/// Storeys: openings (holes in steep facets) grouped by height, two of them together if their
+/// overlap is at least half of the taller; numbered from the lowest. -1: in no storey.
+std::vector<int> storeys_of(const std::vector<InFacade>& features,
+                            const std::vector<char>& is_opening);
+
+/// All relations of relation_schema().
+FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
+                    const std::vector<int>& storeys);
+
+}  // namespace oriel::detail

@@ -1,0 +1,103 @@
+#include "kernel/describe/detail/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace oriel::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The convex hull in plan, counter-clockwise (Andrew's monotone chain).
+std::vector<Vec3> hull_in_plan(std::vector<Vec3> points) {
+  for (Vec3& p : points) p.z = 0;
+  std::ranges::sort(points, {}, [](Vec3 p) { return std::tuple(p.x, p.y); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  const auto half = [](auto from, auto to) {
+    std::vector<Vec3> chain;
+    for (auto p = from; p != to; ++p) {
+      while (chain.size() > 1 &&
+             cross(chain.back() - chain[chain.size() - 2], *p - chain.back()).z <= 0)
+        chain.pop_back();
+      chain.push_back(*p);
+    }
+    chain.pop_back();
+    return chain;
+  };
+  std::vector<Vec3> hull = half(points.begin(), points.end());
+  const std::vector<Vec3> upper = half(points.rbegin(), points.rend());
+  hull.insert(hull.end(), upper.begin(), upper.end());
+  return hull;
+}
+
+}  // namespace
+
+std::array<double, 3> StandingBox::edges() const {
+  std::array<double, 3> sorted{length, breadth, height};
+  std::ranges::sort(sorted, std::greater{});
+  return sorted;
+}
+
+StandingBox standing_box(const std::vector<Vec3>& points) {
+  StandingBox best;
+  best.height = extent_along(points, {0, 0, 1}).size();
+  best.along = {1, 0, 0};
+  const std::vector<Vec3> hull = hull_in_plan(points);
+  double least = Box::kInfinity;
+  // One side of the smallest rectangle lies along a side of the hull.
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec3 side = hull[(i + 1) % hull.size()] - hull[i];
+    if (side.x == 0 && side.y == 0) continue;
+    const Vec3 u = normalised(side), v{-u.y, u.x, 0};
+    const double along = extent_along(hull, u).size(), across = extent_along(hull, v).size();
+    if (along * across >= least) continue;
+    least = along * across;
+    best.length = std::max(along, across);
+    best.breadth = std::min(along, across);
+    best.along = along >= across ? u : v;
+  }
+  return best;
+}
+
+Extent extent_along(const std::vector<Vec3>& points, Vec3 direction) {
+  Extent extent;
+  for (const Vec3 p : points) {
+    extent.low = std::min(extent.low, dot(p, direction));
+    extent.high = std::max(extent.high, dot(p, direction));
+  }
+  return extent;
+}
+
+std::vector<Vec3> points_of(const Segmentation& segmentation, const Feature& feature) {
+  std::vector<Vec3> points;
+  for (const int v : feature.vertices) points.push_back(segmentation.vertices[at(v)].point);
+  return points;
+}
+
+std::vector<Vec3> points_of(const Segmentation& segmentation, const Cell& cell) {
+  std::vector<Vec3> points;
+  for (const Facet& facet : cell.facets)
+    for (const Loop& loop : facet.loops)
+      for (const int v : loop) points.push_back(segmentation.vertices[at(v)].point);
+  return points;
+}
+
+std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
+                                           const CellFacet& facet) {
+  std::vector<std::vector<Vec3>> outlines;
+  for (const Loop& loop : segmentation.cells[facet.cell.index()].facets[at(facet.facet)].loops) {
+    outlines.emplace_back();
+    for (const int v : loop) outlines.back().push_back(segmentation.vertices[at(v)].point);
+  }
+  return outlines;
+}
+
+double inclination_deg(Vec3 normal) {
+  return std::atan2(std::hypot(normal.x, normal.y), normal.z) * 180 / std::numbers::pi;
+}
+
+}  // namespace oriel::detail

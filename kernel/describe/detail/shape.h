@@ -1,0 +1,48 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+
+#include <array>
+#include <vector>
+
+namespace oriel::detail {
+
+/// The smallest box around points that stands on the z-axis: one pair of sides is vertical, and
+/// turned in plan so that the plan area is least.
+struct StandingBox {
+  double length = 0;  ///< the longer side in plan
+  double breadth = 0;
+  double height = 0;
+  Vec3 along;  ///< horizontal unit vector of `length`
+
+  /// All three edges, longest first: the paper's a ≥ b ≥ c.
+  [[nodiscard]] std::array<double, 3> edges() const;
+};
+
+StandingBox standing_box(const std::vector<Vec3>& points);
+
+/// The least and largest coordinate of points along a direction.
+struct Extent {
+  double low = Box::kInfinity;
+  double high = -Box::kInfinity;
+  [[nodiscard]] double size() const { return high - low; }
+  [[nodiscard]] double middle() const { return (low + high) / 2; }
+};
+
+Extent extent_along(const std::vector<Vec3>& points, Vec3 direction);
+
+/// The points of a feature.
+std::vector<Vec3> points_of(const Segmentation& segmentation, const Feature& feature);
+
+/// The points of a cell, of all its facets.
+std::vector<Vec3> points_of(const Segmentation& segmentation, const Cell& cell);
+
+/// A facet of a cell as outlines.
+std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
+                                           const CellFacet& facet);
+
+/// The angle of a facet's normal from straight up, in degrees: 0 faces up, 90 is a wall, 180 faces
+/// down.
+double inclination_deg(Vec3 normal);
+
+}  // namespace oriel::detail
