@@ -86,6 +86,8 @@ struct Feature {
   double old_area_m2 = 0;
   /// The split planes, the one with the largest cap first. Outward from the rest.
   std::vector<PlaneId> planes;
+  /// A point inside the largest cap.
+  Vec3 cap_point;
   /// True if the cut follows existing edges of the body and splits no facet.
   bool is_natural = false;
   double volume_m3 = 0;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -19,8 +18,6 @@ namespace {
 using detail::Boundary;
 using detail::Choice;
 using detail::Side;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A body that waits to be segmented, and where it belongs.
 struct Task {
@@ -59,25 +56,10 @@ class Segmenter {
     out_.root = add_node();
     int lumps = 0;
     for (const Shell& shell : solid_.shells) lumps = std::max(lumps, shell.lump + 1);
-    for (const FacetId ground : lowest_downward_facets())
-      ground_ = world_.planes.side_of(solid_.facets[ground.index()].plane);
+    ground_ = detail::ground_side(solid_, world_.planes);
     std::vector<Boundary> bodies;
     for (int lump = 0; lump < lumps; ++lump) bodies.push_back(boundary_of(solid_, lump, world_));
     hang(std::move(bodies), {}, 1, {}, out_.root);
-  }
-
-  /// Facets that face straight down at the foot of the solid.
-  std::vector<FacetId> lowest_downward_facets() const {
-    std::vector<FacetId> lowest;
-    double least = std::numeric_limits<double>::infinity();
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      const Plane& plane = solid_.planes[solid_.facets[at(f)].plane.index()];
-      if (plane.normal.z > -1 + 1e-9 /* tolerance of doubles */ || -plane.offset_m >= least)
-        continue;
-      least = -plane.offset_m;
-      lowest = {FacetId{f}};
-    }
-    return lowest;
   }
 
   NodeId add_node() {
@@ -120,7 +102,8 @@ class Segmenter {
     }
   }
 
-  /// The rest that the last cut has left is in pieces: its lumps become the `rest` of the node made last.
+  /// The rest that the last cut has left is in pieces: its lumps become the `rest` of the node made
+  /// last.
   void hang_rest(Task task) {
     std::vector<Boundary> lumps = detail::part_into_lumps(task.body);
     for (std::size_t i = 0; i < lumps.size(); ++i) {
@@ -176,7 +159,8 @@ class Segmenter {
     }
     for (const detail::Patch& patch : choice.patches) {
       may_have_parted_ = true;
-      take_off_part(task, choice, patch.caps, {patch.new_area, patch.new_area / patch.old_area}, touched);
+      take_off_part(task, choice, patch.caps, {patch.new_area, patch.new_area / patch.old_area},
+                    touched);
     }
     parent_of_rest_ = task.node;
     task.node = rest;
@@ -188,13 +172,14 @@ class Segmenter {
     double value;
   };
 
-  void take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps, Measures measures,
-                     std::vector<int>& touched) {
+  void take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
+                     Measures measures, std::vector<int>& touched) {
     const FeatureId id{static_cast<int>(out_.features.size())};
     auto carved = take_off(task.body, caps, choice.is_hole, id, std::move(touched));
     touched = std::move(carved.touched);
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
-    std::ranges::stable_sort(caps, std::greater{}, [&](const detail::Cap& cap) { return area_of(cap); });
+    std::ranges::stable_sort(caps, std::greater{},
+                             [&](const detail::Cap& cap) { return area_of(cap); });
 
     Feature feature;
     feature.sense = choice.is_hole ? Sense::hole : Sense::protrusion;
@@ -202,11 +187,13 @@ class Segmenter {
     feature.quality = measures.new_area / choice.old_area;
     feature.new_area_m2 = measures.new_area;
     feature.old_area_m2 = choice.old_area;
+    feature.cap_point = carved.cap_point;
     feature.is_natural = choice.is_natural;
     std::vector<int> own_planes;
     for (const detail::Cap& cap : caps) {
       const PlaneId plane = cells_.plane_id(cap.side);
-      if (std::ranges::find(feature.planes, plane) == feature.planes.end()) feature.planes.push_back(plane);
+      if (std::ranges::find(feature.planes, plane) == feature.planes.end())
+        feature.planes.push_back(plane);
       feature.surface_m2 -= area_of(cap);
     }
     if (!choice.is_hole && choice.sides.size() > 1)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/ids.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/ids.h"
 #include "kernel/segment/detail/planes.h"
 #include "kernel/segment/detail/points.h"
 
@@ -159,5 +159,21 @@ class Boundary {
 
 /// The boundary of one lump of a solid.
 Boundary boundary_of(const Solid& solid, int lump, World& world);
+
+/// The loops of a facet without vertices that lie on straight edges, where only two facets meet;
+/// the outer loop first. A loop that would keep fewer than three keeps all, and so do its
+/// neighbours there: the corners of a closed boundary make a closed solid.
+class Corners {
+ public:
+  explicit Corners(const Boundary& body);
+  [[nodiscard]] std::vector<Loop> loops(int facet) const;
+
+ private:
+  const Boundary& body_;
+  std::vector<char> is_corner_;  ///< by half-edge: of its origin
+};
+
+/// The side of the ground: the lowest facet that faces straight down, -1 if none does.
+Side ground_side(const Solid& solid, const PlaneTable& planes);
 
 }  // namespace oriel::detail

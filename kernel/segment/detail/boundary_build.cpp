@@ -41,4 +41,58 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
   return boundary;
 }
 
+Corners::Corners(const Boundary& body)
+    : body_(body), is_corner_(static_cast<std::size_t>(body.half_edge_count()), 0) {
+  const auto is_kept = [&](int e) -> char& { return is_corner_[static_cast<std::size_t>(e)]; };
+  for (int e = 0; e < body.half_edge_count(); ++e)
+    if (body.is_alive_edge(e)) is_kept(e) = body.next(body.twin(e)) != body.twin(body.prev(e));
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (const int f : body.living_facets())
+      for (const int l : body.facet(f).loops) {
+        std::vector<int> edges;
+        int e = body.loop(l).first;
+        do {
+          edges.push_back(e);
+          e = body.next(e);
+        } while (e != body.loop(l).first);
+        const auto kept = std::ranges::count_if(edges, [&](int i) { return is_kept(i) != 0; });
+        if (kept >= 3 || kept == std::ssize(edges)) continue;
+        for (const int i : edges) is_kept(i) = is_kept(body.twin(body.prev(i))) = 1;
+        has_changed = true;
+      }
+  }
+}
+
+std::vector<Loop> Corners::loops(int facet) const {
+  std::vector<Loop> loops;
+  std::size_t outer = 0;
+  const auto& numbers = body_.facet(facet).loops;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const int first = body_.loop(numbers[i]).first;
+    int e = first;
+    loops.emplace_back();
+    do {
+      if (is_corner_[static_cast<std::size_t>(e)]) loops.back().push_back(body_.origin(e));
+      e = body_.next(e);
+    } while (e != first);
+    if (body_.loop(numbers[i]).area > body_.loop(numbers[outer]).area) outer = i;
+  }
+  std::swap(loops[0], loops[outer]);
+  return loops;
+}
+
+Side ground_side(const Solid& solid, const PlaneTable& planes) {
+  constexpr double kStraightDown = -1 + 1e-9;  // tolerance of doubles
+  Side ground = -1;
+  double least = Box::kInfinity;
+  for (const Facet& facet : solid.facets) {
+    const Plane& plane = solid.planes[facet.plane.index()];
+    if (plane.normal.z > kStraightDown || -plane.offset_m >= least) continue;
+    least = -plane.offset_m;
+    ground = planes.side_of(facet.plane);
+  }
+  return ground;
+}
+
 }  // namespace oriel::detail

@@ -79,7 +79,7 @@ class Remover {
         for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
     body_.remove(copier_.facets());
     close_rest(mark);
-    return {std::move(copier_.boundary()), std::move(touched)};
+    return {std::move(copier_.boundary()), cap_point_, std::move(touched)};
   }
 
  private:
@@ -194,8 +194,10 @@ class Remover {
         largest = facets[i];
     const auto shape = body_.outlines(largest);
     if (const auto inside =
-            interior_point(shape, body_.world().planes.normal(body_.facet(largest).side)))
+            interior_point(shape, body_.world().planes.normal(body_.facet(largest).side))) {
       body_.add_mark(largest, {mark, *inside});
+      cap_point_ = *inside;
+    }
   }
 
   Boundary& body_;
@@ -204,6 +206,7 @@ class Remover {
   Copier copier_;
   std::unordered_map<int, int> twin_of_rim_;
   std::vector<int> cap_facets_;
+  Vec3 cap_point_;
 };
 
 /// The living facets in connected pieces, in the order of their first facets.
@@ -293,6 +296,54 @@ std::vector<Boundary> take_out_cavities(Boundary& body) {
     body.remove(piece);
   }
   return cavities;
+}
+
+bool fill_cavity(Boundary& body, const Box& box) {
+  for (const auto& piece : pieces_of(body)) {
+    Box around;
+    for (const int f : piece) body.for_each_edge(f, [&](int e) { around.grow(body.at(e)); });
+    if (volume_of(body, piece) >= 0 || around != box) continue;
+    body.remove(piece);
+    return true;
+  }
+  return false;
+}
+
+Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
+               const std::set<int>& gone) {
+  Solid solid;
+  solid.grid_m = original.grid_m;
+  solid.planes = original.planes;
+  std::map<int, int> number;
+  const auto vertex = [&](const World& world, int point) {
+    const auto [entry, is_new] = number.emplace(point, static_cast<int>(solid.vertices.size()));
+    if (is_new) solid.vertices.push_back({world.points.at(point), world.points.is_meeting(point)});
+    return entry->second;
+  };
+  int lump = 0;
+  for (const Boundary& body : bodies)
+    for (const Boundary& part : part_into_lumps(body)) {
+      const Corners corners(part);
+      for (const auto& piece : pieces_of(part)) {
+        Shell shell{{}, lump, volume_of(part, piece) < 0};
+        for (const int f : piece) {
+          Facet facet{part.world().planes.id_of(part.facet(f).side), corners.loops(f), {}};
+          for (Loop& loop : facet.loops)
+            for (int& v : loop) v = vertex(part.world(), v);
+          for (const int source : part.facet(f).sources)
+            for (const int polygon : original.facets[at(source)].polygons)
+              if (!gone.contains(polygon)) facet.polygons.push_back(polygon);
+          std::ranges::sort(facet.polygons);
+          shell.facets.push_back(FacetId{static_cast<int>(solid.facets.size())});
+          solid.facets.push_back(std::move(facet));
+        }
+        solid.shells.push_back(std::move(shell));
+      }
+      ++lump;
+    }
+  std::ranges::stable_sort(solid.shells, {},
+                           [](const Shell& s) { return std::pair(s.lump, s.is_cavity); });
+  return solid;
 }
 
 }  // namespace oriel::detail

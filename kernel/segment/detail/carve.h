@@ -4,6 +4,7 @@
 #include "kernel/segment/detail/lump.h"
 #include "kernel/segment/detail/section.h"
 
+#include <set>
 #include <vector>
 
 namespace oriel::detail {
@@ -35,6 +36,8 @@ struct Cap {
 /// What a cut has made.
 struct Carved {
   Boundary lump;
+  /// A point inside the largest cap.
+  Vec3 cap_point;
   /// Points of everything that has changed: an edge without any of them between its ends is as it
   /// was.
   std::vector<int> touched;
@@ -65,5 +68,13 @@ std::vector<Boundary> part_into_lumps(const Boundary& body);
 /// The cavities of a body as bodies of their own, turned right side out; `body` loses them. Usually
 /// none.
 std::vector<Boundary> take_out_cavities(Boundary& body);
+
+/// Fills the cavity that has this box; false if the body has none.
+bool fill_cavity(Boundary& body, const Box& box);
+
+/// The bodies as one solid, with the planes of `original`. Facets list the input polygons of the
+/// facets of `original` they are made of, but for those in `gone`.
+Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
+               const std::set<int>& gone);
 
 }  // namespace oriel::detail

@@ -10,23 +10,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Only two facets meet at the start of the half-edge: it lies on a straight edge.
-bool is_on_straight_edge(const Boundary& body, int e) {
-  return body.next(body.twin(e)) == body.twin(body.prev(e));
-}
-
-Loop corners(const Boundary& body, int l) {
-  Loop all, kept;
-  const int first = body.loop(l).first;
-  int e = first;
-  do {
-    all.push_back(body.origin(e));
-    if (!is_on_straight_edge(body, e)) kept.push_back(body.origin(e));
-    e = body.next(e);
-  } while (e != first);
-  return kept.size() >= 3 ? kept : all;
-}
-
 /// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
 /// most of it lies.
 std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
@@ -64,14 +47,12 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
                        FeatureId feature) {
   const CellId id{static_cast<int>(out_.cells.size())};
   Cell cell{sign, body.volume(), is_convex, flag, node, feature, {}};
+  const Corners all_corners(body);
   for (const int f : body.living_facets()) {
     const auto& record = body.facet(f);
     const CellFacet here{id, static_cast<int>(cell.facets.size())};
     Facet facet{plane_id(record.side), {}, {}};
-    for (const int l : record.loops) facet.loops.push_back(corners(body, l));
-    const auto outer =
-        std::ranges::max_element(record.loops, {}, [&](int l) { return body.loop(l).area; });
-    std::swap(facet.loops[0], facet.loops[at(static_cast<int>(outer - record.loops.begin()))]);
+    facet.loops = all_corners.loops(f);
     for (const int source : record.sources) made_of_[source].push_back(here);
     for (const CapMark& mark : record.marks) {
       Feature& marked = out_.features[mark.feature.index()];

@@ -34,15 +34,14 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
     Point& point = points_[v];
     std::ranges::sort(point.planes);
     point.planes.erase(std::unique(point.planes.begin(), point.planes.end()), point.planes.end());
-    point.is_by_decree = !solid.vertices[v].is_meeting;
-    if (point.is_by_decree) {
-      point.at = solid.vertices[v].point;
-      point.grid = exact::round_to_grid(point.at, grid_m_);
-      continue;
-    }
-    const auto where = exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
-                                   planes.plane(point.planes[2]));
-    place(point, *where);
+    const Vec3 at = solid.vertices[v].point;
+    if (solid.vertices[v].is_meeting && point.planes.size() >= 3)
+      if (const auto where =
+              exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
+                          planes.plane(point.planes[2])))
+        place(point, *where);
+    point.is_by_decree = length(point.at - at) > kOnSegment_m || point.rational.w == 0;
+    if (point.is_by_decree) place(point, exact::round_finely(at, grid_m_));
   }
 }
 

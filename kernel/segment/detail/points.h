@@ -45,8 +45,8 @@ class PointTable {
     std::vector<int> planes;  ///< sorted
     bool is_by_decree = false;
     std::optional<exact::GridPoint> grid;
-    exact::Rational rational;
-    int low = -1, high = -1;  ///< the ends of the edge it was made on
+    exact::Rational rational{0, 0, 0, 0};  ///< w = 0: not placed yet
+    int low = -1, high = -1;               ///< the ends of the edge it was made on
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   void place(Point& point, const exact::Rational& where) const;

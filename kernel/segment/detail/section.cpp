@@ -143,15 +143,7 @@ class Sectioner {
     return true;
   }
 
-  [[nodiscard]] Outline outline(int l) const {
-    Outline points;
-    int c = section_.loops[at(l)].first;
-    do {
-      points.push_back(section_.crossings[at(c)].at);
-      c = section_.crossings[at(c)].next;
-    } while (c != section_.loops[at(l)].first);
-    return points;
-  }
+  [[nodiscard]] Outline outline(int l) const { return outline_of(section_, l); }
 
   /// Thinner than weld_m, as a keel that touches the plane is.
   [[nodiscard]] bool is_sliver(const Outline& points, double area) const {
@@ -283,6 +275,17 @@ class Sectioner {
 };
 
 }  // namespace
+
+Outline outline_of(const Section& section, int loop) {
+  Outline points;
+  const int first = section.loops[at(loop)].first;
+  int c = first;
+  do {
+    points.push_back(section.crossings[at(c)].at);
+    c = section.crossings[at(c)].next;
+  } while (c != first);
+  return points;
+}
 
 Section section_at(const Boundary& body, int plane, int direction, const SectionOptions& options) {
   return Sectioner(body, plane, direction, options).run();

@@ -58,6 +58,9 @@ struct Section {
   }
 };
 
+/// A loop of a section as points.
+Outline outline_of(const Section& section, int loop);
+
 /// What a section needs to know beside the body.
 struct SectionOptions {
   /// Chords in facets of this side are as good as edges (-1: none): the ground.

@@ -1,0 +1,215 @@
+#include "kernel/segment/remove.h"
+
+#include "kernel/model/issue.h"
+#include "kernel/segment/detail/carve.h"
+#include "kernel/segment/detail/patch.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace oriel {
+
+namespace {
+
+using detail::Boundary;
+using detail::Side;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class FeatureRemover {
+ public:
+  FeatureRemover(const Solid& solid, const Segmentation& segmentation,
+                 const SegmentOptions& options)
+      : solid_(solid),
+        segmentation_(segmentation),
+        options_(options),
+        world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)} {
+    int lumps = 0;
+    for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
+    for (int lump = 0; lump < lumps; ++lump) bodies_.push_back(boundary_of(solid, lump, world_));
+  }
+
+  Remainder run(const std::vector<FeatureId>& asked) {
+    go_.assign(segmentation_.features.size(), 0);
+    for (const FeatureId id : asked) go_[id.index()] = 1;
+    spread();
+    for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
+      const FeatureId id{i};
+      if (!go_[at(i)] || goes_with_parent(id)) continue;
+      if (const auto reason = remove(id)) refuse(id, *reason);
+    }
+    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
+      if (go_[at(i)]) out_.removed.push_back(FeatureId{i});
+    out_.solid = remaining_solid();
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] const Feature& feature(FeatureId id) const {
+    return segmentation_.features[id.index()];
+  }
+
+  /// What sits on or in a feature goes with it.
+  void spread() {
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (std::size_t i = 0; i < go_.size(); ++i) {
+        const Feature& f = segmentation_.features[i];
+        const bool carrier_goes = (f.parent.is_valid() && go_[f.parent.index()]) ||
+                                  (f.host.is_valid() && go_[f.host.index()]);
+        if (go_[i] || !carrier_goes) continue;
+        go_[i] = 1;
+        has_changed = true;
+      }
+    }
+  }
+
+  [[nodiscard]] bool goes_with_parent(FeatureId id) const {
+    const FeatureId parent = feature(id).parent;
+    return parent.is_valid() && go_[parent.index()] && !is_refused(parent);
+  }
+
+  [[nodiscard]] bool is_refused(FeatureId id) const {
+    return std::ranges::find(out_.refused, id, &Refusal::feature) != out_.refused.end();
+  }
+
+  void refuse(FeatureId id, const std::string& reason) {
+    out_.refused.push_back({id, reason});
+    go_[id.index()] = 0;
+  }
+
+  /// Nothing if it went well, else the reason why not.
+  std::optional<std::string> remove(FeatureId id) {
+    const Feature& f = feature(id);
+    if (f.sense == Sense::cavity) return fill_cavity(f);
+    for (const PlaneId plane : f.planes)
+      if (plane.index() >= solid_.planes.size()) return "it lies on a part that stays";
+    return f.planes.size() == 1 ? remove_by_section(f) : remove_by_patch(f);
+  }
+
+  std::optional<std::string> remove_by_section(const Feature& f) {
+    const Side split = world_.planes.side_of(f.planes[0]);
+    // A protrusion is in front of its plane, a hole behind it.
+    const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
+    for (Boundary& body : bodies_) {
+      const auto section = section_at(body, split >> 1, looks_along_class ? 1 : -1,
+                                      {-1, options_.tolerances.weld_m});
+      const auto region = region_around(section, f);
+      if (!region) continue;
+      const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
+      if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
+        return "its cut does not close any more";
+      Boundary trial = body;
+      std::vector<int> touched;
+      const auto caps = imprint(trial, section, lump, touched);
+      return take(body, std::move(trial), caps, f);
+    }
+    return "its cut is not found any more";
+  }
+
+  /// The region of the feature's kind with its cap point inside.
+  [[nodiscard]] std::optional<int> region_around(const detail::Section& section,
+                                                 const Feature& f) const {
+    const Vec3 normal = world_.planes.plane(section.plane).normal;
+    for (int r = 0; r < std::ssize(section.regions); ++r) {
+      const detail::Region& region = section.regions[at(r)];
+      if (region.is_material != (f.sense == Sense::protrusion)) continue;
+      std::vector<detail::Outline> shape;
+      for (const int l : region.loops) shape.push_back(detail::outline_of(section, l));
+      if (detail::contains(shape, normal, f.cap_point)) return r;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::string> remove_by_patch(const Feature& f) {
+    std::vector<Side> sides;
+    for (const PlaneId plane : f.planes) sides.push_back(world_.planes.side_of(plane));
+    std::ranges::sort(sides);
+    for (Boundary& body : bodies_)
+      for (const detail::Patch& patch : find_patches(
+               body, f.sense == Sense::hole, {{}, 4, detail::ground_side(solid_, world_.planes)})) {
+        if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
+        return take(body, Boundary(body), patch.caps, f);
+      }
+    return "its cut is not found any more";
+  }
+
+  [[nodiscard]] bool has_cap_at(const detail::Patch& patch, Vec3 point) const {
+    return std::ranges::any_of(patch.caps, [&](const detail::Cap& cap) {
+      const Vec3 normal = world_.planes.normal(cap.side);
+      constexpr double kOnPlane_m =
+          1e-6;  // tolerance of doubles: the point was made on the plane of one of the caps
+      if (std::abs(dot(normal, point) - world_.planes.offset_m(cap.side)) > kOnPlane_m)
+        return false;
+      std::vector<detail::Outline> shape;
+      for (const detail::CapLoop& loop : cap.loops) {
+        shape.emplace_back();
+        for (const detail::CapEdge& edge : loop.edges)
+          shape.back().push_back(world_.points.at(edge.from));
+      }
+      return detail::contains(shape, normal, point);
+    });
+  }
+
+  /// Carries out the cut on `trial` and keeps it if nothing goes that is to stay.
+  std::optional<std::string> take(Boundary& body, Boundary trial,
+                                  const std::vector<detail::Cap>& caps, const Feature& f) {
+    const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
+    if (takes_others_along(carved.lump, f)) return "a feature that stays would go with it";
+    body = std::move(trial);
+    return std::nullopt;
+  }
+
+  /// A feature that is to stay would lose all its surface with the lump.
+  [[nodiscard]] bool takes_others_along(const Boundary& lump, const Feature& f) const {
+    std::set<int> lost;
+    for (const int facet : lump.living_facets())
+      for (const int source : lump.facet(facet).sources) {
+        const auto& polygons = solid_.facets[at(source)].polygons;
+        lost.insert(polygons.begin(), polygons.end());
+      }
+    for (std::size_t i = 0; i < segmentation_.features.size(); ++i) {
+      const Feature& other = segmentation_.features[i];
+      if (go_[i] || other.source_polygons.empty() || carries(other, f)) continue;
+      if (std::ranges::all_of(other.source_polygons, [&](int p) { return lost.contains(p); }))
+        return true;
+    }
+    return false;
+  }
+
+  /// `outer` carries `inner`, directly or over others.
+  [[nodiscard]] bool carries(const Feature& outer, const Feature& inner) const {
+    return std::ranges::includes(outer.source_polygons, inner.source_polygons);
+  }
+
+  std::optional<std::string> fill_cavity(const Feature& f) {
+    for (Boundary& body : bodies_)
+      if (detail::fill_cavity(body, f.box)) return std::nullopt;
+    return "its shell is not found any more";
+  }
+
+  [[nodiscard]] Solid remaining_solid() const {
+    std::set<int> gone;
+    for (const FeatureId id : out_.removed)
+      gone.insert(feature(id).source_polygons.begin(), feature(id).source_polygons.end());
+    return detail::solid_of(bodies_, solid_, gone);
+  }
+
+  const Solid& solid_;
+  const Segmentation& segmentation_;
+  const SegmentOptions& options_;
+  detail::World world_;
+  std::vector<Boundary> bodies_;
+  std::vector<char> go_;  ///< by feature
+  Remainder out_;
+};
+
+}  // namespace
+
+Remainder remove_features(const Solid& solid, const Segmentation& segmentation,
+                          const std::vector<FeatureId>& features, const SegmentOptions& options) {
+  return FeatureRemover(solid, segmentation, options).run(features);
+}
+
+}  // namespace oriel

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/segment/segment.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// A feature that could not be taken off, and why.
+struct Refusal {
+  FeatureId feature;
+  std::string reason;
+};
+
+/// What is left of a solid when features are taken off it.
+struct Remainder {
+  /// Closed; facets are maximal, so neither filled holes nor cut protrusions leave seams.
+  /// Facet::polygons are the input polygons that a facet still has parts of. No facets at all if
+  /// nothing is left.
+  Solid solid;
+  /// The features that are gone: those asked for and all that sat on or in them. Ascending.
+  std::vector<FeatureId> removed;
+  std::vector<Refusal> refused;
+};
+
+/// Takes features off the solid that was segmented: protrusions are cut, holes and cavities filled,
+/// each by its own planes, in the order in which the segmentation found them.
+///
+/// What sits on a removed feature goes with it (a window with its dormer). A feature whose cut
+/// would take others along that are to stay is refused, as is one whose cut is not found any more;
+/// the solid is then as if it had not been asked for. `segmentation` must be the one of `solid`,
+/// made with the same options.
+Remainder remove_features(const Solid& solid, const Segmentation& segmentation,
+                          const std::vector<FeatureId>& features,
+                          const SegmentOptions& options = {});
+
+}  // namespace oriel
