@@ -71,8 +71,8 @@ TEST_SUITE("kernel/io") {
     for (const Case& c : {Case{"fo 1 2 3", "E109", 1},
                           {"v 0 0", "E109", 6},
                           {"v 0 0 x", "E109", 7},
-                          {"v 0 0 nan", "E502", 7},
-                          {"v 0 -inf 0", "E502", 5},
+                          {"v 0 0 nan", "E506", 7},
+                          {"v 0 -inf 0", "E506", 5},
                           {"v 0 0 1e999", "E109", 7},
                           {"f 1 2 9", "E203", 7},
                           {"f 1 2 0", "E203", 7},
@@ -134,7 +134,7 @@ TEST_SUITE("kernel/io") {
                           {"OFF\n3 999999999 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "E110", 7},
                           {"OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "E110", 4},
                           {"OFF\n3 1 0\n0 0 0\n1 0 0 1\n0 1 0\n3 0 1 2\n", "E110", 4},
-                          {"OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "E502", 4},
+                          {"OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "E506", 4},
                           {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "E203", 6},
                           {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "E203", 6},
                           {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n", "E110", 6},
@@ -153,7 +153,7 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("limits hold for mesh files too") {
     CHECK(codes_of(read_text("v 0 0 0\nv 5000 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").issues) == "E501");
     const auto far = read_text("v 0 0 0\nv 5e9 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj");
-    CHECK(codes_of(far.issues) == "E502");
+    CHECK(codes_of(far.issues) == "E506");
     CHECK(far.issues[0].place.building == "a");
     CHECK(far.value->buildings.empty());
     const auto thin = read_text("v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj");
