@@ -18,7 +18,7 @@ struct AnnotateOptions {
   std::string codelist = "sig3d";
   /// Written on the building after oriel_version, oriel_pack and oriel_pack_sha256; such as
   /// oriel_config_sha256.
-  Members attributes;
+  Members attributes{};
 };
 
 /// What is to be written about a building whose features were labelled (docs/formats.md).
@@ -34,7 +34,8 @@ struct AnnotateOptions {
 /// Every feature whose class is emitted as BuildingInstallation and that has polygons becomes an
 /// Installation with all its polygons but those of installations inside it.
 ///
-/// `segmentation`, `table`, `graph` and `interpretation` are of `building`, with the same features.
+/// `segmentation`, `table`, `graph` and `interpretation` are of `building`, with the same features;
+/// its polygons have different numbers (Polygon::source) of at least 0.
 LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
                           const FeatureTable& table, const FeatureGraph& graph,
                           const Interpretation& interpretation, const RuleBase& base,

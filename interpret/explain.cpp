@@ -26,6 +26,7 @@ std::vector<ConditionReport> prove(Prover& prover, const std::vector<ExprId>& co
 /// `unless` is one condition to the rule, whatever `and` joins in it.
 std::vector<ConditionReport> prove_vetoes(Prover& prover, const std::vector<ExprId>& conditions) {
   std::vector<ConditionReport> reports;
+  reports.reserve(conditions.size());
   for (const ExprId id : conditions) reports.push_back(prover.condition(id));
   return reports;
 }
@@ -76,7 +77,7 @@ Explanation explain(const RuleBase& base, const FeatureTable& table, const Featu
   Explanation explanation;
   explanation.building = table.building();
   explanation.feature = table.id(feature);
-  explanation.verdict = interpretation.verdicts[feature.index()];
+  explanation.verdict = interpretation.verdicts.at(feature.index());
   explanation.min_score = pack.decide.min_score;
   for (const Rule& rule : pack.rules)
     explanation.rules.push_back(report_of(pack, rule, evaluator, prover));

@@ -28,6 +28,8 @@ struct Links {
 /// the first rule is run. Refers to the table, which must outlive it.
 struct Facts {
   Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+  Facts(const Facts&) = delete;
+  Facts& operator=(const Facts&) = delete;
 
   std::size_t rows = 0;
   /// 0, 1, … rows - 1: a block of features is a piece of it.

@@ -28,8 +28,8 @@ std::vector<Issue> Findings::issues() const {
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   if (sorted.size() > kMostFindings) {
     // Errors before warnings, so that what makes the pack invalid is not among what is left out.
-    std::ranges::stable_partition(sorted,
-                                  [](const Finding& f) { return f.severity == Severity::error; });
+    std::stable_partition(sorted.begin(), sorted.end(),
+                          [](const Finding& f) { return f.severity == Severity::error; });
     sorted.resize(kMostFindings);
   }
   std::vector<Issue> issues;

@@ -42,6 +42,7 @@ int index_of(const std::vector<Named>& list, std::string_view name) {
 template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& list) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const Named& element : list) names.push_back(element.name);
   return names;
 }

@@ -21,7 +21,7 @@ constexpr std::array<UnitWord, 7> kUnits = {{{"m", {1, 0}, 1},
 constexpr int kLeastDecimals = 2;
 constexpr int kMostDecimals = 6;
 
-std::string with_unit(std::string number, Dimension dimension) {
+std::string with_unit(const std::string& number, Dimension dimension) {
   const std::string unit = unit_of(dimension);
   return unit.empty() ? number : number + " " + unit;
 }

@@ -5,8 +5,9 @@
 #include "interpret/detail/suggest.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel::rules {
 
@@ -93,18 +94,34 @@ void read_class_body(const YamlNode& node, Class& c, Loader& loader) {
   if (const YamlNode* typical = section.find("typical")) read_typical(*typical, c, loader);
 }
 
-/// A class that is its own ancestor is an error R244 and gets no parent.
-void cut_circles(Loader& loader) {
+/// Deeper trees say nothing more, and would make the checks of a pack from a stranger slow.
+constexpr std::size_t kDeepestClassTree = 16;
+
+/// The classes above `id`, nearest first: no more than the deepest tree has.
+std::vector<ClassId> ancestors_of(const std::vector<Class>& classes, ClassId id) {
+  std::vector<ClassId> ancestors;
+  ClassId above = classes[static_cast<std::size_t>(id)].parent;
+  while (above != kNoClass && ancestors.size() <= kDeepestClassTree) {
+    ancestors.push_back(above);
+    above = classes[static_cast<std::size_t>(above)].parent;
+  }
+  return ancestors;
+}
+
+/// A class that is its own ancestor (R244) or has too many (R213) gets no parent.
+void check_tree(Loader& loader) {
   auto& classes = loader.pack.classes;
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    ClassId id = classes[i].parent;
-    std::size_t steps = 0;
-    while (id != kNoClass && id != static_cast<ClassId>(i) && steps++ < classes.size())
-      id = classes[static_cast<std::size_t>(id)].parent;
-    if (id != static_cast<ClassId>(i)) continue;
-    loader.findings.error("R244", classes[i].span,
-                          "the class '" + classes[i].name + "' is its own ancestor");
-    classes[i].parent = kNoClass;
+  for (ClassId id = 0; id < static_cast<ClassId>(classes.size()); ++id) {
+    Class& c = classes[static_cast<std::size_t>(id)];
+    const auto ancestors = ancestors_of(classes, id);
+    const bool is_circle = std::ranges::find(ancestors, id) != ancestors.end();
+    if (!is_circle && ancestors.size() < kDeepestClassTree) continue;
+    if (is_circle)
+      loader.findings.error("R244", c.span,
+                            fmt::format("the class '{}' is its own ancestor", c.name));
+    else
+      loader.findings.error("R213", c.span, "a class tree is no deeper than 16 levels");
+    c.parent = kNoClass;
   }
 }
 
@@ -150,7 +167,7 @@ void read_classes(const YamlNode& node, Loader& loader) {
   }
   for (std::size_t i = 0; i < node.entries.size(); ++i)
     read_class_body(node.entries[i].value, classes[i], loader);
-  cut_circles(loader);
+  check_tree(loader);
 }
 
 void read_macros(const YamlNode& node, Loader& loader) {

@@ -25,6 +25,12 @@ std::vector<ExprId> read_conditions(const YamlNode& node, Loader& loader) {
   return conditions;
 }
 
+void read_require(const YamlNode& node, Rule& rule, Loader& loader) {
+  rule.require = read_conditions(node, loader);
+  if (node.kind == YamlNode::Kind::sequence && node.items.empty())
+    loader.findings.error("R210", node.span, "a rule needs a condition under 'require'");
+}
+
 std::optional<Ramp> read_ramp(const YamlNode* node, Dimension dimension, Loader& loader) {
   if (node == nullptr) return std::nullopt;
   const auto range = read_range(*node, dimension, loader);
@@ -118,8 +124,7 @@ void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader)
     rule.label = read_class(*label, "a label", loader);
   if (const YamlNode* priority = section.find("priority"))
     rule.priority = read_integer(*priority, "a priority", loader.findings).value_or(0);
-  if (const YamlNode* require = section.require("require"))
-    rule.require = read_conditions(*require, loader);
+  if (const YamlNode* require = section.require("require")) read_require(*require, rule, loader);
   if (const YamlNode* unless = section.find("unless"))
     rule.unless = read_conditions(*unless, loader);
   if (const YamlNode* score = section.find("score")) read_score(*score, rule, loader);

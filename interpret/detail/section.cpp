@@ -95,7 +95,7 @@ void check_scalar(const YamlNode& node, Findings& findings) {
 
 }  // namespace
 
-Section::Section(const YamlNode& node, std::string what, std::vector<std::string> keys,
+Section::Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
                  Findings& findings, const std::vector<std::string>& later)
     : node_(&node), what_(std::move(what)), findings_(&findings) {
   if (!expect(node, Kind::map, what_, "a map", findings)) return;

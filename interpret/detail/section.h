@@ -15,8 +15,8 @@ namespace oriel::rules {
 /// node that is no map (R211); `what` names it in messages ("a rule").
 class Section {
  public:
-  Section(const YamlNode& node, std::string what, std::vector<std::string> keys, Findings& findings,
-          const std::vector<std::string>& later = {});
+  Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
+          Findings& findings, const std::vector<std::string>& later = {});
 
   /// The value of `key`, or null.
   [[nodiscard]] const YamlNode* find(std::string_view key) const;

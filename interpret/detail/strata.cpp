@@ -244,6 +244,7 @@ void find_strata(Pack& pack, Findings& findings) {
   check_tree(pack, findings);
   const std::vector<Question> questions = find_questions(pack);
   std::vector<std::pair<int, int>> edges;
+  edges.reserve(questions.size());
   for (const Question& q : questions) edges.emplace_back(q.reader, q.read);
   const Components components = find_components(static_cast<int>(pack.classes.size()), edges);
   if (check_circles(pack, questions, components.of_node, findings))

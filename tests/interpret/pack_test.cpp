@@ -48,6 +48,8 @@ TEST_SUITE("interpret") {
           "t.yaml:5:5: R210 a rule needs the key 'label'\n"
           "  - id: w\n"
           "    ^\n");
+    CHECK(fault_in_rule("  - {id: w, label: window, require: []}\n")
+              .starts_with("t.yaml:5:37: R210 a rule needs a condition under 'require'\n"));
     CHECK(fault("params: {p: {why: because}}") ==
           "t.yaml:4:13: R210 a param needs the key 'value'\n"
           "params: {p: {why: because}}\n"
@@ -163,6 +165,13 @@ TEST_SUITE("interpret") {
     CHECK(findings("schema: oriel/1\npack: {name: t, version: 1.0.0}\n"
                    "classes: {a: {is: b}, b: {is: a}}\nrules: []\n")
               .starts_with("t.yaml:3:11: R244 the class 'a' is its own ancestor\n"));
+  }
+
+  TEST_CASE("a class tree that is too deep is refused") {
+    std::string classes = "classes:\n  c0: {}\n";
+    for (int i = 1; i <= 16; ++i) classes += fmt::format("  c{}: {{is: c{}}}\n", i, i - 1);
+    CHECK(findings("schema: oriel/1\npack: {name: t, version: 1.0.0}\n" + classes + "rules: []\n")
+              .starts_with("t.yaml:20:3: R213 a class tree is no deeper than 16 levels\n"));
   }
 
   TEST_CASE("an abstract class neither scores nor has a priority") {
