@@ -18,6 +18,7 @@ std::string joined(const std::vector<std::string>& parts) {
 template <class Numbers>
 std::string joined_numbers(const Numbers& numbers) {
   std::vector<std::string> parts;
+  parts.reserve(numbers.size());
   for (const auto number : numbers) parts.push_back(shortest(number));
   return joined(parts);
 }

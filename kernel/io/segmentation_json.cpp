@@ -35,6 +35,7 @@ void append_field(std::string& out, std::string_view key, std::size_t count) {
 template <class Ids>
 void append_ids(std::string& out, std::string_view key, const Ids& ids) {
   std::vector<int> numbers;
+  numbers.reserve(ids.size());
   for (const auto id : ids) numbers.push_back(id.value);
   append_json_key(out, key);
   append_json_array(out, numbers);
