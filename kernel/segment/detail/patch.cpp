@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace oriel::detail {
 
@@ -165,17 +166,18 @@ class PatchFinder {
         world_(body.world()),
         is_hole_(is_hole),
         options_(options),
-        component_of_(at(body.facet_count()), -1) {}
+        number_of_(at(body.facet_count()), -1) {}
 
   std::vector<Patch> run() {
-    std::vector<Patch> patches;
-    for (int f = 0; f < body_.facet_count(); ++f) {
-      if (!body_.is_alive(f) || component_of_[at(f)] >= 0 || is_ground(f)) continue;
-      const Component component = grow(f);
-      if (!can_be_capped(component)) continue;
-      if (auto patch = cap(component)) patches.push_back(std::move(*patch));
+    for (int f = 0; f < body_.facet_count(); ++f)
+      if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
+    for (int f = 0; f < body_.facet_count(); ++f) living_ += body_.is_alive(f) ? 1 : 0;
+    for (int n = 0; n < std::ssize(grown_); ++n) {
+      offer(component_of({n}));
+      for (const auto& sides : fewer_sides(component_of({n})))
+        if (const auto parts = widen(n, sides)) offer(component_of(*parts));
     }
-    return patches;
+    return std::move(patches_);
   }
 
  private:
@@ -186,32 +188,103 @@ class PatchFinder {
     return !is_hole_ && body_.facet(f).side == options_.free_side;
   }
 
-  Component grow(int start) {
-    Component component;
-    const int number = start;
-    component.facets.push_back(start);
-    component_of_[at(start)] = number;
-    for (std::size_t i = 0; i < component.facets.size(); ++i)
-      body_.for_each_edge(component.facets[i], [&](int e) {
+  /// Facets that hang together, with what is around them.
+  struct Grown {
+    std::vector<int> facets;
+    std::vector<int> rim;     ///< half-edges to other groups or the ground
+    std::vector<Side> sides;  ///< of its own facets, ascending
+  };
+
+  /// Collects the facets that hang together with `start`.
+  void grow(int start) {
+    const int number = static_cast<int>(grown_.size());
+    Grown group{{start}, {}, {}};
+    number_of_[at(start)] = number;
+    for (std::size_t i = 0; i < group.facets.size(); ++i) {
+      group.sides.push_back(body_.facet(group.facets[i]).side);
+      body_.for_each_edge(group.facets[i], [&](int e) {
         const int g = body_.facet_of(body_.twin(e));
-        if (component_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) return;
-        component_of_[at(g)] = number;
-        component.facets.push_back(g);
+        if (number_of_[at(g)] == number) return;
+        if (number_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) {
+          group.rim.push_back(e);
+          return;
+        }
+        number_of_[at(g)] = number;
+        group.facets.push_back(g);
       });
-    std::ranges::sort(component.facets);
-    for (const int f : component.facets)
-      body_.for_each_edge(f, [&](int e) {
+    }
+    // An edge may have been met before its other side joined the group.
+    std::erase_if(group.rim,
+                  [&](int e) { return number_of_[at(body_.facet_of(body_.twin(e)))] == number; });
+    std::ranges::sort(group.sides);
+    grown_.push_back(std::move(group));
+  }
+
+  /// Several groups as one component.
+  [[nodiscard]] Component component_of(const std::vector<int>& groups) const {
+    Component component;
+    for (const int n : groups) {
+      const Grown& group = grown_[at(n)];
+      component.facets.insert(component.facets.end(), group.facets.begin(), group.facets.end());
+      for (const int e : group.rim) {
         const int g = body_.facet_of(body_.twin(e));
-        if (component_of_[at(g)] == number) return;
+        if (std::ranges::find(groups, number_of_[at(g)]) != groups.end()) continue;
         component.rim.push_back(e);
         component.sides.push_back(body_.facet(g).side);
         if (is_ground(g)) component.ground = options_.free_side;
-      });
+      }
+    }
+    std::ranges::sort(component.facets);
     std::ranges::sort(component.rim);
     std::ranges::sort(component.sides);
     component.sides.erase(std::unique(component.sides.begin(), component.sides.end()),
                           component.sides.end());
     return component;
+  }
+
+  /// The sets of two or more of a component's split planes that leave one out at least.
+  [[nodiscard]] std::vector<std::vector<Side>> fewer_sides(const Component& component) const {
+    std::vector<Side> sides = component.sides;
+    std::erase(sides, component.ground);
+    constexpr std::size_t kMost = 6;  // 2^6 sets: a component with more planes is no single feature
+    std::vector<std::vector<Side>> sets;
+    if (sides.size() < 3 || sides.size() > kMost) return sets;
+    for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask) {
+      std::vector<Side> set;
+      for (std::size_t i = 0; i < sides.size(); ++i)
+        if ((mask >> i & 1U) != 0) set.push_back(sides[i]);
+      if (set.size() >= 2 && std::ssize(set) <= options_.max_order) sets.push_back(std::move(set));
+    }
+    return sets;
+  }
+
+  /// A group with all that lies beyond its rim but for the given planes: a chimney's shaft with its
+  /// head. Nothing if that runs into one of those planes itself, or makes up more than half of the
+  /// body: then the rest is the part.
+  [[nodiscard]] std::optional<std::vector<int>> widen(int start,
+                                                      const std::vector<Side>& limits) const {
+    std::vector<int> groups{start};
+    std::size_t facets = 0;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const Grown& group = grown_[at(groups[i])];
+      facets += group.facets.size();
+      const auto is_in_group = [&](Side s) { return std::ranges::binary_search(group.sides, s); };
+      if (2 * facets > living_ || std::ranges::any_of(limits, is_in_group)) return std::nullopt;
+      for (const int e : group.rim) {
+        const int g = body_.facet_of(body_.twin(e));
+        const bool is_limit = std::ranges::binary_search(limits, body_.facet(g).side);
+        if (is_ground(g) || (!ties(e) && is_limit)) continue;
+        if (std::ranges::find(groups, number_of_[at(g)]) == groups.end())
+          groups.push_back(number_of_[at(g)]);
+      }
+    }
+    if (groups.size() == 1) return std::nullopt;
+    return groups;
+  }
+
+  void offer(const Component& component) {
+    if (!can_be_capped(component) || !seen_.insert(component.facets).second) return;
+    if (auto patch = cap(component)) patches_.push_back(std::move(*patch));
   }
 
   [[nodiscard]] bool can_be_capped(const Component& component) const {
@@ -327,7 +400,11 @@ class PatchFinder {
   World& world_;
   bool is_hole_;
   const PatchOptions& options_;
-  std::vector<int> component_of_;
+  std::vector<int> number_of_;  ///< by facet, the group it is in
+  std::vector<Grown> grown_;
+  std::size_t living_ = 0;
+  std::set<std::vector<int>> seen_;
+  std::vector<Patch> patches_;
 };
 
 }  // namespace
