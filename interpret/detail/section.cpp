@@ -93,6 +93,17 @@ void check_scalar(const YamlNode& node, Findings& findings) {
                        " in base 60 to some YAML readers; write \"" + node.text + "\"");
 }
 
+void report_unknown_key(const YamlEntry& entry, const std::string& what,
+                        const std::vector<std::string>& keys, Findings& findings) {
+  const std::string& key = entry.key.text;
+  // `{why: one thing, and another}` is a key `and another` without a value.
+  const bool is_rest_of_text = entry.value.kind == Kind::null && key.find(' ') != std::string::npos;
+  const std::string advice =
+      is_rest_of_text ? "; inside { } a text with a comma must be quoted" : did_you_mean(key, keys);
+  findings.error("R209", entry.key.span,
+                 fmt::format("unknown key '{}' in {}{} (keys: {})", key, what, advice, join(keys)));
+}
+
 }  // namespace
 
 Section::Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
@@ -105,9 +116,7 @@ Section::Section(const YamlNode& node, std::string what, const std::vector<std::
     if (contains(later, key))
       findings.error("R215", entry.key.span, fmt::format("'{}' is not in this version", key));
     else
-      findings.error("R209", entry.key.span,
-                     fmt::format("unknown key '{}' in {}{} (keys: {})", key, what_,
-                                 did_you_mean(key, keys), join(keys)));
+      report_unknown_key(entry, what_, keys, findings);
   }
 }
 

@@ -55,8 +55,10 @@ class House {
   }
 
   [[nodiscard]] LabelledBuilding annotated(const AnnotateOptions& options = {}) const {
+    const auto residential = load_pack_file("residential");
+    REQUIRE(residential.value);
     return annotate(building, segmentation, scene.table(), scene.graph(), interpretation,
-                    *load_pack_file("residential").value, options);
+                    *residential.value, options);
   }
 
   Building building;

@@ -43,6 +43,13 @@ TEST_SUITE("interpret") {
           "^~~~~~\n");
   }
 
+  TEST_CASE("the rest of a text after a comma gets advice") {
+    CHECK(
+        fault("params: {p: {value: 1 m, why: small, but not too small}}")
+            .starts_with("t.yaml:4:38: R209 unknown key 'but not too small' in a param; inside { } "
+                         "a text with a comma must be quoted (keys: value, range, why)\n"));
+  }
+
   TEST_CASE("a key that is needed is missed where its map begins") {
     CHECK(fault_in_rule("  - id: w\n    require: sense = hole\n") ==
           "t.yaml:5:5: R210 a rule needs the key 'label'\n"

@@ -2,6 +2,8 @@
 #include "tests/interpret/support.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 using namespace oriel;
 using namespace oriel::test;
@@ -40,9 +42,10 @@ Values block(double width, double height_of, double depth, double height) {
   return values;
 }
 
-/// A block that stands on a roof of 40 degrees.
+/// A block that stands on a roof of 40 degrees; `height_of` counts from the lower edge of its foot.
 Values on_roof(double width, double deep, double height_of, double height = 7) {
-  Values values = block(width, height_of, deep, height);
+  Values values =
+      block(width, height_of, height_of * std::cos(40 * std::numbers::pi / 180), height);
   double sizes[] = {width, deep, height_of};
   std::ranges::sort(sizes);
   values["c"] = sizes[0];
