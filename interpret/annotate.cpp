@@ -81,6 +81,8 @@ class Annotator {
   [[nodiscard]] std::string type_of(const Polygon& polygon) const;
   [[nodiscard]] std::string type_of_top(const Polygon& polygon) const;
   [[nodiscard]] int surface_around(const Feature& opening) const;
+  [[nodiscard]] int nearest_surface(const Box& box, Vec3 normal,
+                                    const std::vector<int>& sources) const;
   [[nodiscard]] Members members_of(int feature) const;
   [[nodiscard]] bool is_host_surface(const Polygon& polygon) const;
 
@@ -199,21 +201,34 @@ bool Annotator::is_host_surface(const Polygon& polygon) const {
   return type == "WallSurface" || type == "RoofSurface";
 }
 
-/// Of the polygons of the facet that the opening lies in, the nearest one that is a wall or a roof;
-/// of several the largest, then the first.
+/// The surface of the polygon that the opening was cut into: one of those that make up its host's
+/// facet or, where a cut made that facet, one of all.
 int Annotator::surface_around(const Feature& opening) const {
   if (!opening.host_facet) return -1;
   const Cell& cell = segmentation_.cells[opening.host_facet->cell.index()];
-  std::optional<std::tuple<double, double, int>> best;
-  for (const int source : cell.facets[index(opening.host_facet->facet)].polygons) {
+  const Facet& facet = cell.facets[index(opening.host_facet->facet)];
+  const Vec3 normal = segmentation_.planes[facet.plane.index()].normal;
+  const int surface = nearest_surface(opening.box, normal, facet.polygons);
+  if (surface >= 0) return surface;
+  std::vector<int> all;
+  for (const Polygon& polygon : building_.polygons) all.push_back(polygon.source);
+  return nearest_surface(opening.box, normal, all);
+}
+
+/// Of the polygons that are walls or roofs the nearest one; of several the one that lies most in
+/// the direction of the facet, then the largest, then the first.
+int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<int>& sources) const {
+  std::optional<std::tuple<double, double, double, int>> best;
+  for (const int source : sources) {
     const Polygon* polygon = polygons_[index(source)];
     if (polygon == nullptr || !is_host_surface(*polygon)) continue;
-    const double distance = rules::distance_m(rules::box_of(building_, *polygon), opening.box);
-    const double area = length(rules::area_vector(building_, *polygon));
-    const std::tuple key(distance, -area, source);
+    const Vec3 area = rules::area_vector(building_, *polygon);
+    const double percent_aligned = std::round(100 * std::abs(dot(normalised(area), normal)));
+    const double distance = rules::distance_m(rules::box_of(building_, *polygon), box);
+    const std::tuple key(distance, -percent_aligned, -length(area), source);
     if (!best || key < *best) best = key;
   }
-  return best ? result_.surface_of_polygon[index(std::get<2>(*best))] : -1;
+  return best ? result_.surface_of_polygon[index(std::get<3>(*best))] : -1;
 }
 
 void Annotator::add_parents() {

@@ -6,7 +6,6 @@
 #include "interpret/detail/suggest.h"
 #include "interpret/detail/yaml_tree.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>

@@ -1,7 +1,6 @@
 #include "interpret/score.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <set>
 #include <tuple>

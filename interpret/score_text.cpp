@@ -1,7 +1,6 @@
 #include "interpret/detail/json_text.h"
 #include "interpret/score.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include "interpret/detail/parser.h"
 #include "interpret/detail/quantity.h"
-#include "interpret/detail/suggest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include "interpret/detail/pack.h"
 
 #include <array>
-#include <memory>
 #include <span>
 #include <vector>
 

@@ -7,7 +7,6 @@
 #include "interpret/detail/yaml_tree.h"
 
 #include <optional>
-#include <set>
 #include <string>
 
 namespace oriel::rules {

@@ -4,7 +4,6 @@
 #include "interpret/detail/pack.h"
 #include "interpret/detail/syntax.h"
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

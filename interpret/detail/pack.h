@@ -4,7 +4,6 @@
 #include "interpret/detail/source.h"
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>

@@ -3,7 +3,6 @@
 #include "interpret/detail/syntax.h"
 #include "interpret/detail/token_stream.h"
 
-#include <string>
 #include <utility>
 #include <vector>
 

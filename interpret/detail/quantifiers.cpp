@@ -1,4 +1,3 @@
-#include "interpret/detail/arithmetic.h"
 #include "interpret/detail/evaluator.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "interpret/detail/suggest.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace oriel::rules {

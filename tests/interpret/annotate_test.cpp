@@ -46,6 +46,7 @@ class House {
       segmentation.cells.emplace_back();
       segmentation.cells.back().facets.emplace_back();
       segmentation.cells.back().facets[0].polygons = std::move(around);
+      segmentation.cells.back().facets[0].plane = PlaneId{0};
       feature.host_facet = CellFacet{CellId{static_cast<int>(segmentation.cells.size()) - 1}, 0};
     }
     segmentation.features.push_back(feature);
@@ -75,6 +76,7 @@ Vec3 times(double s, Vec3 p) { return s * p; }
 House house() {
   House house;
   house.building.id = "b1";
+  house.segmentation.planes.push_back({.normal = {0, -1, 0}});
   house.add({{0, 0, 0}, times(8, kY), times(10, kX)});
   house.add({{0, 0, 6}, times(10, kX), times(8, kY)});
   house.add({{0, 0, 0}, times(5, kX), times(6, kZ)});
@@ -206,7 +208,17 @@ TEST_SUITE("interpret") {
     CHECK(labelled.installations[0].surfaces[2] == surface);
   }
 
-  TEST_CASE("an opening without a wall around it has no parent") {
+  TEST_CASE("an opening in a facet that a cut made finds the wall around it") {
+    House h = house();
+    const std::vector<int> window = add_recess(h, 6, 2);
+    h.add_feature("window", Sense::hole, 0.1, window, {window[0]});
+    const LabelledBuilding labelled = h.annotated();
+    const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(window[0])];
+    CHECK(labelled.surfaces[static_cast<std::size_t>(surface)].parent ==
+          labelled.surface_of_polygon[3]);
+  }
+
+  TEST_CASE("an opening without a host facet has no parent") {
     House h = house();
     const std::vector<int> window = add_recess(h, 2, 2);
     h.add_feature("window", Sense::hole, 0.1, window);

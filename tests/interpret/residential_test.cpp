@@ -182,6 +182,36 @@ TEST_SUITE("interpret") {
     CHECK(labels(residential(), scene) == Labels{"bay", "window"});
   }
 
+  TEST_CASE("panes in a frame are no windows of their own") {
+    Scene scene;
+    const FeatureId window = scene.add(recess(1.2, 1.4, 0.9));
+    scene.put_on(window, scene.add(recess(0.5, 1.2, 1.0, 0.04)));
+    CHECK(labels(residential(), scene) == Labels{"window", "-"});
+  }
+
+  TEST_CASE("a parapet on a balcony and a screen on the parapet are no chimneys") {
+    Scene scene;
+    const FeatureId slab = scene.add(block(3.0, 0.2, 1.2, 2.7));
+    Values flat = on_roof(1.1, 0.12, 0.95);
+    flat["host_inclination"] = flat["inclination"] = 0.0;
+    flat["depth"] = 0.95;
+    const FeatureId parapet = scene.add(flat);
+    const FeatureId screen = scene.add(flat);
+    scene.put_on(slab, parapet);
+    scene.put_on(parapet, screen);
+    const Labels found = labels(residential(), scene);
+    CHECK(found[parapet.index()] == "-");
+    CHECK(found[screen.index()] == "-");
+    CHECK(label_alone(flat) == "chimney");
+  }
+
+  TEST_CASE("the steps of stairs are no windows") {
+    Scene scene;
+    const FeatureId stairs = scene.add(block(1.3, 0.5, 1.0, 0));
+    scene.put_on(stairs, scene.add(recess(1.3, 0.34, 0.17, 0.28)));
+    CHECK(labels(residential(), scene)[1] == "-");
+  }
+
   TEST_CASE("decor stays unknown") {
     CHECK(label_alone(block(1.2, 0.06, 0.12, 0.9)) == "-");   // sill
     CHECK(label_alone(block(0.5, 1.4, 0.04, 0.95)) == "-");   // shutter
