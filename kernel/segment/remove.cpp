@@ -126,9 +126,11 @@ class FeatureRemover {
     std::vector<Side> sides;
     for (const PlaneId plane : f.planes) sides.push_back(world_.planes.side_of(plane));
     std::ranges::sort(sides);
+    std::int64_t work = 0;
     for (Boundary& body : bodies_)
-      for (const detail::Patch& patch : find_patches(
-               body, f.sense == Sense::hole, {{}, 4, detail::ground_side(solid_, world_.planes)})) {
+      for (const detail::Patch& patch :
+           find_patches(body, f.sense == Sense::hole,
+                        {{}, 4, detail::ground_side(solid_, world_.planes)}, work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
         return take(body, Boundary(body), patch.caps, f);
       }

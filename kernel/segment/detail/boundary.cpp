@@ -62,6 +62,12 @@ double Boundary::volume() const {
 bool Boundary::is_reflex(int e) const {
   // One answer for both half-edges of an edge.
   e = std::min(e, twin(e));
+  signed char& bend = edge(e).bend;
+  if (bend == kUnknown) bend = bends_inward(e) ? 1 : 0;
+  return bend != 0;
+}
+
+bool Boundary::bends_inward(int e) const {
   const Side mine = side_of_edge(e), theirs = side_of_edge(twin(e));
   if (mine >> 1 == theirs >> 1) return false;
   const Vec3 along = normalised(world_->points.at(target(e)) - at(e));
@@ -78,7 +84,7 @@ bool Boundary::is_reflex(int e) const {
 }
 
 int Boundary::add_edge(int origin) {
-  half_edges_.push_back({origin, -1, -1, -1, -1});
+  half_edges_.push_back({origin});
   return half_edge_count() - 1;
 }
 
@@ -245,6 +251,7 @@ void Boundary::cover(int cap, int covered) {
   // surface any more.
   facets_[index(covered)].sources.clear();
   facets_[index(covered)].marks.clear();
+  for_each_edge(covered, [&](int e) { edge(e).bend = edge(twin(e)).bend = kUnknown; });
   merge(cap, covered);
 }
 

@@ -39,7 +39,9 @@ class Boundary {
     int prev = -1;
     int twin = -1;
     int loop = -1;
+    mutable signed char bend = kUnknown;  ///< remembered by is_reflex
   };
+  static constexpr signed char kUnknown = -1;
   struct LoopRecord {
     int first = -1;
     int facet = -1;        ///< -1: dead
@@ -107,6 +109,7 @@ class Boundary {
   void pair(int e, int f) {
     half_edges_[index(e)].twin = f;
     half_edges_[index(f)].twin = e;
+    half_edges_[index(e)].bend = half_edges_[index(f)].bend = kUnknown;
   }
   /// A facet without loops.
   int add_facet(Side side, std::vector<int> sources = {}, std::vector<CapMark> marks = {});
@@ -146,6 +149,7 @@ class Boundary {
   void kill_facet(int f);
   void merge(int target, int f);
   std::vector<int> part(int f);
+  [[nodiscard]] bool bends_inward(int e) const;
   void distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks);
   [[nodiscard]] std::vector<int> seams_of(int cap) const;
   void remove_seams(int f, const std::vector<int>& seams);

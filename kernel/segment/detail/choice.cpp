@@ -120,8 +120,7 @@ std::optional<Choice> Chooser::paper_next() {
 
 std::vector<Patch> Chooser::patches(bool is_hole) {
   std::vector<Patch> found =
-      find_patches(body_, is_hole, {own_planes_, options_.max_order, free_side_});
-  work_ += body_.half_edge_count();
+      find_patches(body_, is_hole, {own_planes_, options_.max_order, free_side_}, work_);
   (is_hole ? stats_.hole_tests : stats_.protrusion_tests) += found.size();
   stats_.candidates += found.size();
   return found;

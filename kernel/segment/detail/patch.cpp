@@ -161,16 +161,18 @@ class Capper {
 
 class PatchFinder {
  public:
-  PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options)
+  PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options, std::int64_t& work)
       : body_(body),
         world_(body.world()),
         is_hole_(is_hole),
         options_(options),
+        work_(work),
         number_of_(at(body.facet_count()), -1) {}
 
   std::vector<Patch> run() {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
+    find_neighbours();
     for (int f = 0; f < body_.facet_count(); ++f) living_ += body_.is_alive(f) ? 1 : 0;
     for (int n = 0; n < std::ssize(grown_); ++n) {
       offer(component_of({n}));
@@ -193,12 +195,14 @@ class PatchFinder {
     std::vector<int> facets;
     std::vector<int> rim;     ///< half-edges to other groups or the ground
     std::vector<Side> sides;  ///< of its own facets, ascending
+    std::set<std::pair<Side, int>>
+        beyond;  ///< what lies across the rim: sides, and the groups they are of
   };
 
   /// Collects the facets that hang together with `start`.
   void grow(int start) {
     const int number = static_cast<int>(grown_.size());
-    Grown group{{start}, {}, {}};
+    Grown group{{start}, {}, {}, {}};
     number_of_[at(start)] = number;
     for (std::size_t i = 0; i < group.facets.size(); ++i) {
       group.sides.push_back(body_.facet(group.facets[i]).side);
@@ -218,6 +222,14 @@ class PatchFinder {
                   [&](int e) { return number_of_[at(body_.facet_of(body_.twin(e)))] == number; });
     std::ranges::sort(group.sides);
     grown_.push_back(std::move(group));
+  }
+
+  void find_neighbours() {
+    for (Grown& group : grown_)
+      for (const int e : group.rim) {
+        const int g = body_.facet_of(body_.twin(e));
+        if (!is_ground(g)) group.beyond.emplace(body_.facet(g).side, number_of_[at(g)]);
+      }
   }
 
   /// Several groups as one component.
@@ -268,15 +280,13 @@ class PatchFinder {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Grown& group = grown_[at(groups[i])];
       facets += group.facets.size();
+      work_ += std::ssize(group.beyond);
       const auto is_in_group = [&](Side s) { return std::ranges::binary_search(group.sides, s); };
       if (2 * facets > living_ || std::ranges::any_of(limits, is_in_group)) return std::nullopt;
-      for (const int e : group.rim) {
-        const int g = body_.facet_of(body_.twin(e));
-        const bool is_limit = std::ranges::binary_search(limits, body_.facet(g).side);
-        if (is_ground(g) || (!ties(e) && is_limit)) continue;
-        if (std::ranges::find(groups, number_of_[at(g)]) == groups.end())
-          groups.push_back(number_of_[at(g)]);
-      }
+      for (const auto& [side, other] : group.beyond)
+        if (!std::ranges::binary_search(limits, side) &&
+            std::ranges::find(groups, other) == groups.end())
+          groups.push_back(other);
     }
     if (groups.size() == 1) return std::nullopt;
     return groups;
@@ -312,9 +322,10 @@ class PatchFinder {
   }
 
   [[nodiscard]] std::optional<Corner> corner_of(const Component& component) const {
-    bool is_behind_all = true, is_before_all = true, is_before_one = true;
-    for (const int f : component.facets)
+    bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
+    for (const int f : component.facets) {
       body_.for_each_edge(f, [&](int e) {
+        work_ += std::ssize(component.sides);
         int most = -1, least = 1;
         for (const Side side : component.sides) {
           if (side == component.ground) continue;
@@ -325,9 +336,10 @@ class PatchFinder {
         is_before_all &= least >= 0;
         is_before_one &= most >= 0;
       });
-    if (is_hole_) return is_behind_all ? std::optional(Corner::convex_inside) : std::nullopt;
-    if (is_before_all) return Corner::concave;
-    return is_before_one ? std::optional(Corner::convex_outside) : std::nullopt;
+      if (!is_behind_all && !is_before_all && !is_before_one) return std::nullopt;
+    }
+    if (is_behind_all) return Corner::convex_inside;
+    return is_before_all ? Corner::concave : Corner::convex_outside;
   }
 
   std::optional<Patch> cap(const Component& component) {
@@ -400,6 +412,7 @@ class PatchFinder {
   World& world_;
   bool is_hole_;
   const PatchOptions& options_;
+  std::int64_t& work_;
   std::vector<int> number_of_;  ///< by facet, the group it is in
   std::vector<Grown> grown_;
   std::size_t living_ = 0;
@@ -417,8 +430,10 @@ std::vector<Side> Patch::sides() const {
   return sides;
 }
 
-std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options) {
-  return PatchFinder(body, is_hole, options).run();
+std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options,
+                                std::int64_t& work) {
+  work += body.half_edge_count();
+  return PatchFinder(body, is_hole, options, work).run();
 }
 
 }  // namespace oriel::detail

@@ -2,6 +2,7 @@
 
 #include "kernel/segment/detail/carve.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace oriel::detail {
@@ -34,6 +35,8 @@ struct PatchOptions {
 /// convex ones, a protrusion's the other way round; the planes of the facets beyond its rim are the
 /// only ones that can cap it. Equal normals never combine. A patch that does not lie in the corner
 /// its planes make, or whose caps do not close, is none.
-std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options);
+/// Half-edges that were looked at are added to `work`.
+std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options,
+                                std::int64_t& work);
 
 }  // namespace oriel::detail

@@ -42,6 +42,7 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
         place(point, *where);
     point.is_by_decree = length(point.at - at) > kOnSegment_m || point.rational.w == 0;
     if (point.is_by_decree) place(point, exact::round_finely(at, grid_m_));
+    remember_meetings(static_cast<int>(v));
   }
 }
 
@@ -115,18 +116,26 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
 }
 
 std::optional<int> PointTable::meet(int p, int q, int r) {
-  std::vector<int> planes{p, q, r};
-  std::ranges::sort(planes);
-  for (int i = size() - 1; i >= 0; --i)
-    if (points_[index(i)].low < 0 && std::ranges::includes(points_[index(i)].planes, planes))
-      return i;
+  std::array<int, 3> key{p, q, r};
+  std::ranges::sort(key);
+  if (const auto known = meetings_.find(key); known != meetings_.end()) return known->second;
   const auto where = exact::meet(planes_.plane(p), planes_.plane(q), planes_.plane(r));
   if (!where) return std::nullopt;
   Point point;
-  point.planes = std::move(planes);
+  point.planes.assign(key.begin(), key.end());
   place(point, *where);
   points_.push_back(std::move(point));
+  meetings_[key] = size() - 1;
   return size() - 1;
+}
+
+/// The solid's own vertices are found by any three of their planes.
+void PointTable::remember_meetings(int p) {
+  const auto& planes = points_[index(p)].planes;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    for (std::size_t j = i + 1; j < planes.size(); ++j)
+      for (std::size_t k = j + 1; k < planes.size(); ++k)
+        meetings_.emplace(std::array{planes[i], planes[j], planes[k]}, p);
 }
 
 }  // namespace oriel::detail

@@ -4,6 +4,8 @@
 #include "kernel/model/solid.h"
 #include "kernel/segment/detail/planes.h"
 
+#include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,6 +51,7 @@ class PointTable {
     int low = -1, high = -1;               ///< the ends of the edge it was made on
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void remember_meetings(int p);
   void place(Point& point, const exact::Rational& where) const;
   [[nodiscard]] int exact_side(const Point& point, int plane) const;
   int compute_rank(int point, int k);
@@ -58,6 +61,7 @@ class PointTable {
   const PlaneTable& planes_;
   std::vector<Point> points_;
   std::vector<std::vector<int>> ranks_;
+  std::map<std::array<int, 3>, int> meetings_;  ///< points by three of their planes
 };
 
 }  // namespace oriel::detail
