@@ -2,9 +2,9 @@
 
 #include "interpret/detail/loader.h"
 #include "interpret/detail/section.h"
-#include "interpret/detail/sha256.h"
 #include "interpret/detail/strata.h"
 #include "interpret/detail/yaml_tree.h"
+#include "kernel/model/sha256.h"
 
 #include <algorithm>
 #include <string_view>

@@ -82,7 +82,8 @@ const std::vector<RelationKind>& relation_schema() {
       {"same_facade", "features on the same facade"},
       {"same_storey", "openings in the same storey"},
       {"alike",
-       "features of like size in the neighbourhood: same facade and sense, a and b within 10 %, centres within 6 m"},
+       "features of like size in the neighbourhood: same facade and sense, a and b within 10 %, "
+       "centres within 6 m"},
       {"beside", "features on the same facade at overlapping heights, no more than 1 m apart"},
       {"above",
        "features right above it on the same facade: overlapping in width, no more than 1 m apart"},

@@ -117,7 +117,8 @@ struct SegmentationStats {
 /// The whole result for one solid.
 struct Segmentation {
   Order order = Order::natural;
-  /// The oriented split planes: Solid::planes, same ids.
+  /// The oriented split planes, which are Solid::planes with the same ids, then planes that only
+  /// caps of parts lie in.
   std::vector<Plane> planes;
   /// The solid's vertices, same indices, then those that cuts made.
   std::vector<Vertex> vertices;

@@ -1,4 +1,4 @@
-#include "interpret/detail/sha256.h"
+#include "kernel/model/sha256.h"
 
 #include <array>
 #include <bit>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace oriel::rules {
+namespace oriel {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::string sha256(std::string_view text) {
   return digits;
 }
 
-}  // namespace oriel::rules
+}  // namespace oriel

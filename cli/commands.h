@@ -1,0 +1,24 @@
+#pragma once
+
+#include "cli/exit_code.h"
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+namespace oriel::cli {
+
+/// What a command does once its arguments are read; set by the parse callback of the command that
+/// was named.
+using Action = std::function<ExitCode()>;
+
+/// Each adds one command with its arguments and help to the app. When the command is named,
+/// `action` becomes its work.
+void add_segment(CLI::App& app, Action& action);
+void add_label(CLI::App& app, Action& action);
+void add_generalise(CLI::App& app, Action& action);
+void add_explain(CLI::App& app, Action& action);
+void add_score(CLI::App& app, Action& action);
+void add_rules(CLI::App& app, Action& action);
+
+}  // namespace oriel::cli

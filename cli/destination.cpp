@@ -1,0 +1,117 @@
+#include "cli/destination.h"
+
+#include <filesystem>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* extension_of(Format format) {
+  switch (format) {
+    case Format::cityjson:
+      return ".city.json";
+    case Format::cityjson_seq:
+      return ".city.jsonl";
+    case Format::obj:
+      return ".obj";
+    case Format::off:
+      return ".off";
+    case Format::stl:
+      return ".stl";
+  }
+  return "";
+}
+
+/// The file's name without folder and extensions that say its format.
+std::string stem_of(const std::string& path) {
+  std::string name = fs::path(path).filename().string();
+  for (const std::string extension :
+       {".city.jsonl", ".city.json", ".jsonl", ".json", ".obj", ".off"})
+    if (name.size() > extension.size() && name.ends_with(extension))
+      return name.substr(0, name.size() - extension.size());
+  return name;
+}
+
+}  // namespace
+
+Destination::Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
+                         std::optional<Format> from)
+    : out_(std::move(out)), inputs_(std::move(inputs)), from_(from) {
+  if (!to.empty()) to_ = parse_format(to);
+  is_folder_ = out_.ends_with('/') || fs::is_directory(out_);
+  if (inputs_.size() > 1 && !is_folder_)
+    throw CLI::ValidationError("-o", "several inputs need a folder: write it with a / at its end");
+  if (!is_folder_ && out_ != "-" && !to_ && !format_of(out_))
+    throw CLI::ValidationError(
+        "-o", fmt::format("'{}' has no known extension; --to says the format", out_));
+  std::set<std::string> paths;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    check(i);
+    if (!paths.insert(path_for(i)).second)
+      throw CLI::ValidationError(
+          "-o", fmt::format("two inputs would both be written to '{}'", path_for(i)));
+  }
+}
+
+Format Destination::format_of_input(std::size_t input) const {
+  if (from_) return *from_;
+  return format_of(inputs_[input]).value_or(Format::cityjson);
+}
+
+void Destination::check(std::size_t input) const {
+  const Format from = format_of_input(input);
+  const Format to = to_ ? *to_ : is_folder_ || out_ == "-" ? from : format_of(out_).value_or(from);
+  const bool is_stream_in = from == Format::cityjson_seq,
+             is_stream_out = to == Format::cityjson_seq;
+  if (is_stream_in != is_stream_out && (is_stream_out || to == Format::cityjson))
+    throw CLI::ValidationError(
+        "-o", fmt::format("{} is not written as {}: use cjio or cjseq to turn one into the other",
+                          to_string(from), to_string(to)));
+}
+
+std::string Destination::path_for(std::size_t input) const {
+  if (!is_folder_) return out_;
+  const Format from = format_of_input(input);
+  Format to = to_.value_or(from);
+  // OBJ and OFF with labels are CityJSON unless asked otherwise.
+  if (!to_ && (from == Format::obj || from == Format::off)) to = Format::cityjson;
+  return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
+}
+
+void Destination::begin(std::size_t input) {
+  path_ = path_for(input);
+  const Format from = format_of_input(input);
+  format_ = to_ ? *to_
+                : format_of(path_).value_or(from == Format::cityjson_seq ? from : Format::cityjson);
+  mesh_ = {};
+  if (is_folder_) {
+    std::error_code error;
+    fs::create_directories(out_, error);  // what is wrong with it shows when the file is opened
+  }
+  file_ = std::make_unique<OutputFile>(path_);
+}
+
+void Destination::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                      const WriteOptions& options) {
+  if (format_ == Format::cityjson || format_ == Format::cityjson_seq)
+    file_->append(write_cityjson(document, labelled, options));
+  else
+    append_mesh(mesh_, document, labelled);
+}
+
+std::string Destination::end() {
+  if (format_ == Format::obj) file_->append(write_obj(mesh_));
+  if (format_ == Format::off) file_->append(write_off(mesh_));
+  if (format_ == Format::stl) file_->append(write_stl(mesh_));
+  file_->commit();
+  file_.reset();
+  return path_;
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "kernel/io/document.h"
+#include "kernel/io/format.h"
+#include "kernel/io/mesh_writer.h"
+#include "kernel/io/output_file.h"
+#include "kernel/io/writer.h"
+#include "kernel/model/labelled_building.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Where labelled buildings go: one file, stdout, or for several inputs a folder with a file of the
+/// same name for each. A file appears when its input is done, whole.
+class Destination {
+ public:
+  /// `to` is a format's name or empty: then the name of `out` says it, or, for a folder and stdout,
+  /// the input's format. Throws CLI::ValidationError if that makes no sense (several inputs and no
+  /// folder, a stream into one file).
+  Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
+              std::optional<Format> from);
+
+  void begin(std::size_t input);
+  void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+           const WriteOptions& options);
+  /// Puts the file in its place and returns its path.
+  std::string end();
+
+ private:
+  [[nodiscard]] Format format_of_input(std::size_t input) const;
+  [[nodiscard]] std::string path_for(std::size_t input) const;
+  void check(std::size_t input) const;
+
+  std::string out_;
+  std::vector<std::string> inputs_;
+  std::optional<Format> from_, to_;
+  bool is_folder_ = false;
+
+  Format format_ = Format::cityjson;
+  std::string path_;
+  std::unique_ptr<OutputFile> file_;
+  LabelledMesh mesh_;
+};
+
+}  // namespace oriel::cli

@@ -1,0 +1,84 @@
+#include "cli/labelling.h"
+
+#include "interpret/annotate.h"
+#include "kernel/model/sha256.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace oriel::cli {
+
+void add_label_arguments(CLI::App& command, LabelArguments& a) {
+  add_line_arguments(command, a, true);
+  add_rules_argument(command, a.rules);
+  command.add_option("-o,--output", a.out,
+                     "File, - for stdout, or a folder (with a / at its end) for several inputs");
+  command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
+      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
+  command.add_option("--features", a.features,
+                     "Write one record per feature: .csv, .json or .jsonl");
+  command
+      .add_option("--codelist", a.codelist,
+                  "Code list of installations that the pack has codes for")
+      ->capture_default_str();
+}
+
+std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {
+  auto loaded = load_pack_file(pack);
+  report.tell(loaded.issues);
+  return loaded.value;
+}
+
+LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rules)
+    : arguments_(arguments), rules_(rules) {
+  const auto codelists = rules.codelists();
+  if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
+    throw CLI::ValidationError(
+        "--codelist", fmt::format("the pack has codes for {}", fmt::join(codelists, ", ")));
+  if (!arguments.out.empty())
+    destination_.emplace(arguments.out, arguments.to, arguments.inputs,
+                         arguments.read_options().format);
+}
+
+LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine& line) const {
+  AnnotateOptions options;
+  options.codelist = arguments_.codelist;
+  options.attributes.emplace_back("oriel_config_sha256", sha256(arguments_.configuration()));
+  return annotate(building, *line.segmentation, line.description.table, line.description.graph,
+                  line.interpretation, rules_, options);
+}
+
+void LabelOutputs::begin(std::size_t input) {
+  if (destination_) destination_->begin(input);
+  if (input == 0 && !arguments_.features.empty())
+    features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
+}
+
+void LabelOutputs::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                       const WriteOptions& options) {
+  if (destination_) destination_->add(document, labelled, options);
+}
+
+void LabelOutputs::add_features(const Building& building, const OnLine& line) {
+  if (features_)
+    features_->append(feature_records(building, *line.segmentation, line.description.table,
+                                      line.description.graph, &line.interpretation));
+}
+
+void LabelOutputs::print(const std::string& text) const { std::fputs(text.c_str(), stdout); }
+
+void LabelOutputs::end() {
+  if (!destination_) return;
+  const std::string path = destination_->end();
+  if (path != "-" && arguments_.is_verbose)
+    std::fputs(fmt::format("wrote {}\n", path).c_str(), stderr);
+}
+
+void LabelOutputs::commit() {
+  if (features_) features_->commit();
+}
+
+}  // namespace oriel::cli

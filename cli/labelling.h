@@ -1,0 +1,60 @@
+#pragma once
+
+#include "cli/destination.h"
+#include "cli/options.h"
+#include "cli/run.h"
+#include "interpret/rule_base.h"
+#include "kernel/io/feature_records.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Arguments of the commands that label buildings and write them.
+struct LabelArguments : LineArguments {
+  std::string rules = "residential";
+  std::string out;
+  std::string to;
+  std::string features;
+  std::string codelist = "sig3d";
+};
+
+void add_label_arguments(CLI::App& command, LabelArguments& arguments);
+
+/// The pack, with its findings told; nothing if it cannot be used.
+std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
+
+/// What those commands write: the buildings (-o) and the records of features (--features), each if
+/// asked for.
+class LabelOutputs {
+ public:
+  /// Throws CLI::ValidationError if the arguments make no sense together.
+  LabelOutputs(const LabelArguments& arguments, const RuleBase& rules);
+
+  [[nodiscard]] bool has_buildings() const { return destination_.has_value(); }
+  [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
+
+  /// What is to be written of a building that came to the end of the line.
+  [[nodiscard]] LabelledBuilding annotated(const Building& building, const OnLine& line) const;
+
+  void begin(std::size_t input);
+  void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+           const WriteOptions& options);
+  void add_features(const Building& building, const OnLine& line);
+  void print(const std::string& text) const;
+  /// An input is done: its file is put in its place.
+  void end();
+  /// All inputs are done.
+  void commit();
+
+ private:
+  const LabelArguments& arguments_;
+  const RuleBase& rules_;
+  std::optional<Destination> destination_;
+  std::unique_ptr<FeatureRecordWriter> features_;
+};
+
+}  // namespace oriel::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "cli/timings.h"
+#include "interpret/rule_base.h"
+#include "kernel/describe/describe.h"
+#include "kernel/model/building.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/issue.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/segment/segment.h"
+
+#include <optional>
+#include <vector>
+
+namespace oriel::cli {
+
+/// One building on the straight line, as far as it came.
+struct OnLine {
+  std::optional<Solid> solid;
+  std::optional<Segmentation> segmentation;
+  Description description;
+  Interpretation interpretation;  ///< empty without rules
+  std::vector<Issue> issues;
+
+  /// It came to the end; if not, `issues` has an error that says why it was set aside.
+  [[nodiscard]] bool is_done() const { return segmentation.has_value(); }
+};
+
+/// Solidifies, segments, describes and, with `rules`, interprets a building. A fault of ours in one
+/// building is an error E901 of that building, so that the others go on.
+OnLine run_line(const Building& building, const SegmentOptions& options, const RuleBase* rules,
+                Timings& timings);
+
+}  // namespace oriel::cli

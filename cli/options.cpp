@@ -1,0 +1,75 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+ReadOptions LineArguments::read_options() const {
+  ReadOptions options;
+  if (!lod.empty()) options.lod = lod;
+  if (!from.empty()) options.format = parse_format(from);
+  return options;
+}
+
+SegmentOptions LineArguments::segment_options() const {
+  SegmentOptions options;
+  options.order = order == "paper" ? Order::paper : Order::natural;
+  options.tolerances = tolerances;
+  options.budget = budget;
+  return options;
+}
+
+std::string LineArguments::configuration() const {
+  return fmt::format(
+      "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={}", lod,
+      order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
+      tolerances.value_rel, budget);
+}
+
+void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+  auto* inputs =
+      command.add_option("input", a.inputs, "CityJSON, CityJSONSeq, OBJ or OFF; - is stdin")
+          ->required();
+  if (!has_many) inputs->expected(1);
+  command.add_option("--lod", a.lod,
+                     "Level of detail to read, as written in the input (default: the highest)");
+  command.add_option("--from", a.from, "Format of the input (default: by its name)")
+      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off"}));
+  command
+      .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
+      ->check(CLI::IsMember({"natural", "paper"}))
+      ->capture_default_str();
+  command
+      .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
+                  "Polygons share a plane if tilted by no more than this")
+      ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str();
+  command
+      .add_option("--plane-offset", a.tolerances.plane_offset_m,
+                  "... and no further off than this, in m")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--weld", a.tolerances.weld_m, "Vertices closer than this are one, in m")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
+  command
+      .add_option("--value-rel", a.tolerances.value_rel, "Values within this fraction are the same")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command.add_option("--budget", a.budget, "Half-edges that segmenting one building may look at")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--timings", a.timings_file,
+                     "Write the milliseconds of each stage to this file, as JSON");
+  command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
+}
+
+void add_rules_argument(CLI::App& command, std::string& pack) {
+  command.add_option("--rules", pack, "Rule pack: a file, or the name of a pack that is built in")
+      ->capture_default_str();
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "interpret/rule_base.h"
+#include "kernel/io/reader.h"
+#include "kernel/segment/segment.h"
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace oriel::cli {
+
+/// What all commands that run buildings down the line have in common.
+struct LineArguments {
+  std::vector<std::string> inputs;
+  std::string lod;
+  std::string from;
+  std::string order = "natural";
+  Tolerances tolerances;
+  std::int64_t budget = SegmentOptions{}.budget;
+  bool is_verbose = false;
+  std::string timings_file;
+  int repeat = 1;
+
+  [[nodiscard]] ReadOptions read_options() const;
+  [[nodiscard]] SegmentOptions segment_options() const;
+  /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is
+  /// made of.
+  [[nodiscard]] std::string configuration() const;
+};
+
+/// Adds the arguments to a command. `has_many`: it takes more than one input.
+void add_line_arguments(CLI::App& command, LineArguments& arguments, bool has_many);
+
+/// Adds `--rules PACK`.
+void add_rules_argument(CLI::App& command, std::string& pack);
+
+}  // namespace oriel::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "cli/exit_code.h"
+#include "cli/line.h"
+#include "cli/options.h"
+#include "cli/report.h"
+#include "kernel/io/document.h"
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace oriel::cli {
+
+/// A command at work on its inputs: reads them record by record, runs their buildings down the
+/// line, counts what came of them, and tells what was found. One input or building that fails does
+/// not stop the others.
+class Run {
+ public:
+  /// `rules` may be null: then nothing is interpreted.
+  Run(const LineArguments& arguments, const RuleBase* rules, Report& report);
+
+  struct Visitor {
+    /// Before the first record of an input.
+    std::function<void(std::size_t input)> begin = [](std::size_t) {};
+    /// A record was read; `lines` are its buildings on the line, in their order.
+    std::function<void(const Document&, std::vector<OnLine>& lines)> record =
+        [](const Document&, std::vector<OnLine>&) {};
+    /// After the last record. Not called for an input that could not be read as a whole.
+    std::function<void(std::size_t input)> end = [](std::size_t) {};
+  };
+
+  /// All inputs, as often as --repeat says; issues are told the first time. Returns the gravest
+  /// thing that happened.
+  ExitCode go(const Visitor& visitor);
+
+  /// A building was set aside by the command itself.
+  void set_aside(const Issue& why);
+
+  [[nodiscard]] Timings& timings() { return timings_; }
+  [[nodiscard]] int buildings() const { return buildings_; }
+  [[nodiscard]] int buildings_set_aside() const { return set_aside_; }
+  /// Features by label ("" = unknown) of the last run.
+  [[nodiscard]] const std::map<std::string, int>& labels() const { return labels_; }
+
+  /// "labelled 75 buildings: 2385 window, 76 door, …; 1 set aside (E302)" on stderr.
+  void tell_summary(const std::string& verb) const;
+
+ private:
+  void read_input(std::size_t input, const Visitor& visitor);
+  void run_record(const Checked<Document>& record, const Visitor& visitor);
+  void tell(const std::vector<Issue>& issues);
+  void raise(ExitCode code) { code_ = graver(code_, code); }
+
+  const LineArguments& arguments_;
+  const RuleBase* rules_;
+  Report& report_;
+  Timings timings_;
+  bool is_first_run_ = true;
+  ExitCode code_ = ExitCode::clean;
+  int buildings_ = 0;
+  int set_aside_ = 0;
+  std::map<std::string, int> labels_;
+};
+
+}  // namespace oriel::cli

@@ -1,0 +1,108 @@
+#include "cli/commands.h"
+#include "cli/report.h"
+#include "interpret/score.h"
+#include "kernel/io/feature_records.h"
+#include "kernel/io/truth.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> records;
+  std::vector<std::string> truth;
+  bool is_json = false;
+};
+
+/// The truth files that are named, those of a folder by their names.
+std::vector<std::string> truth_files(const std::vector<std::string>& named) {
+  std::vector<std::string> files;
+  for (const std::string& path : named) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (const auto& entry : fs::directory_iterator(path))
+      if (entry.path().string().ends_with(".truth.json")) files.push_back(entry.path().string());
+    std::ranges::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    if (files.size() == before) {
+      Issue issue;
+      issue.code = "E101";
+      issue.sentence = "the folder has no *.truth.json";
+      issue.place.file = path;
+      throw InputError(std::move(issue));
+    }
+  }
+  return files;
+}
+
+void append_predictions(std::vector<Prediction>& all, const std::vector<FeatureRecord>& records) {
+  for (const FeatureRecord& r : records) {
+    const auto& b = r.aabb_m;
+    all.push_back({r.building, r.id, r.label, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}}});
+  }
+}
+
+void append_truth(std::vector<ExpectedObject>& all, const Truth& truth) {
+  for (const TruthObject& o : truth.objects)
+    all.push_back({truth.building, o.id, o.label, o.subclass, o.feature_aabb.value_or(o.aabb),
+                   !o.faces.empty()});
+}
+
+ExitCode work(const Arguments& arguments) {
+  Report report(false);
+  ExitCode code = ExitCode::clean;
+  std::vector<Prediction> predictions;
+  std::vector<ExpectedObject> expected;
+  for (const std::string& path : arguments.records) {
+    const auto records = read_feature_records(path);
+    report.tell(records.issues);
+    if (has_errors(records.issues))
+      code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
+    if (records.value) append_predictions(predictions, *records.value);
+  }
+  for (const std::string& path : truth_files(arguments.truth)) {
+    const auto truth = read_truth(path);
+    report.tell(truth.issues);
+    if (truth.value)
+      append_truth(expected, *truth.value);
+    else
+      code = graver(code, ExitCode::input);
+  }
+  const Score result = score(predictions, expected);
+  std::fputs((arguments.is_json ? to_json(result) : to_text(result)).c_str(), stdout);
+  return code;
+}
+
+}  // namespace
+
+void add_score(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "score", "Compare labels with the truth: precision, recall and F1 of every class");
+  command
+      ->add_option("records", arguments->records,
+                   "Records of features as label --features writes them")
+      ->required();
+  command->add_option("--truth", arguments->truth, "*.truth.json files, or folders of them")
+      ->required();
+  command->add_flag("--json", arguments->is_json, "As JSON");
+  command->footer(
+      "Example:\n  oriel label data/*.stripped.city.json --features parts.jsonl\n  oriel score "
+      "parts.jsonl --truth data/");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

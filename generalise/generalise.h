@@ -1,0 +1,52 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/issue.h"
+#include "kernel/model/labelled_building.h"
+#include "kernel/model/plan.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/segment/segment.h"
+
+#include <vector>
+
+namespace oriel {
+
+/// A building redrawn for a scale.
+struct Generalised {
+  /// Closed; what was taken off leaves no seams.
+  Solid solid;
+  /// The features that are gone: those of the plan and all that sat on them. Ascending.
+  std::vector<FeatureId> removed;
+};
+
+/// Carries out the plan of one building on its solid. Operations that cannot be carried out are
+/// left out, each with a warning G401 that names the feature and the reason; the others go on. No
+/// value if nothing would be left of the building (G402): it is to stay as it is.
+///
+/// `segmentation` is that of `solid`, made with `options`; `table` gives features their ids in
+/// messages. Source: paper 5.1 (omission) and 5.2; docs/generalisation.md.
+Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
+                                const FeatureTable& table, const Plan& plan,
+                                const SegmentOptions& options = {});
+
+/// What is to be written of a generalised building, and which CityObjects have to leave the file.
+struct Redrawn {
+  LabelledBuilding labelled;
+  std::vector<std::string> removed_ids;
+};
+
+/// Carries the labels of the input polygons over to the facets of the generalised solid. A facet
+/// takes the semantic surface of the largest input polygon it is made of; one that no input polygon
+/// lies in is named by its slope. Installations keep the facets made of their polygons; those that
+/// were removed go, with their ids listed. The building gets flat counts `oriel_removed_LABEL` and
+/// `oriel_removed_volume_m3`.
+///
+/// `labelled` is what annotate says of the building as it was.
+Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
+               const Segmentation& segmentation, const FeatureTable& table,
+               const Interpretation& interpretation, Generalised generalised);
+
+}  // namespace oriel

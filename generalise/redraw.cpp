@@ -1,0 +1,155 @@
+#include "generalise/generalise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+namespace oriel {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double area_of(const Building& building, const Polygon& polygon) {
+  Vec3 sum;
+  const auto point = [&](int v) { return building.vertices[at(v)]; };
+  for (const auto& ring : polygon.rings)
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+      sum = sum + cross(point(ring[i]) - point(ring[0]), point(ring[i + 1]) - point(ring[0]));
+  return length(sum) / 2;
+}
+
+/// By slope alone: what a facet is that no input polygon lies in. 75 degrees is the default pack's
+/// steepest roof.
+std::string type_by_slope(Vec3 normal) {
+  const double steepest_roof = std::cos(75 * 3.14159265358979323846 / 180);
+  if (normal.z > steepest_roof) return "RoofSurface";
+  return normal.z < -steepest_roof ? "OuterCeilingSurface" : "WallSurface";
+}
+
+class Redrawer {
+ public:
+  Redrawer(const Building& building, const LabelledBuilding& labelled, Generalised generalised)
+      : labelled_(labelled), generalised_(std::move(generalised)) {
+    for (const Polygon& polygon : building.polygons)
+      area_[polygon.source] = area_of(building, polygon);
+    out_.labelled.building = labelled.building;
+    out_.labelled.attributes = labelled.attributes;
+  }
+
+  Redrawn run(const Segmentation& segmentation, const FeatureTable& table,
+              const Interpretation& interpretation) {
+    label_facets();
+    tie_openings();
+    keep_installations(table);
+    count_removed(segmentation, interpretation);
+    out_.labelled.geometry = std::move(generalised_.solid);
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] const std::vector<Facet>& facets() const { return generalised_.solid.facets; }
+
+  /// The surface of the largest polygon of a facet, or -1.
+  [[nodiscard]] int surface_of(const Facet& facet) const {
+    int best = -1;
+    double largest = 0;
+    for (const int polygon : facet.polygons) {
+      const int surface = labelled_.surface_of_polygon[at(polygon)];
+      if (surface < 0 || area_.at(polygon) <= largest) continue;
+      largest = area_.at(polygon);
+      best = surface;
+    }
+    return best;
+  }
+
+  /// Surfaces are copied once; polygons of others that went into the same facet have that facet's
+  /// surface now.
+  void label_facets() {
+    for (const Facet& facet : facets()) {
+      const int old = surface_of(facet);
+      int number = static_cast<int>(out_.labelled.surfaces.size());
+      if (old < 0) {
+        const Vec3 normal = generalised_.solid.planes[facet.plane.index()].normal;
+        out_.labelled.surfaces.push_back({type_by_slope(normal), -1, {}});
+      } else if (const auto [entry, is_new] = number_.emplace(old, number); is_new) {
+        out_.labelled.surfaces.push_back(labelled_.surfaces[at(old)]);
+      } else {
+        number = entry->second;
+      }
+      out_.labelled.surface_of_polygon.push_back(number);
+      for (const int polygon : facet.polygons)
+        if (const int other = labelled_.surface_of_polygon[at(polygon)]; other >= 0)
+          absorbed_.emplace(other, number);
+    }
+  }
+
+  /// Parents are numbers of the labels as they were: those of the facets that their polygons went
+  /// into take their place.
+  void tie_openings() {
+    for (SemanticSurface& surface : out_.labelled.surfaces) {
+      if (surface.parent < 0) continue;
+      const auto kept = number_.find(surface.parent);
+      const auto absorbed = absorbed_.find(surface.parent);
+      surface.parent = kept != number_.end()         ? kept->second
+                       : absorbed != absorbed_.end() ? absorbed->second
+                                                     : -1;
+    }
+  }
+
+  void keep_installations(const FeatureTable& table) {
+    std::set<std::string> gone;
+    for (const FeatureId id : generalised_.removed) gone.insert(table.id(id));
+    for (const Installation& installation : labelled_.installations) {
+      if (gone.contains(installation.id)) {
+        out_.removed_ids.push_back(installation.id);
+        continue;
+      }
+      Installation kept{installation.id, installation.attributes, {}, {}};
+      const std::set<int> polygons(installation.polygons.begin(), installation.polygons.end());
+      for (int f = 0; f < std::ssize(facets()); ++f) {
+        const auto& of_facet = facets()[at(f)].polygons;
+        if (of_facet.empty() ||
+            !std::ranges::all_of(of_facet, [&](int p) { return polygons.contains(p); }))
+          continue;
+        kept.polygons.push_back(f);
+        kept.surfaces.push_back(out_.labelled.surface_of_polygon[at(f)]);
+      }
+      if (!kept.polygons.empty()) out_.labelled.installations.push_back(std::move(kept));
+    }
+  }
+
+  void count_removed(const Segmentation& segmentation, const Interpretation& interpretation) {
+    std::map<std::string, std::int64_t> counts;
+    double volume = 0;
+    for (const FeatureId id : generalised_.removed) {
+      const std::string& label = interpretation.verdicts[id.index()].label;
+      ++counts[label.empty() ? "unknown" : label];
+      volume += segmentation.features[id.index()].volume_m3;
+    }
+    auto& attributes = out_.labelled.attributes;
+    for (const auto& [label, count] : counts)
+      attributes.emplace_back("oriel_removed_" + label, count);
+    if (!counts.empty()) attributes.emplace_back("oriel_removed_volume_m3", volume);
+  }
+
+  const LabelledBuilding& labelled_;
+  Generalised generalised_;
+  std::map<int, double> area_;   ///< of input polygons
+  std::map<int, int> number_;    ///< new number of a surface that was kept
+  std::map<int, int> absorbed_;  ///< new number of the facet that took a surface's polygon in
+  Redrawn out_;
+};
+
+}  // namespace
+
+Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
+               const Segmentation& segmentation, const FeatureTable& table,
+               const Interpretation& interpretation, Generalised generalised) {
+  return Redrawer(building, labelled, std::move(generalised))
+      .run(segmentation, table, interpretation);
+}
+
+}  // namespace oriel
