@@ -84,8 +84,9 @@ std::vector<int> group_points(const std::vector<exact::GridPoint>& points, doubl
   return first;
 }
 
-/// The simple rings that a ring consists of: where it comes back to a vertex (it touches itself, or a bridge ties a hole
-/// to its outer ring) it is cut in two, and what has fewer than three vertices goes. Each starts at its smallest vertex.
+/// The simple rings that a ring consists of: where it comes back to a vertex (it touches itself, or
+/// a bridge ties a hole to its outer ring) it is cut in two, and what has fewer than three vertices
+/// goes. Each starts at its smallest vertex.
 std::vector<std::vector<int>> simple_rings(const std::vector<int>& ring) {
   std::vector<std::vector<int>> rings;
   const auto keep = [&](std::vector<int> simple) {
