@@ -138,9 +138,10 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
   table.set(s.id, "ground_source", foot.source);
   table.set(s.id, "below_ridge", site.ridge_m() - box.max.z);
   if (!facet) return;
-  const Facet& host = segmentation.cells[facet->cell.index()].facets[at(facet->facet)];
-  table.set(s.id, "host_inclination",
-            detail::inclination_deg(segmentation.planes[host.plane.index()].normal));
+  const Cell& cell = segmentation.cells[facet->cell.index()];
+  const Vec3 normal = segmentation.planes[cell.facets[at(facet->facet)].plane.index()].normal;
+  // The facets of a void look away from it, into the building.
+  table.set(s.id, "host_inclination", detail::inclination_deg(cell.sign * normal));
   if (const auto eaves = site.eaves_m(facet->cell))
     table.set(s.id, "above_eaves", box.min.z - *eaves);
 }

@@ -16,8 +16,9 @@ namespace oriel {
 /// paper's.
 enum class Order { natural, paper };
 
-/// What a feature is: material that sticks out, air that cuts in, air closed in on all sides, or an
-/// outline without depth.
+/// What a feature is to the building: material that sticks out, air that cuts in, air closed in on
+/// all sides, or an outline without depth. A hole that is cut from a void (the chimney in a roof
+/// terrace's air) is material, so a protrusion.
 enum class Sense { protrusion, hole, cavity, imprint };
 
 /// A node of the CSG tree. A union says body = rest ∪ parts, a difference body = rest ∖ parts; a
@@ -84,7 +85,8 @@ struct Feature {
   std::optional<double> quality;
   double new_area_m2 = 0;
   double old_area_m2 = 0;
-  /// The split planes, the one with the largest cap first. Outward from the rest.
+  /// The split planes, the one with the largest cap first. They look out of the building: a
+  /// protrusion is in front of them, a hole behind them.
   std::vector<PlaneId> planes;
   /// A point inside the largest cap.
   Vec3 cap_point;

@@ -83,13 +83,16 @@ class FeatureRemover {
   std::optional<std::string> remove(FeatureId id) {
     const Feature& f = feature(id);
     if (f.sense == Sense::cavity) return fill_cavity(f);
-    for (const PlaneId plane : f.planes)
-      if (plane.index() >= solid_.planes.size()) return "it lies on a part that stays";
-    return f.planes.size() == 1 ? remove_by_section(f) : remove_by_patch(f);
+    std::vector<Side> sides;
+    for (const PlaneId plane : f.planes) {
+      const auto side = world_.planes.find(segmentation_.planes[plane.index()]);
+      if (!side) return "it lies on a part that stays";
+      sides.push_back(*side);
+    }
+    return sides.size() == 1 ? remove_by_section(f, sides[0]) : remove_by_patch(f, sides);
   }
 
-  std::optional<std::string> remove_by_section(const Feature& f) {
-    const Side split = world_.planes.side_of(f.planes[0]);
+  std::optional<std::string> remove_by_section(const Feature& f, Side split) {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
@@ -122,9 +125,7 @@ class FeatureRemover {
     return std::nullopt;
   }
 
-  std::optional<std::string> remove_by_patch(const Feature& f) {
-    std::vector<Side> sides;
-    for (const PlaneId plane : f.planes) sides.push_back(world_.planes.side_of(plane));
+  std::optional<std::string> remove_by_patch(const Feature& f, std::vector<Side> sides) {
     std::ranges::sort(sides);
     std::int64_t work = 0;
     for (Boundary& body : bodies_)

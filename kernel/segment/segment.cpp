@@ -131,7 +131,7 @@ class Segmenter {
       Feature feature;
       feature.sense = Sense::cavity;
       feature.value = feature.quality = 0;
-      add_part(task, std::move(cavity), std::move(feature), {});
+      add_part(task, std::move(cavity), -task.sign, std::move(feature), {});
     }
     parent_of_rest_ = task.node;
     task.node = rest;
@@ -182,7 +182,9 @@ class Segmenter {
                              [&](const detail::Cap& cap) { return area_of(cap); });
 
     Feature feature;
-    feature.sense = choice.is_hole ? Sense::hole : Sense::protrusion;
+    // A hole in a void is material: the sense is that of the building.
+    const bool is_material = choice.is_hole == (task.sign < 0);
+    feature.sense = is_material ? Sense::protrusion : Sense::hole;
     feature.value = measures.value;
     feature.quality = measures.new_area / choice.old_area;
     feature.new_area_m2 = measures.new_area;
@@ -191,14 +193,15 @@ class Segmenter {
     feature.is_natural = choice.is_natural;
     std::vector<int> own_planes;
     for (const detail::Cap& cap : caps) {
-      const PlaneId plane = cells_.plane_id(cap.side);
+      const PlaneId plane = cells_.plane_id(task.sign < 0 ? cap.side ^ 1 : cap.side);
       if (std::ranges::find(feature.planes, plane) == feature.planes.end())
         feature.planes.push_back(plane);
       feature.surface_m2 -= area_of(cap);
     }
     if (!choice.is_hole && choice.sides.size() > 1)
       for (const Side side : choice.sides) own_planes.push_back(side >> 1);
-    add_part(task, std::move(carved.lump), std::move(feature), std::move(own_planes));
+    add_part(task, std::move(carved.lump), is_material ? 1 : -1, std::move(feature),
+             std::move(own_planes));
   }
 
   [[nodiscard]] double area_of(const detail::Cap& cap) const {
@@ -211,7 +214,8 @@ class Segmenter {
     return area;
   }
 
-  void add_part(const Task& task, Boundary body, Feature feature, std::vector<int> own_planes) {
+  void add_part(const Task& task, Boundary body, int sign, Feature feature,
+                std::vector<int> own_planes) {
     const NodeId id = add_node();
     node(task.node).parts.push_back(id);
     feature.node = id;
@@ -225,7 +229,6 @@ class Segmenter {
     feature.vertices.erase(std::unique(feature.vertices.begin(), feature.vertices.end()),
                            feature.vertices.end());
     for (const int v : feature.vertices) feature.box.grow(world_.points.at(v));
-    const int sign = feature.sense == Sense::protrusion ? task.sign : -task.sign;
     const FeatureId feature_id{static_cast<int>(out_.features.size())};
     out_.features.push_back(std::move(feature));
     std::vector<Boundary> bodies;

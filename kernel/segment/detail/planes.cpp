@@ -39,4 +39,16 @@ PlaneTable::PlaneTable(const std::vector<Plane>& oriented) : sides_(oriented.siz
   }
 }
 
+std::optional<Side> PlaneTable::find(const Plane& plane) const {
+  const Plane turned = exact::opposite(plane);
+  const auto is_same = [](const Plane& p, const Plane& q) {
+    return p.offset == q.offset && p.coefficients == q.coefficients;
+  };
+  for (int i = 0; i < size(); ++i) {
+    if (is_same(planes_[static_cast<std::size_t>(i)].plane, plane)) return 2 * i;
+    if (is_same(planes_[static_cast<std::size_t>(i)].plane, turned)) return 2 * i + 1;
+  }
+  return std::nullopt;
+}
+
 }  // namespace oriel::detail

@@ -3,6 +3,7 @@
 #include "kernel/model/solid.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace oriel::detail {
@@ -42,6 +43,8 @@ class PlaneTable {
   }
   /// The side that an oriented plane of the solid is.
   [[nodiscard]] Side side_of(PlaneId id) const { return sides_[id.index()]; }
+  /// The side that a plane is, in either orientation; nothing if the solid has no such plane.
+  [[nodiscard]] std::optional<Side> find(const Plane& plane) const;
   /// The id of a side among the solid's planes, invalid if no facet of the solid had it.
   [[nodiscard]] PlaneId id_of(Side side) const {
     return entry(side >> 1).ids[static_cast<std::size_t>(side & 1)];
