@@ -79,6 +79,26 @@ class FeatureRemover {
     go_[id.index()] = 0;
   }
 
+  /// A facet of a cell is part of the solid's boundary that looks to `side`.
+  [[nodiscard]] bool is_on_surface(const Facet& facet, Side side) const {
+    const Vec3 normal = world_.planes.normal(side);
+    std::vector<detail::Outline> shape;
+    for (const Loop& loop : facet.loops) {
+      shape.emplace_back();
+      for (const int v : loop) shape.back().push_back(segmentation_.vertices[at(v)].point);
+    }
+    const auto point = detail::interior_point(shape, normal);
+    return point && std::ranges::any_of(solid_.facets, [&](const Facet& of_solid) {
+             if (world_.planes.side_of(of_solid.plane) != side) return false;
+             std::vector<detail::Outline> outlines;
+             for (const Loop& loop : of_solid.loops) {
+               outlines.emplace_back();
+               for (const int v : loop) outlines.back().push_back(solid_.vertices[at(v)].point);
+             }
+             return detail::contains(outlines, normal, *point);
+           });
+  }
+
   /// Nothing if it went well, else the reason why not.
   std::optional<std::string> remove(FeatureId id) {
     const Feature& f = feature(id);
@@ -89,7 +109,29 @@ class FeatureRemover {
       if (!side) return "it lies on a part that stays";
       sides.push_back(*side);
     }
-    return sides.size() == 1 ? remove_by_section(f, sides[0]) : remove_by_patch(f, sides);
+    auto reason = sides.size() == 1 ? remove_by_section(f, sides[0]) : remove_by_patch(f, sides);
+    if (!reason || !f.parent.is_valid()) return reason;
+    const auto all_sides = sides_around(id);
+    if (all_sides.size() <= sides.size() || !remove_by_patch(f, all_sides)) return std::nullopt;
+    return reason;
+  }
+
+  /// The sides that part of a part meets the body in: its own cut, and those that its carriers were
+  /// cut at.
+  [[nodiscard]] std::vector<Side> sides_around(FeatureId id) const {
+    std::set<Side> sides;
+    const int sign = feature(id).sense == Sense::protrusion ? 1 : -1;
+    for (const Cell& cell : segmentation_.cells) {
+      if (cell.feature != id || cell.sign != sign) continue;
+      for (const Facet& facet : cell.facets) {
+        const auto side = world_.planes.find(segmentation_.planes[facet.plane.index()]);
+        if (!side) continue;
+        // Of a void, and of what stays beside a part, the boundary looks the other way.
+        const Side surface = sign > 0 ? *side : *side ^ 1;
+        if (!is_on_surface(facet, surface)) sides.insert(surface ^ 1);
+      }
+    }
+    return {sides.begin(), sides.end()};
   }
 
   std::optional<std::string> remove_by_section(const Feature& f, Side split) {
@@ -159,19 +201,28 @@ class FeatureRemover {
   std::optional<std::string> take(Boundary& body, Boundary trial,
                                   const std::vector<detail::Cap>& caps, const Feature& f) {
     const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
-    if (takes_others_along(carved.lump, f)) return "a feature that stays would go with it";
+    if (takes_others_along(carved.lump, trial, f)) return "a feature that stays would go with it";
     body = std::move(trial);
     return std::nullopt;
   }
 
-  /// A feature that is to stay would lose all its surface with the lump.
-  [[nodiscard]] bool takes_others_along(const Boundary& lump, const Feature& f) const {
-    std::set<int> lost;
-    for (const int facet : lump.living_facets())
-      for (const int source : lump.facet(facet).sources) {
-        const auto& polygons = solid_.facets[at(source)].polygons;
-        lost.insert(polygons.begin(), polygons.end());
+  /// The input polygons that have a share in the boundary.
+  [[nodiscard]] std::set<int> polygons_of(const Boundary& body) const {
+    std::set<int> polygons;
+    for (const int facet : body.living_facets())
+      for (const int source : body.facet(facet).sources) {
+        const auto& of_facet = solid_.facets[at(source)].polygons;
+        polygons.insert(of_facet.begin(), of_facet.end());
       }
+    return polygons;
+  }
+
+  /// A feature that is to stay would lose all its surface with the lump.
+  [[nodiscard]] bool takes_others_along(const Boundary& lump, const Boundary& rest,
+                                        const Feature& f) const {
+    const std::set<int> kept = polygons_of(rest);
+    std::set<int> lost = polygons_of(lump);
+    std::erase_if(lost, [&](int polygon) { return kept.contains(polygon); });
     for (std::size_t i = 0; i < segmentation_.features.size(); ++i) {
       const Feature& other = segmentation_.features[i];
       if (go_[i] || other.source_polygons.empty() || carries(other, f)) continue;
