@@ -22,6 +22,6 @@ namespace oriel {
 /// round (307), E309 parts thinner than the tolerances that were swallowed.
 ///
 /// Source: the B-rep of the paper's section 3.1; facts and reasons in docs/solidify.md.
-Checked<Solid> solidify(const Building& building, const Tolerances& tolerances);
+Checked<Solid> solidify(const Building& building, const Tolerances& tolerances = {});
 
 }  // namespace oriel

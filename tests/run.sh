@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Builds oriel and runs all its tests: what the README says, and what CI runs. Works on a bare Debian 12.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+examples/install_packages.sh
+
+echo "== format"
+git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+
+echo "== build"
+cmake --preset release -DORIEL_TESTS=ON -DORIEL_BENCH=ON
+cmake --build --preset release
+
+echo "== tests"
+ctest --preset release --parallel "$(nproc)" "$@"
