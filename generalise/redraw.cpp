@@ -52,17 +52,17 @@ class Redrawer {
  private:
   [[nodiscard]] const std::vector<Facet>& facets() const { return generalised_.solid.facets; }
 
-  /// The surface of the largest polygon of a facet, or -1.
-  [[nodiscard]] int surface_of(const Facet& facet) const {
+  /// The largest input polygon of a facet, which says what the facet is; or -1.
+  [[nodiscard]] int main_polygon(const Facet& facet) const {
     int best = -1;
-    double largest = 0;
-    for (const int polygon : facet.polygons) {
-      const int surface = labelled_.surface_of_polygon[at(polygon)];
-      if (surface < 0 || area_.at(polygon) <= largest) continue;
-      largest = area_.at(polygon);
-      best = surface;
-    }
+    for (const int polygon : facet.polygons)
+      if (best < 0 || area_.at(polygon) > area_.at(best)) best = polygon;
     return best;
+  }
+
+  [[nodiscard]] int surface_of(const Facet& facet) const {
+    const int polygon = main_polygon(facet);
+    return polygon < 0 ? -1 : labelled_.surface_of_polygon[at(polygon)];
   }
 
   /// Surfaces are copied once; polygons of others that went into the same facet have that facet's
@@ -110,10 +110,7 @@ class Redrawer {
       Installation kept{installation.id, installation.attributes, {}, {}};
       const std::set<int> polygons(installation.polygons.begin(), installation.polygons.end());
       for (int f = 0; f < std::ssize(facets()); ++f) {
-        const auto& of_facet = facets()[at(f)].polygons;
-        if (of_facet.empty() ||
-            !std::ranges::all_of(of_facet, [&](int p) { return polygons.contains(p); }))
-          continue;
+        if (!polygons.contains(main_polygon(facets()[at(f)]))) continue;
         kept.polygons.push_back(f);
         kept.surfaces.push_back(out_.labelled.surface_of_polygon[at(f)]);
       }
