@@ -41,8 +41,8 @@ struct Redrawn {
 /// Carries the labels of the input polygons over to the facets of the generalised solid. A facet
 /// takes the semantic surface of the largest input polygon it is made of; one that no input polygon
 /// lies in is named by its slope. Installations keep the facets whose largest polygon is theirs;
-/// those that were removed go, with their ids listed. The building gets flat counts `oriel_removed_LABEL` and
-/// `oriel_removed_volume_m3`.
+/// those that were removed go, with their ids listed. The building gets flat counts
+/// `oriel_removed_LABEL` and `oriel_removed_volume_m3`.
 ///
 /// `labelled` is what annotate says of the building as it was.
 Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
