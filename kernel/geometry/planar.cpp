@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace oriel::detail {
 
@@ -39,6 +40,13 @@ std::vector<double> crossings(std::span<const Outline> outlines, const Axes& axe
   });
   std::ranges::sort(cuts);
   return cuts;
+}
+
+/// The signed solid angle of a triangle seen from the origin, after Van Oosterom & Strackee 1983.
+double solid_angle(Vec3 p, Vec3 q, Vec3 r) {
+  const double lp = length(p), lq = length(q), lr = length(r);
+  return 2 * std::atan2(dot(p, cross(q, r)),
+                        lp * lq * lr + dot(p, q) * lr + dot(q, r) * lp + dot(r, p) * lq);
 }
 
 }  // namespace
@@ -97,6 +105,14 @@ std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 norma
   const double missing = dot(on_plane, normal) - dot(point, normal);
   point.*axes.dropped = missing / (normal.*axes.dropped);
   return point;
+}
+
+double winding_part(std::span<const Outline> outlines, Vec3 eye) {
+  double sum = 0;
+  for (const Outline& outline : outlines)
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+      sum += solid_angle(outline[0] - eye, outline[i] - eye, outline[i + 1] - eye);
+  return sum / (4 * std::numbers::pi);
 }
 
 }  // namespace oriel::detail

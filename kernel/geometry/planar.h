@@ -29,4 +29,10 @@ bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point);
 /// its height allows; nothing if the figure has no area.
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal);
 
+/// The solid angle under which the figure is seen from `eye`, as a part of the full sphere:
+/// positive where its outer outline runs clockwise for the eye, that is, from behind its normal.
+/// Over all facets of a closed surface the parts add up to its winding number: 1 inside, 0 outside,
+/// any value between on the surface.
+double winding_part(std::span<const Outline> outlines, Vec3 eye);
+
 }  // namespace oriel::detail

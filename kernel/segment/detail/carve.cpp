@@ -3,9 +3,7 @@
 #include "kernel/model/issue.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -236,20 +234,11 @@ double volume_of(const Boundary& body, const std::vector<int>& facets) {
   return sum / 3;
 }
 
-double solid_angle(Vec3 p, Vec3 q, Vec3 r) {
-  const double lp = length(p), lq = length(q), lr = length(r);
-  return 2 * std::atan2(dot(p, cross(q, r)),
-                        lp * lq * lr + dot(p, q) * lr + dot(q, r) * lp + dot(r, p) * lq);
-}
-
 /// How often the facets wind around a point: 1 inside, 0 outside.
 double winding_number(const Boundary& body, const std::vector<int>& facets, Vec3 eye) {
   double sum = 0;
-  for (const int f : facets)
-    for (const Outline& outline : body.outlines(f))
-      for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-        sum += solid_angle(outline[0] - eye, outline[i] - eye, outline[i + 1] - eye);
-  return sum / (4 * std::numbers::pi);
+  for (const int f : facets) sum += winding_part(body.outlines(f), eye);
+  return sum;
 }
 
 Boundary copy_facets(const Boundary& body, const std::vector<int>& facets, bool is_turned) {

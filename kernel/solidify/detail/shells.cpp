@@ -1,11 +1,10 @@
 #include "kernel/solidify/detail/shells.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/planar.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -25,26 +24,18 @@ double volume_of(const Solid& solid, const Shell& shell) {
   return sum / 3;
 }
 
-/// The signed solid angle of a triangle seen from `eye`.
-double solid_angle(Vec3 eye, Vec3 p, Vec3 q, Vec3 r) {
-  p = p - eye;
-  q = q - eye;
-  r = r - eye;
-  const double lp = length(p), lq = length(q), lr = length(r);
-  return 2 * std::atan2(dot(p, cross(q, r)),
-                        lp * lq * lr + dot(p, q) * lr + dot(q, r) * lp + dot(r, p) * lq);
-}
-
 /// How often the shell winds around a point: 1 inside an outer shell, 0 outside.
 double winding_number(const Solid& solid, const Shell& shell, Vec3 eye) {
   double sum = 0;
-  for (const FacetId f : shell.facets)
+  for (const FacetId f : shell.facets) {
+    std::vector<Outline> outlines;
     for (const Loop& loop : solid.facets[f.index()].loops) {
-      const auto point = [&](std::size_t i) { return solid.vertices[at(loop[i])].point; };
-      for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-        sum += solid_angle(eye, point(0), point(i), point(i + 1));
+      outlines.emplace_back();
+      for (const int v : loop) outlines.back().push_back(solid.vertices[at(v)].point);
     }
-  return sum / (4 * std::numbers::pi);
+    sum += winding_part(outlines, eye);
+  }
+  return sum;
 }
 
 /// The id of the plane with opposite orientation, added if the solid has none.
