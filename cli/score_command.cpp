@@ -23,6 +23,7 @@ struct Arguments {
   std::vector<std::string> records;
   std::vector<std::string> truth;
   bool is_json = false;
+  bool is_verbose = false;
 };
 
 /// The truth files that are named, those of a folder by their names.
@@ -35,12 +36,14 @@ std::vector<std::string> truth_files(const std::vector<std::string>& named) {
     }
     const std::size_t before = files.size();
     for (const auto& entry : fs::directory_iterator(path))
-      if (entry.path().string().ends_with(".truth.json")) files.push_back(entry.path().string());
+      if (const std::string file = entry.path().string();
+          file.ends_with(".truth.json") || file.ends_with(".truth.jsonl"))
+        files.push_back(file);
     std::ranges::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
     if (files.size() == before) {
       Issue issue;
       issue.code = "E101";
-      issue.sentence = "the folder has no *.truth.json";
+      issue.sentence = "the folder has no *.truth.json or *.truth.jsonl";
       issue.place.file = path;
       throw InputError(std::move(issue));
     }
@@ -62,7 +65,7 @@ void append_truth(std::vector<ExpectedObject>& all, const Truth& truth) {
 }
 
 ExitCode work(const Arguments& arguments) {
-  Report report(false);
+  Report report(arguments.is_verbose);
   ExitCode code = ExitCode::clean;
   std::vector<Prediction> predictions;
   std::vector<ExpectedObject> expected;
@@ -74,15 +77,19 @@ ExitCode work(const Arguments& arguments) {
     if (records.value) append_predictions(predictions, *records.value);
   }
   for (const std::string& path : truth_files(arguments.truth)) {
-    const auto truth = read_truth(path);
-    report.tell(truth.issues);
-    if (truth.value)
-      append_truth(expected, *truth.value);
-    else
-      code = graver(code, ExitCode::input);
+    const auto truths = read_truths(path);
+    report.tell(truths.issues);
+    if (has_errors(truths.issues)) code = graver(code, ExitCode::input);
+    if (truths.value)
+      for (const Truth& truth : *truths.value) append_truth(expected, truth);
   }
   const Score result = score(predictions, expected);
-  std::fputs((arguments.is_json ? to_json(result) : to_text(result)).c_str(), stdout);
+  constexpr std::size_t kShown = 20;
+  const std::size_t shown = arguments.is_verbose ? result.misses.size() : kShown;
+  std::string text = arguments.is_json ? to_json(result) + "\n" : to_text(result, shown);
+  if (!arguments.is_json && shown < result.misses.size())
+    text += "  (-v lists all of them, --json too)\n";
+  std::fputs(text.c_str(), stdout);
   return code;
 }
 
@@ -96,9 +103,12 @@ void add_score(CLI::App& app, Action& action) {
       ->add_option("records", arguments->records,
                    "Records of features as label --features writes them")
       ->required();
-  command->add_option("--truth", arguments->truth, "*.truth.json files, or folders of them")
+  command
+      ->add_option("--truth", arguments->truth,
+                   "*.truth.json and *.truth.jsonl files, or folders of them")
       ->required();
-  command->add_flag("--json", arguments->is_json, "As JSON");
+  command->add_flag("--json", arguments->is_json, "As JSON, with all misses");
+  command->add_flag("-v,--verbose", arguments->is_verbose, "List all misses, not the first 20");
   command->footer(
       "Example:\n  oriel label data/*.stripped.city.json --features parts.jsonl\n  oriel score "
       "parts.jsonl --truth data/");

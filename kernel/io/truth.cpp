@@ -3,7 +3,9 @@
 #include "kernel/io/detail/input.h"
 #include "kernel/io/detail/slow_json.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -109,19 +111,48 @@ std::optional<std::string> read_root(const json& root, Truth& truth) {
   return std::nullopt;
 }
 
-}  // namespace
-
-Checked<Truth> read_truth(const std::string& path) {
+Checked<Truth> truth_of(const detail::TextName& name, std::string_view text) {
   Checked<Truth> result;
-  const detail::TextName name{path, 0};
-  const std::string text = detail::Input(path).read_all();
-  const auto root = detail::parse_slowly(name, detail::without_bom(text), result.issues);
+  const auto root = detail::parse_slowly(name, text, result.issues);
   if (!root) return result;
   Truth truth;
   if (const auto fault = read_root(*root, truth))
     result.issues.push_back(detail::error_in(name, {"E112", *fault}));
   else
     result.value = std::move(truth);
+  return result;
+}
+
+}  // namespace
+
+Checked<Truth> read_truth(const std::string& path) {
+  const std::string text = detail::Input(path).read_all();
+  return truth_of({path, 0}, detail::without_bom(text));
+}
+
+Checked<std::vector<Truth>> read_truths(const std::string& path) {
+  Checked<std::vector<Truth>> result;
+  const auto add = [&](Checked<Truth> truth) {
+    result.issues.insert(result.issues.end(), truth.issues.begin(), truth.issues.end());
+    if (!truth.value) return;
+    if (!result.value) result.value.emplace();
+    result.value->push_back(std::move(*truth.value));
+  };
+  if (!path.ends_with(".jsonl")) {
+    add(read_truth(path));
+    return result;
+  }
+  const std::string text = detail::Input(path).read_all();
+  std::string_view rest = detail::without_bom(text);
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view here = rest.substr(0, end);
+    if (here.find_first_not_of(" \t\r") != std::string_view::npos)
+      add(truth_of({path, line}, here));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (!result.value && result.issues.empty())
+    result.issues.push_back(detail::error_in({path, 0}, {"E102", "the file is empty"}));
   return result;
 }
 

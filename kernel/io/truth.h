@@ -39,4 +39,8 @@ struct Truth {
 /// InputError E101 if it cannot be read.
 Checked<Truth> read_truth(const std::string& path);
 
+/// Reads the truth of many buildings: one per line of a `.jsonl` file, any other file as read_truth
+/// does. A line that does not fit costs that line; no value if none is left.
+Checked<std::vector<Truth>> read_truths(const std::string& path);
+
 }  // namespace oriel

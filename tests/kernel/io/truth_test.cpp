@@ -34,6 +34,22 @@ TEST_SUITE("kernel/io") {
     CHECK_FALSE(truth.value->objects[1].is_detectable);
   }
 
+  TEST_CASE("the truth of many buildings stands in lines and a bad line costs that line") {
+    const test::TemporaryFolder folder;
+    const auto truths = read_truths(folder.write("a.truth.jsonl",
+                                                 R"({"building":"h","objects":[]}
+
+{"building":"i"}
+{"building":"j","objects":[]})"));
+    REQUIRE(truths.value);
+    REQUIRE(truths.value->size() == 2);
+    CHECK(truths.value->at(1).building == "j");
+    REQUIRE(truths.issues.size() == 1);
+    CHECK(truths.issues[0].code == "E112");
+    CHECK(truths.issues[0].place.line == 3);
+    CHECK_FALSE(read_truths(folder.write("b.truth.jsonl", "\n")).value);
+  }
+
   TEST_CASE("truth that does not fit is refused with the object and the member") {
     for (const char* text :
          {"{}", "[]", R"({"building":"h","objects":{}})", R"({"objects":[]})",
