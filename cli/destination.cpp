@@ -84,13 +84,14 @@ std::string Destination::path_for(std::size_t input) const {
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
-void Destination::begin(std::size_t input) {
+void Destination::begin(std::size_t input, bool is_rehearsal) {
   path_ = path_for(input);
   const Format from = format_of_input(input);
   format_ = to_ ? *to_
                 : format_of(path_).value_or(from == Format::cityjson_seq ? from : Format::cityjson);
   mesh_ = {};
-  if (is_folder_) {
+  if (is_rehearsal) path_ = "/dev/null";
+  if (is_folder_ && !is_rehearsal) {
     std::error_code error;
     fs::create_directories(out_, error);  // what is wrong with it shows when the file is opened
   }

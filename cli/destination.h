@@ -24,7 +24,8 @@ class Destination {
   Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
               std::optional<Format> from);
 
-  void begin(std::size_t input);
+  /// With `is_rehearsal` the bytes go to nowhere.
+  void begin(std::size_t input, bool is_rehearsal);
   void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
            const WriteOptions& options);
   /// Puts the file in its place and returns its path.

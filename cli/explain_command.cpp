@@ -33,6 +33,10 @@ ExitCode work(const Arguments& arguments) {
   std::vector<Explanation> explanations;
   std::vector<std::string> ids;
   Run::Visitor visitor;
+  visitor.begin = [&](std::size_t) {
+    explanations.clear();
+    ids.clear();
+  };
   visitor.record = [&](const Document&, std::vector<OnLine>& lines) {
     for (const OnLine& line : lines) {
       if (!line.is_done()) continue;
@@ -57,7 +61,8 @@ ExitCode work(const Arguments& arguments) {
         fmt::format("'{}' names {} features; {}", arguments.feature, explanations.size(), which));
   }
   for (const Explanation& explanation : explanations)
-    std::fputs((arguments.is_json ? to_json(explanation) : to_text(explanation)).c_str(), stdout);
+    std::fputs((arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation)).c_str(),
+               stdout);
   return code;
 }
 

@@ -3,7 +3,10 @@
 #include "generalise/generalise.h"
 #include "interpret/plan.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -17,14 +20,13 @@ struct Arguments : LabelArguments {
 
 /// N of "1:N", "1 : N" or "N".
 double denominator_of(const std::string& text) {
-  const auto colon = text.find(':');
-  std::string number = colon == std::string::npos ? text : text.substr(colon + 1);
-  number.erase(0, number.find_first_not_of(' '));
+  std::string number;
+  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
+  if (number.starts_with("1:")) number.erase(0, 2);
   double value = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  const bool is_one = colon == std::string::npos ||
-                      text.substr(0, colon).find_first_not_of(" 1") == std::string::npos;
-  if (error != std::errc() || end != number.data() + number.size() || !is_one || !(value >= 1))
+  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
+      !std::isfinite(value))
     throw CLI::ValidationError(
         "--scale", fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
   return value;
@@ -42,7 +44,7 @@ class Generaliser {
 
   ExitCode go() {
     Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) { outputs_.begin(input); };
+    visitor.begin = [&](std::size_t input) { outputs_.begin(input, !run_.is_last_run()); };
     visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
       redraw_record(document, lines);
     };
@@ -75,8 +77,8 @@ class Generaliser {
     const auto& [table, graph] = line.description;
     const Plan plan = oriel::plan(rules_, table, graph, line.interpretation, scale_);
     report_.tell(plan.issues);
-    auto generalised =
-        generalise(*line.solid, *line.segmentation, table, plan, arguments_.segment_options());
+    auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
+                                  arguments_.segment_options());
     for (const Issue& issue : generalised.issues) {
       if (issue.severity == Severity::error)
         run_.set_aside(issue);

@@ -36,7 +36,7 @@ ExitCode work(const Arguments& arguments) {
   Run run(arguments, &*rules, report);
   LabelOutputs outputs(arguments, *rules);
   Run::Visitor visitor;
-  visitor.begin = [&](std::size_t input) { outputs.begin(input); };
+  visitor.begin = [&](std::size_t input) { outputs.begin(input, !run.is_last_run()); };
   visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
     run.timings().measure(Stage::write, [&] {
       std::vector<LabelledBuilding> labelled;
@@ -45,7 +45,8 @@ ExitCode work(const Arguments& arguments) {
         if (outputs.has_buildings())
           labelled.push_back(outputs.annotated(document.buildings[i], lines[i]));
         outputs.add_features(document.buildings[i], lines[i]);
-        if (!outputs.has_any()) outputs.print(listing(document.buildings[i], lines[i]));
+        if (!outputs.has_any() && run.is_last_run())
+          outputs.print(listing(document.buildings[i], lines[i]));
       }
       outputs.add(document, labelled, {});
     });

@@ -51,9 +51,9 @@ LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine&
                   line.interpretation, rules_, options);
 }
 
-void LabelOutputs::begin(std::size_t input) {
-  if (destination_) destination_->begin(input);
-  if (input == 0 && !arguments_.features.empty())
+void LabelOutputs::begin(std::size_t input, bool is_rehearsal) {
+  if (destination_) destination_->begin(input, is_rehearsal);
+  if (!is_rehearsal && !features_ && !arguments_.features.empty())
     features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
 }
 
@@ -71,6 +71,7 @@ void LabelOutputs::add_features(const Building& building, const OnLine& line) {
 void LabelOutputs::print(const std::string& text) const { std::fputs(text.c_str(), stdout); }
 
 void LabelOutputs::end() {
+  has_ended_ = true;
   if (!destination_) return;
   const std::string path = destination_->end();
   if (path != "-" && arguments_.is_verbose)
@@ -78,7 +79,7 @@ void LabelOutputs::end() {
 }
 
 void LabelOutputs::commit() {
-  if (features_) features_->commit();
+  if (features_ && has_ended_) features_->commit();
 }
 
 }  // namespace oriel::cli

@@ -40,14 +40,15 @@ class LabelOutputs {
   /// What is to be written of a building that came to the end of the line.
   [[nodiscard]] LabelledBuilding annotated(const Building& building, const OnLine& line) const;
 
-  void begin(std::size_t input);
+  /// `is_rehearsal`: what follows is not to be kept.
+  void begin(std::size_t input, bool is_rehearsal);
   void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
            const WriteOptions& options);
   void add_features(const Building& building, const OnLine& line);
   void print(const std::string& text) const;
   /// An input is done: its file is put in its place.
   void end();
-  /// All inputs are done.
+  /// All inputs are done. Records are written if one of them could be read.
   void commit();
 
  private:
@@ -55,6 +56,7 @@ class LabelOutputs {
   const RuleBase& rules_;
   std::optional<Destination> destination_;
   std::unique_ptr<FeatureRecordWriter> features_;
+  bool has_ended_ = false;  ///< an input did
 };
 
 }  // namespace oriel::cli

@@ -1,10 +1,14 @@
 #include "cli/commands.h"
 #include "cli/report.h"
+#include "cli/signals.h"
 #include "kernel/model/issue.h"
 #include "kernel/model/version.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +17,17 @@ namespace {
 using namespace oriel::cli;
 
 int exit_with(ExitCode code) { return static_cast<int>(code); }
+
+/// What was printed is not lost in silence on a full disk.
+void finish_stdout() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush()) return;
+  oriel::Issue issue;
+  issue.code = "E601";
+  issue.sentence = "cannot be written: " + std::generic_category().message(errno);
+  issue.place.file = "stdout";
+  throw oriel::OutputError(std::move(issue));
+}
 
 int run(int argc, char** argv) {
   CLI::App app(
@@ -30,15 +45,25 @@ int run(int argc, char** argv) {
   add_rules(app, action);
   try {
     app.parse(argc, argv);
-    return exit_with(action());
+    const ExitCode code = action();
+    finish_stdout();
+    return exit_with(code);
+  } catch (const CLI::RequiredError& error) {
+    if (const auto rest = app.remaining(); app.get_subcommands().empty() && !rest.empty())
+      std::cerr << "'" << rest[0] << "' is no command of oriel\n";
+    app.exit(error);
+    return exit_with(ExitCode::usage);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : exit_with(ExitCode::usage);
+    const bool is_help = app.exit(error) == 0;
+    finish_stdout();
+    return exit_with(is_help ? ExitCode::clean : ExitCode::usage);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  clean_up_on_signals();
   Report report(true);
   try {
     return run(argc, argv);

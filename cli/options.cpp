@@ -27,10 +27,14 @@ std::string LineArguments::configuration() const {
 }
 
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
-  auto* inputs =
-      command.add_option("input", a.inputs, "CityJSON, CityJSONSeq, OBJ or OFF; - is stdin")
-          ->required();
-  if (!has_many) inputs->expected(1);
+  const char* what = "CityJSON, CityJSONSeq, OBJ or OFF; - is stdin";
+  if (has_many) {
+    command.add_option("input", a.inputs, what)->required();
+  } else {
+    // Not the vector itself: it would swallow the positional arguments that follow.
+    a.inputs.resize(1);
+    command.add_option("input", a.inputs[0], what)->required();
+  }
   command.add_option("--lod", a.lod,
                      "Level of detail to read, as written in the input (default: the highest)");
   command.add_option("--from", a.from, "Format of the input (default: by its name)")

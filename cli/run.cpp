@@ -15,20 +15,22 @@ Run::Run(const LineArguments& arguments, const RuleBase* rules, Report& report)
     : arguments_(arguments), rules_(rules), report_(report) {}
 
 ExitCode Run::go(const Visitor& visitor) {
-  for (int i = 0; i < arguments_.repeat; ++i) {
+  const auto stdins = std::ranges::count(arguments_.inputs, "-");
+  if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
+    throw CLI::ValidationError("input", "stdin can be read only once");
+  for (run_ = 1; run_ <= arguments_.repeat; ++run_) {
     timings_.begin_run();
     buildings_ = set_aside_ = 0;
     labels_.clear();
     for (std::size_t input = 0; input < arguments_.inputs.size(); ++input)
       read_input(input, visitor);
-    is_first_run_ = false;
   }
   if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, timings_.to_json());
   return code_;
 }
 
 void Run::tell(const std::vector<Issue>& issues) {
-  if (is_first_run_) report_.tell(issues);
+  if (run_ == 1) report_.tell(issues);
 }
 
 void Run::set_aside(const Issue& why) {

@@ -30,9 +30,12 @@ class Run {
     std::function<void(std::size_t input)> end = [](std::size_t) {};
   };
 
-  /// All inputs, as often as --repeat says; issues are told the first time. Returns the gravest
-  /// thing that happened.
+  /// All inputs, as often as --repeat says; issues are told the first time, results are for the
+  /// last. Returns the gravest thing that happened.
   ExitCode go(const Visitor& visitor);
+
+  /// Other runs are for the clock: what they write goes to nowhere.
+  [[nodiscard]] bool is_last_run() const { return run_ >= arguments_.repeat; }
 
   /// A building was set aside by the command itself.
   void set_aside(const Issue& why);
@@ -56,7 +59,7 @@ class Run {
   const RuleBase* rules_;
   Report& report_;
   Timings timings_;
-  bool is_first_run_ = true;
+  int run_ = 0;
   ExitCode code_ = ExitCode::clean;
   int buildings_ = 0;
   int set_aside_ = 0;

@@ -43,37 +43,59 @@ std::string listing(const Building& building, const OnLine& line) {
                      stats.inner, table(rows));
 }
 
+/// What the command writes: JSON or a listing, and the records of features, each if asked for.
+class Outputs {
+ public:
+  explicit Outputs(const Arguments& arguments) : arguments_(arguments) {}
+
+  void open() {
+    const bool has_listing = arguments_.features.empty() || arguments_.out != "-";
+    if (!text_ && (arguments_.is_json || has_listing))
+      text_ = std::make_unique<OutputFile>(arguments_.out);
+    if (!features_ && !arguments_.features.empty())
+      features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
+  }
+
+  /// Before open() nothing is kept.
+  void add(const Building& building, const OnLine& line) {
+    const auto& [table, graph] = line.description;
+    const std::string text = arguments_.is_json
+                                 ? segmentation_json(building, *line.segmentation, table)
+                                 : listing(building, line);
+    if (text_) text_->append(text);
+    if (features_)
+      features_->append(feature_records(building, *line.segmentation, table, graph, nullptr));
+  }
+
+  void commit() {
+    if (text_) text_->commit();
+    if (features_) features_->commit();
+  }
+
+ private:
+  const Arguments& arguments_;
+  std::unique_ptr<OutputFile> text_;
+  std::unique_ptr<FeatureRecordWriter> features_;
+};
+
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   Run run(arguments, nullptr, report);
-  std::unique_ptr<OutputFile> out;
-  std::unique_ptr<FeatureRecordWriter> features;
+  Outputs outputs(arguments);
+  bool has_ended = false;  // an input did
   Run::Visitor visitor;
-  visitor.begin = [&](std::size_t input) {
-    if (input > 0) return;
-    out = std::make_unique<OutputFile>(arguments.out);
-    if (!arguments.features.empty())
-      features = std::make_unique<FeatureRecordWriter>(arguments.features);
+  visitor.begin = [&](std::size_t) {
+    if (run.is_last_run()) outputs.open();
   };
   visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const OnLine& line = lines[i];
-      if (!line.is_done()) continue;
-      const Building& building = document.buildings[i];
-      run.timings().measure(Stage::write, [&] {
-        if (arguments.is_json)
-          out->append(segmentation_json(building, *line.segmentation, line.description.table));
-        else if (!features)
-          out->append(listing(building, line));
-        if (features)
-          features->append(feature_records(building, *line.segmentation, line.description.table,
-                                           line.description.graph, nullptr));
-      });
-    }
+    run.timings().measure(Stage::write, [&] {
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].is_done()) outputs.add(document.buildings[i], lines[i]);
+    });
   };
+  visitor.end = [&](std::size_t) { has_ended = true; };
   const ExitCode code = run.go(visitor);
-  if (out) out->commit();
-  if (features) features->commit();
+  if (has_ended) outputs.commit();
   run.tell_summary("segmented");
   return code;
 }

@@ -6,18 +6,31 @@
 
 namespace oriel {
 
+namespace {
+
+Issue refusal_issue(const Refusal& refusal, const Segmentation& segmentation,
+                    const FeatureTable& table, const Interpretation& interpretation, double scale) {
+  const FeatureId parent = segmentation.features[refusal.feature.index()].parent;
+  const std::string& label = interpretation.verdicts[refusal.feature.index()].label;
+  const bool is_piece = parent.is_valid() && label.empty();
+  Issue issue =
+      building_issue(is_piece ? Severity::note : Severity::warning, "G401", table.building(),
+                     is_piece ? fmt::format("is a piece of {} and stays with it at 1:{}: {}",
+                                            table.id(parent), scale, refusal.reason)
+                              : fmt::format("is not omitted at 1:{}: {}", scale, refusal.reason));
+  issue.place.feature = table.id(refusal.feature);
+  return issue;
+}
+
+}  // namespace
+
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
-                                const FeatureTable& table, const Plan& plan,
-                                const SegmentOptions& options) {
+                                const FeatureTable& table, const Interpretation& interpretation,
+                                const Plan& plan, const SegmentOptions& options) {
   Checked<Generalised> out;
   Remainder remainder = omit(solid, segmentation, plan, options);
-  for (const Refusal& refusal : remainder.refused) {
-    Issue issue =
-        building_issue(Severity::warning, "G401", table.building(),
-                       fmt::format("is not omitted at 1:{}: {}", plan.scale, refusal.reason));
-    issue.place.feature = table.id(refusal.feature);
-    out.issues.push_back(std::move(issue));
-  }
+  for (const Refusal& refusal : remainder.refused)
+    out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, plan.scale));
   if (remainder.solid.facets.empty() || volume_m3(remainder.solid) <= 0 ||
       !is_closed(remainder.solid)) {
     out.issues.push_back(building_issue(

@@ -23,14 +23,17 @@ struct Generalised {
 };
 
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are
-/// left out, each with a warning G401 that names the feature and the reason; the others go on. No
-/// value if nothing would be left of the building (G402): it is to stay as it is.
+/// left out, each with a warning G401 that names the feature and the reason; the others go on. For
+/// a feature without a label that is a piece of another one it is a note: such pieces come of how a
+/// concave part was cut, and many have no cut of their own in the whole building. No value if
+/// nothing would be left of the building (G402): it is to stay as it is.
 ///
 /// `segmentation` is that of `solid`, made with `options`; `table` gives features their ids in
-/// messages. Source: paper 5.1 (omission) and 5.2; docs/generalisation.md.
+/// messages, `interpretation` their labels. Source: paper 5.1 (omission) and 5.2;
+/// docs/generalisation.md.
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
-                                const FeatureTable& table, const Plan& plan,
-                                const SegmentOptions& options = {});
+                                const FeatureTable& table, const Interpretation& interpretation,
+                                const Plan& plan, const SegmentOptions& options = {});
 
 /// What is to be written of a generalised building, and which CityObjects have to leave the file.
 struct Redrawn {

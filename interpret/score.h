@@ -3,6 +3,7 @@
 #include "kernel/model/vec3.h"
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -86,8 +87,10 @@ struct Score {
 Score score(const std::vector<Prediction>& predictions, const std::vector<ExpectedObject>& truth,
             const ScoreOptions& options = {});
 
-/// A table for a terminal: a line a class, the macro-F1, what was taken for what, and the misses.
-std::string to_text(const Score& score);
+/// A table for a terminal: a line a class, the macro-F1, what was taken for what, and the misses:
+/// no more than `max_misses`, then how many more there are.
+std::string to_text(const Score& score,
+                    std::size_t max_misses = std::numeric_limits<std::size_t>::max());
 
 /// The same as one JSON object on one line (docs/formats.md).
 std::string to_json(const Score& score);

@@ -1,6 +1,7 @@
 #include "interpret/detail/json_text.h"
 #include "interpret/score.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -52,7 +53,7 @@ void append(std::string& list, const std::string& element) {
 
 }  // namespace
 
-std::string to_text(const Score& score) {
+std::string to_text(const Score& score, std::size_t max_misses) {
   std::string text = fmt::format("{:<12} {:>6} {:>6} {:>6} {:>10} {:>7} {:>6}\n", "class", "tp",
                                  "fp", "fn", "precision", "recall", "F1");
   for (const auto& [label, counts] : score.classes) text += class_line(label, counts);
@@ -62,8 +63,11 @@ std::string to_text(const Score& score) {
   if (!score.confusion.empty()) text += "truth -> predicted\n";
   for (const auto& [labels, count] : score.confusion)
     text += fmt::format("  {:<12} -> {:<12} {:>6}\n", labels.first, labels.second, count);
-  if (!score.misses.empty()) text += "misses\n";
-  for (const Miss& miss : score.misses) text += miss_line(miss);
+  const std::size_t shown = std::min(max_misses, score.misses.size());
+  if (!score.misses.empty()) text += fmt::format("misses: {}\n", score.misses.size());
+  for (std::size_t i = 0; i < shown; ++i) text += miss_line(score.misses[i]);
+  if (shown < score.misses.size())
+    text += fmt::format("  ... and {} more\n", score.misses.size() - shown);
   return text;
 }
 

@@ -3,14 +3,19 @@
 #include "kernel/io/detail/text.h"
 #include "kernel/model/issue.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
+#include <climits>
 
 namespace oriel {
 
@@ -27,7 +32,38 @@ std::string resolved(const std::string& path) {
   return error ? path : target.string();
 }
 
+/// A temporary file that is open. Signal handlers may only read plain memory, hence no string.
+struct Listed {
+  enum State { is_free, is_taken, is_set };
+  std::atomic<int> state{is_free};
+  std::array<char, PATH_MAX> name{};
+};
+std::array<Listed, 16> temporaries;  // more than that are not open at once; one more is not listed
+
+int list_temporary(const std::string& name) {
+  for (std::size_t i = 0; i < temporaries.size(); ++i) {
+    Listed& listed = temporaries[i];
+    int expected = Listed::is_free;
+    if (name.size() >= listed.name.size() ||
+        !listed.state.compare_exchange_strong(expected, Listed::is_taken))
+      continue;
+    std::memcpy(listed.name.data(), name.c_str(), name.size() + 1);
+    listed.state = Listed::is_set;
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void strike_temporary(int listed) {
+  if (listed >= 0) temporaries[static_cast<std::size_t>(listed)].state = Listed::is_free;
+}
+
 }  // namespace
+
+void remove_temporary_files() noexcept {
+  for (const Listed& listed : temporaries)
+    if (listed.state == Listed::is_set) ::unlink(listed.name.data());
+}
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(resolved(path_)) {
   if (path_ == "-") {
@@ -53,6 +89,7 @@ void OutputFile::open_temporary() {
     descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
       temporary_ = name;
+      listed_ = list_temporary(name);
       return;
     }
     if (errno != EEXIST) break;
@@ -63,6 +100,7 @@ void OutputFile::open_temporary() {
 OutputFile::~OutputFile() {
   if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  strike_temporary(listed_);
 }
 
 void OutputFile::fail(int reason) {
@@ -93,6 +131,7 @@ void OutputFile::commit() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+  strike_temporary(std::exchange(listed_, -1));
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

@@ -34,9 +34,15 @@ class OutputFile {
   std::string target_;
   /// The temporary file, or empty if the bytes go to their place directly.
   std::string temporary_;
+  /// Its place in the list that remove_temporary_files goes by, or -1.
+  int listed_ = -1;
   int descriptor_ = -1;
   std::string buffer_;
 };
+
+/// Deletes the temporary files of all OutputFiles that are open. For the handler of a signal that
+/// ends the program: nothing in it is forbidden there.
+void remove_temporary_files() noexcept;
 
 /// Writes `bytes` as the whole content of `path`, as OutputFile does.
 void write_file(const std::string& path, std::string_view bytes);

@@ -136,7 +136,7 @@ TEST_SUITE("interpret") {
           "truth -> predicted\n"
           "  door         -> window            1\n"
           "  window       -> window            1\n"
-          "misses\n"
+          "misses: 1\n"
           "  house: door 2 was called window (b, IoU 1.00)\n");
     CHECK(to_json(found) ==
           R"({"classes":{"door":{"tp":0,"fp":0,"fn":1,"precision":null,"recall":0,"f1":0},)"
@@ -146,5 +146,14 @@ TEST_SUITE("interpret") {
           R"({"truth":"window","predicted":"window","count":1}],)"
           R"("misses":[{"building":"house","truth_id":"2","truth":"door","prediction_id":"b",)"
           R"("predicted":"window","iou":1}]})");
+  }
+
+  TEST_CASE("a table with fewer misses than there are says how many more there are") {
+    const Score found = score({}, {object("1", "door", 0), object("2", "door", 3)});
+    const std::string text = to_text(found, 1);
+    CHECK(text.find("door 1 was not found") != std::string::npos);
+    CHECK(text.find("door 2 was not found") == std::string::npos);
+    CHECK(text.ends_with("  ... and 1 more\n"));
+    CHECK(to_text(found, 2).find("more") == std::string::npos);
   }
 }
