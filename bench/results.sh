@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Labels every data set and scores it against its truth: the figures of docs/results.md. Needs a release build; data sets
+# of ../shared (or $ORIEL_SHARED) are left out where it is absent.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+oriel=build/release/cli/oriel
+generate=build/release/examples/generator/oriel-generate
+shared=${ORIEL_SHARED:-../shared}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# score NAME TRUTH INPUT…: set-aside buildings count as misses, so exit 3 is no failure here.
+score() {
+  local name=$1 truth=$2
+  shift 2
+  echo "== $name"
+  "$oriel" label "$@" --features "$work/parts.jsonl" 2>"$work/messages" || [ $? -eq 3 ]
+  tail -n 1 "$work/messages"
+  "$oriel" score "$work/parts.jsonl" --truth "$truth" | sed -n '/^class/,/^macro/p'
+}
+
+for set in random3dcity ingolstadt ogc-simple-house; do
+  if [ -d "$shared/data/$set" ]; then
+    score "$set" "$shared/data/$set" "$shared/data/$set"/*.stripped.city.json
+  fi
+done
+while read -r name options; do
+  # shellcheck disable=SC2086
+  "$generate" --seed 77 --count 100 $options -o "$work/$name.city.jsonl" --truth "$work/$name.truth.jsonl"
+  score "generated: $name" "$work/$name.truth.jsonl" "$work/$name.city.jsonl"
+done <<'SETS'
+plain
+jitter --jitter 0.3
+noisy --noise 0.5
+triangulated --triangulate
+turned --rotate 27 --origin 604000,5403766,370
+half-flush --flush 0.5
+SETS
