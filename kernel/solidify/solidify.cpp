@@ -28,11 +28,10 @@ void check_size(const Building& building, const Tolerances& tolerances,
                 std::vector<Issue>& issues) {
   const double limit =
       static_cast<double>(exact::kMaxCoordinate) * detail::grid_for(tolerances.weld_m);
-  Box box;
-  for (const Vec3 p : building.vertices) box.grow(p);
-  if (box.is_empty()) return;
-  const double reach = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.min.z),
-                                 std::abs(box.max.x), std::abs(box.max.y), std::abs(box.max.z)});
+  double reach = 0;
+  for (const Vec3 p : building.vertices)
+    for (const double c : {p.x, p.y, p.z})
+      reach = std::max(reach, std::isfinite(c) ? std::abs(c) : Box::kInfinity);
   if (!(reach <= limit))
     issues.push_back(error(building, "E501",
                            fmt::format("reaches {:.0f} m from its frame's origin, more than the "
@@ -107,6 +106,7 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
   const auto hints = hints_of(building, soup, draft);
   int swallowed = 0;
   Solid solid = detail::snap_vertices(soup, clusters, shell, draft, tolerances, swallowed);
+  swallowed += clusters.standing;
   if (swallowed > 0)
     out.issues.push_back(building_issue(
         Severity::warning, "E309", building.id,

@@ -122,6 +122,7 @@ class Clusterer {
   struct Place {
     int normal_class = -1;
     std::int64_t offset = 0;
+    friend bool operator==(const Place&, const Place&) = default;
   };
   using Cell = std::tuple<int, int, int>;
   struct CellHash {
@@ -274,13 +275,63 @@ class Clusterer {
     return dot(unit(*shape.normal), classes_[at(places_[at(polygon)].normal_class)].unit) < 0;
   }
 
+  /// The polygon is so thin that it came to its plane although it is at more than 45° to it.
+  [[nodiscard]] bool is_standing(int polygon) const {
+    const Shape& shape = shapes_[at(polygon)];
+    if (!shape.normal) return false;
+    const Vec3 of_plane = classes_[at(places_[at(polygon)].normal_class)].unit;
+    return std::abs(dot(unit(*shape.normal), of_plane)) < std::numbers::sqrt2 / 2;
+  }
+
+  /// Which way round each polygon lies on its plane; what stands across it goes with the neighbours
+  /// that it shares most of its outline with. Counts them.
+  [[nodiscard]] std::vector<char> ways_round(int& standing) const {
+    std::vector<char> flipped(soup_.polygons.size());
+    std::vector<int> undecided;
+    for (int i = 0; i < std::ssize(soup_.polygons); ++i) {
+      flipped[at(i)] = is_flipped(i);
+      if (is_standing(i)) undecided.push_back(i);
+    }
+    standing = static_cast<int>(undecided.size());
+    if (undecided.empty()) return flipped;
+
+    std::map<std::pair<int, int>, std::vector<int>> polygons_at;
+    for_each_edge([&](int i, std::pair<int, int> edge) { polygons_at[edge].push_back(i); });
+    std::vector<double> votes(soup_.polygons.size(), 0);
+    for_each_edge([&](int i, std::pair<int, int> edge) {
+      for (const int j : polygons_at.at(edge))
+        if (j != i && places_[at(j)] == places_[at(i)] && !is_standing(j))
+          votes[at(i)] += (flipped[at(j)] ? -1 : 1) * edge_length(edge);
+    });
+    for (const int i : undecided)
+      if (votes[at(i)] != 0) flipped[at(i)] = votes[at(i)] < 0;
+    return flipped;
+  }
+
+  /// Visits the edges of all polygons, smaller point first.
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    for (int i = 0; i < std::ssize(soup_.polygons); ++i)
+      for (const auto& ring : soup_.polygons[at(i)].rings)
+        for (std::size_t k = 0; k < ring.size(); ++k)
+          visit(i, std::minmax({ring[k], ring[(k + 1) % ring.size()]}));
+  }
+
+  [[nodiscard]] double edge_length(std::pair<int, int> edge) const {
+    const auto &p = soup_.points[at(edge.first)], &q = soup_.points[at(edge.second)];
+    return length({static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]),
+                   static_cast<double>(p[2] - q[2])});
+  }
+
   [[nodiscard]] PlaneClusters result() const {
     std::map<std::tuple<int, std::int64_t, bool>, int> ids;
     std::vector<Plane> planes;
     std::vector<int> plane_of(soup_.polygons.size());
+    PlaneClusters out;
+    const std::vector<char> is_turned = ways_round(out.standing);
     for (int i = 0; i < std::ssize(soup_.polygons); ++i) {
       const Place& p = places_[at(i)];
-      const bool flipped = is_flipped(i);
+      const bool flipped = is_turned[at(i)] != 0;
       const auto [entry, is_new] = ids.emplace(std::tuple(p.normal_class, p.offset, flipped),
                                                static_cast<int>(planes.size()));
       if (is_new) {
@@ -296,7 +347,6 @@ class Clusterer {
       const Plane& p = planes[at(i)];
       return std::tuple(p.normal.x, p.normal.y, p.normal.z, p.offset_m);
     });
-    PlaneClusters out;
     std::vector<int> place_of(planes.size());
     for (const int i : order) {
       place_of[at(i)] = static_cast<int>(out.planes.size());

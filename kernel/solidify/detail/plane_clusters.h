@@ -15,12 +15,16 @@ struct PlaneClusters {
   std::vector<Plane> planes;
   /// For each polygon of the soup the index of its plane.
   std::vector<int> plane_of;
+  /// Polygons that stand across their plane: the sides of a recess or a rise that is thinner than
+  /// the tolerance.
+  int standing = 0;
 };
 
 /// Clusters polygons into planes, the largest polygon first. A polygon joins a plane, or a normal
 /// with an offset of its own, if it is tilted by no more than coplanar_deg and none of its vertices
 /// lies further off than plane_offset_m; a polygon so thin that its own normal is uncertain by more
-/// may be tilted by that much.
+/// may be tilted by that much. One that stands across its plane is oriented as its neighbours
+/// there.
 PlaneClusters cluster_planes(const Soup& soup, const Tolerances& tolerances);
 
 }  // namespace oriel::detail

@@ -1,0 +1,157 @@
+#include "tests/support/changed.h"
+#include "tests/support/houses.h"
+#include "tests/support/solidified.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+namespace oriel {
+namespace {
+
+using test::bodies;
+using test::solid_of;
+
+double area_of(const Building& building, const Polygon& polygon) {
+  Vec3 sum;
+  for (const auto& ring : polygon.rings)
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      sum = sum + cross(building.vertices[static_cast<std::size_t>(ring[i])],
+                        building.vertices[static_cast<std::size_t>(ring[(i + 1) % ring.size()])]);
+  return length(sum) / 2;
+}
+
+double volume_of(const Building& building) {
+  double sum = 0;
+  for (const Polygon& polygon : building.polygons)
+    for (const auto& ring : polygon.rings)
+      for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+        sum += dot(building.vertices[static_cast<std::size_t>(ring[0])],
+                   cross(building.vertices[static_cast<std::size_t>(ring[i])],
+                         building.vertices[static_cast<std::size_t>(ring[i + 1])]));
+  return sum / 6;
+}
+
+/// All that a shuffle must leave alone.
+bool is_same(const Solid& p, const Solid& q) {
+  const auto plane = [](const Plane& a, const Plane& b) {
+    return a.coefficients == b.coefficients && a.offset == b.offset && a.normal == b.normal;
+  };
+  const auto vertex = [](const Vertex& a, const Vertex& b) {
+    return a.point == b.point && a.is_meeting == b.is_meeting;
+  };
+  const auto facet = [](const Facet& a, const Facet& b) {
+    return a.plane == b.plane && a.loops == b.loops && a.polygons.size() == b.polygons.size();
+  };
+  const auto shell = [](const Shell& a, const Shell& b) {
+    return a.facets == b.facets && a.lump == b.lump && a.is_cavity == b.is_cavity;
+  };
+  return p.grid_m == q.grid_m && std::ranges::equal(p.planes, q.planes, plane) &&
+         std::ranges::equal(p.vertices, q.vertices, vertex) &&
+         std::ranges::equal(p.facets, q.facets, facet) &&
+         std::ranges::equal(p.shells, q.shells, shell);
+}
+
+TEST_SUITE("kernel/solidify") {
+  TEST_CASE("a solid has the volume and the area of its polygons") {
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(name);
+      const Building building = make();
+      const Solid solid = solid_of(building);
+      double area = 0;
+      for (const Polygon& polygon : building.polygons) area += area_of(building, polygon);
+      CHECK(volume_m3(solid) == doctest::Approx(volume_of(building)).epsilon(1e-6));
+      CHECK(surface_m2(solid) == doctest::Approx(area).epsilon(1e-6));
+    }
+  }
+
+  TEST_CASE("shuffling vertices and polygons and ring starts changes nothing but the numbers") {
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(name);
+      const Building building = make();
+      const Solid solid = solid_of(building);
+      CHECK(rc::check([&] {
+        std::vector<int> origin;
+        const auto other =
+            solidify(test::shuffled(building, *rc::gen::arbitrary<std::uint64_t>(), &origin), {});
+        RC_ASSERT(other.value.has_value());
+        RC_ASSERT(is_same(*other.value, solid));
+        for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+          std::vector<int> polygons;
+          for (const int p : other.value->facets[f].polygons)
+            polygons.push_back(origin[static_cast<std::size_t>(p)]);
+          std::ranges::sort(polygons);
+          RC_ASSERT(polygons == solid.facets[f].polygons);
+        }
+      }));
+    }
+  }
+
+  TEST_CASE("polygons in pieces and whole facets with rings make the same solid") {
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(name);
+      const Solid pieces = solid_of(make()), whole = solid_of(test::in_whole_facets(make()));
+      CHECK(whole.facets.size() == pieces.facets.size());
+      CHECK(whole.planes.size() == pieces.planes.size());
+      CHECK(whole.vertices.size() == pieces.vertices.size());
+      CHECK(volume_m3(whole) == doctest::Approx(volume_m3(pieces)).epsilon(1e-6));
+    }
+  }
+
+  TEST_CASE("noise below the tolerance changes no count of facets and hardly a volume") {
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(name);
+      const Building building = test::in_whole_facets(make());
+      const Solid solid = solid_of(building);
+      const double area = surface_m2(solid);
+      for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        const Solid noisy = solid_of(test::with_noise(building, 0.0003, seed));
+        CHECK(noisy.facets.size() == solid.facets.size());
+        CHECK(noisy.vertices.size() == solid.vertices.size());
+        CHECK(noisy.planes.size() == solid.planes.size());
+        CHECK(std::abs(volume_m3(noisy) - volume_m3(solid)) < 0.001 * area);
+      }
+    }
+  }
+
+  TEST_CASE("coordinates far from the origin make the same solid in a frame of their own") {
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(name);
+      const Building building = make();
+      const Solid solid = solid_of(building);
+      const Vec3 shift{600000, 5000000, 500};
+      const Building moved =
+          test::framed(test::mapped(building, [&](Vec3 p) { return p + shift; }));
+      CHECK(length(moved.frame.origin_m - shift) < 3);
+      CHECK(is_same(solid_of(test::framed(building)), solid_of(moved)));
+      CHECK(test::outcome_of(test::mapped(building, [&](Vec3 p) { return p + shift; })) == "E501");
+    }
+  }
+
+  TEST_CASE("turning and mirroring keep volume and area and counts") {
+    const Vec3 axis = normalised({1, 2, 3});
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(name);
+      const Building building = make();
+      const Solid solid = solid_of(building);
+      const auto by = [&](Vec3 about, double radians) {
+        return test::mapped(building, [=](Vec3 p) { return test::turned(p, about, radians); });
+      };
+      for (const Building& other : {by({0, 0, 1}, std::numbers::pi / 2), by({0, 0, 1}, 0.7),
+                                    by(axis, 1), test::mirrored(building)}) {
+        const Solid turned = solid_of(other);
+        CHECK(volume_m3(turned) == doctest::Approx(volume_m3(solid)).epsilon(1e-6));
+        CHECK(surface_m2(turned) == doctest::Approx(surface_m2(solid)).epsilon(1e-6));
+        CHECK(turned.facets.size() == solid.facets.size());
+        CHECK(turned.planes.size() == solid.planes.size());
+        CHECK(turned.vertices.size() == solid.vertices.size());
+        CHECK(turned.shells.size() == solid.shells.size());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,141 @@
+#include "tests/support/shapes.h"
+#include "tests/support/solidified.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using test::BoxBody;
+using test::outcome_of;
+
+/// The one error of a building, in words.
+std::string error_of(const Building& building, const Tolerances& tolerances = {}) {
+  const auto solid = solidify(building, tolerances);
+  CHECK_FALSE(solid.value);
+  std::string text;
+  for (const Issue& issue : solid.issues)
+    if (issue.severity == Severity::error) text += to_string(issue);
+  return text;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_SUITE("kernel/solidify") {
+  TEST_CASE("fewer than four polygons enclose nothing") {
+    CHECK(outcome_of(Building{}) == "E301");
+    Building building = BoxBody().add({0, 0, 0}, {1, 1, 1}).build("shed");
+    building.polygons.resize(3);
+    CHECK(outcome_of(building) == "E301");
+    CHECK(has(error_of(building), "shed: E301 3 polygons"));
+  }
+
+  TEST_CASE("an open shell is told with the number of its open edges and a place") {
+    Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build("shed");
+    std::erase_if(building.polygons, [&](const Polygon& polygon) {
+      return std::ranges::all_of(polygon.rings[0], [&](int v) {
+        return building.vertices[static_cast<std::size_t>(v)].z == 5;
+      });
+    });
+    REQUIRE(building.polygons.size() == 5);
+    CHECK(outcome_of(building) == "E302");
+    const std::string error = error_of(building);
+    CHECK(has(error, "shed: E302 not closed: 4 open edges in 1 loops"));
+    CHECK(has(error, "5.000)"));
+  }
+
+  TEST_CASE("every single missing polygon of a body is found") {
+    const Building whole = BoxBody().add({0, 0, 0}, {3, 4, 5}).remove({1, 1, 4}, {2, 2, 5}).build();
+    for (std::size_t i = 0; i < whole.polygons.size(); ++i) {
+      Building building = whole;
+      building.polygons.erase(building.polygons.begin() + static_cast<std::ptrdiff_t>(i));
+      CHECK(outcome_of(building) == "E302");
+    }
+  }
+
+  TEST_CASE("a polygon given twice is no solid") {
+    Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    Polygon copy = building.polygons[1];
+    copy.source = 6;
+    building.polygons.push_back(copy);
+    CHECK(outcome_of(building) == "E303");
+  }
+
+  TEST_CASE("a wall that hangs on an edge is told with the edge") {
+    Building building = BoxBody().add({0, 0, 0}, {1, 1, 1}).build("shed");
+    const Building fin = test::building_of({{{0, 0, 0}, {0, 0, 1}, {-1, 0, 1}, {-1, 0, 0}}});
+    Polygon polygon{{{}}, 6, 0, 0, ""};
+    for (const Vec3 p : fin.vertices) {
+      const auto found = std::ranges::find(building.vertices, p);
+      polygon.rings[0].push_back(static_cast<int>(found - building.vertices.begin()));
+      if (found == building.vertices.end()) building.vertices.push_back(p);
+    }
+    building.polygons.push_back(polygon);
+    CHECK(outcome_of(building) == "E303");
+    CHECK(has(error_of(building), "3 polygons meet at the edge (0.000, 0.000, 0.000)"));
+  }
+
+  TEST_CASE("polygons of a strip with a twist cannot be oriented alike") {
+    // A Möbius strip of five quads.
+    std::vector<std::vector<Vec3>> quads;
+    const auto rung = [](int i) {
+      const double a = i * 2 * 3.14159265358979 / 5, half = i * 3.14159265358979 / 5;
+      const Vec3 out{std::cos(a), std::sin(a), 0};
+      const Vec3 tilt = std::cos(half) * Vec3{0, 0, 1} + std::sin(half) * out;
+      return std::pair(5 * out + tilt, 5 * out - tilt);
+    };
+    for (int i = 0; i < 5; ++i) {
+      auto [p, q] = rung(i);
+      auto [r, s] = rung((i + 1) % 5);
+      if (i == 4) std::swap(r, s);
+      quads.push_back({p, q, s, r});
+    }
+    CHECK(outcome_of(test::building_of(quads)) == "E307");
+  }
+
+  TEST_CASE("a shell folded flat encloses nothing") {
+    const Building building = test::building_of({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                                                 {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                                 {{0, 1, 0}, {1, 0, 0}, {0, 0, 0}},
+                                                 {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}}});
+    const std::string outcome = outcome_of(building);
+    CHECK_FALSE(has(outcome, "solid"));
+    CHECK_FALSE(outcome.empty());
+  }
+
+  TEST_CASE("a cavity outside its solid is refused") {
+    Building building = BoxBody().add({0, 0, 0}, {1, 1, 1}).add({3, 0, 0}, {4, 1, 1}).build();
+    building.is_solid = true;
+    for (Polygon& polygon : building.polygons)
+      if (building.vertices[static_cast<std::size_t>(polygon.rings[0][0])].x > 2) polygon.shell = 1;
+    CHECK(has(outcome_of(building), "E305"));
+  }
+
+  TEST_CASE("a building beyond the exact range is refused with the range") {
+    const Building building = BoxBody().add({0, 0, 0}, {5000, 10, 10}).build("long");
+    CHECK(outcome_of(building) == "E501");
+    CHECK(has(error_of(building), "long: E501 reaches 5000 m"));
+    Tolerances coarse;
+    coarse.weld_m = 0.01;
+    CHECK(outcome_of(building, coarse) == "solid");
+    Building nowhere = BoxBody().add({0, 0, 0}, {1, 1, 1}).build();
+    nowhere.vertices[3].y = std::nan("");
+    CHECK(outcome_of(nowhere) == "E501");
+    nowhere.vertices[3].y = 1e300;
+    CHECK(outcome_of(nowhere) == "E501");
+  }
+
+  TEST_CASE("nothing left after welding is told and not made up") {
+    const Building building = BoxBody().add({0, 0, 0}, {0.0004, 0.0004, 0.0004}).build();
+    const std::string outcome = outcome_of(building);
+    CHECK(has(outcome, "E304"));
+    CHECK(has(outcome, "E301"));
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,159 @@
+#include "tests/support/changed.h"
+#include "tests/support/shapes.h"
+#include "tests/support/solidified.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using test::BoxBody;
+using test::outcome_of;
+using test::solid_of;
+
+std::size_t cavities_of(const Solid& solid) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(solid.shells, [](const Shell& s) { return s.is_cavity; }));
+}
+
+double volume_of(const Solid& solid, const Shell& shell) {
+  Solid one = solid;
+  one.facets.clear();
+  for (const FacetId f : shell.facets) one.facets.push_back(solid.facets[f.index()]);
+  return volume_m3(one);
+}
+
+/// Every facet is in one shell, every shell is closed, outer shells enclose volume and cavities
+/// take it away.
+void check_shells(const Solid& solid) {
+  std::vector<int> uses(solid.facets.size(), 0);
+  for (const Shell& shell : solid.shells) {
+    for (const FacetId f : shell.facets) ++uses[f.index()];
+    CHECK((volume_of(solid, shell) < 0) == shell.is_cavity);
+  }
+  CHECK(std::ranges::count(uses, 1) == std::ssize(uses));
+}
+
+TEST_SUITE("kernel/solidify") {
+  TEST_CASE("a closed void is a cavity of its lump") {
+    const Solid solid =
+        solid_of(BoxBody().add({0, 0, 0}, {4, 4, 4}).remove({1, 1, 1}, {2, 3, 2}).build());
+    CHECK(solid.shells.size() == 2);
+    CHECK(cavities_of(solid) == 1);
+    CHECK(solid.shells[1].lump == solid.shells[0].lump);
+    CHECK(volume_m3(solid) == doctest::Approx(64 - 2).epsilon(1e-12));
+    CHECK(surface_m2(solid) == doctest::Approx(96 + 10).epsilon(1e-12));
+    check_shells(solid);
+  }
+
+  TEST_CASE("a cavity said by the input is one whichever way its polygons run") {
+    for (const bool is_turned : {false, true}) {
+      Building building = BoxBody().add({0, 0, 0}, {4, 4, 4}).remove({1, 1, 1}, {2, 3, 2}).build();
+      building.is_solid = true;
+      for (Polygon& polygon : building.polygons) {
+        const Vec3 p = building.vertices[static_cast<std::size_t>(polygon.rings[0][0])];
+        polygon.shell = p.x > 0 && p.x < 4 && p.y > 0 && p.y < 4 && p.z > 0 && p.z < 4 ? 1 : 0;
+        if (is_turned && polygon.shell == 1) std::ranges::reverse(polygon.rings[0]);
+      }
+      CHECK(std::ranges::count(building.polygons, 1, &Polygon::shell) == 6);
+      CHECK(outcome_of(building) == (is_turned ? "solid E308" : "solid"));
+      const Solid solid = solid_of(building);
+      CHECK(cavities_of(solid) == 1);
+      CHECK(volume_m3(solid) == doctest::Approx(62).epsilon(1e-12));
+      check_shells(solid);
+    }
+  }
+
+  TEST_CASE("bodies apart are lumps and a cavity belongs to the lump around it") {
+    const Solid solid = solid_of(BoxBody()
+                                     .add({0, 0, 0}, {1, 1, 1})
+                                     .add({2, 0, 0}, {6, 4, 4})
+                                     .remove({3, 1, 1}, {4, 2, 2})
+                                     .add({7, 0, 0}, {8, 1, 1})
+                                     .build());
+    REQUIRE(solid.shells.size() == 4);
+    CHECK(cavities_of(solid) == 1);
+    const auto cavity = std::ranges::find(solid.shells, true, &Shell::is_cavity);
+    const auto around = std::ranges::find_if(solid.shells, [&](const Shell& shell) {
+      return shell.lump == cavity->lump && !shell.is_cavity;
+    });
+    CHECK(volume_of(solid, *around) == doctest::Approx(64).epsilon(1e-12));
+    CHECK(volume_m3(solid) == doctest::Approx(1 + 64 - 1 + 1).epsilon(1e-12));
+    check_shells(solid);
+  }
+
+  TEST_CASE("a lump inside a cavity is a lump of its own") {
+    const Solid solid = solid_of(BoxBody()
+                                     .add({0, 0, 0}, {5, 5, 5})
+                                     .remove({1, 1, 1}, {4, 4, 4})
+                                     .add({2, 2, 2}, {3, 3, 3})
+                                     .build());
+    CHECK(solid.shells.size() == 3);
+    CHECK(cavities_of(solid) == 1);
+    CHECK(volume_m3(solid) == doctest::Approx(125 - 27 + 1).epsilon(1e-12));
+    check_shells(solid);
+  }
+
+  TEST_CASE("two boxes that share an edge are parted there") {
+    const Solid solid =
+        solid_of(BoxBody().add({0, 0, 0}, {1, 1, 2}).add({1, 1, 0}, {2, 2, 2}).build());
+    CHECK(solid.shells.size() == 2);
+    CHECK(solid.facets.size() == 12);
+    CHECK(solid.vertices.size() == 16);
+    CHECK(volume_m3(solid) == doctest::Approx(4).epsilon(1e-12));
+    check_shells(solid);
+  }
+
+  TEST_CASE("four polygons at an edge are paired round material and not across air") {
+    // A box with a notch whose inner edge lies in the top: two steps that touch in a line.
+    const Solid solid = solid_of(BoxBody()
+                                     .add({0, 0, 0}, {4, 4, 1})
+                                     .add({0, 0, 1}, {2, 2, 2})
+                                     .add({2, 2, 1}, {4, 4, 2})
+                                     .build());
+    CHECK(solid.shells.size() == 1);
+    CHECK(volume_m3(solid) == doctest::Approx(16 + 8).epsilon(1e-12));
+    check_shells(solid);
+    // Turned inside out: air pockets that touch in a line.
+    const Solid holes = solid_of(BoxBody()
+                                     .add({0, 0, 0}, {4, 4, 2})
+                                     .remove({1, 1, 1}, {2, 2, 2})
+                                     .remove({2, 2, 1}, {3, 3, 2})
+                                     .build());
+    CHECK(volume_m3(holes) == doctest::Approx(32 - 2).epsilon(1e-12));
+    check_shells(holes);
+  }
+
+  TEST_CASE("boxes that touch in a vertex only are lumps with vertices of their own") {
+    const Solid solid =
+        solid_of(BoxBody().add({0, 0, 0}, {1, 1, 1}).add({1, 1, 1}, {2, 2, 2}).build());
+    CHECK(solid.shells.size() == 2);
+    CHECK(solid.vertices.size() == 16);
+    check_shells(solid);
+  }
+
+  TEST_CASE("solids of a multi-solid that share a face stay apart") {
+    Building building = BoxBody().add({0, 0, 0}, {1, 1, 1}).build();
+    Building other = BoxBody().add({1, 0, 0}, {2, 1, 1}).build();
+    const int shift = static_cast<int>(building.vertices.size());
+    building.is_solid = true;
+    building.vertices.insert(building.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (Polygon polygon : other.polygons) {
+      polygon.source += 6;
+      polygon.body = 1;
+      for (int& v : polygon.rings[0]) v += shift;
+      building.polygons.push_back(polygon);
+    }
+    CHECK(outcome_of(building) == "solid");
+    const Solid solid = solid_of(building);
+    CHECK(solid.shells.size() == 2);
+    CHECK(solid.facets.size() == 12);
+    CHECK(volume_m3(solid) == doctest::Approx(2).epsilon(1e-12));
+    check_shells(solid);
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "kernel/solidify/solidify.h"
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace oriel::test {
+
+/// The solid of a building that is one, or the test ends with what is wrong with it.
+inline Solid solid_of(const Building& building, const Tolerances& tolerances = {}) {
+  auto solid = solidify(building, tolerances);
+  for (const Issue& issue : solid.issues)
+    if (issue.severity == Severity::error) FAIL(to_string(issue));
+  REQUIRE(solid.value.has_value());
+  REQUIRE(is_closed(*solid.value));
+  return std::move(*solid.value);
+}
+
+/// The codes that solidify gives a building, separated by blanks; with "solid" in front if it makes
+/// one.
+inline std::string outcome_of(const Building& building, const Tolerances& tolerances = {}) {
+  const auto solid = solidify(building, tolerances);
+  CHECK(solid.value.has_value() != has_errors(solid.issues));
+  std::string out = solid.value ? "solid" : "";
+  for (const Issue& issue : solid.issues) out += (out.empty() ? "" : " ") + issue.code;
+  return out;
+}
+
+/// The building with one polygon for each facet of its solid, inner rings and all: as surveyed
+/// models come, where bodies made in code are in pieces.
+inline Building in_whole_facets(const Building& building) {
+  const Solid solid = solid_of(building);
+  Building out = building;
+  out.vertices.clear();
+  for (const Vertex& vertex : solid.vertices) out.vertices.push_back(vertex.point);
+  out.polygons.clear();
+  for (const Facet& facet : solid.facets) {
+    Polygon polygon;
+    polygon.rings = facet.loops;
+    polygon.source = static_cast<int>(out.polygons.size());
+    out.polygons.push_back(std::move(polygon));
+  }
+  return out;
+}
+
+}  // namespace oriel::test
