@@ -149,13 +149,42 @@ inline Building balcony() {
       .build();
 }
 
-/// A window niche with a cross of mullions.
+/// A terrace sunk into a flat roof, and a block on its floor so large that the terrace is filled
+/// before the block is cut off: the block is then a hole of the terrace's air.
+inline Building terrace_with_block() {
+  return BoxBody()
+      .add({0, 0, 0}, {10, 8, 6})
+      .remove({2, 2, 4}, {8, 6, 6})
+      .add({3, 3, 4}, {6, 5, 5.5})
+      .build();
+}
+
+/// A window niche with a box on its back wall.
+inline Building window_with_box() {
+  return BoxBody()
+      .add({0, 0, 0}, {10, 8, 6})
+      .remove({2, 0, 2}, {4, 0.4, 4})
+      .add({2.5, 0.2, 2.5}, {3.5, 0.4, 3.5})
+      .build();
+}
+
+/// A window niche with a cross of mullions that spans it.
 inline Building window_with_mullions() {
   return BoxBody()
       .add({0, 0, 0}, {10, 8, 6})
       .remove({2, 0, 2}, {4, 0.4, 4})
       .add({2.9, 0.2, 2}, {3.1, 0.4, 4})
       .add({2, 0.2, 2.9}, {4, 0.4, 3.1})
+      .build();
+}
+
+/// A niche in the wall that reaches into a recess of the floor above: a hole out of its facet.
+inline Building niche_over_an_edge() {
+  return BoxBody()
+      .add({0, 0, 0}, {10, 8, 6})
+      .add({0, 1, 6}, {10, 8, 9})
+      .remove({4, 0, 4}, {6, 0.5, 6})
+      .remove({4, 1, 6}, {6, 1.5, 8})
       .build();
 }
 
@@ -207,7 +236,10 @@ inline const std::vector<NamedBody>& bodies() {
                                           {"chimney_with_head", chimney_with_head},
                                           {"house_with_door", house_with_door},
                                           {"balcony", balcony},
+                                          {"terrace_with_block", terrace_with_block},
+                                          {"window_with_box", window_with_box},
                                           {"window_with_mullions", window_with_mullions},
+                                          {"niche_over_an_edge", niche_over_an_edge},
                                           {"cavity_and_lumps", cavity_and_lumps},
                                           {"two_towers", two_towers},
                                           {"passage", passage}};

@@ -57,7 +57,7 @@ bool is_same(const Solid& p, const Solid& q) {
 TEST_SUITE("kernel/solidify") {
   TEST_CASE("a solid has the volume and the area of its polygons") {
     for (const auto& [name, make] : bodies()) {
-      CAPTURE(name);
+      CAPTURE(std::string(name));
       const Building building = make();
       const Solid solid = solid_of(building);
       double area = 0;
@@ -69,7 +69,7 @@ TEST_SUITE("kernel/solidify") {
 
   TEST_CASE("shuffling vertices and polygons and ring starts changes nothing but the numbers") {
     for (const auto& [name, make] : bodies()) {
-      CAPTURE(name);
+      CAPTURE(std::string(name));
       const Building building = make();
       const Solid solid = solid_of(building);
       CHECK(rc::check([&] {
@@ -91,7 +91,7 @@ TEST_SUITE("kernel/solidify") {
 
   TEST_CASE("polygons in pieces and whole facets with rings make the same solid") {
     for (const auto& [name, make] : bodies()) {
-      CAPTURE(name);
+      CAPTURE(std::string(name));
       const Solid pieces = solid_of(make()), whole = solid_of(test::in_whole_facets(make()));
       CHECK(whole.facets.size() == pieces.facets.size());
       CHECK(whole.planes.size() == pieces.planes.size());
@@ -102,7 +102,7 @@ TEST_SUITE("kernel/solidify") {
 
   TEST_CASE("noise below the tolerance changes no count of facets and hardly a volume") {
     for (const auto& [name, make] : bodies()) {
-      CAPTURE(name);
+      CAPTURE(std::string(name));
       const Building building = test::in_whole_facets(make());
       const Solid solid = solid_of(building);
       const double area = surface_m2(solid);
@@ -118,7 +118,7 @@ TEST_SUITE("kernel/solidify") {
 
   TEST_CASE("coordinates far from the origin make the same solid in a frame of their own") {
     for (const auto& [name, make] : bodies()) {
-      CAPTURE(name);
+      CAPTURE(std::string(name));
       const Building building = make();
       const Solid solid = solid_of(building);
       const Vec3 shift{600000, 5000000, 500};
@@ -133,7 +133,7 @@ TEST_SUITE("kernel/solidify") {
   TEST_CASE("turning and mirroring keep volume and area and counts") {
     const Vec3 axis = normalised({1, 2, 3});
     for (const auto& [name, make] : bodies()) {
-      CAPTURE(name);
+      CAPTURE(std::string(name));
       const Building building = make();
       const Solid solid = solid_of(building);
       const auto by = [&](Vec3 about, double radians) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "tests/support/segmented.h"
+
+namespace oriel::test {
+
+/// How exact the body is whose segmentation is checked.
+struct Exactness {
+  double area_rel = 1e-9;
+  /// How far vertices may lie from their planes: those of valence above three by decree.
+  double planarity_m = 1e-6;
+  int samples = 200;
+};
+
+/// Everything that holds for every segmentation, whatever the body and the order: see segment().
+void check_segmentation(const Segmented& s, const Exactness& exactness = {});
+
+}  // namespace oriel::test
