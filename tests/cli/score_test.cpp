@@ -1,0 +1,105 @@
+#include "tests/cli/command.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+std::string truth_of(const std::string& name) {
+  return std::string(ORIEL_SOURCE_DIR) + "/examples/samples/" + name + ".truth.json";
+}
+
+/// The records of the labelled sample, in a folder.
+std::string records_of(const std::string& name, const Folder& folder) {
+  const std::string path = folder / (name + ".jsonl");
+  REQUIRE(run({"label", sample(name), "--features", path}).exit == 0);
+  return path;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("score compares records with the truth") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    const Outcome text = run({"score", records, "--truth", truth_of("house")});
+    CHECK(text.exit == 0);
+    CHECK(text.out.starts_with("class "));
+    CHECK(text.out.find("\nwindow           16      0      0      1.000   1.000  1.000\n") !=
+          std::string::npos);
+    CHECK(text.err.empty());
+    const Outcome outcome = run({"score", records, "--truth", truth_of("house"), "--json"});
+    CHECK(outcome.exit == 0);
+    CHECK(json::parse(outcome.out)["classes"]["window"]["tp"] == 16);
+  }
+
+  TEST_CASE("records may be CSV or JSON or JSON lines") {
+    const Folder folder;
+    std::string text;
+    for (const std::string extension : {".csv", ".json", ".jsonl"}) {
+      const std::string records = folder / ("parts" + extension);
+      REQUIRE(run({"label", sample("house"), "--features", records}).exit == 0);
+      const Outcome outcome = run({"score", records, "--truth", truth_of("house")});
+      CHECK(outcome.exit == 0);
+      if (!text.empty()) CHECK(outcome.out == text);
+      text = outcome.out;
+    }
+  }
+
+  TEST_CASE("more than 20 misses are counted and listed with -v") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    // Nothing of the row is found in records of the house.
+    const Outcome few = run({"score", records, "--truth", truth_of("row")});
+    const Outcome all = run({"score", records, "--truth", truth_of("row"), "-v"});
+    const auto lines = [](const std::string& text) {
+      return std::ranges::count(text.substr(text.find("misses: ")), '\n');
+    };
+    CHECK(few.exit == 0);
+    CHECK(lines(few.out) == 1 + 20 + 2);
+    const json score =
+        json::parse(run({"score", records, "--truth", truth_of("row"), "--json"}).out);
+    const auto misses = score["misses"].size();
+    CHECK(misses > 20);
+    CHECK(few.out.find(fmt::format("... and {} more", misses - 20)) != std::string::npos);
+    CHECK(few.out.find("-v") != std::string::npos);
+    CHECK(lines(all.out) == static_cast<long>(1 + misses));
+    CHECK(all.out.find(" more") == std::string::npos);
+  }
+
+  TEST_CASE("a missing truth is an unreadable input") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    const Outcome missing = run({"score", records, "--truth", folder / "no.truth.json"});
+    CHECK(missing.exit == 5);
+    CHECK(missing.says("no.truth.json: E101"));
+    CHECK(missing.out.empty());
+    const Outcome empty = run({"score", records, "--truth", folder.path().string()});
+    CHECK(empty.exit == 5);
+    CHECK(empty.says("E101 the folder has no *.truth.json"));
+  }
+
+  TEST_CASE("missing records are an unreadable input") {
+    const Outcome outcome = run({"score", "no.jsonl", "--truth", truth_of("house")});
+    CHECK(outcome.exit == 5);
+    CHECK(outcome.says("no.jsonl: E101"));
+    CHECK(outcome.out.empty());
+  }
+
+  TEST_CASE("a record that cannot be read is left out") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    folder.write("house.jsonl", bytes_of(records) + "{\"building\":1}\n");
+    const Outcome outcome = run({"score", records, "--truth", truth_of("house")});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says(records + ":54:"));
+    CHECK(outcome.says("E111"));
+    CHECK(outcome.out.find("\nwindow           16      0      0 ") != std::string::npos);
+  }
+}

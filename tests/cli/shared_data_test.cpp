@@ -1,0 +1,83 @@
+#include "tests/cli/command.h"
+#include "tests/support/shared.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> stripped_files(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().string().ends_with(".stripped.city.json")) files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+/// Lines that begin with "error: ".
+long errors_in(const std::string& text) {
+  std::istringstream lines(text);
+  long count = 0;
+  for (std::string line; std::getline(lines, line);) count += line.starts_with("error: ") ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("every file of the shared data is labelled or set aside with a reason") {
+    ORIEL_NEEDS_SHARED(shared);
+    const auto files = stripped_files(shared / "data");
+    REQUIRE(files.size() > 90);
+    for (const std::string& file : files) {
+      CAPTURE(file);
+      const Outcome outcome = run({"label", file, "-o", "-"});
+      CHECK((outcome.exit == 0 || outcome.exit == 3));
+      CHECK(json::accept(outcome.out));
+      // One building a file: set aside or not.
+      CHECK(errors_in(outcome.err) == (outcome.exit == 3 ? 1 : 0));
+      CHECK(outcome.says(outcome.exit == 3 ? "; 1 set aside" : "labelled 1 of 1 buildings"));
+    }
+  }
+
+  TEST_CASE("the houses of random3dcity are all segmented and labelled as the truth says") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string data = shared / "data/random3dcity";
+    std::vector<std::string> arguments{"label", "--features", folder / "parts.jsonl"};
+    for (const std::string& file : stripped_files(data)) arguments.push_back(file);
+    REQUIRE(arguments.size() == 3 + 76);
+    const Outcome outcome = run(arguments);
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("labelled 76 of 76 buildings"));
+    const Outcome scored = run({"score", folder / "parts.jsonl", "--truth", data, "--json"});
+    REQUIRE(scored.exit == 0);
+    const json classes = json::parse(scored.out)["classes"];
+    CHECK(classes["window"]["f1"].get<double>() >= 0.97);
+    CHECK(classes["door"]["f1"].get<double>() >= 0.95);
+    CHECK(classes["chimney"]["f1"].get<double>() >= 0.90);
+    CHECK(classes["dormer"]["f1"].get<double>() >= 0.80);
+  }
+
+  TEST_CASE("a tile of the 3DBAG is segmented and the rest has reasons") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string tile = shared / "data/3dbag/tile_5910.city.jsonl";
+    const Outcome outcome = run({"label", tile, "--lod", "2.2", "-o", folder / "out.city.jsonl"});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("labelled 210 of 212 buildings"));
+    CHECK(outcome.says("; 2 set aside ("));
+    CHECK(errors_in(outcome.err) == 2);
+    const std::string out = bytes_of(folder / "out.city.jsonl"), in = bytes_of(tile);
+    CHECK(std::ranges::count(out, '\n') == std::ranges::count(in, '\n'));
+    CHECK(folder.names() == std::vector<std::string>{"out.city.jsonl"});
+  }
+}
