@@ -112,7 +112,7 @@ class FeatureRemover {
     auto reason = sides.size() == 1 ? remove_by_section(f, sides[0]) : remove_by_patch(f, sides);
     if (!reason || !f.parent.is_valid()) return reason;
     const auto all_sides = sides_around(id);
-    if (all_sides.size() <= sides.size() || !remove_by_patch(f, all_sides)) return std::nullopt;
+    if (all_sides.size() > sides.size() && !remove_by_patch(f, all_sides)) return std::nullopt;
     return reason;
   }
 
