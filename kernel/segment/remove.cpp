@@ -171,9 +171,12 @@ class FeatureRemover {
     std::ranges::sort(sides);
     std::int64_t work = 0;
     for (Boundary& body : bodies_)
-      for (const detail::Patch& patch :
-           find_patches(body, f.sense == Sense::hole,
-                        {{}, 4, detail::ground_side(solid_, world_.planes)}, work)) {
+      for (const detail::Patch& patch : find_patches(
+               body, f.sense == Sense::hole,
+               {{},
+                4,
+                detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg)},
+               work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
         return take(body, Boundary(body), patch.caps, f);
       }

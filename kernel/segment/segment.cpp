@@ -56,7 +56,7 @@ class Segmenter {
     out_.root = add_node();
     int lumps = 0;
     for (const Shell& shell : solid_.shells) lumps = std::max(lumps, shell.lump + 1);
-    ground_ = detail::ground_side(solid_, world_.planes);
+    ground_ = detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg);
     std::vector<Boundary> bodies;
     for (int lump = 0; lump < lumps; ++lump) bodies.push_back(boundary_of(solid_, lump, world_));
     hang(std::move(bodies), {}, 1, {}, out_.root);

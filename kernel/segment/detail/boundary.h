@@ -177,7 +177,8 @@ class Corners {
   std::vector<char> is_corner_;  ///< by half-edge: of its origin
 };
 
-/// The side of the ground: the lowest facet that faces straight down, -1 if none does.
-Side ground_side(const Solid& solid, const PlaneTable& planes);
+/// The side of the ground: the lowest facet that faces down, tilted by no more than `tilt_deg`; -1
+/// if there is none.
+Side ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg);
 
 }  // namespace oriel::detail

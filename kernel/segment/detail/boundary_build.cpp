@@ -2,7 +2,9 @@
 #include "kernel/segment/detail/boundary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace oriel::detail {
@@ -82,14 +84,17 @@ std::vector<Loop> Corners::loops(int facet) const {
   return loops;
 }
 
-Side ground_side(const Solid& solid, const PlaneTable& planes) {
-  constexpr double kStraightDown = -1 + 1e-9;  // tolerance of doubles
+Side ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg) {
+  const double steepest = -std::cos(tilt_deg * std::numbers::pi / 180);
   Side ground = -1;
   double least = Box::kInfinity;
   for (const Facet& facet : solid.facets) {
-    const Plane& plane = solid.planes[facet.plane.index()];
-    if (plane.normal.z > kStraightDown || -plane.offset_m >= least) continue;
-    least = -plane.offset_m;
+    if (solid.planes[facet.plane.index()].normal.z > steepest) continue;
+    double lowest = Box::kInfinity;
+    for (const int v : facet.loops.front())
+      lowest = std::min(lowest, solid.vertices[static_cast<std::size_t>(v)].point.z);
+    if (lowest >= least) continue;
+    least = lowest;
     ground = planes.side_of(facet.plane);
   }
   return ground;

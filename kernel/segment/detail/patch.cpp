@@ -173,7 +173,8 @@ class PatchFinder {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
     find_neighbours();
-    for (int f = 0; f < body_.facet_count(); ++f) living_ += body_.is_alive(f) ? 1 : 0;
+    for (int f = 0; f < body_.facet_count(); ++f)
+      if (body_.is_alive(f)) surface_ += body_.area(f);
     for (int n = 0; n < std::ssize(grown_); ++n) {
       offer(component_of({n}));
       for (const auto& sides : fewer_sides(component_of({n})))
@@ -193,6 +194,7 @@ class PatchFinder {
   /// Facets that hang together, with what is around them.
   struct Grown {
     std::vector<int> facets;
+    double area = 0;
     std::vector<int> rim;     ///< half-edges to other groups or the ground
     std::vector<Side> sides;  ///< of its own facets, ascending
     std::set<std::pair<Side, int>>
@@ -202,10 +204,11 @@ class PatchFinder {
   /// Collects the facets that hang together with `start`.
   void grow(int start) {
     const int number = static_cast<int>(grown_.size());
-    Grown group{{start}, {}, {}, {}};
+    Grown group{{start}, 0, {}, {}, {}};
     number_of_[at(start)] = number;
     for (std::size_t i = 0; i < group.facets.size(); ++i) {
       group.sides.push_back(body_.facet(group.facets[i]).side);
+      group.area += body_.area(group.facets[i]);
       body_.for_each_edge(group.facets[i], [&](int e) {
         const int g = body_.facet_of(body_.twin(e));
         if (number_of_[at(g)] == number) return;
@@ -271,18 +274,18 @@ class PatchFinder {
   }
 
   /// A group with all that lies beyond its rim but for the given planes: a chimney's shaft with its
-  /// head. Nothing if that runs into one of those planes itself, or makes up more than half of the
-  /// body: then the rest is the part.
+  /// head. Nothing if that runs into one of those planes itself, or has more than half of the
+  /// body's surface: then the rest is the part.
   [[nodiscard]] std::optional<std::vector<int>> widen(int start,
                                                       const std::vector<Side>& limits) const {
     std::vector<int> groups{start};
-    std::size_t facets = 0;
+    double area = 0;
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Grown& group = grown_[at(groups[i])];
-      facets += group.facets.size();
+      area += group.area;
       work_ += std::ssize(group.beyond);
       const auto is_in_group = [&](Side s) { return std::ranges::binary_search(group.sides, s); };
-      if (2 * facets > living_ || std::ranges::any_of(limits, is_in_group)) return std::nullopt;
+      if (2 * area > surface_ || std::ranges::any_of(limits, is_in_group)) return std::nullopt;
       for (const auto& [side, other] : group.beyond)
         if (!std::ranges::binary_search(limits, side) &&
             std::ranges::find(groups, other) == groups.end())
@@ -415,7 +418,7 @@ class PatchFinder {
   std::int64_t& work_;
   std::vector<int> number_of_;  ///< by facet, the group it is in
   std::vector<Grown> grown_;
-  std::size_t living_ = 0;
+  double surface_ = 0;  ///< of the body
   std::set<std::vector<int>> seen_;
   std::vector<Patch> patches_;
 };

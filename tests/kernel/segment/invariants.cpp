@@ -116,12 +116,13 @@ void check_cells(const Segmented& s, const Exactness& exactness) {
     const Solid body = solid_of(s.segmentation, cell);
     CHECK(is_closed(body));
     CHECK(cell.volume_m3 > 0);
-    CHECK(cell.volume_m3 == doctest::Approx(volume_m3(body)).epsilon(1e-9));
+    // Its loops leave out vertices on straight edges, which may be as far off the edge as vertices
+    // may be off their planes.
+    CHECK(std::abs(cell.volume_m3 - volume_m3(body)) <= exactness.planarity_m * surface_m2(body));
     CHECK(cell.is_convex == (cell.flag == LeafFlag::convex));
     sum += cell.sign * cell.volume_m3;
     size += cell.volume_m3;
     if (!cell.is_convex) continue;
-    const Box box = box_of(body);
     double highest = -Box::kInfinity;
     for (const Facet& facet : cell.facets)
       for (const Facet& other : cell.facets)
@@ -133,7 +134,6 @@ void check_cells(const Segmented& s, const Exactness& exactness) {
                 dot(plane.normal, s.segmentation.vertices[static_cast<std::size_t>(v)].point) -
                     plane.offset_m);
           }
-    CAPTURE(box.min.x);
     CHECK(highest < exactness.planarity_m);
   }
   CHECK(std::abs(sum - volume_m3(s.solid)) <= exactness.area_rel * size);

@@ -1,0 +1,38 @@
+#include "tests/support/corpus.h"
+
+#include "tests/kernel/segment/invariants.h"
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+void check_all(const test::Corpus& corpus, const test::Exactness& exactness) {
+  for (const std::string& id : corpus.set_aside) MESSAGE("set aside: " << id);
+  for (const Building& building : corpus.buildings)
+    for (const Order order : {Order::natural, Order::paper}) {
+      CAPTURE(building.id);
+      CAPTURE(to_string(order));
+      test::check_segmentation(test::segmented(building, order), exactness);
+    }
+}
+
+TEST_SUITE("kernel/segment") {
+  TEST_CASE("every sample building is the sum of its cells and the value of its tree") {
+    const test::Corpus corpus = test::samples();
+    CHECK(corpus.buildings.size() == 8);
+    CHECK(corpus.set_aside.empty());
+    check_all(corpus, {1e-9, 0.008, 100});
+  }
+
+  TEST_CASE("every building of random3dcity is the sum of its cells and the value of its tree") {
+    ORIEL_NEEDS_SHARED(shared);
+    const test::Corpus corpus =
+        test::corpus_of(test::files_in(shared / "data" / "random3dcity", ".stripped.city.json"));
+    CHECK(corpus.buildings.size() >= 70);
+    check_all(corpus, {1e-9, 1e-4, 100});
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,152 @@
+#include "tests/support/houses.h"
+#include "tests/support/segmented.h"
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using doctest::Approx;
+using test::feature_in;
+using test::features_of;
+using test::Segmented;
+using test::splits_of;
+
+Segmented natural(Building building) {
+  return test::segmented(std::move(building), Order::natural);
+}
+
+/// Exact to what the grid of 2^-20 m leaves of decimal coordinates.
+Approx near(double value) { return Approx(value).epsilon(1e-5); }
+
+Vec3 normal_of(const Segmentation& s, PlaneId plane) { return s.planes[plane.index()].normal; }
+
+TEST_SUITE("kernel/segment") {
+  TEST_CASE("the house of the paper has the same leaves and nodes in the natural order") {
+    const Segmented s = natural(test::full_house());
+    CHECK(s.segmentation.stats.leaves == 19);
+    CHECK(s.segmentation.stats.inner == 8);
+    CHECK(features_of(s.segmentation, Sense::hole).size() == 16);
+    CHECK(features_of(s.segmentation, Sense::protrusion).size() == 2);
+    CHECK(feature_in(s.segmentation, {4, 8, 3}, {8, 9.5, 3.2}).is_valid());
+    for (const Feature& f : s.segmentation.features) CHECK(f.is_natural);
+  }
+
+  TEST_CASE("a ridge chimney is one part of two planes worth 3/797") {
+    const Segmented s = natural(test::ridge_chimney());
+    REQUIRE(s.segmentation.features.size() == 1);
+    const Feature& chimney = s.segmentation.features[0];
+    CHECK(chimney.sense == Sense::protrusion);
+    CHECK(chimney.planes.size() == 2);
+    CHECK(*chimney.value == near(3.0 / 797));
+    CHECK(chimney.is_natural);
+    REQUIRE(s.segmentation.cells.size() == 2);
+    CHECK(s.segmentation.cells[1].flag == LeafFlag::own);
+    CHECK_FALSE(s.segmentation.cells[1].is_convex);
+  }
+
+  TEST_CASE("the shorter wing of an L is cut for 1/2") {
+    const Segmented s = natural(test::l_house());
+    REQUIRE(s.segmentation.features.size() == 1);
+    CHECK(*s.segmentation.features[0].value == near(0.5));
+    CHECK(s.segmentation.features[0].volume_m3 == near(144));
+  }
+
+  TEST_CASE("a wing with a gable as high as the ridge is one part of two planes worth 17/27") {
+    const Segmented s = natural(test::cross_gable());
+    REQUIRE(s.segmentation.features.size() == 1);
+    CHECK(s.segmentation.features[0].planes.size() == 2);
+    CHECK(*s.segmentation.features[0].value == near(17.0 / 27));
+    CHECK(s.segmentation.features[0].volume_m3 == near(282));
+  }
+
+  TEST_CASE("a door on the ground is a hole of two planes whose first is the wall") {
+    const Segmented s = natural(test::house_with_door());
+    REQUIRE(s.segmentation.features.size() == 1);
+    const Feature& door = s.segmentation.features[0];
+    CHECK(door.sense == Sense::hole);
+    REQUIRE(door.planes.size() == 2);
+    CHECK(normal_of(s.segmentation, door.planes[0]) == Vec3{0, -1, 0});
+    CHECK(normal_of(s.segmentation, door.planes[1]) == Vec3{0, 0, -1});
+    CHECK(door.new_area_m2 == near(2.1 + 0.3));
+    CHECK(door.is_natural);
+  }
+
+  TEST_CASE("a dormer comes off with its window and the window larger than its frame is kept") {
+    const Segmented s = natural(test::dormer_with_window());
+    REQUIRE(s.segmentation.features.size() == 2);
+    const Feature &dormer = s.segmentation.features[0], &window = s.segmentation.features[1];
+    CHECK(dormer.sense == Sense::protrusion);
+    CHECK(dormer.planes.size() == 1);
+    CHECK_FALSE(dormer.parent.is_valid());
+    CHECK(window.sense == Sense::hole);
+    CHECK(window.parent == FeatureId{0});
+    CHECK(window.host == FeatureId{0});
+    CHECK(*window.quality == near(1.44 / 2.01));
+    CHECK(*window.value == near(1.44 / (1.44 + 2.01)));
+  }
+
+  TEST_CASE("a chimney keeps the head that is wider than its shaft") {
+    const Segmented s = natural(test::chimney_with_head());
+    const FeatureId chimney = feature_in(s.segmentation, {3.9, 2.9, 6}, {4.7, 3.7, 7.8});
+    REQUIRE(chimney.is_valid());
+    const Feature& f = s.segmentation.features[chimney.index()];
+    CHECK_FALSE(f.parent.is_valid());
+    CHECK(f.volume_m3 == near(0.36 * 1.5 + 0.64 * 0.3));
+    for (const Feature& other : s.segmentation.features)
+      if (&other != &f) CHECK(other.parent == chimney);
+  }
+
+  TEST_CASE("a ridge chimney keeps its head too") {
+    const Segmented s = natural(test::ConvexBody()
+                                    .add(test::gable())
+                                    .add(test::box({5, 3.7, 5}, {5.6, 4.3, 10.5}))
+                                    .add(test::box({4.9, 3.6, 10.5}, {5.7, 4.4, 11}))
+                                    .build());
+    REQUIRE_FALSE(s.segmentation.features.empty());
+    const Feature& chimney = s.segmentation.features[0];
+    CHECK(chimney.planes.size() == 2);
+    CHECK(chimney.box.max.z == near(11));
+    CHECK(chimney.box.max.x - chimney.box.min.x == near(0.8));
+  }
+
+  TEST_CASE("a balcony is one feature with its hollow or its parapet inside") {
+    const Segmented s = natural(test::balcony());
+    const FeatureId balcony = feature_in(s.segmentation, {3, -1.5, 3}, {7, 0, 4});
+    REQUIRE(balcony.is_valid());
+    CHECK_FALSE(s.segmentation.features[balcony.index()].parent.is_valid());
+    for (const FeatureId id : test::all_features(s.segmentation))
+      if (id != balcony) CHECK(s.segmentation.features[id.index()].parent.is_valid());
+  }
+
+  TEST_CASE("a passage is a hole of three planes") {
+    const Segmented s = natural(test::passage());
+    REQUIRE(s.segmentation.features.size() == 1);
+    CHECK(s.segmentation.features[0].sense == Sense::hole);
+    CHECK(s.segmentation.features[0].planes.size() == 3);
+    CHECK(s.segmentation.features[0].volume_m3 == near(48));
+  }
+
+  TEST_CASE("a cut that leaves two lumps gives its node a rest of two") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {3, 8, 3})
+                                    .add({5, 0, 0}, {8, 8, 3})
+                                    .add({3, 3, 1}, {5, 4, 2})
+                                    .remove({3.5, 2, 0}, {4.5, 5, 3})
+                                    .add({3, 3, 2}, {5, 4, 2.5})
+                                    .build());
+    CHECK(volume_m3(s.solid) > 0);
+    const Segmented bridge = natural(test::BoxBody()
+                                         .add({0, 0, 0}, {1, 1, 1})
+                                         .add({2, 0, 0}, {3, 1, 1})
+                                         .add({0, 0, 1}, {3, 1, 1.5})
+                                         .build());
+    bool has_parted = false;
+    for (const CsgNode& node : bridge.segmentation.nodes)
+      has_parted |= node.rest.size() > 1 || node.parts.size() > 1;
+    CHECK((has_parted || bridge.segmentation.features.size() == 1));
+  }
+}
+
+}  // namespace
+}  // namespace oriel
