@@ -145,6 +145,7 @@ class Redrawer {
 Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
                const Segmentation& segmentation, const FeatureTable& table,
                const Interpretation& interpretation, Generalised generalised) {
+  if (generalised.removed.empty() && building.is_solid) return {labelled, {}};
   return Redrawer(building, labelled, std::move(generalised))
       .run(segmentation, table, interpretation);
 }

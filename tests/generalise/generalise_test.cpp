@@ -1,0 +1,151 @@
+#include "generalise/generalise.h"
+
+#include "tests/generalise/line.h"
+
+#include <algorithm>
+#include <set>
+
+#include <doctest/doctest.h>
+
+using namespace oriel;
+using namespace oriel::test;
+
+namespace {
+
+const std::vector<double> kScales{1, 100, 500, 1000, 2000, 2500, 5000, 10000, 20000, 50000};
+
+/// What taking the features off changes the volume by: those inside another one that goes are part
+/// of it.
+double change_m3(const Line& line, const std::vector<FeatureId>& removed) {
+  const std::set<FeatureId> gone(removed.begin(), removed.end());
+  double sum = 0;
+  for (const FeatureId id : removed) {
+    const Feature& feature = line.segmentation.features[id.index()];
+    if (gone.contains(feature.parent)) continue;
+    sum += feature.sense == Sense::protrusion ? -feature.volume_m3 : feature.volume_m3;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_SUITE("generalise") {
+  TEST_CASE("every sample is closed at every scale and its volume adds up") {
+    for (const std::string& name : samples()) {
+      const Line line = line_of_sample(name);
+      const double before = volume_m3(line.solid);
+      for (const double scale : kScales) {
+        CAPTURE(name);
+        CAPTURE(scale);
+        const Coarser coarser = generalised(line, scale);
+        CHECK(is_closed(coarser.generalised.solid));
+        const double after = volume_m3(coarser.generalised.solid);
+        CHECK(after - before - change_m3(line, coarser.generalised.removed) ==
+              doctest::Approx(0).epsilon(1e-6));
+      }
+    }
+  }
+
+  TEST_CASE("a coarser scale removes what a finer one removes") {
+    for (const std::string& name : samples()) {
+      const Line line = line_of_sample(name);
+      std::vector<FeatureId> finer;
+      for (const double scale : kScales) {
+        CAPTURE(name);
+        CAPTURE(scale);
+        const auto removed = generalised(line, scale).generalised.removed;
+        CHECK(std::ranges::is_sorted(removed));
+        CHECK(std::ranges::includes(removed, finer));
+        finer = removed;
+      }
+    }
+  }
+
+  TEST_CASE("at 1:1 nothing changes") {
+    for (const std::string& name : samples()) {
+      CAPTURE(name);
+      const Line line = line_of_sample(name);
+      const Coarser coarser = generalised(line, 1);
+      CHECK(coarser.plan.steps.empty());
+      CHECK(coarser.generalised.removed.empty());
+      CHECK(coarser.redrawn.removed_ids.empty());
+      CHECK(coarser.generalised.solid.facets.size() == line.solid.facets.size());
+      CHECK(volume_m3(coarser.generalised.solid) ==
+            doctest::Approx(volume_m3(line.solid)).epsilon(1e-12));
+    }
+  }
+
+  TEST_CASE("no sample has a warning at 1:20000") {
+    for (const std::string& name : samples()) {
+      CAPTURE(name);
+      for (const Issue& issue : generalised(line_of_sample(name), 20000).issues)
+        CHECK_MESSAGE(issue.severity == Severity::note, to_string(issue));
+    }
+  }
+
+  TEST_CASE("at 1:20000 a house has neither openings nor chimney nor balcony") {
+    for (const std::string& name : samples()) {
+      CAPTURE(name);
+      const Line line = line_of_sample(name);
+      const Coarser coarser = generalised(line, 20000);
+      const auto& removed = coarser.generalised.removed;
+      for (const std::string label : {"window", "door", "chimney", "vent", "balcony", "loggia",
+                                      "dormer", "bay", "canopy", "stairs"})
+        for (const FeatureId id : line.features(label)) {
+          CAPTURE(line.table().id(id));
+          CHECK(std::ranges::binary_search(removed, id));
+        }
+    }
+  }
+
+  TEST_CASE("the cells of every sample sum up to its volume") {
+    for (const std::string& name : samples()) {
+      CAPTURE(name);
+      const Line line = line_of_sample(name);
+      double sum = 0;
+      for (const Cell& cell : line.segmentation.cells) sum += cell.sign * cell.volume_m3;
+      CHECK(sum == doctest::Approx(volume_m3(line.solid)).epsilon(1e-9));
+    }
+  }
+
+  TEST_CASE("a piece of a part that stays is a note and a labelled feature a warning") {
+    Line line = line_of_sample("house");
+    const auto pieces = generalised(line, 2000).issues;
+    REQUIRE(!pieces.empty());
+    for (const Issue& issue : pieces) {
+      CHECK(issue.severity == Severity::note);
+      CHECK(issue.code == "G401");
+      CHECK(issue.sentence.find("is a piece of f") == 0);
+      const FeatureId id = line.table().find(issue.place.feature);
+      REQUIRE(id.is_valid());
+      CHECK(line.segmentation.features[id.index()].parent.is_valid());
+      line.interpretation.verdicts[id.index()].label = "vent";
+    }
+    const auto issues = generalised(line, 2000).issues;
+    CHECK(issues.size() == pieces.size());
+    for (const Issue& issue : issues) {
+      CHECK(issue.severity == Severity::warning);
+      CHECK(issue.sentence.find("is not omitted at 1:2000: ") == 0);
+      CHECK(issue.place.building == "house");
+    }
+  }
+
+  TEST_CASE("a feature that is refused is not counted as removed") {
+    const Line line = line_of_sample("house");
+    const Coarser coarser = generalised(line, 2000);
+    for (const Issue& issue : coarser.issues)
+      CHECK(!std::ranges::binary_search(coarser.generalised.removed,
+                                        line.table().find(issue.place.feature)));
+  }
+
+  TEST_CASE("a solid of which nothing is left stays as it is") {
+    const Checked<Generalised> out =
+        generalise({}, {}, FeatureTable("house", 0), {}, Plan{500, {}, {}});
+    CHECK(!out.value);
+    REQUIRE(out.issues.size() == 1);
+    CHECK(out.issues[0].code == "G402");
+    CHECK(out.issues[0].severity == Severity::error);
+    CHECK(out.issues[0].place.building == "house");
+    CHECK(out.issues[0].sentence.find("1:500") != std::string::npos);
+  }
+}
