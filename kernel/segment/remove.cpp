@@ -31,14 +31,10 @@ class FeatureRemover {
   }
 
   Remainder run(const std::vector<FeatureId>& asked) {
-    go_.assign(segmentation_.features.size(), 0);
-    for (const FeatureId id : asked) go_[id.index()] = 1;
-    spread();
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
-      const FeatureId id{i};
-      if (!go_[at(i)] || goes_with_parent(id)) continue;
-      if (const auto reason = remove(id)) refuse(id, *reason);
-    }
+    wanted_.assign(segmentation_.features.size(), 0);
+    for (const FeatureId id : asked) wanted_[id.index()] = 1;
+    const std::vector<Boundary> untouched = bodies_;
+    while (!try_all()) bodies_ = untouched;
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
       if (go_[at(i)]) out_.removed.push_back(FeatureId{i});
     out_.solid = remaining_solid();
@@ -50,33 +46,53 @@ class FeatureRemover {
     return segmentation_.features[id.index()];
   }
 
+  /// Removes all that is wanted, one after the other. False if something was refused after what
+  /// sits on it had gone: then all has to be done again without it.
+  bool try_all() {
+    go_ = with_what_sits_on(wanted_);
+    for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
+      const FeatureId id{i};
+      if (!go_[at(i)] || goes_with_parent(id)) continue;
+      if (const auto reason = remove(id); reason && !refuse(id, *reason)) return false;
+    }
+    return true;
+  }
+
   /// What sits on or in a feature goes with it.
-  void spread() {
+  [[nodiscard]] std::vector<char> with_what_sits_on(std::vector<char> go) const {
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
-      for (std::size_t i = 0; i < go_.size(); ++i) {
+      for (std::size_t i = 0; i < go.size(); ++i) {
         const Feature& f = segmentation_.features[i];
-        const bool carrier_goes = (f.parent.is_valid() && go_[f.parent.index()]) ||
-                                  (f.host.is_valid() && go_[f.host.index()]);
-        if (go_[i] || !carrier_goes) continue;
-        go_[i] = 1;
+        const bool carrier_goes = (f.parent.is_valid() && go[f.parent.index()]) ||
+                                  (f.host.is_valid() && go[f.host.index()]);
+        if (go[i] || !carrier_goes) continue;
+        go[i] = 1;
         has_changed = true;
       }
     }
+    return go;
   }
 
   [[nodiscard]] bool goes_with_parent(FeatureId id) const {
     const FeatureId parent = feature(id).parent;
-    return parent.is_valid() && go_[parent.index()] && !is_refused(parent);
+    return parent.is_valid() && go_[parent.index()];
   }
 
-  [[nodiscard]] bool is_refused(FeatureId id) const {
-    return std::ranges::find(out_.refused, id, &Refusal::feature) != out_.refused.end();
-  }
-
-  void refuse(FeatureId id, const std::string& reason) {
-    out_.refused.push_back({id, reason});
+  /// The feature stays, and so does what was to go for its sake only. False if some of that is gone
+  /// already.
+  bool refuse(FeatureId id, const std::string& reason) {
+    if (std::ranges::find(out_.refused, id, &Refusal::feature) == out_.refused.end())
+      out_.refused.push_back({id, reason});
+    wanted_[id.index()] = 0;
     go_[id.index()] = 0;
+    const std::vector<char> still = with_what_sits_on(wanted_);
+    for (std::size_t i = 0; i < go_.size(); ++i) {
+      if (!go_[i] || still[i]) continue;
+      if (i < id.index()) return false;
+      go_[i] = 0;
+    }
+    return true;
   }
 
   /// A facet of a cell is part of the solid's boundary that looks to `side`.
@@ -273,7 +289,8 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
-  std::vector<char> go_;  ///< by feature
+  std::vector<char> wanted_;  ///< by feature: asked for and not refused
+  std::vector<char> go_;      ///< by feature: wanted, or sits on what is
   Remainder out_;
 };
 
