@@ -17,7 +17,9 @@ extern "C" void end_by(int signal) {
 }  // namespace
 
 void clean_up_on_signals() {
-  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file beyond `ulimit -f` is an error of writing, as on a full disk
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM, SIGXCPU}) {
     struct sigaction old {};
     ::sigaction(signal, nullptr, &old);
     if (old.sa_handler == SIG_IGN) continue;  // nohup, a shell's background job

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel::test;
 
@@ -85,6 +86,24 @@ TEST_SUITE("cli") {
     CHECK(outcome.exit == 0);
     CHECK(outcome.out.starts_with("residential: pack residential "));
     CHECK(outcome.err.empty());
+  }
+
+  TEST_CASE("rules check --json has all findings as one array") {
+    const Folder folder;
+    const std::string text = replaced(residential(), "and a <= 4 m\n", "and a <= 4 m2\n");
+    const std::string pack = folder.write("my.yaml", text);
+    const Outcome bad = run({"rules", "check", pack, "--json"});
+    CHECK(bad.exit == 4);
+    CHECK(bad.err.empty());
+    const auto findings = nlohmann::json::parse(bad.out);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0]["code"] == "R230");
+    CHECK(findings[0]["file"] == pack);
+    CHECK(fmt::format(":{}:{}", findings[0]["line"].get<int>(), findings[0]["column"].get<int>()) ==
+          place_of(text, "4 m2"));
+    const Outcome good = run({"rules", "check", "residential", "--json"});
+    CHECK(good.exit == 0);
+    CHECK(good.out == "[]\n");
   }
 
   TEST_CASE("rules check goes on after a bad pack") {

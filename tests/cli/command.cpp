@@ -11,6 +11,7 @@
 #include <pty.h>
 #include <sstream>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -42,6 +43,15 @@ std::string content(int descriptor) {
   return bytes;
 }
 
+int stdout_of(const Surroundings& around) {
+  if (!around.stdout_file.empty()) return ::open(around.stdout_file.c_str(), O_WRONLY);
+  if (!around.has_broken_pipe) return scratch();
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
+  ::close(ends[0]);
+  return ends[1];
+}
+
 bool has_temporary(const fs::path& folder) {
   return std::ranges::any_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
     return entry.path().filename().string().find(".tmp-") != std::string::npos;
@@ -62,6 +72,11 @@ void send_signal(pid_t child, const Surroundings& around) {
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());
   argv.push_back(nullptr);
+  std::signal(SIGPIPE, SIG_DFL);
+  if (around.file_limit > 0) {
+    const rlimit limit{around.file_limit, around.file_limit};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
   std::vector<std::string> environment = around.environment;
   for (std::string& variable : environment) ::putenv(variable.data());
   ::execv(command.c_str(), argv.data());
@@ -72,8 +87,7 @@ void send_signal(pid_t child, const Surroundings& around) {
 
 Outcome run(const std::vector<std::string>& arguments, const Surroundings& around) {
   const int in = scratch(around.in), err = scratch();
-  const int out =
-      around.stdout_file.empty() ? scratch() : ::open(around.stdout_file.c_str(), O_WRONLY);
+  const int out = stdout_of(around);
   int terminal = -1, terminal_end = -1;
   if (around.has_terminal && ::openpty(&terminal, &terminal_end, nullptr, nullptr, nullptr) != 0)
     throw std::runtime_error("no terminal");
@@ -90,7 +104,7 @@ Outcome run(const std::vector<std::string>& arguments, const Surroundings& aroun
   ::waitpid(child, &status, 0);
   Outcome outcome;
   outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  if (around.stdout_file.empty()) outcome.out = content(out);
+  if (around.stdout_file.empty() && !around.has_broken_pipe) outcome.out = content(out);
   outcome.err = content(err);
   if (around.has_terminal) {
     ::close(terminal_end);

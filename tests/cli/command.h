@@ -22,6 +22,10 @@ struct Surroundings {
   std::string in{};
   /// Where its stdout goes, if not into Outcome::out.
   std::string stdout_file{};
+  /// stdout is a pipe that nobody reads any more.
+  bool has_broken_pipe = false;
+  /// The largest file it may write, in bytes; 0: any.
+  unsigned file_limit = 0;
   /// NAME=value, added to the environment.
   std::vector<std::string> environment{};
   /// stderr is a terminal.

@@ -87,6 +87,25 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("a broken pipe ends the command quietly and leaves no file") {
+    const Folder folder;
+    const Outcome outcome =
+        run({"label", sample("house"), "-o", "-", "--features", folder / "parts.csv"},
+            {.has_broken_pipe = true});
+    CHECK(outcome.exit == 128 + SIGPIPE);
+    CHECK(outcome.err.empty());
+    CHECK(folder.names().empty());
+  }
+
+  TEST_CASE("a file that grows too large is an output that failed") {
+    const Folder folder;
+    const std::string old = folder.write("out.city.json", "old");
+    check_unwritable(folder, run({"label", sample("row"), "-o", old}, {.file_limit = 4096}),
+                     "out.city.json: E601 cannot be written: File too large");
+    CHECK(bytes_of(old) == "old");
+    CHECK(folder.names() == Names{"out.city.json"});
+  }
+
   TEST_CASE("several inputs go into a folder that is made") {
     const Folder folder;
     const Outcome outcome =
