@@ -2,6 +2,7 @@
 
 #include "kernel/model/issue.h"
 #include "kernel/segment/detail/carve.h"
+#include "kernel/segment/detail/edge_index.h"
 #include "kernel/segment/detail/patch.h"
 
 #include <algorithm>
@@ -154,11 +155,13 @@ class FeatureRemover {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
-      const auto section = section_at(body, split >> 1, looks_along_class ? 1 : -1,
-                                      {-1, options_.tolerances.weld_m});
+      const detail::EdgeIndex edges(body, {split >> 1});
+      const auto section =
+          section_at(body, split >> 1, looks_along_class ? 1 : -1, edges.edges_at(0),
+                     {-1, options_.tolerances.weld_m}, scratch_);
       const auto region = region_around(section, f);
       if (!region) continue;
-      const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
+      const detail::Lump lump = detail::LumpFinder(body, section, scratch_).find(*region);
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
         return "its cut does not close any more";
       Boundary trial = body;
@@ -289,6 +292,7 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
+  detail::Scratch scratch_;
   std::vector<char> wanted_;  ///< by feature: asked for and not refused
   std::vector<char> go_;      ///< by feature: wanted, or sits on what is
   Remainder out_;

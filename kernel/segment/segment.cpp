@@ -86,7 +86,9 @@ class Segmenter {
   /// Splits one body down to its leaf: each round is a node of the tree.
   void split(Task task) {
     take_out_cavities(task);
-    detail::Chooser chooser(task.body, options_, ground_, task.own_planes, out_.stats, work_);
+    if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
+    detail::Chooser chooser(task.body, options_, ground_, task.own_planes, out_.stats, work_,
+                            scratch_);
     while (true) {
       if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
       if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
@@ -262,6 +264,7 @@ class Segmenter {
   Segmentation out_;
   detail::World world_;
   detail::CellWriter cells_;
+  detail::Scratch scratch_;
   Side ground_ = -1;
   std::vector<Task> tasks_;
   std::int64_t work_ = 0;

@@ -42,10 +42,21 @@ std::optional<double> strict_key(const Region&, double new_area, double old_area
   return value < limit ? std::optional(value) : std::nullopt;
 }
 
+std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& own_planes) {
+  std::vector<int> planes;
+  for (const int f : body.living_facets()) planes.push_back(body.facet(f).side >> 1);
+  std::ranges::sort(planes);
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  std::erase_if(
+      planes, [&](int plane) { return std::ranges::find(own_planes, plane) != own_planes.end(); });
+  return planes;
+}
+
 }  // namespace
 
 Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
-                 std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work)
+                 std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work,
+                 Scratch& scratch)
     : body_(body),
       world_(body.world()),
       options_(options),
@@ -53,44 +64,56 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
       own_planes_(std::move(own_planes)),
       stats_(stats),
       work_(work),
-      slots_(2 * at(world_.planes.size())) {}
+      scratch_(scratch),
+      planes_(split_planes_of(body, own_planes_)),
+      edges_(body, planes_) {
+  for (std::size_t i = 0; i < planes_.size(); ++i)
+    for (const int direction : {1, -1}) slots_.push_back({i, direction});
+}
 
 void Chooser::changed_at(const std::vector<int>& points) {
-  for (int k = 0; k < world_.planes.class_count(); ++k) {
+  edges_.update();
+  const int classes = world_.planes.class_count();
+  std::vector<std::pair<int, int>> reach;  // least and most rank by class
+  for (int k = 0; k < classes; ++k) {
     const auto ranks = world_.points.ranks(k);
     int least = std::numeric_limits<int>::max(), most = -1;
     for (const int p : points) {
       least = std::min(least, ranks[at(p)]);
       most = std::max(most, ranks[at(p)]);
     }
-    // Ranks of planes are odd: plane i of the class has rank 2 i + 1.
-    const auto& planes = world_.planes.normal_class(k).planes;
-    for (int i = least / 2; i < std::ssize(planes) && 2 * i + 1 <= most; ++i)
-      for (int flip = 0; flip < 2; ++flip) slots_[at(2 * planes[at(i)] + flip)].is_stale = true;
+    reach.emplace_back(least, most);
+  }
+  for (Slot& slot : slots_) {
+    const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
+    const auto& [least, most] = reach[at(world_.planes.class_of(plane))];
+    if (least <= rank && rank <= most) slot.is_stale = true;
   }
 }
 
 void Chooser::refresh() {
-  for (int plane = 0; plane < world_.planes.size(); ++plane) {
-    const bool is_split_plane =
-        (body_.area_on(2 * plane) > 0 || body_.area_on(2 * plane + 1) > 0) &&
-        std::ranges::find(own_planes_, plane) == own_planes_.end();
-    for (int flip = 0; flip < 2; ++flip) {
-      Slot& slot = slots_[at(2 * plane + flip)];
-      if (!is_split_plane) slot.section = {};
-      if (!is_split_plane || !slot.is_stale) continue;
-      slot.section =
-          section_at(body_, plane, flip == 0 ? 1 : -1, {free_side_, options_.tolerances.weld_m});
-      slot.is_stale = false;
-      work_ += body_.half_edge_count();
-      const Side looking = 2 * plane + flip;
-      if (body_.area_on(looking) > 0) ++stats_.protrusion_tests;
-      if (body_.area_on(looking ^ 1) > 0) ++stats_.hole_tests;
-      for (const Region& region : slot.section.regions)
-        if (region.is_candidate && old_area(slot.section, region) > region.new_area)
-          ++stats_.candidates;
-    }
+  for (Slot& slot : slots_) {
+    const int plane = planes_[slot.entry];
+    if (body_.area_on(2 * plane) <= 0 && body_.area_on(2 * plane + 1) <= 0)
+      slot.section = {};
+    else if (slot.is_stale)
+      refresh(slot);
   }
+}
+
+void Chooser::refresh(Slot& slot) {
+  const int plane = planes_[slot.entry];
+  const auto edges = edges_.edges_at(slot.entry);
+  slot.section = section_at(body_, plane, slot.direction, edges,
+                            {free_side_, options_.tolerances.weld_m}, scratch_);
+  slot.is_stale = false;
+  work_ += std::ssize(edges);
+  const Side looking = 2 * plane + (slot.direction > 0 ? 0 : 1);
+  if (body_.area_on(looking) > 0) ++stats_.protrusion_tests;
+  if (body_.area_on(looking ^ 1) > 0) ++stats_.hole_tests;
+  for (const Region& region : slot.section.regions)
+    if (region.is_candidate && old_area(slot.section, region) > region.new_area)
+      ++stats_.candidates;
 }
 
 std::optional<Choice> Chooser::next() {
@@ -168,17 +191,20 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
 /// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
 /// features are dropped.
 void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
-  std::map<const Slot*, LumpFinder> finders;
   const double group = 1 + std::max(kSame, options_.tolerances.value_rel);
   while (!candidates.empty()) {
     double least = candidates[0].key;
     for (const Candidate& c : candidates) least = std::min(least, c.key);
     bool is_settled = true;
+    // Candidates of one slot stand together, so one finder at a time does.
+    const Slot* found_in = nullptr;
+    std::optional<LumpFinder> finder;
     std::erase_if(candidates, [&](Candidate& c) {
       if (c.is_checked || c.key > least * group) return false;
       is_settled = false;
-      LumpFinder& finder = finders.try_emplace(c.slot, body_, c.slot->section).first->second;
-      return !check(c, key, finder);
+      if (c.slot != found_in) finder.emplace(body_, c.slot->section, scratch_);
+      found_in = c.slot;
+      return !check(c, key, *finder);
     });
     if (is_settled) return;
   }

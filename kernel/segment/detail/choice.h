@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/segmentation.h"
+#include "kernel/segment/detail/edge_index.h"
 #include "kernel/segment/detail/lump.h"
 #include "kernel/segment/detail/patch.h"
 #include "kernel/segment/detail/section.h"
@@ -35,7 +36,8 @@ class Chooser {
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
   /// body.
   Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
-          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work);
+          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work,
+          Scratch& scratch);
 
   /// The best cut by the order, or nothing: the body is a leaf.
   std::optional<Choice> next();
@@ -44,9 +46,12 @@ class Chooser {
   void changed_at(const std::vector<int>& points);
 
  private:
+  /// A split plane seen from one side.
   struct Slot {
+    std::size_t entry;  ///< of its plane in planes_
+    int direction;
     bool is_stale = true;
-    Section section;
+    Section section{};
   };
   /// A region as a candidate of the pass at hand.
   struct Candidate {
@@ -63,6 +68,7 @@ class Chooser {
   std::optional<Choice> natural_next();
   std::optional<Choice> paper_next();
   std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
+  void refresh(Slot& slot);
   void check_leaders(std::vector<Candidate>& candidates, Key key) const;
   bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order,
@@ -83,7 +89,10 @@ class Chooser {
   std::vector<int> own_planes_;
   SegmentationStats& stats_;
   std::int64_t& work_;
-  std::vector<Slot> slots_;  ///< 2 · plane + (0: in front, 1: behind)
+  Scratch& scratch_;
+  std::vector<int> planes_;  ///< the split planes, ascending
+  EdgeIndex edges_;
+  std::vector<Slot> slots_;  ///< of each plane in front, then behind
 };
 
 }  // namespace oriel::detail

@@ -10,20 +10,20 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-LumpFinder::LumpFinder(const Boundary& body, const Section& section)
+LumpFinder::LumpFinder(const Boundary& body, const Section& section, Scratch& scratch)
     : body_(body),
       section_(section),
       normal_class_(body.world().planes.class_of(section.plane)),
       plane_rank_(body.world().planes.rank_of(section.plane)),
+      scratch_(scratch),
       previous_(section.crossings.size(), -1),
       material_region_(section.loops.size(), -1),
       air_region_(section.loops.size(), -1),
-      edge_stamp_(at(body.half_edge_count()), 0),
-      crossing_stamp_(section.crossings.size(), 0),
-      facet_stamp_(at(body.facet_count()), 0) {
-  crossing_of_edge_.reserve(section.crossings.size());
+      crossing_stamp_(section.crossings.size(), 0) {
+  if (std::ssize(scratch_.crossing_of_edge) < body.half_edge_count())
+    scratch_.crossing_of_edge.resize(at(body.half_edge_count()));
   for (int c = 0; c < std::ssize(section.crossings); ++c) {
-    crossing_of_edge_[section.crossings[at(c)].edge] = c;
+    scratch_.crossing_of_edge[at(section.crossings[at(c)].edge)] = c;
     previous_[at(section.crossings[at(c)].next)] = c;
     crossings_of_facet_[body.facet_of(section.crossings[at(c)].edge)].push_back(c);
   }
@@ -40,6 +40,10 @@ Lump LumpFinder::find(int region) {
   const Region& start = section_.regions[at(region)];
   is_material_ = start.is_material;
   ++stamp_;
+  edge_stamp_ =
+      Scratch::stamp(scratch_.edge_stamps, body_.half_edge_count(), scratch_.last_edge_stamp);
+  facet_stamp_ =
+      Scratch::stamp(scratch_.facet_stamps, body_.facet_count(), scratch_.last_facet_stamp);
   stack_.clear();
   facets_.clear();
   patch_volume_ = 0;
@@ -72,8 +76,8 @@ Lump LumpFinder::find(int region) {
 }
 
 void LumpFinder::push(int e) {
-  if (edge_stamp_[at(e)] == stamp_) return;
-  edge_stamp_[at(e)] = stamp_;
+  if (is_reached(e)) return;
+  scratch_.edge_stamps[at(e)] = edge_stamp_;
   stack_.push_back(e);
 }
 
@@ -81,8 +85,8 @@ void LumpFinder::push(int e) {
 /// over to the neighbour.
 void LumpFinder::visit(int e) {
   const int f = body_.facet_of(e);
-  if (facet_stamp_[at(f)] != stamp_) {
-    facet_stamp_[at(f)] = stamp_;
+  if (scratch_.facet_stamps[at(f)] != facet_stamp_) {
+    scratch_.facet_stamps[at(f)] = facet_stamp_;
     facets_.push_back(f);
   }
   const int t = body_.twin(e);
@@ -162,7 +166,7 @@ bool LumpFinder::is_wholly_up(int loop) const {
 
 void LumpFinder::tie_loop_to_piece(int facet, int loop) {
   const int first = body_.loop(loop).first;
-  const bool has_loop = edge_stamp_[at(first)] == stamp_;
+  const bool has_loop = is_reached(first);
   const Vec3 normal = body_.world().planes.normal(body_.facet(facet).side);
   for (const int c : crossings_of_facet_.at(facet)) {
     const bool has_piece = crossing_stamp_[at(c)] == stamp_;

@@ -27,7 +27,8 @@ struct Lump {
 /// lump's size.
 class LumpFinder {
  public:
-  LumpFinder(const Boundary& body, const Section& section);
+  /// Only one finder at a time may use the scratch.
+  LumpFinder(const Boundary& body, const Section& section, Scratch& scratch);
 
   /// The lump in front of region `region`.
   [[nodiscard]] Lump find(int region);
@@ -44,13 +45,18 @@ class LumpFinder {
   [[nodiscard]] Outline piece_outline(int crossing) const;
   [[nodiscard]] Outline lower_outline(int crossing) const;
   [[nodiscard]] bool is_up(int point) const;
-  [[nodiscard]] int crossing_of(int e) const { return crossing_of_edge_.at(e); }
+  [[nodiscard]] int crossing_of(int e) const {
+    return scratch_.crossing_of_edge[static_cast<std::size_t>(e)];
+  }
+  [[nodiscard]] bool is_reached(int e) const {
+    return scratch_.edge_stamps[static_cast<std::size_t>(e)] == edge_stamp_;
+  }
 
   const Boundary& body_;
   const Section& section_;
   int normal_class_;
   int plane_rank_;
-  std::unordered_map<int, int> crossing_of_edge_;
+  Scratch& scratch_;
   std::unordered_map<int, std::vector<int>>
       crossings_of_facet_;     ///< those at which a chord in it begins
   std::vector<int> previous_;  ///< where the chord that ends at a crossing begins
@@ -59,8 +65,8 @@ class LumpFinder {
 
   // The flood at hand.
   bool is_material_ = true;
-  int stamp_ = 0;
-  std::vector<int> edge_stamp_, crossing_stamp_, facet_stamp_;
+  int stamp_ = 0, edge_stamp_ = 0, facet_stamp_ = 0;
+  std::vector<int> crossing_stamp_;
   std::vector<int> stack_, facets_;
   double patch_volume_ = 0;
   Lump lump_;

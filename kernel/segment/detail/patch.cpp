@@ -197,8 +197,8 @@ class PatchFinder {
     double area = 0;
     std::vector<int> rim;     ///< half-edges to other groups or the ground
     std::vector<Side> sides;  ///< of its own facets, ascending
-    std::set<std::pair<Side, int>>
-        beyond;  ///< what lies across the rim: sides, and the groups they are of
+    /// What lies across the rim: sides, and the groups they are of; sorted.
+    std::vector<std::pair<Side, int>> beyond;
   };
 
   /// Collects the facets that hang together with `start`.
@@ -228,11 +228,15 @@ class PatchFinder {
   }
 
   void find_neighbours() {
-    for (Grown& group : grown_)
+    for (Grown& group : grown_) {
       for (const int e : group.rim) {
         const int g = body_.facet_of(body_.twin(e));
-        if (!is_ground(g)) group.beyond.emplace(body_.facet(g).side, number_of_[at(g)]);
+        if (!is_ground(g)) group.beyond.emplace_back(body_.facet(g).side, number_of_[at(g)]);
       }
+      std::ranges::sort(group.beyond);
+      group.beyond.erase(std::unique(group.beyond.begin(), group.beyond.end()), group.beyond.end());
+    }
+    group_stamps_.assign(grown_.size(), 0);
   }
 
   /// Several groups as one component.
@@ -276,9 +280,9 @@ class PatchFinder {
   /// A group with all that lies beyond its rim but for the given planes: a chimney's shaft with its
   /// head. Nothing if that runs into one of those planes itself, or has more than half of the
   /// body's surface: then the rest is the part.
-  [[nodiscard]] std::optional<std::vector<int>> widen(int start,
-                                                      const std::vector<Side>& limits) const {
+  [[nodiscard]] std::optional<std::vector<int>> widen(int start, const std::vector<Side>& limits) {
     std::vector<int> groups{start};
+    group_stamps_[at(start)] = ++last_stamp_;
     double area = 0;
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Grown& group = grown_[at(groups[i])];
@@ -286,10 +290,12 @@ class PatchFinder {
       work_ += std::ssize(group.beyond);
       const auto is_in_group = [&](Side s) { return std::ranges::binary_search(group.sides, s); };
       if (2 * area > surface_ || std::ranges::any_of(limits, is_in_group)) return std::nullopt;
-      for (const auto& [side, other] : group.beyond)
-        if (!std::ranges::binary_search(limits, side) &&
-            std::ranges::find(groups, other) == groups.end())
-          groups.push_back(other);
+      for (const auto& [side, other] : group.beyond) {
+        if (group_stamps_[at(other)] == last_stamp_ || std::ranges::binary_search(limits, side))
+          continue;
+        group_stamps_[at(other)] = last_stamp_;
+        groups.push_back(other);
+      }
     }
     if (groups.size() == 1) return std::nullopt;
     return groups;
@@ -419,6 +425,8 @@ class PatchFinder {
   std::vector<int> number_of_;  ///< by facet, the group it is in
   std::vector<Grown> grown_;
   double surface_ = 0;  ///< of the body
+  std::vector<int> group_stamps_;  ///< the last widening that has met a group
+  int last_stamp_ = 0;
   std::set<std::vector<int>> seen_;
   std::vector<Patch> patches_;
 };

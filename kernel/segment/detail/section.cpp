@@ -14,10 +14,13 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Sectioner {
  public:
-  Sectioner(const Boundary& body, int plane, int direction, const SectionOptions& options)
+  Sectioner(const Boundary& body, int plane, int direction, std::span<const int> edges,
+            const SectionOptions& options, Scratch& scratch)
       : body_(body),
         world_(body.world()),
+        edges_(edges),
         options_(options),
+        scratch_(scratch),
         axis_(direction > 0 ? world_.planes.plane(plane).normal
                             : -world_.planes.plane(plane).normal),
         ranks_(world_.points.ranks(world_.planes.class_of(plane))),
@@ -50,12 +53,18 @@ class Sectioner {
   }
 
   void find_crossings() {
-    for (int e = 0; e < body_.half_edge_count(); ++e) {
-      if (!body_.is_alive_edge(e)) continue;
-      const int from = body_.origin(e), to = body_.target(e);
-      if (!is_up(from) || is_up(to)) continue;
-      section_.crossings.push_back({e, meeting(from, to), -1, -1});
+    std::vector<int> crossing;
+    for (const int one : edges_) {
+      if (!body_.is_alive_edge(one)) continue;
+      const int other = body_.twin(one);
+      const bool is_first_up = is_up(body_.origin(one));
+      if (is_first_up != is_up(body_.origin(other))) crossing.push_back(is_first_up ? one : other);
     }
+    std::ranges::sort(crossing);
+    crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+    section_.crossings.reserve(crossing.size());
+    for (const int e : crossing)
+      section_.crossings.push_back({e, meeting(body_.origin(e), body_.target(e)), -1, -1});
   }
 
   [[nodiscard]] Vec3 meeting(int up, int down) const {
@@ -67,9 +76,9 @@ class Sectioner {
 
   /// A crossing as one of its two facets sees it.
   struct End {
-    int facet;
     int crossing;
     bool leads_down;  ///< the facet's own half-edge leads down here: a chord begins
+    int before;       ///< the end in the same facet that was met before, -1: none
     double along = 0;
     double slope = 0;
   };
@@ -77,29 +86,38 @@ class Sectioner {
   /// Pairs the crossings of every facet along its line with the plane. A chord runs with the
   /// material above it to its left, from a half-edge that leads down to one that leads up.
   bool link_chords() {
+    const int stamp =
+        Scratch::stamp(scratch_.facet_stamps, body_.facet_count(), scratch_.last_facet_stamp);
+    auto& newest = scratch_.first_end;
+    newest.resize(scratch_.facet_stamps.size());
     std::vector<End> ends;
+    std::vector<int> facets;
     ends.reserve(2 * section_.crossings.size());
+    const auto add = [&](int facet, int crossing, bool leads_down) {
+      const bool is_new = scratch_.facet_stamps[at(facet)] != stamp;
+      if (is_new) facets.push_back(facet);
+      scratch_.facet_stamps[at(facet)] = stamp;
+      ends.push_back({crossing, leads_down, is_new ? -1 : newest[at(facet)]});
+      newest[at(facet)] = static_cast<int>(ends.size()) - 1;
+    };
     for (int c = 0; c < std::ssize(section_.crossings); ++c) {
       const int e = section_.crossings[at(c)].edge;
-      ends.push_back({body_.facet_of(e), c, true});
-      ends.push_back({body_.facet_of(body_.twin(e)), c, false});
+      add(body_.facet_of(e), c, true);
+      add(body_.facet_of(body_.twin(e)), c, false);
     }
-    std::ranges::sort(ends, {}, [](const End& end) {
-      return std::tuple(end.facet, end.crossing, end.leads_down);
-    });
-    for (auto first = ends.begin(); first != ends.end();) {
-      const auto last = std::find_if(first, ends.end(),
-                                     [&](const End& end) { return end.facet != first->facet; });
-      if (!link_in_facet({first, last})) return false;
-      first = last;
+    std::vector<End> in_facet;
+    for (const int f : facets) {
+      in_facet.clear();
+      for (int i = newest[at(f)]; i >= 0; i = ends[at(i)].before) in_facet.push_back(ends[at(i)]);
+      if (!link_in_facet(f, in_facet)) return false;
     }
     return true;
   }
 
-  bool link_in_facet(std::span<End> ends) {
+  bool link_in_facet(int facet, std::span<End> ends) {
     if (ends.size() % 2 != 0) return false;
     if (ends.size() > 2)
-      sort_along(ends);
+      sort_along(facet, ends);
     else if (!ends[0].leads_down)
       std::swap(ends[0], ends[1]);
     for (std::size_t i = 0; i < ends.size(); i += 2) {
@@ -111,8 +129,8 @@ class Sectioner {
 
   /// By place on the line; where edges leave one point of the plane, by where they are just above
   /// it.
-  void sort_along(std::span<End> ends) const {
-    const Vec3 line = cross(axis_, world_.planes.normal(body_.facet(ends[0].facet).side));
+  void sort_along(int facet, std::span<End> ends) const {
+    const Vec3 line = cross(axis_, world_.planes.normal(body_.facet(facet).side));
     for (End& end : ends) {
       const Crossing& crossing = section_.crossings[at(end.crossing)];
       const Vec3 up = body_.at(crossing.edge) - crossing.at;
@@ -224,6 +242,7 @@ class Sectioner {
   void judge(Region& region) {
     const Side split = section_.split_side(region);
     region.new_area = region.area;
+    if (body_.area_on(split) <= 0) return;
     take_off_covered(region, split ^ 1);
     region.is_candidate = !is_sliver(outline(region.loops[0]), region.new_area);
     region.is_natural = std::ranges::all_of(region.loops, [&](int l) { return is_natural(l); });
@@ -267,7 +286,9 @@ class Sectioner {
 
   const Boundary& body_;
   World& world_;
+  std::span<const int> edges_;
   SectionOptions options_;
+  Scratch& scratch_;
   Vec3 axis_;
   std::span<const int> ranks_;
   int plane_rank_;
@@ -287,8 +308,9 @@ Outline outline_of(const Section& section, int loop) {
   return points;
 }
 
-Section section_at(const Boundary& body, int plane, int direction, const SectionOptions& options) {
-  return Sectioner(body, plane, direction, options).run();
+Section section_at(const Boundary& body, int plane, int direction, std::span<const int> edges,
+                   const SectionOptions& options, Scratch& scratch) {
+  return Sectioner(body, plane, direction, edges, options, scratch).run();
 }
 
 }  // namespace oriel::detail

@@ -2,6 +2,7 @@
 
 #include "kernel/segment/detail/boundary.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -61,6 +62,21 @@ struct Section {
 /// A loop of a section as points.
 Outline outline_of(const Section& section, int loop);
 
+/// Room for sections and floods, kept from one to the next: what is stamped with an older number
+/// counts as empty.
+struct Scratch {
+  /// A number that nothing in `stamps` has yet, with room for `size` entries.
+  static int stamp(std::vector<int>& stamps, int size, int& last) {
+    if (std::ssize(stamps) < size) stamps.resize(static_cast<std::size_t>(size), 0);
+    return ++last;
+  }
+
+  std::vector<int> facet_stamps, edge_stamps;
+  int last_facet_stamp = 0, last_edge_stamp = 0;
+  std::vector<int> first_end;         ///< by facet
+  std::vector<int> crossing_of_edge;  ///< by half-edge
+};
+
 /// What a section needs to know beside the body.
 struct SectionOptions {
   /// Chords in facets of this side are as good as edges (-1: none): the ground.
@@ -69,9 +85,11 @@ struct SectionOptions {
   double weld_m = 0;
 };
 
-/// Makes the section. The air around the body has no region. A body whose crossings do not
-/// alternate along a facet (possible only where vertices lie on planes by decree) gives no loops
-/// and no regions.
-Section section_at(const Boundary& body, int plane, int direction, const SectionOptions& options);
+/// Makes the section. `edges` holds at least one half-edge of every edge that crosses the plane;
+/// dead ones and others do no harm. The air around the body has no region. A body whose crossings
+/// do not alternate along a facet (possible only where vertices lie on planes by decree) gives no
+/// loops and no regions.
+Section section_at(const Boundary& body, int plane, int direction, std::span<const int> edges,
+                   const SectionOptions& options, Scratch& scratch);
 
 }  // namespace oriel::detail
