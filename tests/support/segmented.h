@@ -72,4 +72,16 @@ inline FeatureId feature_in(const Segmentation& segmentation, Vec3 min, Vec3 max
   return {};
 }
 
+/// The volume that the solid has without these features (ascending); the volume of each is with
+/// what was found in it.
+inline double volume_without(const Segmented& s, const std::vector<FeatureId>& gone) {
+  double volume = volume_m3(s.solid);
+  for (const FeatureId id : gone) {
+    const Feature& f = s.segmentation.features[id.index()];
+    if (f.parent.is_valid() && std::ranges::binary_search(gone, f.parent)) continue;
+    volume += f.sense == Sense::protrusion ? -f.volume_m3 : f.volume_m3;
+  }
+  return volume;
+}
+
 }  // namespace oriel::test

@@ -16,6 +16,7 @@ using doctest::Approx;
 using test::all_features;
 using test::segmented;
 using test::Segmented;
+using test::volume_without;
 
 Remainder removed(const Segmented& s, const std::vector<FeatureId>& features,
                   const SegmentOptions& options = {}) {
@@ -40,19 +41,6 @@ void check_remainder(const Segmented& s, const Remainder& rest) {
   }
 }
 
-/// The volume that the solid has without these features, where each top one takes all within it
-/// along.
-double volume_without(const Segmented& s, const std::vector<FeatureId>& gone) {
-  double volume = volume_m3(s.solid);
-  for (const FeatureId id : gone) {
-    const Feature& f = s.segmentation.features[id.index()];
-    if (f.parent.is_valid() && std::ranges::binary_search(gone, f.parent)) continue;
-    volume += f.sense == Sense::protrusion ? -f.volume_m3 : f.volume_m3;
-  }
-  return volume;
-}
-
-/// `Feature::volume_m3` is that of the part with what is in it, so this holds of all bodies.
 std::size_t plain_facets(const Building& plain) { return test::solid_of(plain).facets.size(); }
 
 TEST_SUITE("kernel/segment") {
