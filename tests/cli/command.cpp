@@ -72,7 +72,8 @@ void send_signal(pid_t child, const Surroundings& around) {
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  std::signal(SIGPIPE, SIG_DFL);
+  // Whoever runs the tests may ignore signals (nohup, a job in the background).
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) std::signal(signal, SIG_DFL);
   if (around.file_limit > 0) {
     const rlimit limit{around.file_limit, around.file_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);

@@ -97,6 +97,48 @@ TEST_SUITE("generalise") {
     }
   }
 
+  TEST_CASE("no part of more than half of the building goes") {
+    // Under a roof that juts out the walls are a feature of 10.92 m: at 1:25000 too small.
+    const Line line = line_of_sample("hip");
+    const auto main = std::ranges::find_if(line.segmentation.features, [&](const Feature& f) {
+      return f.sense == Sense::protrusion && f.volume_m3 > volume_m3(line.solid) / 2;
+    });
+    REQUIRE(main != line.segmentation.features.end());
+    const FeatureId id{static_cast<int>(main - line.segmentation.features.begin())};
+    const Coarser coarser = generalised(line, 25000);
+    CHECK(std::ranges::find(coarser.plan.steps, id, &Step::feature) != coarser.plan.steps.end());
+    CHECK(!std::ranges::binary_search(coarser.generalised.removed, id));
+    REQUIRE(coarser.issues.size() == 1);
+    CHECK(coarser.issues[0].severity == Severity::warning);
+    CHECK(coarser.issues[0].place.feature == line.table().id(id));
+    CHECK(coarser.issues[0].sentence ==
+          "is not omitted at 1:25000: more than half of the building would go");
+  }
+
+  TEST_CASE("no sample loses more than a tenth of its volume at any scale") {
+    for (const std::string& name : samples()) {
+      const Line line = line_of_sample(name);
+      for (const double scale : {5000., 10000., 25000., 50000.}) {
+        CAPTURE(name);
+        CAPTURE(scale);
+        CHECK(volume_m3(generalised(line, scale).generalised.solid) > 0.9 * volume_m3(line.solid));
+      }
+    }
+  }
+
+  TEST_CASE("a sample without all its features is a convex body") {
+    for (const std::string& name : samples()) {
+      if (name == "hip") continue;  // see above
+      CAPTURE(name);
+      const Line line = line_of_sample(name);
+      const Remainder rest = without_all(line);
+      CHECK(rest.refused.empty());
+      CHECK(is_closed(rest.solid));
+      CHECK(rest.solid.facets.size() <= 7);
+      CHECK(segment(line.building(), rest.solid).features.empty());
+    }
+  }
+
   TEST_CASE("steps of other operators are not omissions") {
     const Line line = line_of(block().remove({2, 0, 1}, {3, 0.2, 2}).build());
     const Remainder rest =
