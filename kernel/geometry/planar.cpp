@@ -82,29 +82,33 @@ std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 norma
   for (const Outline& outline : outlines)
     for (const Vec3 p : outline) levels.push_back(p.*axes.v);
   std::ranges::sort(levels);
-  // The middle of the tallest gap between vertices: the line there meets no vertex.
-  double level = 0, tallest = 0;
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    if (levels[i] - levels[i - 1] <= tallest) continue;
-    tallest = levels[i] - levels[i - 1];
-    level = (levels[i] + levels[i - 1]) / 2;
+  struct Gap {
+    double height, middle;
+  };
+  std::vector<Gap> gaps;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i] > levels[i - 1])
+      gaps.push_back({levels[i] - levels[i - 1], (levels[i] + levels[i - 1]) / 2});
+  std::ranges::stable_sort(gaps, std::greater{}, &Gap::height);
+  // The middle of the tallest gap between vertices: the line there meets no vertex. Where outlines
+  // run over each other there is nothing inside, and the next gap is tried.
+  for (const Gap& gap : gaps) {
+    const std::vector<double> cuts = crossings(outlines, axes, gap.middle);
+    double longest = kThin_m;
+    std::optional<Vec3> point;
+    for (std::size_t i = 1; i < cuts.size(); i += 2) {
+      if (cuts[i] - cuts[i - 1] <= longest) continue;
+      longest = cuts[i] - cuts[i - 1];
+      point = Vec3{};
+      (*point).*axes.u = (cuts[i] + cuts[i - 1]) / 2;
+      (*point).*axes.v = gap.middle;
+    }
+    if (!point) continue;
+    const double missing = dot(outlines.front().front(), normal) - dot(*point, normal);
+    (*point).*axes.dropped = missing / (normal.*axes.dropped);
+    return point;
   }
-  if (tallest == 0) return std::nullopt;
-  const std::vector<double> cuts = crossings(outlines, axes, level);
-  double longest = 0;
-  Vec3 point;
-  for (std::size_t i = 1; i < cuts.size(); i += 2) {
-    if (cuts[i] - cuts[i - 1] <= longest) continue;
-    longest = cuts[i] - cuts[i - 1];
-    point.*axes.u = (cuts[i] + cuts[i - 1]) / 2;
-    point.*axes.v = level;
-  }
-  if (longest == 0) return std::nullopt;
-  const Vec3 on_plane = outlines.front().front();
-  point.*axes.dropped = 0;
-  const double missing = dot(on_plane, normal) - dot(point, normal);
-  point.*axes.dropped = missing / (normal.*axes.dropped);
-  return point;
+  return std::nullopt;
 }
 
 double winding_part(std::span<const Outline> outlines, Vec3 eye) {

@@ -25,8 +25,9 @@ double perimeter(const Outline& outline);
 /// Points on an outline may fall on either side.
 bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point);
 
-/// A point inside the figure, as far from its outlines as the longest chord through the middle of
-/// its height allows; nothing if the figure has no area.
+/// A point inside the figure, as far from its outlines as the longest chord at the middle of the
+/// tallest gap between its vertices allows. Outlines may run over each other. Nothing if the figure
+/// has no area, or is thinner than kThin_m.
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal);
 
 /// The solid angle under which the figure is seen from `eye`, as a part of the full sphere:

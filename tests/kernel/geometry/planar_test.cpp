@@ -99,6 +99,20 @@ TEST_SUITE("kernel/geometry") {
     }
   }
 
+  TEST_CASE("an interior point is found where outlines run over each other in the tallest part") {
+    for (const Drawing& d : drawings())
+      for (const bool is_turned : {false, true}) {
+        const std::vector<Outline> lying{d.rectangle(0, 0, 2, 5), d.turned_rectangle(0, 1, 2, 5)};
+        const std::vector<Outline> upright{d.rectangle(0, 0, 5, 2), d.turned_rectangle(1, 0, 5, 2)};
+        const auto& figure = is_turned ? upright : lying;
+        const auto point = interior_point(figure, d.normal());
+        REQUIRE(point);
+        const Vec3 from = *point - d.origin;
+        CHECK(dot(from, is_turned ? d.u : d.v) > 1e-3);
+        CHECK(dot(from, is_turned ? d.u : d.v) < 1);
+      }
+  }
+
   TEST_CASE("a figure without area has no interior point") {
     const Drawing d = drawings()[2];
     CHECK_FALSE(interior_point(std::vector<Outline>{}, d.normal()));
