@@ -95,8 +95,7 @@ class Segmenter {
       const auto choice = chooser.next();
       if (!choice)
         return add_leaf(task, task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own);
-      const std::vector<int> touched = cut(task, *choice);
-      chooser.changed_at(touched);
+      chooser.changed(cut(task, *choice));
       if (may_have_parted_) {
         may_have_parted_ = false;
         if (!is_connected(task.body)) return hang_rest(std::move(task));
@@ -140,8 +139,8 @@ class Segmenter {
   }
 
   /// Carries out a choice: makes its node and the parts' tasks, and leaves the rest in the task.
-  /// Returns what was touched.
-  std::vector<int> cut(Task& task, const Choice& choice) {
+  /// Returns what has changed.
+  std::vector<detail::Change> cut(Task& task, const Choice& choice) {
     CsgNode& here = node(task.node);
     here.kind = choice.is_hole ? CsgNode::Kind::subtract : CsgNode::Kind::unite;
     here.value = choice.value;
@@ -151,22 +150,24 @@ class Segmenter {
     const NodeId rest = add_node();
     node(task.node).rest = {rest};
 
-    std::vector<int> touched;
+    std::vector<detail::Change> changes;
     for (const detail::Lump& lump : choice.lumps) {
+      std::vector<int> touched;
       const auto caps = imprint(task.body, *choice.section, lump, touched);
       std::size_t loops = 0;
       for (const detail::Cap& cap : caps) loops += cap.loops.size() + cap.covered.size();
       may_have_parted_ |= loops > 1;
-      take_off_part(task, choice, caps, {lump.new_area, lump.value}, touched);
+      changes.push_back(
+          take_off_part(task, choice, caps, {lump.new_area, lump.value}, std::move(touched)));
     }
     for (const detail::Patch& patch : choice.patches) {
       may_have_parted_ = true;
-      take_off_part(task, choice, patch.caps, {patch.new_area, patch.new_area / patch.old_area},
-                    touched);
+      changes.push_back(take_off_part(task, choice, patch.caps,
+                                      {patch.new_area, patch.new_area / patch.old_area}, {}));
     }
     parent_of_rest_ = task.node;
     task.node = rest;
-    return touched;
+    return changes;
   }
 
   struct Measures {
@@ -174,11 +175,11 @@ class Segmenter {
     double value;
   };
 
-  void take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
-                     Measures measures, std::vector<int>& touched) {
+  detail::Change take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
+                               Measures measures, std::vector<int> touched) {
     const FeatureId id{static_cast<int>(out_.features.size())};
     auto carved = take_off(task.body, caps, choice.is_hole, id, std::move(touched));
-    touched = std::move(carved.touched);
+    detail::Change change = change_of(carved, caps);
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
     std::ranges::stable_sort(caps, std::greater{},
                              [&](const detail::Cap& cap) { return area_of(cap); });
@@ -204,6 +205,21 @@ class Segmenter {
       for (const Side side : choice.sides) own_planes.push_back(side >> 1);
     add_part(task, std::move(carved.lump), is_material ? 1 : -1, std::move(feature),
              std::move(own_planes));
+    return change;
+  }
+
+  static detail::Change change_of(const detail::Carved& carved,
+                                  const std::vector<detail::Cap>& caps) {
+    detail::Change change{carved.touched, {}, {}};
+    const Boundary& part = carved.lump;
+    for (const int f : part.living_facets())
+      part.for_each_edge(f, [&](int e) { change.part.push_back(part.origin(e)); });
+    const bool is_simple = caps.size() == 1 && caps[0].loops.size() == 1 &&
+                           caps[0].covered.empty() && !caps[0].is_taken;
+    if (is_simple)
+      for (const detail::CapEdge& edge : caps[0].loops[0].edges)
+        change.rim.emplace_back(edge.from, edge.to);
+    return change;
   }
 
   [[nodiscard]] double area_of(const detail::Cap& cap) const {

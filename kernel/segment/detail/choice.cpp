@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -42,6 +43,16 @@ std::optional<double> strict_key(const Region&, double new_area, double old_area
   return value < limit ? std::optional(value) : std::nullopt;
 }
 
+/// No plane with this normal cuts a larger piece out of a box.
+double most_area(const Box& box, Vec3 normal) {
+  const Vec3 size = box.max - box.min;
+  double least = std::numeric_limits<double>::infinity();
+  if (normal.x != 0) least = std::min(least, size.y * size.z / std::abs(normal.x));
+  if (normal.y != 0) least = std::min(least, size.x * size.z / std::abs(normal.y));
+  if (normal.z != 0) least = std::min(least, size.x * size.y / std::abs(normal.z));
+  return least;
+}
+
 std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& own_planes) {
   std::vector<int> planes;
   for (const int f : body.living_facets()) planes.push_back(body.facet(f).side >> 1);
@@ -71,33 +82,87 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
     for (const int direction : {1, -1}) slots_.push_back({i, direction});
 }
 
-void Chooser::changed_at(const std::vector<int>& points) {
+void Chooser::changed(const std::vector<Change>& changes) {
   edges_.update();
-  const int classes = world_.planes.class_count();
-  std::vector<std::pair<int, int>> reach;  // least and most rank by class
-  for (int k = 0; k < classes; ++k) {
-    const auto ranks = world_.points.ranks(k);
-    int least = std::numeric_limits<int>::max(), most = -1;
-    for (const int p : points) {
-      least = std::min(least, ranks[at(p)]);
-      most = std::max(most, ranks[at(p)]);
+  for (const Change& change : changes) apply(change);
+}
+
+/// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
+void Chooser::apply(const Change& change) {
+  Box part;
+  for (const int p : change.part) part.grow(world_.points.at(p));
+  const auto place = [&](int plane) {
+    return std::pair(world_.planes.class_of(plane), world_.planes.rank_of(plane));
+  };
+  for (int k = 0; k < world_.planes.class_count(); ++k) {
+    const auto rank = world_.points.ranks(k);
+    Reach reach;
+    for (const int p : change.points) reach.ranks.push_back(rank[at(p)]);
+    std::ranges::sort(reach.ranks);
+    const auto first =
+        std::ranges::lower_bound(planes_, std::pair(k, reach.ranks.front()), {}, place);
+    const auto last =
+        std::ranges::upper_bound(planes_, std::pair(k, reach.ranks.back()), {}, place);
+    if (first >= last) continue;
+    reach.part_low = std::numeric_limits<int>::max();
+    for (const int p : change.part) {
+      reach.part_low = std::min(reach.part_low, rank[at(p)]);
+      reach.part_high = std::max(reach.part_high, rank[at(p)]);
     }
-    reach.emplace_back(least, most);
+    for (auto plane = first; plane != last; ++plane)
+      for (std::size_t flip = 0; flip < 2; ++flip)
+        touch(slots_[2 * static_cast<std::size_t>(plane - planes_.begin()) + flip], change, reach,
+              part);
   }
-  for (Slot& slot : slots_) {
-    const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
-    const auto& [least, most] = reach[at(world_.planes.class_of(plane))];
-    if (least <= rank && rank <= most) slot.is_stale = true;
+}
+
+/// An idle section stays idle if the change has no point on its plane and the part either is not
+/// met by it, or meets it in one piece that its cap closes with one chord: then one stretch of one
+/// loop is replaced by that chord. No loop is made, none becomes natural, and areas change by no
+/// more than that of the piece.
+void Chooser::touch(Slot& slot, const Change& change, const Reach& reach, const Box& part) const {
+  slot.is_stale = true;
+  if (!slot.is_idle) return;
+  const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
+  slot.is_idle = false;
+  if (change.rim.empty() || std::ranges::binary_search(reach.ranks, rank)) return;
+  if (rank > reach.part_low && rank < reach.part_high) {
+    const auto ranks = world_.points.ranks(world_.planes.class_of(plane));
+    const auto chords = std::ranges::count_if(change.rim, [&](const std::pair<int, int>& edge) {
+      return (ranks[at(edge.first)] < rank) != (ranks[at(edge.second)] < rank);
+    });
+    if (chords != 2) return;
+    const double area = most_area(part, world_.planes.plane(plane).normal);
+    for (double& margin : slot.margins) margin -= area;
+    if (slot.margins[0] <= 0 || slot.margins[1] <= 0) return;
+  }
+  slot.is_idle = true;
+}
+
+/// Nothing to cut: no region is natural or smaller than the old area.
+void Chooser::judge_idle(Slot& slot) const {
+  const Section& section = slot.section;
+  slot.margins.fill(std::numeric_limits<double>::infinity());
+  slot.is_idle = section.crossings.empty() || !section.loops.empty();
+  for (const Region& region : section.regions) {
+    const double old = old_area(section, region);
+    if (old <= 0) continue;
+    double& margin = slot.margins[region.is_material ? 0 : 1];
+    margin = std::min(margin, region.new_area - old);
+    slot.is_idle &= !region.is_natural && margin > 0;
   }
 }
 
 void Chooser::refresh() {
   for (Slot& slot : slots_) {
     const int plane = planes_[slot.entry];
-    if (body_.area_on(2 * plane) <= 0 && body_.area_on(2 * plane + 1) <= 0)
+    if (body_.area_on(2 * plane) <= 0 && body_.area_on(2 * plane + 1) <= 0) {
       slot.section = {};
-    else if (slot.is_stale)
+      slot.is_stale = true;
+      slot.is_idle = false;
+    } else if (slot.is_stale && !slot.is_idle) {
       refresh(slot);
+    }
   }
 }
 
@@ -107,6 +172,7 @@ void Chooser::refresh(Slot& slot) {
   slot.section = section_at(body_, plane, slot.direction, edges,
                             {free_side_, options_.tolerances.weld_m}, scratch_);
   slot.is_stale = false;
+  judge_idle(slot);
   work_ += std::ssize(edges);
   const Side looking = 2 * plane + (slot.direction > 0 ? 0 : 1);
   if (body_.area_on(looking) > 0) ++stats_.protrusion_tests;
@@ -212,7 +278,8 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
 
 std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch>& rivals) {
   std::vector<Candidate> candidates;
-  for (Slot& slot : slots_)
+  for (Slot& slot : slots_) {
+    if (slot.is_idle) continue;
     for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
       const Region& region = slot.section.regions[at(r)];
       const double old = region.is_candidate ? old_area(slot.section, region) : 0;
@@ -220,6 +287,7 @@ std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch
       if (const auto value = key(region, region.new_area, old, limit()))
         candidates.push_back({&slot, r, *value, false, {}});
     }
+  }
   check_leaders(candidates, key);
   std::optional<Choice> best;
   std::map<std::pair<const Slot*, bool>, bool> is_done;

@@ -7,8 +7,10 @@
 #include "kernel/segment/detail/section.h"
 #include "kernel/segment/segment.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
@@ -29,8 +31,20 @@ struct Choice {
   std::vector<Patch> patches;  ///< for several
 };
 
+/// What one part that was taken off has changed in the body.
+struct Change {
+  /// The points of everything that has changed; an edge without any of them is as it was.
+  std::vector<int> points;
+  /// The points of the part.
+  std::vector<int> part;
+  /// The edges around its cap, if it has a single one with a single outline that covers nothing;
+  /// else none.
+  std::vector<std::pair<int, int>> rim;
+};
+
 /// Finds the best cut of one body, step after step. Sections of planes that a cut has not touched
-/// are kept.
+/// are kept; so is the knowledge that there is nothing to cut at a plane, as long as what was
+/// changed there is too small to matter (docs/segmentation.md).
 class Chooser {
  public:
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
@@ -42,8 +56,8 @@ class Chooser {
   /// The best cut by the order, or nothing: the body is a leaf.
   std::optional<Choice> next();
 
-  /// Tells that the body has changed at these points and nowhere else.
-  void changed_at(const std::vector<int>& points);
+  /// Tells that the body has changed in this way and no other.
+  void changed(const std::vector<Change>& changes);
 
  private:
   /// A split plane seen from one side.
@@ -52,6 +66,15 @@ class Chooser {
     int direction;
     bool is_stale = true;
     Section section{};
+    /// Nothing can be cut here. Of material and of air, the area by which the smallest region is
+    /// too large.
+    bool is_idle = false;
+    std::array<double, 2> margins{};
+  };
+  /// What a change means to the planes of one normal class.
+  struct Reach {
+    std::vector<int> ranks;            ///< of all points, ascending
+    int part_low = 0, part_high = -1;  ///< ranks of the part
   };
   /// A region as a candidate of the pass at hand.
   struct Candidate {
@@ -69,6 +92,9 @@ class Chooser {
   std::optional<Choice> paper_next();
   std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
   void refresh(Slot& slot);
+  void judge_idle(Slot& slot) const;
+  void apply(const Change& change);
+  void touch(Slot& slot, const Change& change, const Reach& reach, const Box& part) const;
   void check_leaders(std::vector<Candidate>& candidates, Key key) const;
   bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order,
