@@ -192,7 +192,7 @@ std::optional<Choice> Chooser::natural_next() {
   const std::vector<Patch> protrusions =
       options_.max_order > 1 ? patches(false) : std::vector<Patch>{};
   for (int order = 2; order <= options_.max_order; ++order)
-    if (auto choice = best_patch_cut(protrusions, order, order, true)) return choice;
+    if (auto choice = best_patch_cut(protrusions, order, order)) return choice;
   if (auto choice = best_section_cut(wide_natural_key, {})) return choice;
   return best_section_cut(strict_key,
                           options_.max_order > 1 ? patches(true) : std::vector<Patch>{});
@@ -203,7 +203,7 @@ std::optional<Choice> Chooser::paper_next() {
   if (options_.max_order == 1) return std::nullopt;
   const std::vector<Patch> holes = patches(true);
   for (int order = 2; order <= options_.max_order; ++order)
-    if (auto choice = best_patch_cut(holes, order, order, false)) return choice;
+    if (auto choice = best_patch_cut(holes, order, order)) return choice;
   return std::nullopt;
 }
 
@@ -302,7 +302,7 @@ std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch
     Choice choice = choice_of(candidates, i);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }
-  if (auto rival = best_patch_cut(rivals, 2, options_.max_order, true);
+  if (auto rival = best_patch_cut(rivals, 2, options_.max_order);
       rival && (!best || is_better(*rival, *best)))
     return rival;
   return best;
@@ -335,25 +335,24 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
 }
 
 std::optional<Choice> Chooser::best_patch_cut(std::vector<Patch> patches, int min_order,
-                                              int max_order, bool is_natural) {
+                                              int max_order) {
   std::erase_if(patches, [&](const Patch& p) {
     const int order = static_cast<int>(p.sides().size());
     return order < min_order || order > max_order || p.new_area / p.old_area >= limit();
   });
   std::optional<Choice> best;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    Choice choice = choice_of(patches, i, is_natural);
+    Choice choice = choice_of(patches, i);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }
   return best;
 }
 
-Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader,
-                          bool is_natural) const {
+Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader) const {
   const Patch& first = patches[leader];
   Choice choice;
   choice.is_hole = first.is_hole;
-  choice.is_natural = is_natural;
+  choice.is_natural = true;
   choice.old_area = first.old_area;
   choice.value = choice.quality = first.new_area / first.old_area;
   choice.sides = first.sides();

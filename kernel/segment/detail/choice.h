@@ -97,10 +97,9 @@ class Chooser {
   void touch(Slot& slot, const Change& change, const Reach& reach, const Box& part) const;
   void check_leaders(std::vector<Candidate>& candidates, Key key) const;
   bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
-  std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order,
-                                       bool is_natural);
+  std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
-  Choice choice_of(const std::vector<Patch>& patches, std::size_t leader, bool is_natural) const;
+  Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
   [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
   std::vector<Patch> patches(bool is_hole);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
