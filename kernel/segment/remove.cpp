@@ -254,7 +254,7 @@ class FeatureRemover {
     return polygons;
   }
 
-  /// A feature that is to stay would lose all its surface with the lump.
+  /// A feature that is to stay would lose all its surface with the lump, or lies inside it.
   [[nodiscard]] bool takes_others_along(const Boundary& lump, const Boundary& rest,
                                         const Feature& f) const {
     const std::set<int> kept = polygons_of(rest);
@@ -262,11 +262,21 @@ class FeatureRemover {
     std::erase_if(lost, [&](int polygon) { return kept.contains(polygon); });
     for (std::size_t i = 0; i < segmentation_.features.size(); ++i) {
       const Feature& other = segmentation_.features[i];
+      if (!go_[i] && other.sense == Sense::cavity && f.sense == Sense::protrusion &&
+          is_inside(lump, segmentation_.vertices[at(other.vertices.front())].point))
+        return true;
       if (go_[i] || other.source_polygons.empty() || carries(other, f)) continue;
       if (std::ranges::all_of(other.source_polygons, [&](int p) { return lost.contains(p); }))
         return true;
     }
     return false;
+  }
+
+  [[nodiscard]] static bool is_inside(const Boundary& body, Vec3 point) {
+    double winding = 0;
+    for (const int facet : body.living_facets())
+      winding += detail::winding_part(body.outlines(facet), point);
+    return winding > 0.5;
   }
 
   /// `outer` carries `inner`, directly or over others.

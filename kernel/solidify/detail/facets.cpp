@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -110,7 +111,8 @@ class Drafter {
   }
 
   /// A vertex is kept if three facets or more meet at it. A loop that would keep fewer than three
-  /// keeps all, and so may its neighbours then.
+  /// keeps all, and so may its neighbours then. Where two edges would run from the same vertex to
+  /// the same other one, all between them is kept: an edge is known by its ends.
   void choose_vertices() {
     std::vector<int> degree(shell_.mesh.n_vertices(), 0);
     for (const auto h : shell_.mesh.halfedges())
@@ -125,7 +127,42 @@ class Drafter {
         for (const int v : loop) is_kept_[at(v)] = 1;
         has_changed = true;
       }
+      has_changed |= keep_between_equal_ends();
     }
+  }
+
+  /// Of edges with the same ends keeps the vertices between; true if there were any.
+  bool keep_between_equal_ends() {
+    struct Edge {
+      int from, to;
+      const Loop* loop;
+      std::size_t start;  ///< the place of `from` in the loop
+    };
+    std::vector<Edge> edges;
+    for (const auto& [facet, loop] : loops_)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (!is_kept_[at(loop[i])]) continue;
+        std::size_t next = i + 1;
+        while (!is_kept_[at(loop[next % loop.size()])]) ++next;
+        edges.push_back({loop[i], loop[next % loop.size()], &loop, i});
+      }
+    std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.from, e.to); });
+    bool has_changed = false;
+    const auto keep_between = [&](const Edge& edge) {
+      for (std::size_t i = edge.start + 1;; ++i) {
+        const int v = (*edge.loop)[i % edge.loop->size()];
+        if (v == edge.to) return;
+        is_kept_[at(v)] = 1;
+        has_changed = true;
+      }
+    };
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      if (std::pair(edges[i - 1].from, edges[i - 1].to) != std::pair(edges[i].from, edges[i].to))
+        continue;
+      keep_between(edges[i - 1]);
+      keep_between(edges[i]);
+    }
+    return has_changed;
   }
 
   const Soup& soup_;

@@ -67,7 +67,7 @@ TEST_SUITE("kernel/segment") {
 
   TEST_CASE("features come off random bodies and the books are kept") {
     std::size_t asked = 0, refused = 0;
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
       CAPTURE(seed);
       if (!is_solid(random_body(seed))) continue;
       const Segmented s = segmented(random_body(seed));

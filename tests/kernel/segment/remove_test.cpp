@@ -162,6 +162,27 @@ TEST_SUITE("kernel/segment") {
     CHECK(std::ranges::none_of(rest.solid.shells, &Shell::is_cavity));
   }
 
+  TEST_CASE(
+      "a part with a cavity that is to stay is refused and goes with it if both are asked for") {
+    const Segmented s = segmented(test::BoxBody()
+                                      .add({0, 0, 0}, {10, 8, 6})
+                                      .add({3, 3, 6}, {6, 6, 9})
+                                      .remove({4, 4, 7}, {5, 5, 8})
+                                      .build());
+    const FeatureId tower = test::feature_in(s.segmentation, {3, 3, 6}, {6, 6, 9});
+    const FeatureId cavity = test::feature_in(s.segmentation, {4, 4, 7}, {5, 5, 8});
+    REQUIRE(tower.is_valid());
+    REQUIRE(cavity.is_valid());
+    const Remainder one = removed(s, {tower});
+    CHECK(one.removed.empty());
+    REQUIRE(one.refused.size() == 1);
+    CHECK(volume_m3(one.solid) == Approx(volume_m3(s.solid)).epsilon(1e-12));
+    const Remainder both = removed(s, {tower, cavity});
+    CHECK(both.removed.size() == 2);
+    CHECK(volume_m3(both.solid) == Approx(480).epsilon(1e-12));
+    CHECK(both.solid.facets.size() == 6);
+  }
+
   TEST_CASE("what sits on a refused feature stays with it") {
     // The step under the setback cannot be filled while the niche through its edge stays; the
     // niche in the wall behind it went first.
