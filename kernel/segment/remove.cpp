@@ -223,14 +223,14 @@ class FeatureRemover {
   std::optional<std::string> take(Boundary& body, Boundary trial,
                                   const std::vector<detail::Cap>& caps, const Feature& f) {
     const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
-    if (!is_within(carved.lump, f.box)) return "its cut would take more than the feature";
+    if (!is_within(carved.lump, f)) return "its cut would take more than the feature";
     if (takes_others_along(carved.lump, trial, f)) return "a feature that stays would go with it";
     body = std::move(trial);
     return std::nullopt;
   }
 
-  /// A cut that was made in a part may, made in the whole, meet far more.
-  [[nodiscard]] bool is_within(const Boundary& lump, const Box& box) const {
+  /// A cut that was made in a part, or after others, may meet more when it is made in the whole.
+  [[nodiscard]] bool is_within(const Boundary& lump, const Feature& f) const {
     Box of_lump;
     for (const int facet : lump.living_facets())
       lump.for_each_edge(facet, [&](int e) { of_lump.grow(world_.points.at(lump.origin(e))); });
@@ -239,8 +239,9 @@ class FeatureRemover {
       return p.x >= q.x && p.y >= q.y && p.z >= q.z;
     };
     const Vec3 slack{slack_m, slack_m, slack_m};
-    return all_not_below(of_lump.min, box.min - slack) &&
-           all_not_below(box.max + slack, of_lump.max);
+    return lump.volume() <= f.volume_m3 + slack_m * f.surface_m2 &&
+           all_not_below(of_lump.min, f.box.min - slack) &&
+           all_not_below(f.box.max + slack, of_lump.max);
   }
 
   /// The input polygons that have a share in the boundary.
