@@ -191,10 +191,13 @@ class Remover {
       if (!caps_[i].is_taken && (largest < 0 || body_.area(facets[i]) > body_.area(largest)))
         largest = facets[i];
     const auto shape = body_.outlines(largest);
-    if (const auto inside =
-            interior_point(shape, body_.world().planes.normal(body_.facet(largest).side))) {
-      body_.add_mark(largest, {mark, *inside});
-      cap_point_ = *inside;
+    const Side side = body_.facet(largest).side;
+    const Vec3 normal = body_.world().planes.normal(side);
+    if (const auto inside = interior_point(shape, normal)) {
+      // The first vertex of the outline may lie on its plane by decree only.
+      const double off = dot(normal, *inside) - body_.world().planes.offset_m(side);
+      cap_point_ = *inside - off * normal;
+      body_.add_mark(largest, {mark, cap_point_});
     }
   }
 
