@@ -10,6 +10,8 @@ struct Exactness {
   /// How far vertices may lie from their planes: those of valence above three by decree.
   double planarity_m = 1e-6;
   int samples = 200;
+  /// False for surveyed models: cells may be slivers that the tolerances turn inside out.
+  bool has_sound_cells = true;
 };
 
 /// Everything that holds for every segmentation, whatever the body and the order: see segment().

@@ -48,7 +48,7 @@ Building sloped_body(std::uint64_t seed) {
 TEST_SUITE("kernel/segment") {
   TEST_CASE("random sloped bodies are the sum of their cells and lose features by the book") {
     std::size_t features = 0, refused = 0, solids = 0;
-    for (std::uint64_t seed = 0; seed < 80; ++seed) {
+    for (std::uint64_t seed = 0; seed < 120; ++seed) {
       CAPTURE(seed);
       const Building building = sloped_body(seed);
       if (!solidify(building, {}).value) continue;
