@@ -112,6 +112,9 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
         Severity::warning, "E309", building.id,
         fmt::format("{} facets are thinner than the tolerances ({} m) and were swallowed",
                     swallowed, tolerances.plane_offset_m)));
+  if (solid.facets.empty())
+    out.issues.push_back(error(building, "E310", "nothing is left that encloses a volume"));
+  if (is_set_aside()) return out;
   detail::arrange_shells(solid, draft.component, hints, building.id, out.issues);
   if (!is_set_aside() && !is_closed(solid))
     out.issues.push_back(error(

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/snap.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace oriel::detail {
@@ -120,8 +121,18 @@ class Snapper {
     return has_changed;
   }
 
+  /// The same vertices the other way round, from the same start.
+  static Loop reversed(Loop loop) {
+    std::reverse(loop.begin() + 1, loop.end());
+    return loop;
+  }
+
+  /// Facets without a loop vanish, and so do pairs that lie back to back: the two sides of a fin
+  /// that is thinner than the tolerances.
   int drop_degenerate() {
     int dropped = 0;
+    std::map<Loop, std::size_t> place_of_loop;  // of facets with one loop, among those kept
+    std::vector<char> is_folded;
     std::vector<int> component;
     std::vector<Facet> facets;
     for (std::size_t f = 0; f < draft_.facets.size(); ++f) {
@@ -132,9 +143,27 @@ class Snapper {
         ++dropped;
         continue;
       }
+      is_folded.push_back(0);
+      if (facet.loops.size() == 1) {
+        place_of_loop[facet.loops[0]] = facets.size();
+        const auto other = place_of_loop.find(reversed(facet.loops[0]));
+        if (other != place_of_loop.end()) is_folded.back() = is_folded[other->second] = 1;
+      }
       facets.push_back(std::move(facet));
       component.push_back(draft_.component[f]);
     }
+    dropped += static_cast<int>(std::ranges::count(is_folded, 1));
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      if (is_folded[f]) continue;
+      if (kept != f) {
+        facets[kept] = std::move(facets[f]);
+        component[kept] = component[f];
+      }
+      ++kept;
+    }
+    facets.resize(kept);
+    component.resize(kept);
     draft_.facets = std::move(facets);
     draft_.component = std::move(component);
     return dropped;

@@ -97,14 +97,17 @@ TEST_SUITE("kernel/solidify") {
     CHECK(outcome_of(test::building_of(quads)) == "E307");
   }
 
-  TEST_CASE("a shell folded flat encloses nothing") {
-    const Building building = test::building_of({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
-                                                 {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-                                                 {{0, 1, 0}, {1, 0, 0}, {0, 0, 0}},
-                                                 {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}}});
-    const std::string outcome = outcome_of(building);
-    CHECK_FALSE(has(outcome, "solid"));
-    CHECK_FALSE(outcome.empty());
+  TEST_CASE("a shell folded flat and a sheet of paper enclose nothing") {
+    const Building folded = test::building_of({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                                               {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                               {{0, 1, 0}, {1, 0, 0}, {0, 0, 0}},
+                                               {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}}});
+    const Building sheet = BoxBody().add({0, 0, 0}, {4, 4, 0.0015}).build();
+    for (const Building& building : {folded, sheet}) {
+      const std::string outcome = outcome_of(building);
+      CHECK_FALSE(has(outcome, "solid"));
+      CHECK(has(outcome, "E310"));
+    }
   }
 
   TEST_CASE("a cavity outside its solid is refused") {

@@ -156,6 +156,13 @@ TEST_SUITE("kernel/solidify") {
     }
   }
 
+  TEST_CASE("a fin thinner than the plane tolerance leaves no facets back to back") {
+    const Building fin = BoxBody().add({0, 0, 0}, {4, 4, 4}).add({4, 1, 1}, {6, 3, 1.0015}).build();
+    CHECK(outcome_of(fin) == "solid E309");
+    CHECK(solid_of(fin).facets.size() == 6);
+    CHECK(volume_m3(solid_of(fin)) == doctest::Approx(64).epsilon(1e-12));
+  }
+
   TEST_CASE("a recess deeper than the tolerance keeps its depth") {
     const Building building =
         BoxBody().add({0, 0, 0}, {4, 4, 4}).remove({1, 0, 1}, {2, 0.02, 2}).build();
