@@ -86,12 +86,15 @@ void OutputFile::open_temporary() {
   const std::string stem = target_ + ".tmp-" + std::to_string(::getpid()) + "-";
   for (int i = 0; i < kMaxTries; ++i) {
     const std::string name = stem + std::to_string(i);
+    listed_ = list_temporary(name);  // first, as a signal may come at any time
     descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
       temporary_ = name;
-      listed_ = list_temporary(name);
       return;
     }
+    const int reason = errno;
+    strike_temporary(std::exchange(listed_, -1));
+    errno = reason;
     if (errno != EEXIST) break;
   }
   fail(errno);
