@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -128,7 +129,8 @@ class Clusterer {
   struct CellHash {
     std::size_t operator()(const Cell& c) const noexcept {
       const auto [x, y, z] = c;
-      return static_cast<std::size_t>((x * 73856093) ^ (y * 19349663) ^ (z * 83492791));
+      const auto u = [](int i) { return static_cast<std::uint32_t>(i); };  // may wrap round
+      return (u(x) * 73856093U) ^ (u(y) * 19349663U) ^ (u(z) * 83492791U);
     }
   };
 
