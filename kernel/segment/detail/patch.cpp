@@ -424,7 +424,7 @@ class PatchFinder {
   std::int64_t& work_;
   std::vector<int> number_of_;  ///< by facet, the group it is in
   std::vector<Grown> grown_;
-  double surface_ = 0;  ///< of the body
+  double surface_ = 0;             ///< of the body
   std::vector<int> group_stamps_;  ///< the last widening that has met a group
   int last_stamp_ = 0;
   std::set<std::vector<int>> seen_;

@@ -1,3 +1,4 @@
+#include "tests/kernel/segment/invariants.h"
 #include "tests/support/houses.h"
 #include "tests/support/segmented.h"
 
@@ -128,23 +129,21 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("a cut that leaves two lumps gives its node a rest of two") {
-    const Segmented s = natural(test::BoxBody()
-                                    .add({0, 0, 0}, {3, 8, 3})
-                                    .add({5, 0, 0}, {8, 8, 3})
-                                    .add({3, 3, 1}, {5, 4, 2})
-                                    .remove({3.5, 2, 0}, {4.5, 5, 3})
-                                    .add({3, 3, 2}, {5, 4, 2.5})
-                                    .build());
-    CHECK(volume_m3(s.solid) > 0);
-    const Segmented bridge = natural(test::BoxBody()
-                                         .add({0, 0, 0}, {1, 1, 1})
-                                         .add({2, 0, 0}, {3, 1, 1})
-                                         .add({0, 0, 1}, {3, 1, 1.5})
-                                         .build());
-    bool has_parted = false;
-    for (const CsgNode& node : bridge.segmentation.nodes)
-      has_parted |= node.rest.size() > 1 || node.parts.size() > 1;
-    CHECK((has_parted || bridge.segmentation.features.size() == 1));
+    // A beam across two blocks.
+    for (const Order order : {Order::natural, Order::paper}) {
+      const Segmented s = test::segmented(test::BoxBody()
+                                              .add({0, 0, 0}, {4, 2, 1})
+                                              .add({6, 0, 0}, {10, 2, 1})
+                                              .add({3, 0.5, 1}, {7, 1.5, 2})
+                                              .build(),
+                                          order);
+      const CsgNode& root = s.segmentation.nodes[s.segmentation.root.index()];
+      CHECK(root.kind == CsgNode::Kind::unite);
+      CHECK(root.rest.size() == 2);
+      CHECK(root.parts.size() == 1);
+      CHECK(*root.quality == near(1.0 / 7));
+      test::check_segmentation(s);
+    }
   }
 }
 
