@@ -86,16 +86,23 @@ class Segmenter {
   /// Splits one body down to its leaf: each round is a node of the tree.
   void split(Task task) {
     take_out_cavities(task);
-    if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
-    detail::Chooser chooser(task.body, options_, ground_, task.own_planes, out_.stats, work_,
-                            scratch_);
+    std::optional<detail::Chooser> chooser;
     while (true) {
       if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
       if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
-      const auto choice = chooser.next();
+      if (!chooser)
+        chooser.emplace(task.body, options_, ground_, task.own_planes, out_.stats, work_, scratch_);
+      const auto choice = chooser->next();
       if (!choice)
         return add_leaf(task, task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own);
-      chooser.changed(cut(task, *choice));
+      if (choice->imprinted) task.body = *choice->imprinted;
+      const auto changes = cut(task, *choice);
+      if (choice->imprinted) {
+        remove_seams(task.body);
+        chooser.reset();
+      } else {
+        chooser->changed(changes);
+      }
       if (may_have_parted_) {
         may_have_parted_ = false;
         if (!is_connected(task.body)) return hang_rest(std::move(task));

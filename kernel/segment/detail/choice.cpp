@@ -189,21 +189,40 @@ std::optional<Choice> Chooser::next() {
 
 std::optional<Choice> Chooser::natural_next() {
   if (auto choice = best_section_cut(natural_key, {})) return choice;
-  const std::vector<Patch> protrusions =
-      options_.max_order > 1 ? patches(false) : std::vector<Patch>{};
-  for (int order = 2; order <= options_.max_order; ++order)
-    if (auto choice = best_patch_cut(protrusions, order, order)) return choice;
+  if (options_.max_order > 1)
+    if (auto choice = first_of_least_order(patches(false))) return choice;
   if (auto choice = best_section_cut(wide_natural_key, {})) return choice;
-  return best_section_cut(strict_key,
-                          options_.max_order > 1 ? patches(true) : std::vector<Patch>{});
+  if (options_.max_order == 1) return best_section_cut(strict_key, {});
+  if (auto choice = best_section_cut(strict_key, patches(true))) return choice;
+  return corner_cut({});
 }
 
 std::optional<Choice> Chooser::paper_next() {
   if (auto choice = best_section_cut(strict_key, {})) return choice;
   if (options_.max_order == 1) return std::nullopt;
-  const std::vector<Patch> holes = patches(true);
+  return corner_cut(patches(true));
+}
+
+/// The best cut with as few planes as possible.
+std::optional<Choice> Chooser::first_of_least_order(const std::vector<Patch>& patches) {
   for (int order = 2; order <= options_.max_order; ++order)
-    if (auto choice = best_patch_cut(holes, order, order)) return choice;
+    if (auto choice = best_patch_cut(patches, order, order)) return choice;
+  return std::nullopt;
+}
+
+/// The best hole with as few planes as possible, natural or not.
+std::optional<Choice> Chooser::corner_cut(const std::vector<Patch>& natural) {
+  for (int order = 2; order <= options_.max_order; ++order) {
+    std::vector<Patch> holes = find_corner_holes(
+        body_, order, own_planes_, options_.tolerances.weld_m, options_.budget, work_);
+    stats_.hole_tests += holes.size();
+    stats_.candidates += holes.size();
+    // Of a set of planes that splits facets all holes are there already.
+    for (const Patch& patch : natural)
+      if (std::ranges::none_of(holes, [&](const Patch& p) { return p.sides() == patch.sides(); }))
+        holes.push_back(patch);
+    if (auto choice = best_patch_cut(std::move(holes), order, order)) return choice;
+  }
   return std::nullopt;
 }
 
@@ -352,7 +371,8 @@ Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader)
   const Patch& first = patches[leader];
   Choice choice;
   choice.is_hole = first.is_hole;
-  choice.is_natural = true;
+  choice.is_natural = first.imprinted == nullptr;
+  choice.imprinted = first.imprinted;
   choice.old_area = first.old_area;
   choice.value = choice.quality = first.new_area / first.old_area;
   choice.sides = first.sides();

@@ -1,14 +1,15 @@
 #pragma once
 
 #include "kernel/model/segmentation.h"
+#include "kernel/segment/detail/corner_holes.h"
 #include "kernel/segment/detail/edge_index.h"
 #include "kernel/segment/detail/lump.h"
-#include "kernel/segment/detail/patch.h"
 #include "kernel/segment/detail/section.h"
 #include "kernel/segment/segment.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,6 +30,8 @@ struct Choice {
   const Section* section = nullptr;  ///< for one plane
   std::vector<Lump> lumps;
   std::vector<Patch> patches;  ///< for several
+  /// The body that the patches are of, if the cut splits facets.
+  std::shared_ptr<const Boundary> imprinted;
 };
 
 /// What one part that was taken off has changed in the body.
@@ -102,6 +105,8 @@ class Chooser {
   Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
   [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
   std::vector<Patch> patches(bool is_hole);
+  std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
+  std::optional<Choice> first_of_least_order(const std::vector<Patch>& patches);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
   [[nodiscard]] double old_area(const Section& section, const Region& region) const {
     return body_.area_on(section.split_side(region));
