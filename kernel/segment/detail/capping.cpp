@@ -109,29 +109,47 @@ class Capper {
     Side other;  ///< the plane to walk along next, if it does not
   };
 
+  /// From the caps `side` and `other` towards the inside of the corner's edge between them.
+  [[nodiscard]] Vec3 ahead(Side side, Side other) const {
+    const Vec3 line = cross(world_.planes.normal(side), world_.planes.normal(other));
+    const bool is_at_ground = side == component_.ground || other == component_.ground;
+    return corner_ == Corner::concave && !is_at_ground ? -line : line;
+  }
+
   /// The nearest point ahead on the line in which two planes meet: where the rim comes from `other`
   /// to `side`, or where a third plane of the corner meets them.
   std::optional<Stop> next_stop(Side side, Side other, int point) {
-    const Vec3 line = cross(world_.planes.normal(side), world_.planes.normal(other));
-    const bool is_at_ground = side == component_.ground || other == component_.ground;
-    const Vec3 ahead = corner_ == Corner::concave && !is_at_ground ? -line : line;
-    const double here = dot(ahead, world_.points.at(point));
+    const Vec3 direction = ahead(side, other);
+    const double here = dot(direction, world_.points.at(point));
     std::optional<Stop> nearest;
     double least = std::numeric_limits<double>::infinity();
     const auto offer = [&](const Stop& stop) {
-      const double distance = dot(ahead, world_.points.at(stop.point)) - here;
-      if (stop.point == point || distance <= 0 || distance >= least) return;
+      const double distance = dot(direction, world_.points.at(stop.point)) - here;
+      if (stop.point == point || distance <= 0 || distance > least) return;
+      // Where several planes meet, the walk goes on along the one that bounds the corner.
+      if (distance == least && (stop.rim < 0 && !bounds_corner(side, stop))) return;
       least = distance;
       nearest = stop;
     };
-    for (const Switch& s : switches_)
-      if (s.from == other && s.to == side) offer({s.point, s.rim, other});
     for (const Side third : component_.sides) {
       if (third == side || third == other) continue;
       const auto meeting = world_.points.meet(side >> 1, other >> 1, third >> 1);
       if (meeting && is_on_corner(*meeting)) offer({*meeting, -1, third});
     }
+    for (const Switch& s : switches_)
+      if (s.from == other && s.to == side) offer({s.point, s.rim, other});
     return nearest;
+  }
+
+  /// The edge between `side` and the stop's plane leads from the stop along the corner, not out of
+  /// it.
+  [[nodiscard]] bool bounds_corner(Side side, const Stop& stop) {
+    const Vec3 direction = ahead(side, stop.other);
+    return std::ranges::all_of(component_.sides, [&](Side s) {
+      if (s == side || s == stop.other || world_.points.side(stop.point, s >> 1) != 0) return true;
+      const double out = dot(world_.planes.normal(s), direction);
+      return corner_ == Corner::concave && s != component_.ground ? out >= 0 : out <= 0;
+    });
   }
 
   [[nodiscard]] bool is_on_corner(int point) {

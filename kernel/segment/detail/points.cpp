@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -18,6 +19,17 @@ constexpr double kOnSegment_m = 1e-10;
 bool is_on_segment(Vec3 p, Vec3 from, Vec3 along) {
   const double t = dot(p - from, along) / dot(along, along);
   return t >= 0 && t <= 1 && length(p - (from + t * along)) <= kOnSegment_m;
+}
+
+exact::Int128 common_divisor(exact::Int128 a, exact::Int128 b) {
+  while (b != 0) a = std::exchange(b, a % b);
+  return a < 0 ? -a : a;
+}
+
+/// The same numbers for the same place.
+std::array<exact::Int128, 4> reduced(const exact::Rational& r) {
+  const exact::Int128 d = common_divisor(common_divisor(r.x, r.y), common_divisor(r.z, r.w));
+  return {r.x / d, r.y / d, r.z / d, r.w / d};
 }
 
 }  // namespace
@@ -121,12 +133,15 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   if (const auto known = meetings_.find(key); known != meetings_.end()) return known->second;
   const auto where = exact::meet(planes_.plane(p), planes_.plane(q), planes_.plane(r));
   if (!where) return std::nullopt;
-  Point point;
-  point.planes.assign(key.begin(), key.end());
-  place(point, *where);
-  points_.push_back(std::move(point));
-  meetings_[key] = size() - 1;
-  return size() - 1;
+  const auto [met, is_new] = met_.emplace(reduced(*where), size());
+  if (is_new) {
+    Point point;
+    point.planes.assign(key.begin(), key.end());
+    place(point, *where);
+    points_.push_back(std::move(point));
+  }
+  meetings_[key] = met->second;
+  return met->second;
 }
 
 /// The solid's own vertices are found by any three of their planes.

@@ -38,7 +38,8 @@ class PointTable {
   /// decree.
   int cross_edge(int f, int g, int low, int high, int plane);
 
-  /// The point where three planes meet; nothing if they do not. The same point for the same three.
+  /// The point where three planes meet; nothing if they do not. The same point for the same place,
+  /// where more than three meet there.
   std::optional<int> meet(int p, int q, int r);
 
  private:
@@ -61,7 +62,8 @@ class PointTable {
   const PlaneTable& planes_;
   std::vector<Point> points_;
   std::vector<std::vector<int>> ranks_;
-  std::map<std::array<int, 3>, int> meetings_;  ///< points by three of their planes
+  std::map<std::array<int, 3>, int> meetings_;       ///< points by three of their planes
+  std::map<std::array<exact::Int128, 4>, int> met_;  ///< points made by meet() by their place
 };
 
 }  // namespace oriel::detail
