@@ -13,6 +13,9 @@ namespace {
 /// changes no answer.
 constexpr double kCertain_m = 1e-9;
 
+/// weld_m in grid units, at least: vertices closer than that are one, so are meetings.
+constexpr double kGridsPerWeld = 1024;
+
 /// As near as the meeting of three planes comes to a segment that it lies on, in doubles.
 constexpr double kOnSegment_m = 1e-10;
 
@@ -21,21 +24,11 @@ bool is_on_segment(Vec3 p, Vec3 from, Vec3 along) {
   return t >= 0 && t <= 1 && length(p - (from + t * along)) <= kOnSegment_m;
 }
 
-exact::Int128 common_divisor(exact::Int128 a, exact::Int128 b) {
-  while (b != 0) a = std::exchange(b, a % b);
-  return a < 0 ? -a : a;
-}
-
-/// The same numbers for the same place.
-std::array<exact::Int128, 4> reduced(const exact::Rational& r) {
-  const exact::Int128 d = common_divisor(common_divisor(r.x, r.y), common_divisor(r.z, r.w));
-  return {r.x / d, r.y / d, r.z / d, r.w / d};
-}
-
 }  // namespace
 
 PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
     : grid_m_(solid.grid_m),
+      near_m_(solid.grid_m * kGridsPerWeld),
       planes_(planes),
       points_(solid.vertices.size()),
       ranks_(index(planes.class_count())) {
@@ -133,15 +126,49 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   if (const auto known = meetings_.find(key); known != meetings_.end()) return known->second;
   const auto where = exact::meet(planes_.plane(p), planes_.plane(q), planes_.plane(r));
   if (!where) return std::nullopt;
-  const auto [met, is_new] = met_.emplace(reduced(*where), size());
-  if (is_new) {
-    Point point;
-    point.planes.assign(key.begin(), key.end());
-    place(point, *where);
-    points_.push_back(std::move(point));
+  Point point;
+  point.planes.assign(key.begin(), key.end());
+  place(point, *where);
+  int& met = meetings_[key];
+  if (const auto near = met_near(point)) return met = *near;
+  met = size();
+  met_in_[cell_of(point.at)].push_back(met);
+  points_.push_back(std::move(point));
+  return met;
+}
+
+PointTable::Cell PointTable::cell_of(Vec3 p) const {
+  const auto cell = [&](double c) { return static_cast<std::int64_t>(std::floor(c / near_m_)); };
+  return {cell(p.x), cell(p.y), cell(p.z)};
+}
+
+/// A point that was met so near by that it is the same one: more than three planes meet there. It
+/// lies on the new planes by decree.
+std::optional<int> PointTable::met_near(const Point& point) {
+  const Cell middle = cell_of(point.at);
+  for (int i = 0; i < 27; ++i) {
+    const auto found =
+        met_in_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
+    if (found == met_in_.end()) continue;
+    for (const int p : found->second)
+      if (length(at(p) - point.at) <= near_m_ && lies_on_too(p, point.planes)) return p;
   }
-  meetings_[key] = met->second;
-  return met->second;
+  return std::nullopt;
+}
+
+/// Adds planes to a point; false if it lies on parallel ones.
+bool PointTable::lies_on_too(int p, const std::vector<int>& planes) {
+  auto& own = points_[index(p)].planes;
+  for (const int plane : planes)
+    for (const int other : own)
+      if (plane != other && planes_.class_of(plane) == planes_.class_of(other)) return false;
+  for (const int plane : planes) {
+    if (std::ranges::binary_search(own, plane)) continue;
+    own.insert(std::ranges::lower_bound(own, plane), plane);
+    auto& ranks = ranks_[index(planes_.class_of(plane))];
+    if (p < std::ssize(ranks)) ranks[index(p)] = planes_.rank_of(plane);
+  }
+  return true;
 }
 
 /// The solid's own vertices are found by any three of their planes.

@@ -38,8 +38,8 @@ class PointTable {
   /// decree.
   int cross_edge(int f, int g, int low, int high, int plane);
 
-  /// The point where three planes meet; nothing if they do not. The same point for the same place,
-  /// where more than three meet there.
+  /// The point where three planes meet; nothing if they do not. Where more than three meet, up to
+  /// weld_m, it is one point and lies on all of them.
   std::optional<int> meet(int p, int q, int r);
 
  private:
@@ -52,18 +52,23 @@ class PointTable {
     int low = -1, high = -1;               ///< the ends of the edge it was made on
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  using Cell = std::array<std::int64_t, 3>;
   void remember_meetings(int p);
+  [[nodiscard]] Cell cell_of(Vec3 p) const;
+  std::optional<int> met_near(const Point& point);
+  bool lies_on_too(int p, const std::vector<int>& planes);
   void place(Point& point, const exact::Rational& where) const;
   [[nodiscard]] int exact_side(const Point& point, int plane) const;
   int compute_rank(int point, int k);
   int own_rank(const Point& point, int k) const;
 
   double grid_m_;
+  double near_m_;  ///< points that were met closer than this are one
   const PlaneTable& planes_;
   std::vector<Point> points_;
   std::vector<std::vector<int>> ranks_;
-  std::map<std::array<int, 3>, int> meetings_;       ///< points by three of their planes
-  std::map<std::array<exact::Int128, 4>, int> met_;  ///< points made by meet() by their place
+  std::map<std::array<int, 3>, int> meetings_;  ///< points by three of their planes
+  std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
 };
 
 }  // namespace oriel::detail
