@@ -18,7 +18,7 @@ struct SegmentOptions {
   int max_order = 4;
   /// Half-edges that may be looked at before the rest is left as it is (leaves flagged `budget`,
   /// warning E502). Counted, never timed: the same on every machine.
-  std::int64_t budget = 500'000'000;
+  std::int64_t budget = 200'000'000;
 };
 
 /// Splits a solid into features: protrusions, holes and cavities, each again split, down to convex

@@ -5,6 +5,7 @@
 #include "kernel/segment/detail/planes.h"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
