@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -197,6 +199,31 @@ std::vector<int> sheets_of(const std::vector<Side>& sides, const std::vector<int
   return out;
 }
 
+/// Two edges between the same two sheets, each with its own pair of polygons: a half-edge mesh has
+/// no two edges between the same two vertices, so all but the first get a point in their middle.
+/// False if there are none.
+bool part_double_edges(Soup& soup, const std::vector<Side>& sides, const std::vector<int>& twin,
+                       const std::vector<int>& sheet) {
+  std::set<std::pair<int, int>> seen;
+  std::map<int, int> middle_of;  // by side: the point to come after its start
+  for (int s = 0; s < std::ssize(sides); ++s) {
+    const int t = twin[at(s)];
+    if (t < s || seen.insert(std::minmax({sheet[at(s)], sheet[at(t)]})).second) continue;
+    const auto &p = soup.points[at(sides[at(s)].from)], &q = soup.points[at(sides[at(s)].to)];
+    middle_of[s] = middle_of[t] = static_cast<int>(soup.points.size());
+    soup.points.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+  }
+  int side = static_cast<int>(sides.size());
+  for (int p = static_cast<int>(soup.polygons.size()); p-- > 0;)
+    for (std::size_t r = soup.polygons[at(p)].rings.size(); r-- > 0;) {
+      auto& ring = soup.polygons[at(p)].rings[r];
+      for (std::size_t i = ring.size(); i-- > 0;)
+        if (const auto found = middle_of.find(--side); found != middle_of.end())
+          ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, found->second);
+    }
+  return !middle_of.empty();
+}
+
 }  // namespace
 
 std::string place_text(const Soup& soup, int point) {
@@ -224,13 +251,19 @@ ShellMesh build_shell_mesh(Soup& soup, const std::string& building, std::vector<
     sides = sides_of(soup);
     groups = group_by_edge(soup, sides);
   }
-  const std::vector<int> twin = pair_sides(soup, sides, groups, building, issues);
+  std::vector<int> twin = pair_sides(soup, sides, groups, building, issues);
   if (has_errors(issues)) return shell;
 
   int sheets = 0;
-  const std::vector<int> sheet = sheets_of(sides, twin, sheets);
+  std::vector<int> sheet = sheets_of(sides, twin, sheets);
+  if (std::ranges::find(twin, -1) == twin.end() && part_double_edges(soup, sides, twin, sheet)) {
+    sides = sides_of(soup);
+    twin = pair_sides(soup, sides, group_by_edge(soup, sides), building, issues);
+    sheet = sheets_of(sides, twin, sheets);
+  }
   shell.point_of.resize(at(sheets));
   for (int s = 0; s < std::ssize(sides); ++s) shell.point_of[at(sheet[at(s)])] = sides[at(s)].from;
+  omerr().disable();  // what it cannot take is told as E303
   shell.mesh.reserve(at(sheets), sides.size() / 2, soup.polygons.size());
   for (const int point : shell.point_of) {
     const Vec3 p = exact::to_metres(soup.points[at(point)], soup.grid_m);
