@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -44,7 +45,10 @@ class Generaliser {
 
   ExitCode go() {
     Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) { outputs_.begin(input, !run_.is_last_run()); };
+    visitor.begin = [&](std::size_t input) {
+      if (input == 0) removed_.clear();
+      outputs_.begin(input, !run_.is_last_run());
+    };
     visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
       redraw_record(document, lines);
     };
@@ -53,6 +57,7 @@ class Generaliser {
     };
     const ExitCode code = run_.go(visitor);
     outputs_.commit();
+    run_.tell_summary(fmt::format("generalised to 1:{}", scale_), removed_, " left out");
     return code;
   }
 
@@ -66,6 +71,7 @@ class Generaliser {
       auto redrawn = run_.timings().measure(
           Stage::generalise, [&] { return redraw_building(document.buildings[i], lines[i]); });
       if (!redrawn) continue;
+      for (const auto& [label, count] : redrawn->removed) removed_[label] += count;
       labelled.push_back(std::move(redrawn->labelled));
       options.removed.insert(options.removed.end(), redrawn->removed_ids.begin(),
                              redrawn->removed_ids.end());
@@ -96,6 +102,7 @@ class Generaliser {
   Run& run_;
   Report& report_;
   LabelOutputs outputs_;
+  std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 
 ExitCode work(const Arguments& arguments) {
@@ -104,9 +111,7 @@ ExitCode work(const Arguments& arguments) {
   if (!rules) return ExitCode::rules;
   Run run(arguments, &*rules, report);
   Generaliser generaliser(arguments, *rules, run, report);
-  const ExitCode code = generaliser.go();
-  run.tell_summary(fmt::format("generalised to 1:{}", denominator_of(arguments.scale)));
-  return code;
+  return generaliser.go();
 }
 
 }  // namespace

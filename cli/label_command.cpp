@@ -54,7 +54,7 @@ ExitCode work(const Arguments& arguments) {
   visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
   const ExitCode code = run.go(visitor);
   outputs.commit();
-  run.tell_summary("labelled");
+  run.tell_summary("labelled", run.labels());
   return code;
 }
 

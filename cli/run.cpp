@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -91,17 +92,16 @@ void Run::run_record(const Checked<Document>& record, const Visitor& visitor) {
   visitor.record(*record.value, lines);
 }
 
-void Run::tell_summary(const std::string& verb) const {
+void Run::tell_summary(const std::string& verb, const std::map<std::string, int>& counts,
+                       const std::string& what_of_them) const {
+  std::vector<std::string> parts;
+  for (const auto& [label, count] : counts)
+    if (!label.empty()) parts.push_back(fmt::format("{} {}", count, label));
+  if (const auto unknown = counts.find(""); unknown != counts.end())
+    parts.push_back(fmt::format("{} unknown", unknown->second));
   std::string text =
       fmt::format("{} {} of {} buildings", verb, buildings_ - set_aside_, buildings_);
-  const char* separator = ": ";
-  for (const auto& [label, count] : labels_) {
-    if (label.empty()) continue;
-    text += fmt::format("{}{} {}", separator, count, label);
-    separator = ", ";
-  }
-  if (const auto unknown = labels_.find(""); unknown != labels_.end())
-    text += fmt::format("{}{} unknown", separator, unknown->second);
+  if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), what_of_them);
   if (set_aside_ > 0) {
     text += fmt::format("; {} set aside", set_aside_);
     std::string codes;

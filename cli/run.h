@@ -46,8 +46,10 @@ class Run {
   /// Features by label ("" = unknown) of the last run.
   [[nodiscard]] const std::map<std::string, int>& labels() const { return labels_; }
 
-  /// "labelled 75 buildings: 2385 window, 76 door, …; 1 set aside (E302)" on stderr.
-  void tell_summary(const std::string& verb) const;
+  /// "labelled 75 of 76 buildings: 2385 window, 76 door, …; 1 set aside (E302)" on stderr. `counts`
+  /// by label ("" = unknown); `what_of_them` follows the counts.
+  void tell_summary(const std::string& verb, const std::map<std::string, int>& counts,
+                    const std::string& what_of_them = "") const;
 
  private:
   void read_input(std::size_t input, const Visitor& visitor);

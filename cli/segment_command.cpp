@@ -96,7 +96,7 @@ ExitCode work(const Arguments& arguments) {
   visitor.end = [&](std::size_t) { has_ended = true; };
   const ExitCode code = run.go(visitor);
   if (has_ended) outputs.commit();
-  run.tell_summary("segmented");
+  run.tell_summary("segmented", {});
   return code;
 }
 

@@ -10,6 +10,8 @@
 #include "kernel/model/solid.h"
 #include "kernel/segment/segment.h"
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace oriel {
@@ -39,6 +41,8 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
 struct Redrawn {
   LabelledBuilding labelled;
   std::vector<std::string> removed_ids;
+  /// How many features of each label are gone; "": without a label.
+  std::map<std::string, int> removed{};
 };
 
 /// Carries the labels of the input polygons over to the facets of the generalised solid. A facet

@@ -119,17 +119,16 @@ class Redrawer {
   }
 
   void count_removed(const Segmentation& segmentation, const Interpretation& interpretation) {
-    std::map<std::string, std::int64_t> counts;
     double volume = 0;
     for (const FeatureId id : generalised_.removed) {
-      const std::string& label = interpretation.verdicts[id.index()].label;
-      ++counts[label.empty() ? "unknown" : label];
+      ++out_.removed[interpretation.verdicts[id.index()].label];
       volume += segmentation.features[id.index()].volume_m3;
     }
     auto& attributes = out_.labelled.attributes;
-    for (const auto& [label, count] : counts)
-      attributes.emplace_back("oriel_removed_" + label, count);
-    if (!counts.empty()) attributes.emplace_back("oriel_removed_volume_m3", volume);
+    for (const auto& [label, count] : out_.removed)
+      attributes.emplace_back("oriel_removed_" + (label.empty() ? "unknown" : label),
+                              std::int64_t{count});
+    if (!out_.removed.empty()) attributes.emplace_back("oriel_removed_volume_m3", volume);
   }
 
   const LabelledBuilding& labelled_;
@@ -145,7 +144,7 @@ class Redrawer {
 Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
                const Segmentation& segmentation, const FeatureTable& table,
                const Interpretation& interpretation, Generalised generalised) {
-  if (generalised.removed.empty() && building.is_solid) return {labelled, {}};
+  if (generalised.removed.empty() && building.is_solid) return {labelled, {}, {}};
   return Redrawer(building, labelled, std::move(generalised))
       .run(segmentation, table, interpretation);
 }
