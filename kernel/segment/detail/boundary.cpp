@@ -255,6 +255,26 @@ void Boundary::cover(int cap, int covered) {
   merge(cap, covered);
 }
 
+void Boundary::zip(int f) {
+  std::map<std::pair<int, int>, int> open;
+  std::vector<std::pair<int, int>> pairs;
+  for_each_edge(f, [&](int e) {
+    if (facet_of(twin(e)) == f) return;
+    const auto against = open.find({target(e), origin(e)});
+    if (against == open.end()) {
+      open.emplace(std::pair(origin(e), target(e)), e);
+    } else {
+      pairs.emplace_back(e, against->second);
+      open.erase(against);
+    }
+  });
+  for (const auto& [e, against] : pairs) {
+    const int beyond = twin(e), beyond_against = twin(against);
+    pair(e, against);
+    pair(beyond, beyond_against);
+  }
+}
+
 /// Half-edges of the facet whose neighbour lies on the same side or is the facet itself, and their
 /// twins; sorted.
 std::vector<int> Boundary::seams_of(int cap) const {

@@ -129,6 +129,10 @@ class Boundary {
   /// Takes the facet `covered`, which faces the cap and lies under it, out of the cap: both vanish
   /// where they lie on each other. To be followed by heal(cap).
   void cover(int cap, int covered);
+  /// Makes twins of the edges of a facet that run against each other between the same points, as
+  /// where a cap in the open ends at the edge of the facet it covers; what lay beyond them is
+  /// paired instead. To be followed by heal(f).
+  void zip(int f);
   /// Removes the seams between a facet (a new cap) and its coplanar neighbours, so that facets are
   /// maximal again.
   void heal(int cap);

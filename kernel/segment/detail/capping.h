@@ -19,8 +19,10 @@ struct Patch {
   double new_area = 0;
   double old_area = 0;
   double volume = 0;
-  /// Where the cut splits facets: the body with its facets split, in which those of the patch and
-  /// the rims of the caps are numbered. Null: the cut follows existing edges.
+  /// The cut follows existing edges and splits no facet.
+  bool is_natural = true;
+  /// The body with the planes imprinted, in which the facets and rims are numbered; null: the body
+  /// itself.
   std::shared_ptr<const Boundary> imprinted = nullptr;
   /// The split planes: those of its caps but the ground.
   [[nodiscard]] std::vector<Side> sides() const;

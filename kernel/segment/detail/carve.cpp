@@ -163,8 +163,10 @@ class Remover {
       const auto also_rim = of_rim.find(beyond);
       body_.pair(e, also_rim == of_rim.end() ? beyond : also_rim->second);
     }
-    for (std::size_t i = 0; i < caps_.size(); ++i)
+    for (std::size_t i = 0; i < caps_.size(); ++i) {
       for (const int g : caps_[i].covered) body_.cover(facets[i], g);
+      if (!caps_[i].covered.empty()) body_.zip(facets[i]);
+    }
     leave_mark(facets, mark);
     for (std::size_t i = 0; i < caps_.size(); ++i) {
       int f = facets[i];

@@ -213,11 +213,14 @@ std::optional<Choice> Chooser::first_of_least_order(const std::vector<Patch>& pa
 /// The best hole with as few planes as possible, natural or not.
 std::optional<Choice> Chooser::corner_cut(const std::vector<Patch>& natural) {
   for (int order = 2; order <= options_.max_order; ++order) {
-    std::vector<Patch> holes = find_corner_holes(
-        body_, order, own_planes_, options_.tolerances.weld_m, options_.budget, work_);
+    std::vector<Patch> holes =
+        find_corner_holes(body_,
+                          {order, own_planes_, options_.order == Order::paper,
+                           options_.tolerances.weld_m, options_.budget},
+                          work_);
     stats_.hole_tests += holes.size();
     stats_.candidates += holes.size();
-    // Of a set of planes that splits facets all holes are there already.
+    // Of a set of planes that was imprinted all holes are there already.
     for (const Patch& patch : natural)
       if (std::ranges::none_of(holes, [&](const Patch& p) { return p.sides() == patch.sides(); }))
         holes.push_back(patch);
@@ -371,7 +374,7 @@ Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader)
   const Patch& first = patches[leader];
   Choice choice;
   choice.is_hole = first.is_hole;
-  choice.is_natural = first.imprinted == nullptr;
+  choice.is_natural = true;
   choice.imprinted = first.imprinted;
   choice.old_area = first.old_area;
   choice.value = choice.quality = first.new_area / first.old_area;
@@ -384,6 +387,7 @@ Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader)
       continue;
     choice.patches.push_back(p);
     choice.volume += p.volume;
+    choice.is_natural &= p.is_natural;
   }
   return choice;
 }

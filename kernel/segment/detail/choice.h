@@ -30,7 +30,7 @@ struct Choice {
   const Section* section = nullptr;  ///< for one plane
   std::vector<Lump> lumps;
   std::vector<Patch> patches;  ///< for several
-  /// The body that the patches are of, if the cut splits facets.
+  /// The body that the patches are of, if planes were imprinted for them.
   std::shared_ptr<const Boundary> imprinted;
 };
 

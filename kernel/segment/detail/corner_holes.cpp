@@ -4,6 +4,7 @@
 #include "kernel/segment/detail/section.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <set>
@@ -20,31 +21,43 @@ class CornerCutter {
   CornerCutter(const Boundary& body, const std::vector<Side>& sides, double weld_m,
                Scratch& scratch, std::int64_t& work)
       : old_edges_(body.half_edge_count()),
+        old_points_(body.world().points.size()),
         body_(std::make_shared<Boundary>(body)),
         sides_(sides),
         weld_m_(weld_m),
         scratch_(scratch),
         work_(work) {}
 
-  /// Empty unless one of them splits facets.
   std::vector<Patch> run() {
     work_ += std::ssize(sides_) * body_->half_edge_count();
     for (const Side side : sides_)
       if (!imprint_all(side)) return {};
     std::vector<Patch> patches;
-    bool has_split = false;
     for (const Component& component : components_behind()) {
       auto patch = cap_component(*body_, true, component, work_);
-      if (!patch) continue;
-      has_split |= std::ranges::any_of(component.rim, [&](int e) { return e >= old_edges_; });
+      if (!patch || !is_exact(component)) continue;
+      patch->is_natural = std::ranges::all_of(component.rim, [&](int e) { return e < old_edges_; });
       patch->imprinted = body_;
       patches.push_back(std::move(*patch));
     }
-    if (!has_split) patches.clear();
     return patches;
   }
 
  private:
+  /// No new point of the rim had to be put beside the plane it was cut at, as happens on edges
+  /// between vertices by decree: cuts there make slivers that are not flat.
+  [[nodiscard]] bool is_exact(const Component& component) const {
+    const World& world = body_->world();
+    constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before
+    return std::ranges::all_of(component.rim, [&](int e) {
+      const int point = body_->origin(e);
+      const Side side = rim_side(*body_, sides_, e);
+      const double distance =
+          dot(world.planes.normal(side), world.points.at(point)) - world.planes.offset_m(side);
+      return point < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
+    });
+  }
+
   /// Makes the whole outline of the section just behind the plane edges of the body.
   bool imprint_all(Side side) {
     const EdgeIndex edges(*body_, {side >> 1});
@@ -115,7 +128,7 @@ class CornerCutter {
     return met.size() == sides_.size();
   }
 
-  int old_edges_;
+  int old_edges_, old_points_;
   std::shared_ptr<Boundary> body_;
   const std::vector<Side>& sides_;
   double weld_m_;
@@ -125,21 +138,17 @@ class CornerCutter {
 
 class CornerHoleFinder {
  public:
-  CornerHoleFinder(const Boundary& body, int order, const std::vector<int>& own_planes,
-                   double weld_m, std::int64_t budget, std::int64_t& work)
-      : body_(body),
-        order_(order),
-        own_planes_(own_planes),
-        weld_m_(weld_m),
-        budget_(budget),
-        work_(work) {}
+  CornerHoleFinder(const Boundary& body, const CornerHoleOptions& options, std::int64_t& work)
+      : body_(body), options_(options), work_(work) {
+    for (const int f : body.living_facets()) all_sides_.insert(body.facet(f).side);
+  }
 
   std::vector<Patch> run() {
     for (const Component& component : hole_components(body_, work_)) {
       if (component.facets.size() < 2) continue;
-      bends_ = bends_of(component);
+      edges_ = edges_of(component);
       std::vector<Side> set;
-      try_sets(component.sides, 0, set);
+      try_sets(sides_for(component), 0, set);
     }
     return std::move(patches_);
   }
@@ -147,8 +156,8 @@ class CornerHoleFinder {
  private:
   /// All sets of the order that can make a corner, each once.
   void try_sets(const std::vector<Side>& sides, std::size_t first, std::vector<Side>& set) {
-    if (std::ssize(set) == order_) return try_set(set);
-    for (std::size_t i = first; i < sides.size() && work_ <= budget_; ++i) {
+    if (std::ssize(set) == options_.order) return try_set(set);
+    for (std::size_t i = first; i < sides.size() && work_ <= options_.budget; ++i) {
       if (!fits(set, sides[i])) continue;
       set.push_back(sides[i]);
       try_sets(sides, i + 1, set);
@@ -158,61 +167,95 @@ class CornerHoleFinder {
 
   /// It is a split plane, and equal normals never combine.
   [[nodiscard]] bool fits(const std::vector<Side>& set, Side side) const {
-    if (std::ranges::find(own_planes_, side >> 1) != own_planes_.end()) return false;
+    if (std::ranges::find(options_.own_planes, side >> 1) != options_.own_planes.end())
+      return false;
     const PlaneTable& planes = body_.world().planes;
     return std::ranges::none_of(set, [&](Side s) {
       return planes.class_of(s >> 1) == planes.class_of(side >> 1) && (s & 1) == (side & 1);
     });
   }
 
-  /// The reflex edges between facets of a component.
-  [[nodiscard]] std::vector<int> bends_of(const Component& component) const {
-    std::vector<int> bends;
+  /// The sides beyond the rim. If all are asked for, also those of the component's own facets where
+  /// they meet around a convex edge, and those of all facets of the body that cross one of its own.
+  [[nodiscard]] std::vector<Side> sides_for(const Component& component) const {
+    if (!options_.has_all_sides) return component.sides;
+    std::set<Side> sides;
     for (const int f : component.facets)
       body_.for_each_edge(f, [&](int e) {
-        if (e < body_.twin(e) && body_.is_reflex(e)) bends.push_back(e);
+        if (!body_.is_reflex(e)) sides.insert(body_.side_of_edge(body_.twin(e)));
       });
-    return bends;
+    for (const Side side : all_sides_)
+      if (std::ranges::any_of(component.facets, [&](int f) { return crosses(f, side); }))
+        sides.insert(side);
+    return {sides.begin(), sides.end()};
   }
 
-  /// The wall of a hole holds a bend: a part of one lies behind all planes.
-  [[nodiscard]] bool has_bend_behind(const std::vector<Side>& set) const {
-    auto& points = body_.world().points;
-    const auto is_behind = [&](int point, Side side) {
-      return points.side(point, side >> 1) * ((side & 1) != 0 ? -1 : 1) < 0;
-    };
-    return std::ranges::any_of(bends_, [&](int e) {
-      return std::ranges::all_of(set, [&](Side side) {
-        return is_behind(body_.origin(e), side) || is_behind(body_.target(e), side);
-      });
+  [[nodiscard]] bool crosses(int f, Side side) const {
+    bool has_front = false, has_back = false;
+    body_.for_each_edge(f, [&](int e) {
+      has_front |= level(body_.origin(e), side) > 0;
+      has_back |= level(body_.origin(e), side) < 0;
     });
+    return has_front && has_back;
+  }
+
+  /// The edges of a component's facets, each once.
+  [[nodiscard]] std::vector<int> edges_of(const Component& component) const {
+    std::vector<int> edges;
+    for (const int f : component.facets)
+      body_.for_each_edge(f, [&](int e) { edges.push_back(std::min(e, body_.twin(e))); });
+    std::ranges::sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+
+  [[nodiscard]] int level(int point, Side side) const {
+    const int level = body_.world().points.side(point, side >> 1);
+    return (side & 1) != 0 ? -level : level;
+  }
+
+  /// The wall of a hole holds a bend, of which a part lies behind all planes, and each plane meets
+  /// an edge of the component where it is not in front of another.
+  [[nodiscard]] bool can_cut(const std::vector<Side>& set) const {
+    bool has_bend = false;
+    std::vector<char> is_met(set.size(), 0);
+    for (const int e : edges_) {
+      bool is_behind = true, reaches_behind = true;
+      for (const Side side : set) {
+        const int low = std::min(level(body_.origin(e), side), level(body_.target(e), side));
+        is_behind &= low < 0;
+        reaches_behind &= low <= 0;
+      }
+      has_bend |= is_behind && body_.is_reflex(e);
+      for (std::size_t i = 0; reaches_behind && i < set.size(); ++i)
+        is_met[i] |=
+            level(body_.origin(e), set[i]) >= 0 || level(body_.target(e), set[i]) >= 0 ? 1 : 0;
+    }
+    return has_bend && std::ranges::find(is_met, 0) == is_met.end();
   }
 
   void try_set(const std::vector<Side>& set) {
-    work_ += std::ssize(bends_);
-    if (!has_bend_behind(set) || !seen_.insert(set).second) return;
-    for (Patch& patch : CornerCutter(body_, set, weld_m_, scratch_, work_).run())
+    work_ += std::ssize(edges_);
+    if (!can_cut(set) || !seen_.insert(set).second) return;
+    for (Patch& patch : CornerCutter(body_, set, options_.weld_m, scratch_, work_).run())
       patches_.push_back(std::move(patch));
   }
 
   const Boundary& body_;
-  int order_;
-  const std::vector<int>& own_planes_;
-  double weld_m_;
-  std::int64_t budget_;
+  const CornerHoleOptions& options_;
   std::int64_t& work_;
   Scratch scratch_;
-  std::vector<int> bends_;  ///< of the component at hand
+  std::set<Side> all_sides_;
+  std::vector<int> edges_;  ///< of the component at hand
   std::set<std::vector<Side>> seen_;
   std::vector<Patch> patches_;
 };
 
 }  // namespace
 
-std::vector<Patch> find_corner_holes(const Boundary& body, int order,
-                                     const std::vector<int>& own_planes, double weld_m,
-                                     std::int64_t budget, std::int64_t& work) {
-  return CornerHoleFinder(body, order, own_planes, weld_m, budget, work).run();
+std::vector<Patch> find_corner_holes(const Boundary& body, const CornerHoleOptions& options,
+                                     std::int64_t& work) {
+  return CornerHoleFinder(body, options, work).run();
 }
 
 void remove_seams(Boundary& body) {

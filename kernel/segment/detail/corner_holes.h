@@ -7,16 +7,23 @@
 
 namespace oriel::detail {
 
-/// The holes that `order` planes cap without following existing edges (paper, section 4, figure 3):
-/// the air behind all planes of a set. The sets come from the surface: facets that hang together
-/// over reflex edges, capped by some of the planes beyond their rim. For every set that cuts such a
-/// hole, all its holes are returned, natural ones too, with the body in which the planes are
-/// imprinted.
-///
-/// Sets are tried until `work` passes `budget`.
-std::vector<Patch> find_corner_holes(const Boundary& body, int order,
-                                     const std::vector<int>& own_planes, double weld_m,
-                                     std::int64_t budget, std::int64_t& work);
+struct CornerHoleOptions {
+  int order = 2;
+  /// Planes that are no split planes of the body.
+  std::vector<int> own_planes;
+  /// Not only planes beyond the rim of a group, but all that can cap a hole in it.
+  bool has_all_sides = false;
+  double weld_m = 0;
+  /// Sets are tried until `work` passes it.
+  std::int64_t budget = 0;
+};
+
+/// The holes that `order` planes cap (paper, section 4, figure 3), be the cut natural or not: the
+/// air behind all planes of a set. The sets come from the surface: the planes beyond the rim of
+/// facets that hang together over reflex edges, and if asked for those of these facets and of all
+/// that cross them. Holes are numbered in the body in which their planes are imprinted.
+std::vector<Patch> find_corner_holes(const Boundary& body, const CornerHoleOptions& options,
+                                     std::int64_t& work);
 
 /// Removes the edges between coplanar facets that an imprint has left where nothing was cut.
 void remove_seams(Boundary& body);

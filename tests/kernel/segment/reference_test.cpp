@@ -1,0 +1,112 @@
+#include "tests/support/grid_reference.h"
+#include "tests/support/segmented.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using test::GridBox;
+using test::Reference;
+using test::ReferenceFeature;
+
+Building building_of(const std::vector<GridBox>& boxes) {
+  test::BoxBody body;
+  for (const GridBox& box : boxes) {
+    const Vec3 min{double(box.min[0]), double(box.min[1]), double(box.min[2])};
+    const Vec3 max{double(box.max[0]), double(box.max[1]), double(box.max[2])};
+    box.is_added ? body.add(min, max) : body.remove(min, max);
+  }
+  return body.build();
+}
+
+/// A block with boxes added or taken away: up to 16 planes beside its own six.
+std::vector<GridBox> random_boxes(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto below = [&](int n) {
+    return static_cast<int>(random() % static_cast<std::uint64_t>(n));
+  };
+  std::vector<GridBox> boxes{{{0, 0, 0}, {9, 8, 7}, true}};
+  for (int i = 1 + below(4); i > 0; --i) {
+    GridBox box{{}, {}, below(2) == 0};
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.min[a] = below(12) - 2;
+      box.max[a] = box.min[a] + 1 + below(5);
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+/// What the kernel finds, in the terms of the reference. Values of boxes in whole metres are
+/// fractions of whole areas.
+Reference found_in(const std::vector<GridBox>& boxes) {
+  const test::Segmented s = test::in_paper_order(building_of(boxes));
+  Reference out;
+  out.leaves = static_cast<int>(s.segmentation.stats.leaves);
+  out.inner = static_cast<int>(s.segmentation.stats.inner);
+  // Senses are the building's; the reference tells of the body at hand.
+  for (const Feature& f : s.segmentation.features) {
+    const bool is_in_void =
+        f.parent.is_valid() && s.segmentation.features[f.parent.index()].sense != Sense::protrusion;
+    const bool is_hole = (f.sense != Sense::protrusion) != is_in_void;
+    const bool is_cavity = f.planes.empty();
+    out.features.push_back(
+        {is_hole, static_cast<int>(f.planes.size()), is_cavity ? 0 : std::llround(f.new_area_m2),
+         is_cavity ? 0 : std::llround(f.old_area_m2), std::llround(f.volume_m3)});
+  }
+  std::ranges::sort(out.features);
+  return out;
+}
+
+std::string text_of(const Reference& r) {
+  std::string text = std::to_string(r.leaves) + " leaves, " + std::to_string(r.inner) + " nodes";
+  for (const ReferenceFeature& f : r.features)
+    text += std::string("; ") + (f.is_hole ? "hole" : "protrusion") +
+            " k=" + std::to_string(f.order) + " " + std::to_string(f.new_area) + "/" +
+            std::to_string(f.old_area) + " vol " + std::to_string(f.volume);
+  return text;
+}
+
+struct Count {
+  int compared = 0, by_several = 0;
+};
+
+/// Compares the kernel with the reference on the bodies of these seeds.
+Count compare(std::uint64_t first, std::uint64_t last) {
+  Count count;
+  for (std::uint64_t seed = first; seed < last; ++seed) {
+    CAPTURE(seed);
+    const auto boxes = random_boxes(seed);
+    const Reference expected = test::reference_of(boxes);
+    if (expected.is_degenerate) continue;
+    ++count.compared;
+    for (const ReferenceFeature& f : expected.features) count.by_several += f.order > 1 ? 1 : 0;
+    CHECK(text_of(found_in(boxes)) == text_of(expected));
+  }
+  return count;
+}
+
+TEST_SUITE("kernel/segment") {
+  TEST_CASE("random bodies are split as a slow and simple reference splits them") {
+    const Count count = compare(0, 500);
+    CHECK(count.compared > 200);
+    CHECK(count.by_several > 200);
+  }
+
+  TEST_CASE("slow: five thousand more random bodies are split as the reference splits them" *
+            doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
+    const Count count = compare(500, 13500);
+    CHECK(count.compared > 5000);
+    CHECK(count.by_several > 5000);
+  }
+}
+
+}  // namespace
+}  // namespace oriel
