@@ -9,11 +9,13 @@ using namespace oriel::test;
 
 namespace {
 
-std::string read_docs() {
-  std::ifstream file(std::string(ORIEL_SOURCE_DIR) + "/docs/rules.md");
+std::string read_file(const std::string& path) {
+  std::ifstream file(std::string(ORIEL_SOURCE_DIR) + "/" + path);
   REQUIRE(file);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
+
+std::string read_docs() { return read_file("docs/rules.md"); }
 
 /// The next fenced block that opens with `fence` at or after `at`, which is moved behind it.
 std::optional<std::string> take_block(const std::string& text, const std::string& fence,
@@ -35,6 +37,15 @@ std::string findings_of(const std::string& pack) {
 }  // namespace
 
 TEST_SUITE("interpret") {
+  TEST_CASE("the pack in the README is the first pack and loads without findings") {
+    const std::string readme = read_file("README.md");
+    std::size_t at = 0;
+    const auto pack = take_block(readme, "```yaml", at);
+    REQUIRE(pack);
+    CHECK(*pack == read_file("examples/first_pack.yaml"));
+    CHECK(findings_of(*pack).empty());
+  }
+
   TEST_CASE("the pack in the reference loads without findings") {
     const std::string docs = read_docs();
     std::size_t at = docs.find("## A pack");
