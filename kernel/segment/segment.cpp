@@ -5,8 +5,11 @@
 #include "kernel/segment/detail/choice.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -87,6 +90,7 @@ class Segmenter {
   void split(Task task) {
     take_out_cavities(task);
     std::optional<detail::Chooser> chooser;
+    std::set<State> seen;
     while (true) {
       if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
       if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
@@ -95,6 +99,9 @@ class Segmenter {
       const auto choice = chooser->next();
       if (!choice)
         return add_leaf(task, task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own);
+      // Natural cuts take edges away, so only others can lead back to where the body was.
+      if (!choice->is_natural && !seen.insert(state_of(task.body)).second)
+        return add_leaf(task, LeafFlag::cycle);
       if (choice->imprinted) task.body = *choice->imprinted;
       const auto changes = cut(task, *choice);
       if (choice->imprinted) {
@@ -108,6 +115,17 @@ class Segmenter {
         if (!is_connected(task.body)) return hang_rest(std::move(task));
       }
     }
+  }
+
+  /// Sides and areas of the facets, sorted: bodies of one segmentation with the same are the same.
+  using State = std::vector<std::pair<Side, std::int64_t>>;
+  static State state_of(const Boundary& body) {
+    constexpr double kPerSquareMetre = 1e6;
+    State state;
+    for (const int f : body.living_facets())
+      state.emplace_back(body.facet(f).side, std::llround(body.area(f) * kPerSquareMetre));
+    std::ranges::sort(state);
+    return state;
   }
 
   /// The rest that the last cut has left is in pieces: its lumps become the `rest` of the node made

@@ -1,0 +1,66 @@
+#include "kernel/io/truth.h"
+#include "tests/support/corpus.h"
+#include "tests/support/segmented.h"
+
+#include <map>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+double volume_of(const Box& box) {
+  const Vec3 size = box.max - box.min;
+  return std::max(0.0, size.x) * std::max(0.0, size.y) * std::max(0.0, size.z);
+}
+
+double overlap_of(const Box& p, const Box& q) {
+  const Box both{
+      {std::max(p.min.x, q.min.x), std::max(p.min.y, q.min.y), std::max(p.min.z, q.min.z)},
+      {std::min(p.max.x, q.max.x), std::min(p.max.y, q.max.y), std::min(p.max.z, q.max.z)}};
+  const double shared = volume_of(both);
+  return shared / (volume_of(p) + volume_of(q) - shared);
+}
+
+/// Objects of a class, and how many of them a feature has the box of.
+struct Recall {
+  int objects = 0, found = 0;
+};
+
+/// Looks for every object that is in the shell (openings: and recessed) among all features of its
+/// building, at IoU 0.8 of the boxes as they are.
+void count(const test::Segmented& s, const Truth& truth, std::map<std::string, Recall>& recalls) {
+  for (const TruthObject& object : truth.objects) {
+    if (object.faces.empty() || object.is_detectable == false) continue;
+    const Box box = object.feature_aabb.value_or(object.aabb);
+    Recall& recall = recalls[object.label];
+    ++recall.objects;
+    recall.found += std::ranges::any_of(s.segmentation.features, [&](const Feature& f) {
+      return overlap_of(f.box.moved(s.building.frame.origin_m), box) >= 0.8;
+    });
+  }
+}
+
+TEST_SUITE("kernel/segment") {
+  TEST_CASE("every recessed window and door and chimney and dormer of random3dcity is a feature") {
+    ORIEL_NEEDS_SHARED(shared);
+    std::map<std::string, Recall> recalls;
+    for (const std::string& file :
+         test::files_in(shared / "data" / "random3dcity", ".truth.json")) {
+      const Truth truth = read_truth(file).value.value();
+      Reader reader(file.substr(0, file.size() - std::string(".truth.json").size()) +
+                    ".stripped.city.json");
+      count(test::segmented(reader.next()->value->buildings.at(0)), truth, recalls);
+    }
+    for (const char* label : {"window", "door", "chimney", "dormer"}) {
+      CAPTURE(std::string(label));
+      CHECK(recalls[label].objects > 20);
+      CHECK(recalls[label].found == recalls[label].objects);
+      MESSAGE(std::string(label) << ": " << recalls[label].found << " of "
+                                 << recalls[label].objects);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace oriel
