@@ -144,8 +144,11 @@ class CornerHoleFinder {
   }
 
   std::vector<Patch> run() {
-    for (const Component& component : hole_components(body_, work_)) {
-      if (component.facets.size() < 2) continue;
+    const std::vector<Component> groups = hole_components(body_, work_);
+    number_groups(groups);
+    for (const Component& group : groups) {
+      if (group.facets.size() < 2) continue;
+      const Component component = options_.has_all_sides ? with_neighbours(group, groups) : group;
       edges_ = edges_of(component);
       std::vector<Side> set;
       try_sets(sides_for(component), 0, set);
@@ -154,6 +157,25 @@ class CornerHoleFinder {
   }
 
  private:
+  void number_groups(const std::vector<Component>& groups) {
+    group_of_.assign(at(body_.facet_count()), -1);
+    for (int g = 0; g < std::ssize(groups); ++g)
+      for (const int f : groups[at(g)].facets) group_of_[at(f)] = g;
+  }
+
+  /// A pocket with those that open into it: a tunnel from another wall has its own bends.
+  [[nodiscard]] Component with_neighbours(const Component& group,
+                                          const std::vector<Component>& groups) const {
+    std::set<int> joined{group_of_[at(group.facets[0])]};
+    for (const int e : group.rim) joined.insert(group_of_[at(body_.facet_of(body_.twin(e)))]);
+    Component all;
+    for (const int g : joined)
+      if (groups[at(g)].facets.size() >= 2)
+        all.facets.insert(all.facets.end(), groups[at(g)].facets.begin(),
+                          groups[at(g)].facets.end());
+    return all;
+  }
+
   /// All sets of the order that can make a corner, each once.
   void try_sets(const std::vector<Side>& sides, std::size_t first, std::vector<Side>& set) {
     if (std::ssize(set) == options_.order) return try_set(set);
@@ -175,8 +197,8 @@ class CornerHoleFinder {
     });
   }
 
-  /// The sides beyond the rim. If all are asked for, also those of the component's own facets where
-  /// they meet around a convex edge, and those of all facets of the body that cross one of its own.
+  /// The sides beyond the rim. If all are asked for, those beyond every convex edge, be it between
+  /// two facets of the component, and those of all facets of the body that cross one of its own.
   [[nodiscard]] std::vector<Side> sides_for(const Component& component) const {
     if (!options_.has_all_sides) return component.sides;
     std::set<Side> sides;
@@ -246,7 +268,8 @@ class CornerHoleFinder {
   std::int64_t& work_;
   Scratch scratch_;
   std::set<Side> all_sides_;
-  std::vector<int> edges_;  ///< of the component at hand
+  std::vector<int> group_of_;  ///< by facet
+  std::vector<int> edges_;     ///< of the component at hand
   std::set<std::vector<Side>> seen_;
   std::vector<Patch> patches_;
 };
