@@ -3,6 +3,7 @@
 #include "kernel/describe/detail/relations.h"
 #include "kernel/describe/detail/shape.h"
 #include "kernel/describe/detail/site.h"
+#include "kernel/geometry/planar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,12 +147,6 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
     table.set(s.id, "above_eaves", box.min.z - *eaves);
 }
 
-double distance_to_segment(Vec3 p, Vec3 from, Vec3 to) {
-  const Vec3 along = to - from;
-  const double t = std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0);
-  return length(p - (from + t * along));
-}
-
 /// The smallest distance of the cap's corners to the outline of the host's facet.
 void describe_edge_gap(FeatureTable& table, const Subject& s, const Segmentation& segmentation) {
   if (!s.feature->host_facet) return;
@@ -163,7 +158,8 @@ void describe_edge_gap(FeatureTable& table, const Subject& s, const Segmentation
   for (const Vec3 p : s.points) {
     if (std::abs(dot(plane.normal, p) - plane.offset_m) > kOnPlane_m) continue;
     for (std::size_t i = 0; i < outline.size(); ++i)
-      gap = std::min(gap, distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
+      gap = std::min(gap,
+                     detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
   }
   if (gap < Box::kInfinity) table.set(s.id, "edge_gap", gap);
 }

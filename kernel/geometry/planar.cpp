@@ -76,6 +76,21 @@ bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point) {
   return is_inside;
 }
 
+bool contains_clearly(std::span<const Outline> outlines, Vec3 normal, Vec3 point, double margin_m) {
+  for (const Outline& outline : outlines)
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      if (distance_to_segment(point, outline[i], outline[(i + 1) % outline.size()]) <= margin_m)
+        return false;
+  return contains(outlines, normal, point);
+}
+
+double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
+  const Vec3 along = to - from;
+  const double square = dot(along, along);
+  const double t = square > 0 ? std::clamp(dot(point - from, along) / square, 0.0, 1.0) : 0;
+  return length(point - (from + t * along));
+}
+
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal) {
   const Axes axes = axes_for(normal);
   std::vector<double> levels;

@@ -25,6 +25,12 @@ double perimeter(const Outline& outline);
 /// Points on an outline may fall on either side.
 bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point);
 
+/// True if `point` is inside, and not within `margin_m` of an outline.
+bool contains_clearly(std::span<const Outline> outlines, Vec3 normal, Vec3 point, double margin_m);
+
+/// How far a point is from a segment.
+double distance_to_segment(Vec3 point, Vec3 from, Vec3 to);
+
 /// A point inside the figure, as far from its outlines as the longest chord at the middle of the
 /// tallest gap between its vertices allows. Outlines may run over each other. Nothing if the figure
 /// has no area, or is thinner than kThin_m.

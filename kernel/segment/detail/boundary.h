@@ -148,6 +148,7 @@ class Boundary {
     int living = 0;
   };
   int trace(int first);
+  void split_at_corners(int f);
   void attach(int l, int f);
   void detach(int l);
   void kill_facet(int f);
