@@ -90,18 +90,22 @@ class Segmenter {
   void split(Task task) {
     take_out_cavities(task);
     std::optional<detail::Chooser> chooser;
-    std::set<State> seen;
+    std::set<std::pair<State, detail::CutKey>> seen;
+    std::set<detail::CutKey> banned;
     while (true) {
       if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
       if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
       if (!chooser)
         chooser.emplace(task.body, options_, ground_, task.own_planes, out_.stats, work_, scratch_);
-      const auto choice = chooser->next();
-      if (!choice)
-        return add_leaf(task, task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own);
-      // Natural cuts take edges away, so only others can lead back to where the body was.
-      if (!choice->is_natural && !seen.insert(state_of(task.body)).second)
-        return add_leaf(task, LeafFlag::cycle);
+      const auto choice = chooser->next(banned);
+      if (!choice) return add_leaf(task, flag_of_uncut(task, !banned.empty()));
+      // Natural cuts take edges away, so only others can lead back to where the body was. Then that
+      // cut is not made again.
+      const detail::CutKey key{choice->sides, choice->is_hole};
+      if (!choice->is_natural && !seen.emplace(state_of(task.body), key).second) {
+        banned.insert(key);
+        continue;
+      }
       if (choice->imprinted) task.body = *choice->imprinted;
       const auto changes = cut(task, *choice);
       if (choice->imprinted) {
@@ -115,6 +119,11 @@ class Segmenter {
         if (!is_connected(task.body)) return hang_rest(std::move(task));
       }
     }
+  }
+
+  static LeafFlag flag_of_uncut(const Task& task, bool has_banned) {
+    if (has_banned) return LeafFlag::cycle;
+    return task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own;
   }
 
   /// Sides and areas of the facets, sorted: bodies of one segmentation with the same are the same.

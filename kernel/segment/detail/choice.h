@@ -8,9 +8,11 @@
 #include "kernel/segment/segment.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,13 @@ struct Choice {
   std::vector<Patch> patches;  ///< for several
   /// The body that the patches are of, if planes were imprinted for them.
   std::shared_ptr<const Boundary> imprinted;
+};
+
+/// Planes and kind of a cut.
+struct CutKey {
+  std::vector<Side> sides;
+  bool is_hole = false;
+  friend auto operator<=>(const CutKey&, const CutKey&) = default;
 };
 
 /// What one part that was taken off has changed in the body.
@@ -56,8 +65,8 @@ class Chooser {
           std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work,
           Scratch& scratch);
 
-  /// The best cut by the order, or nothing: the body is a leaf.
-  std::optional<Choice> next();
+  /// The best cut by the order that is not `banned`, or nothing: the body is a leaf.
+  std::optional<Choice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
   void changed(const std::vector<Change>& changes);
@@ -104,6 +113,9 @@ class Chooser {
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
   Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
   [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
+  [[nodiscard]] bool is_banned(std::vector<Side> sides, bool is_hole) const {
+    return !banned_->empty() && banned_->contains({std::move(sides), is_hole});
+  }
   std::vector<Patch> patches(bool is_hole);
   std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
   std::optional<Choice> first_of_least_order(const std::vector<Patch>& patches);
@@ -122,6 +134,7 @@ class Chooser {
   Scratch& scratch_;
   std::vector<int> planes_;  ///< the split planes, ascending
   EdgeIndex edges_;
+  const std::set<CutKey>* banned_ = nullptr;
   std::vector<Slot> slots_;  ///< of each plane in front, then behind
 };
 
