@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -188,11 +189,14 @@ class Sectioner {
     std::ranges::sort(shapes, std::greater{},
                       [](const Shape& s) { return std::tuple(std::abs(s.area), -s.loop); });
     std::vector<int> region_of(section_.loops.size(), -1);
+    std::array<std::vector<int>, 2> larger;  // around air, around material
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       region_of[at(shapes[i].loop)] = static_cast<int>(section_.regions.size());
       const double area = std::abs(shapes[i].area);
       section_.regions.push_back({shapes[i].area > 0, {shapes[i].loop}, area, 0, {}, false, false});
-      const int parent = parent_of(shapes, i);
+      const bool is_material = shapes[i].area > 0;
+      const int parent = parent_of(shapes, larger[is_material ? 0 : 1], shapes[i]);
+      larger[is_material ? 1 : 0].push_back(static_cast<int>(i));
       if (parent < 0) continue;
       Region& around = section_.regions[at(region_of[at(shapes[at(parent)].loop)])];
       around.loops.push_back(shapes[i].loop);
@@ -201,14 +205,12 @@ class Sectioner {
     for (Region& region : section_.regions) judge(region);
   }
 
-  /// The smallest loop of the other kind around shapes[i], or -1.
-  static int parent_of(const std::vector<Shape>& shapes, std::size_t i) {
-    const Shape& inner = shapes[i];
-    for (std::size_t j = i; j-- > 0;) {
-      const Shape& outer = shapes[j];
-      if ((outer.area > 0) == (inner.area > 0)) continue;
-      if (!is_within(inner.box, outer.box)) continue;
-      if (is_inside(inner.points, outer)) return static_cast<int>(j);
+  /// The smallest of the larger loops of the other kind that is around `inner`, or -1.
+  static int parent_of(const std::vector<Shape>& shapes, const std::vector<int>& others,
+                       const Shape& inner) {
+    for (std::size_t j = others.size(); j-- > 0;) {
+      const Shape& outer = shapes[at(others[j])];
+      if (is_within(inner.box, outer.box) && is_inside(inner.points, outer)) return others[j];
     }
     return -1;
   }
