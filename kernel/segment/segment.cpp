@@ -5,6 +5,7 @@
 #include "kernel/segment/detail/choice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -126,14 +127,23 @@ class Segmenter {
     return task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own;
   }
 
-  /// Sides and areas of the facets, sorted: bodies of one segmentation with the same are the same.
-  using State = std::vector<std::pair<Side, std::int64_t>>;
+  /// A fingerprint of the sides and areas of the facets, sorted: bodies of one segmentation with
+  /// the same are the same. 128 bits, so that long histories take little room.
+  using State = std::array<std::uint64_t, 2>;
   static State state_of(const Boundary& body) {
     constexpr double kPerSquareMetre = 1e6;
-    State state;
+    std::vector<std::array<std::int64_t, 2>> facets;
     for (const int f : body.living_facets())
-      state.emplace_back(body.facet(f).side, std::llround(body.area(f) * kPerSquareMetre));
-    std::ranges::sort(state);
+      facets.push_back({body.facet(f).side, std::llround(body.area(f) * kPerSquareMetre)});
+    std::ranges::sort(facets);
+    // Two FNV-1a hashes with different starts.
+    State state{0xcbf29ce484222325U, 0x9e3779b97f4a7c15U};
+    for (std::uint64_t& hash : state)
+      for (const auto& facet : facets)
+        for (const std::int64_t number : facet)
+          for (int byte = 0; byte < 8; ++byte)
+            hash = (hash ^ (static_cast<std::uint64_t>(number) >> (8 * byte) & 0xFFU)) *
+                   0x100000001b3U;
     return state;
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -259,8 +260,11 @@ class CornerHoleFinder {
   void try_set(const std::vector<Side>& set) {
     work_ += std::ssize(edges_);
     if (!can_cut(set) || !seen_.insert(set).second) return;
-    for (Patch& patch : CornerCutter(body_, set, options_.weld_m, scratch_, work_).run())
-      patches_.push_back(std::move(patch));
+    auto& points = body_.world().points;
+    const auto mark = points.mark();
+    auto patches = CornerCutter(body_, set, options_.weld_m, scratch_, work_).run();
+    if (patches.empty()) points.forget_since(mark);
+    std::ranges::move(patches, std::back_inserter(patches_));
   }
 
   const Boundary& body_;

@@ -128,12 +128,25 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   Point point;
   point.planes.assign(key.begin(), key.end());
   place(point, *where);
+  met_.push_back(key);
   int& met = meetings_[key];
   if (const auto near = met_near(point)) return met = *near;
   met = size();
   met_in_[cell_of(point.at)].push_back(met);
   points_.push_back(std::move(point));
   return met;
+}
+
+void PointTable::forget_since(Mark mark) {
+  for (; met_.size() > mark.met; met_.pop_back()) meetings_.erase(met_.back());
+  for (int p = size(); p-- > mark.points;) {
+    const auto cell = met_in_.find(cell_of(at(p)));
+    if (cell != met_in_.end() && !cell->second.empty() && cell->second.back() == p)
+      cell->second.pop_back();
+  }
+  points_.resize(index(mark.points));
+  for (auto& ranks : ranks_)
+    if (std::ssize(ranks) > mark.points) ranks.resize(index(mark.points));
 }
 
 PointTable::Cell PointTable::cell_of(Vec3 p) const {

@@ -43,6 +43,15 @@ class PointTable {
   /// weld_m, it is one point and lies on all of them.
   std::optional<int> meet(int p, int q, int r);
 
+  /// What is there now, to come back to if what is tried next is not kept.
+  struct Mark {
+    int points;
+    std::size_t met;
+  };
+  [[nodiscard]] Mark mark() const { return {size(), met_.size()}; }
+  /// Forgets the points that were made since; nothing may use them any more.
+  void forget_since(Mark mark);
+
  private:
   struct Point {
     Vec3 at;
@@ -69,6 +78,7 @@ class PointTable {
   std::vector<Point> points_;
   std::vector<std::vector<int>> ranks_;
   std::map<std::array<int, 3>, int> meetings_;  ///< points by three of their planes
+  std::vector<std::array<int, 3>> met_;         ///< the keys that meet() has added, in order
   std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
 };
 
