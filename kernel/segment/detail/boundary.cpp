@@ -260,12 +260,12 @@ void Boundary::split_at_corners(int f) {
   std::vector<int> edges;
   for_each_edge(f, [&](int e) { edges.push_back(e); });
   const std::vector<int> corners = edges;
-  constexpr double kOnEdge_m = 1e-9;  // of doubles: the corner is a vertex of the same line
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (const int corner : corners) {
       const int e = edges[i], point = origin(corner);
       const Vec3 p = world_->points.at(point), from = at(e), to = world_->points.at(target(e));
-      if (p == from || p == to || distance_to_segment(p, from, to) > kOnEdge_m) continue;
+      if (p == from || p == to || distance_to_segment(p, from, to) > world_->points.grid_m())
+        continue;
       split_edge(e, point);
       edges.push_back(next(e));
     }

@@ -10,10 +10,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// What comes this close to an outline touches it and does not cross: a unit of the grid at the
-/// default weld_m.
-constexpr double kTouch_m = 1e-6;
-
 /// On which side of the corner that the planes of a cut make something lies.
 enum class Corner {
   convex_outside,  ///< outside of it: a chimney on a ridge; the rest is inside
@@ -234,7 +230,8 @@ class Judge {
       const Vec3 normal = world_.planes.normal(side);
       const double hp = dot(normal, p) - world_.planes.offset_m(side),
                    hq = dot(normal, q) - world_.planes.offset_m(side);
-      if (contains_clearly(body_.outlines(f), normal, p + (hp / (hp - hq)) * (q - p), kTouch_m))
+      if (contains_clearly(body_.outlines(f), normal, p + (hp / (hp - hq)) * (q - p),
+                           world_.points.grid_m()))
         return true;
     }
     return false;
@@ -250,7 +247,8 @@ class Judge {
       if (level(from, side) * level(to, side) >= 0) continue;
       const Vec3 p = world_.points.at(from), q = world_.points.at(to);
       const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
-      if (contains_clearly(shape, normal, p + (hp / (hp - hq)) * (q - p), kTouch_m)) return true;
+      if (contains_clearly(shape, normal, p + (hp / (hp - hq)) * (q - p), world_.points.grid_m()))
+        return true;
     }
     return false;
   }

@@ -23,6 +23,8 @@ class PointTable {
   /// The solid's vertices keep their indices.
   PointTable(const Solid& solid, const PlaneTable& planes);
 
+  /// Metres per unit of the solid's grid: what is nearer touches.
+  [[nodiscard]] double grid_m() const { return grid_m_; }
   [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
   [[nodiscard]] Vec3 at(int point) const { return points_[index(point)].at; }
   /// True if the point is known by the three planes it was made of.
