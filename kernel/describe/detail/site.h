@@ -22,7 +22,8 @@ class Site {
  public:
   explicit Site(const Segmentation& segmentation);
 
-  /// The ground at a point in plan: the lowest downward facet above or below it. Failing that the
+  /// The ground at a point in plan: the lowest downward facet above or below it, the air under the
+  /// body being filled but where the ground rises there. Failing that the
   /// foot of `wall`, failing that the lowest point of the building. Slopes and raised floors so
   /// keep their own ground.
   [[nodiscard]] Foot ground_at(Vec3 point, const std::optional<CellFacet>& wall) const;
@@ -40,8 +41,13 @@ class Site {
     Plane plane;
     CellId cell;
   };
+  void find_terrain();
+  [[nodiscard]] GroundFacet ground_facet(CellFacet facet, const Plane& plane, CellId cell) const;
+  static std::optional<Foot> lowest_at(Vec3 point, const std::vector<GroundFacet>& facets);
+
   const Segmentation& segmentation_;
   std::vector<GroundFacet> grounds_;
+  std::vector<GroundFacet> terrain_;  ///< undersides of the body over ground that rises
   std::vector<std::optional<double>> eaves_m_;
   double ridge_m_ = 0;
   double lowest_m_ = 0;
