@@ -6,7 +6,8 @@ cd "$(dirname "$0")/.."
 examples/install_packages.sh
 
 echo "== format"
-git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+find bench cli examples generalise interpret kernel tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+  xargs -0 clang-format --dry-run -Werror
 
 echo "== build"
 cmake --preset release -DORIEL_TESTS=ON -DORIEL_BENCH=ON
