@@ -5,10 +5,11 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 examples/install_packages.sh
-cmake --preset release -DORIEL_TESTS=OFF >build-log.txt 2>&1 || { cat build-log.txt; exit 1; }
+mkdir -p build
+log=build/quickstart.log
+cmake --preset release -DORIEL_TESTS=OFF >"$log" 2>&1 || { cat "$log"; exit 1; }
 echo "building oriel (some minutes the first time)"
-cmake --build --preset release --target oriel >build-log.txt 2>&1 || { tail -n 40 build-log.txt; exit 1; }
-rm build-log.txt
+cmake --build --preset release --target oriel >"$log" 2>&1 || { tail -n 40 "$log"; exit 1; }
 
 oriel=build/release/cli/oriel
 house=examples/samples/house.stripped.city.json

@@ -93,7 +93,48 @@ Count compare(std::uint64_t first, std::uint64_t last) {
   return count;
 }
 
+/// Checks one body against the reference.
+void check_as_reference(const std::vector<GridBox>& boxes) {
+  const Reference expected = test::reference_of(boxes);
+  CHECK_FALSE(expected.is_degenerate);
+  CHECK(text_of(found_in(boxes)) == text_of(expected));
+}
+
+constexpr GridBox kBlock{{0, 0, 0}, {9, 8, 7}, true};
+
 TEST_SUITE("kernel/segment") {
+  TEST_CASE("a slot under a notch is filled and leaves no sheet of two facets behind") {
+    check_as_reference({kBlock, {{2, 4, 6}, {4, 9, 10}, false}, {{3, 0, 5}, {6, 5, 6}, false}});
+  }
+
+  TEST_CASE("a pocket in the side of a notch is cut off by its own back wall") {
+    check_as_reference({kBlock, {{-1, 2, 5}, {2, 3, 7}, false}, {{0, 2, 1}, {1, 5, 5}, false}});
+  }
+
+  TEST_CASE("a hole whose wall lies in the plane of its cap is a hole") {
+    check_as_reference({kBlock, {{0, 0, 5}, {2, 5, 9}, false}, {{2, -2, 4}, {5, 3, 6}, false}});
+  }
+
+  TEST_CASE("a slot with a tunnel from another wall is one hole") {
+    check_as_reference({kBlock,
+                        {{7, 0, 2}, {8, 4, 6}, false},
+                        {{2, -1, 6}, {6, 2, 8}, false},
+                        {{8, 3, 3}, {9, 8, 6}, true},
+                        {{8, 1, 3}, {12, 3, 4}, false}});
+  }
+
+  TEST_CASE("a cap may end at a corner that it touches and cover half a wall") {
+    check_as_reference({kBlock, {{4, 3, -1}, {9, 8, 3}, false}, {{1, 0, -2}, {4, 4, 2}, false}});
+  }
+
+  TEST_CASE("a plane from far away cuts a notch where an edge has a vertex on it") {
+    check_as_reference({kBlock,
+                        {{0, 2, 3}, {2, 6, 8}, false},
+                        {{6, 0, 0}, {10, 5, 4}, false},
+                        {{7, 7, 2}, {12, 10, 7}, false},
+                        {{-2, 5, 4}, {2, 9, 6}, false}});
+  }
+
   TEST_CASE("random bodies are split as a slow and simple reference splits them") {
     const Count count = compare(0, 500);
     CHECK(count.compared > 200);
