@@ -154,7 +154,7 @@ class Capper {
 
   [[nodiscard]] bool is_on_corner(int point) {
     return std::ranges::all_of(component_.sides, [&](Side side) {
-      const int level = world_.points.side(point, side >> 1) * ((side & 1) != 0 ? -1 : 1);
+      const int level = world_.points.level(point, side);
       return corner_ == Corner::concave && side != component_.ground ? level >= 0 : level <= 0;
     });
   }
@@ -185,12 +185,6 @@ class Judge {
   }
 
  private:
-  /// +1: in front of the oriented plane.
-  [[nodiscard]] int level(int point, Side side) const {
-    const int level = world_.points.side(point, side >> 1);
-    return (side & 1) != 0 ? -level : level;
-  }
-
   [[nodiscard]] std::optional<Corner> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
     for (const int f : component.facets) {
@@ -199,8 +193,8 @@ class Judge {
         int most = -1, least = 1;
         for (const Side side : component.sides) {
           if (side == component.ground) continue;
-          most = std::max(most, level(body_.origin(e), side));
-          least = std::min(least, level(body_.origin(e), side));
+          most = std::max(most, world_.points.level(body_.origin(e), side));
+          least = std::min(least, world_.points.level(body_.origin(e), side));
         }
         is_behind_all &= most <= 0;
         is_before_all &= least >= 0;
@@ -226,7 +220,7 @@ class Judge {
     for (int f = 0; f < body_.facet_count(); ++f) {
       if (!body_.is_alive(f)) continue;
       const Side side = body_.facet(f).side;
-      if (level(from, side) * level(to, side) >= 0) continue;
+      if (world_.points.level(from, side) * world_.points.level(to, side) >= 0) continue;
       const Vec3 normal = world_.planes.normal(side);
       const double hp = dot(normal, p) - world_.planes.offset_m(side),
                    hq = dot(normal, q) - world_.planes.offset_m(side);
@@ -244,7 +238,7 @@ class Judge {
     for (int e = 0; e < body_.half_edge_count(); ++e) {
       if (!body_.is_alive_edge(e) || e > body_.twin(e)) continue;
       const int from = body_.origin(e), to = body_.target(e);
-      if (level(from, side) * level(to, side) >= 0) continue;
+      if (world_.points.level(from, side) * world_.points.level(to, side) >= 0) continue;
       const Vec3 p = world_.points.at(from), q = world_.points.at(to);
       const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
       if (contains_clearly(shape, normal, p + (hp / (hp - hq)) * (q - p), world_.points.grid_m()))

@@ -306,7 +306,7 @@ std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch
     for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
       const Region& region = slot.section.regions[at(r)];
       const double old = region.is_candidate ? old_area(slot.section, region) : 0;
-      if (old <= 0 || is_banned({slot.section.split_side(region)}, !region.is_material)) continue;
+      if (old <= 0 || is_banned(slot.section, region)) continue;
       if (const auto value = key(region, region.new_area, old, limit()))
         candidates.push_back({&slot, r, *value, false, {}});
     }
@@ -362,7 +362,7 @@ std::optional<Choice> Chooser::best_patch_cut(std::vector<Patch> patches, int mi
   std::erase_if(patches, [&](const Patch& p) {
     const int order = static_cast<int>(p.sides().size());
     return order < min_order || order > max_order || p.new_area / p.old_area >= limit() ||
-           is_banned(p.sides(), p.is_hole);
+           is_banned(p);
   });
   std::optional<Choice> best;
   for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -113,8 +113,12 @@ class Chooser {
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
   Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
   [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
-  [[nodiscard]] bool is_banned(std::vector<Side> sides, bool is_hole) const {
-    return !banned_->empty() && banned_->contains({std::move(sides), is_hole});
+  [[nodiscard]] bool is_banned(const Section& section, const Region& region) const {
+    return !banned_->empty() &&
+           banned_->contains({{section.split_side(region)}, !region.is_material});
+  }
+  [[nodiscard]] bool is_banned(const Patch& patch) const {
+    return !banned_->empty() && banned_->contains({patch.sides(), patch.is_hole});
   }
   std::vector<Patch> patches(bool is_hole);
   std::optional<Choice> corner_cut(const std::vector<Patch>& natural);

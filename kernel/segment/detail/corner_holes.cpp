@@ -80,10 +80,8 @@ class CornerCutter {
     if (std::ranges::any_of(sides_, [&](Side s) { return s >> 1 == own >> 1; })) return false;
     bool is_behind = true;
     body_->for_each_edge(f, [&](int e) {
-      for (const Side side : sides_) {
-        const int level = body_->world().points.side(body_->origin(e), side >> 1);
-        is_behind &= ((side & 1) != 0 ? -level : level) <= 0;
-      }
+      for (const Side side : sides_)
+        is_behind &= body_->world().points.level(body_->origin(e), side) <= 0;
     });
     return is_behind;
   }
@@ -233,8 +231,7 @@ class CornerHoleFinder {
   }
 
   [[nodiscard]] int level(int point, Side side) const {
-    const int level = body_.world().points.side(point, side >> 1);
-    return (side & 1) != 0 ? -level : level;
+    return body_.world().points.level(point, side);
   }
 
   /// The wall of a hole holds a bend, of which a part lies behind all planes, and each plane meets

@@ -35,6 +35,11 @@ class PointTable {
   [[nodiscard]] int rank(int point, int k) { return ranks(k)[index(point)]; }
   /// -1, 0, +1: behind, on, in front of a plane as its class has it.
   [[nodiscard]] int side(int point, int plane);
+  /// The same for an oriented plane: +1 where its normal points.
+  [[nodiscard]] int level(int point, Side of) {
+    const int level = side(point, of >> 1);
+    return (of & 1) != 0 ? -level : level;
+  }
 
   /// The point where an edge (the meeting of planes f and g, from `low` to `high`) crosses `plane`.
   /// Its ranks lie between those of the edge's ends, whatever rounding there was in a vertex by
