@@ -1,5 +1,6 @@
 #include "kernel/segment/detail/carve.h"
 
+#include "kernel/geometry/exact.h"
 #include "kernel/model/issue.h"
 
 #include <algorithm>
@@ -314,6 +315,18 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
     if (is_new) solid.vertices.push_back({world.points.at(point), world.points.is_meeting(point)});
     return entry->second;
   };
+  // A cap may lie in a plane that the original has in the other orientation only.
+  std::map<Side, PlaneId> turned;
+  const auto plane = [&](const World& world, Side side) {
+    if (const PlaneId id = world.planes.id_of(side); id.is_valid()) return id;
+    const auto [entry, is_new] =
+        turned.emplace(side, PlaneId{static_cast<int>(solid.planes.size())});
+    if (is_new) {
+      const Plane& given = world.planes.plane(side >> 1);
+      solid.planes.push_back((side & 1) != 0 ? exact::opposite(given) : given);
+    }
+    return entry->second;
+  };
   int lump = 0;
   for (const Boundary& body : bodies)
     for (const Boundary& part : part_into_lumps(body)) {
@@ -321,7 +334,7 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
       for (const auto& piece : pieces_of(part)) {
         Shell shell{{}, lump, volume_of(part, piece) < 0};
         for (const int f : piece) {
-          Facet facet{part.world().planes.id_of(part.facet(f).side), corners.loops(f), {}};
+          Facet facet{plane(part.world(), part.facet(f).side), corners.loops(f), {}};
           for (Loop& loop : facet.loops)
             for (int& v : loop) v = vertex(part.world(), v);
           for (const int source : part.facet(f).sources)
