@@ -156,12 +156,11 @@ class FeatureRemover {
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
       const detail::EdgeIndex edges(body, {split >> 1});
-      const auto section =
-          section_at(body, split >> 1, looks_along_class ? 1 : -1, edges.edges_at(0),
-                     {-1, options_.tolerances.weld_m}, scratch_);
+      detail::Section section{split >> 1, looks_along_class ? 1 : -1};
+      section_at(body, section, edges.edges_at(0), {-1, options_.tolerances.weld_m});
       const auto region = region_around(section, f);
       if (!region) continue;
-      const detail::Lump lump = detail::LumpFinder(body, section, scratch_).find(*region);
+      const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
         return "its cut does not close any more";
       Boundary trial = body;
@@ -303,7 +302,6 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
-  detail::Scratch scratch_;
   std::vector<char> wanted_;  ///< by feature: asked for and not refused
   std::vector<char> go_;      ///< by feature: wanted, or sits on what is
   Remainder out_;

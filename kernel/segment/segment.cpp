@@ -93,11 +93,12 @@ class Segmenter {
     std::optional<detail::Chooser> chooser;
     std::set<std::pair<State, detail::CutKey>> seen;
     std::set<detail::CutKey> banned;
+    int bend = 0;
     while (true) {
-      if (is_convex(task.body)) return add_leaf(task, LeafFlag::convex);
+      if (is_convex(task.body, bend)) return add_leaf(task, LeafFlag::convex);
       if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
       if (!chooser)
-        chooser.emplace(task.body, options_, ground_, task.own_planes, out_.stats, work_, scratch_);
+        chooser.emplace(task.body, options_, ground_, task.own_planes, out_.stats, work_);
       const auto choice = chooser->next(banned);
       if (!choice) return add_leaf(task, flag_of_uncut(task, !banned.empty()));
       // Natural cuts take edges away, so only others can lead back to where the body was. Then that
@@ -108,12 +109,12 @@ class Segmenter {
         continue;
       }
       if (choice->imprinted) task.body = *choice->imprinted;
-      const auto changes = cut(task, *choice);
+      auto changes = cut(task, *choice);
       if (choice->imprinted) {
         remove_seams(task.body);
         chooser.reset();
       } else {
-        chooser->changed(changes);
+        chooser->changed(std::move(changes));
       }
       if (may_have_parted_) {
         may_have_parted_ = false;
@@ -158,9 +159,13 @@ class Segmenter {
     }
   }
 
-  [[nodiscard]] bool is_convex(const Boundary& body) const {
-    for (int e = 0; e < body.half_edge_count(); ++e)
-      if (body.is_alive_edge(e) && e < body.twin(e) && body.is_reflex(e)) return false;
+  /// `bend` is where to look first: a half-edge that was reflex when it was asked for last, if any.
+  [[nodiscard]] static bool is_convex(const Boundary& body, int& bend) {
+    const int size = body.half_edge_count(), start = bend;
+    for (int i = 0; i < size; ++i) {
+      bend = start + i < size ? start + i : start + i - size;
+      if (body.is_alive_edge(bend) && bend < body.twin(bend) && body.is_reflex(bend)) return false;
+    }
     return true;
   }
 
@@ -256,8 +261,8 @@ class Segmenter {
                                   const std::vector<detail::Cap>& caps) {
     detail::Change change{carved.touched, {}, {}};
     const Boundary& part = carved.lump;
-    for (const int f : part.living_facets())
-      part.for_each_edge(f, [&](int e) { change.part.push_back(part.origin(e)); });
+    for (int e = 0; e < part.half_edge_count(); ++e)
+      if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));
     const bool is_simple = caps.size() == 1 && caps[0].loops.size() == 1 &&
                            caps[0].covered.empty() && !caps[0].is_taken;
     if (is_simple)
@@ -324,7 +329,6 @@ class Segmenter {
   Segmentation out_;
   detail::World world_;
   detail::CellWriter cells_;
-  detail::Scratch scratch_;
   Side ground_ = -1;
   std::vector<Task> tasks_;
   std::int64_t work_ = 0;

@@ -15,15 +15,22 @@ double Boundary::area(int f) const {
   return sum;
 }
 
+const Boundary::OnSide* Boundary::on_side(Side side) const {
+  const auto found =
+      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
+  if (found == number_of_side_.end() || found->first != side) return nullptr;
+  return &on_side_[index(found->second)];
+}
+
 double Boundary::area_on(Side side) const {
-  const auto found = on_side_.find(side);
-  return found == on_side_.end() || found->second.living == 0 ? 0 : found->second.area;
+  const OnSide* on = on_side(side);
+  return on == nullptr || on->living == 0 ? 0 : on->area;
 }
 
 std::vector<int> Boundary::facets_on(Side side) const {
   std::vector<int> living;
-  if (const auto found = on_side_.find(side); found != on_side_.end())
-    for (const int f : found->second.facets)
+  if (const OnSide* on = on_side(side))
+    for (const int f : on->facets)
       if (is_alive(f)) living.push_back(f);
   return living;
 }
@@ -88,12 +95,25 @@ int Boundary::add_edge(int origin) {
   return half_edge_count() - 1;
 }
 
-int Boundary::add_facet(Side side, std::vector<int> sources, std::vector<CapMark> marks) {
+void Boundary::reserve(int half_edges, int facets) {
+  half_edges_.reserve(index(half_edges));
+  loops_.reserve(index(facets));
+  facets_.reserve(index(facets));
+  on_side_.reserve(index(facets));
+  number_of_side_.reserve(index(facets));
+}
+
+int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> marks) {
   const int f = facet_count();
-  facets_.push_back({side, {}, std::move(sources), std::move(marks)});
-  OnSide& on = on_side_[side];
+  auto place = std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
+  if (place == number_of_side_.end() || place->first != side) {
+    place = number_of_side_.insert(place, {side, static_cast<int>(on_side_.size())});
+    on_side_.emplace_back();
+  }
+  OnSide& on = on_side_[index(place->second)];
   on.facets.push_back(f);
   ++on.living;
+  facets_.push_back({side, {}, sources, std::move(marks), place->second});
   return f;
 }
 
@@ -110,19 +130,28 @@ int Boundary::trace(int first) {
 
 void Boundary::attach(int l, int f) {
   LoopRecord& record = loops_[index(l)];
-  const Outline points = outline(l);
+  const Vec3 start = at(record.first);
+  Vec3 sum, from;
+  half_edges_[index(record.first)].facet = f;
+  for (int e = next(record.first); e != record.first; e = next(e)) {
+    half_edges_[index(e)].facet = f;
+    const Vec3 to = at(e) - start;
+    sum = sum + cross(from, to);
+    from = to;
+  }
   record.facet = f;
-  record.area = signed_area(points, world_->planes.normal(facet(f).side));
+  record.area = dot(sum, world_->planes.normal(facet(f).side)) / 2;
   // A loop of no width is the outer loop of a sliver: no hole is so thin.
-  record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(points);
+  record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(outline(l));
   facets_[index(f)].loops.push_back(l);
-  on_side_[facet(f).side].area += record.area;
+  on_side_of(f).area += record.area;
 }
 
 void Boundary::detach(int l) {
   LoopRecord& record = loops_[index(l)];
-  on_side_[facet(record.facet).side].area -= record.area;
-  std::erase(facets_[index(record.facet)].loops, l);
+  on_side_of(record.facet).area -= record.area;
+  auto& loops = facets_[index(record.facet)].loops;
+  loops.erase(std::ranges::find(loops, l));
   record.facet = -1;
 }
 
@@ -134,8 +163,13 @@ int Boundary::add_loop(int first, int f) {
 
 void Boundary::kill_facet(int f) {
   FacetRecord& record = facets_[index(f)];
-  while (!record.loops.empty()) detach(record.loops.back());
-  --on_side_[record.side].living;
+  OnSide& on = on_side_of(f);
+  for (const int l : record.loops) {
+    on.area -= loop(l).area;
+    loops_[index(l)].facet = -1;
+  }
+  record.loops.clear();
+  --on.living;
   record.side = -1;
   record.marks.clear();
 }
@@ -153,7 +187,9 @@ void Boundary::split_edge(int e, int point) {
   const int t = twin(e);
   const int e2 = add_edge(point), t2 = add_edge(point);
   half_edges_[index(e2)].loop = edge(e).loop;
+  half_edges_[index(e2)].facet = edge(e).facet;
   half_edges_[index(t2)].loop = edge(t).loop;
+  half_edges_[index(t2)].facet = edge(t).facet;
   const int after_e = next(e), after_t = next(t);
   link(e, e2);
   link(e2, after_e);
@@ -163,8 +199,8 @@ void Boundary::split_edge(int e, int point) {
   pair(t, e2);
 }
 
-std::vector<int> Boundary::retrace(int f, const std::vector<int>& extra) {
-  const std::vector<int> old = facet(f).loops;
+void Boundary::retrace(int f, const std::vector<int>& extra) {
+  const Few<int, 2> old = facet(f).loops;
   for (const int l : old) detach(l);
   const int first_new = static_cast<int>(loops_.size());
   std::vector<int> fresh;
@@ -173,16 +209,20 @@ std::vector<int> Boundary::retrace(int f, const std::vector<int>& extra) {
   for (const int l : old)
     if (edge(loop(l).first).loop == l) fresh.push_back(l);
   for (const int l : fresh) attach(l, f);
-  return part(f);
+  part(f);
 }
 
 /// If the facet has several outer loops, all but the first become facets of their own, each with
 /// the holes inside it.
-std::vector<int> Boundary::part(int f) {
+void Boundary::part(int f) {
+  const auto is_outer = [&](int l) { return !loop(l).is_hole; };
+  if (std::ranges::count_if(facet(f).loops, is_outer) <= 1) return;
   std::vector<int> outer, holes;
-  for (const int l : facet(f).loops) (loop(l).is_hole ? holes : outer).push_back(l);
-  if (outer.size() <= 1) return {f};
+  for (const int l : facet(f).loops) (is_outer(l) ? outer : holes).push_back(l);
+  part(f, outer, holes);
+}
 
+void Boundary::part(int f, const std::vector<int>& outer, const std::vector<int>& holes) {
   const Vec3 normal = world_->planes.normal(facet(f).side);
   std::vector<int> pieces{f};
   std::vector<Outline> shapes;
@@ -211,7 +251,6 @@ std::vector<int> Boundary::part(int f) {
     attach(l, pieces[best]);
   }
   distribute_marks(pieces, marks);
-  return pieces;
 }
 
 void Boundary::distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks) {
@@ -229,8 +268,8 @@ void Boundary::distribute_marks(const std::vector<int>& pieces, const std::vecto
 
 /// Moves all of facet f to `target`, which lies on the same plane.
 void Boundary::merge(int target, int f) {
-  const std::vector<int> loops = facet(f).loops;
-  const std::vector<int> sources = facet(f).sources;
+  const Few<int, 2> loops = facet(f).loops;
+  const Sources sources = facet(f).sources;
   std::vector<CapMark> marks = std::move(facets_[index(f)].marks);
   kill_facet(f);
   for (const int l : loops) attach(l, target);
@@ -239,7 +278,8 @@ void Boundary::merge(int target, int f) {
   all.insert(all.end(), marks.begin(), marks.end());
 }
 
-void Boundary::add_sources(int f, const std::vector<int>& sources) {
+void Boundary::add_sources(int f, const Sources& sources) {
+  if (sources.empty()) return;
   auto& all = facets_[index(f)].sources;
   all.insert(all.end(), sources.begin(), sources.end());
   std::ranges::sort(all);

@@ -2,12 +2,14 @@
 
 #include "kernel/geometry/planar.h"
 #include "kernel/model/ids.h"
+#include "kernel/segment/detail/few.h"
 #include "kernel/segment/detail/planes.h"
 #include "kernel/segment/detail/points.h"
+#include "kernel/segment/detail/scratch.h"
 
 #include <optional>
 #include <span>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
@@ -16,6 +18,7 @@ namespace oriel::detail {
 struct World {
   PlaneTable planes;
   PointTable points;
+  Scratch scratch = {};
 };
 
 /// A mark on a facet that follows it through cuts and merges: here lies the largest cap of a
@@ -39,9 +42,12 @@ class Boundary {
     int prev = -1;
     int twin = -1;
     int loop = -1;
+    int facet = -1;                       ///< that of its loop
     mutable signed char bend = kUnknown;  ///< remembered by is_reflex
   };
   static constexpr signed char kUnknown = -1;
+  /// Facets of the solid that a facet is made of, sorted.
+  using Sources = Few<int, 2>;
   struct LoopRecord {
     int first = -1;
     int facet = -1;        ///< -1: dead
@@ -50,9 +56,10 @@ class Boundary {
   };
   struct FacetRecord {
     Side side = -1;  ///< -1: dead
-    std::vector<int> loops;
-    std::vector<int> sources;  ///< facets of the solid it is made of, sorted
+    Few<int, 2> loops;
+    Sources sources;
     std::vector<CapMark> marks;
+    int on_side = -1;  ///< where on_side_ counts it
   };
 
   explicit Boundary(World& world) : world_(&world) {}
@@ -72,7 +79,7 @@ class Boundary {
   [[nodiscard]] int twin(int e) const { return edge(e).twin; }
   [[nodiscard]] int origin(int e) const { return edge(e).origin; }
   [[nodiscard]] int target(int e) const { return edge(edge(e).twin).origin; }
-  [[nodiscard]] int facet_of(int e) const { return loop(edge(e).loop).facet; }
+  [[nodiscard]] int facet_of(int e) const { return edge(e).facet; }
   [[nodiscard]] Side side_of_edge(int e) const { return facet(facet_of(e)).side; }
   [[nodiscard]] Vec3 at(int e) const { return world_->points.at(origin(e)); }
   [[nodiscard]] double area(int f) const;
@@ -112,11 +119,13 @@ class Boundary {
     half_edges_[index(e)].bend = half_edges_[index(f)].bend = kUnknown;
   }
   /// A facet without loops.
-  int add_facet(Side side, std::vector<int> sources = {}, std::vector<CapMark> marks = {});
+  int add_facet(Side side, const Sources& sources = {}, std::vector<CapMark> marks = {});
+  /// Room for that many half-edges and facets.
+  void reserve(int half_edges, int facets);
   /// Makes the cycle through `first` a loop of facet `f`.
   int add_loop(int first, int f);
   void add_mark(int f, const CapMark& mark) { facets_[index(f)].marks.push_back(mark); }
-  void add_sources(int f, const std::vector<int>& sources);
+  void add_sources(int f, const Sources& sources);
 
   /// Puts a new vertex `point` on an edge: e keeps its origin and ends at the point.
   void split_edge(int e, int point);
@@ -124,8 +133,8 @@ class Boundary {
   // -- Re-shaping facets.
   /// Forgets the loops of a facet and makes new ones of the cycles that its half-edges and `extra`
   /// ones form now. If they have several outer loops the facet falls apart: the first keeps its
-  /// number. Returns all its pieces.
-  std::vector<int> retrace(int f, const std::vector<int>& extra);
+  /// number.
+  void retrace(int f, const std::vector<int>& extra);
   /// Takes the facet `covered`, which faces the cap and lies under it, out of the cap: both vanish
   /// where they lie on each other. To be followed by heal(cap).
   void cover(int cap, int covered);
@@ -144,16 +153,19 @@ class Boundary {
   /// What lies on one side of a plane.
   struct OnSide {
     double area = 0;
-    std::vector<int> facets;  ///< ascending, with dead ones among them
+    Few<int, 2> facets = {};  ///< ascending, with dead ones among them
     int living = 0;
   };
+  [[nodiscard]] const OnSide* on_side(Side side) const;
+  [[nodiscard]] OnSide& on_side_of(int f) { return on_side_[index(facets_[index(f)].on_side)]; }
   int trace(int first);
   void split_at_corners(int f);
   void attach(int l, int f);
   void detach(int l);
   void kill_facet(int f);
   void merge(int target, int f);
-  std::vector<int> part(int f);
+  void part(int f);
+  void part(int f, const std::vector<int>& outer, const std::vector<int>& holes);
   [[nodiscard]] bool bends_inward(int e) const;
   void distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks);
   [[nodiscard]] std::vector<int> seams_of(int cap) const;
@@ -163,7 +175,8 @@ class Boundary {
   std::vector<HalfEdge> half_edges_;
   std::vector<LoopRecord> loops_;
   std::vector<FacetRecord> facets_;
-  std::unordered_map<Side, OnSide> on_side_;
+  std::vector<OnSide> on_side_;                       ///< in the order in which sides came up
+  std::vector<std::pair<Side, int>> number_of_side_;  ///< in on_side_, sorted
 };
 
 /// The boundary of one lump of a solid.
@@ -178,6 +191,9 @@ class Corners {
   [[nodiscard]] std::vector<Loop> loops(int facet) const;
 
  private:
+  char& is_corner(int e) { return is_corner_[static_cast<std::size_t>(e)]; }
+  bool keep_enough(int loop);
+
   const Boundary& body_;
   std::vector<char> is_corner_;  ///< by half-edge: of its origin
 };

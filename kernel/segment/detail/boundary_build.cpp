@@ -3,16 +3,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
 
 namespace oriel::detail {
 
+namespace {
+
+/// Pairs the half-edges of a closed boundary by their ends: each waits at its lower vertex for the
+/// opposite one.
+void pair_twins(Boundary& boundary, int vertices) {
+  std::vector<int> waiting(static_cast<std::size_t>(vertices), -1);  // by lower vertex, a chain
+  std::vector<int> behind(static_cast<std::size_t>(boundary.half_edge_count()), -1);
+  std::size_t open = 0;
+  for (int e = 0; e < boundary.half_edge_count(); ++e) {
+    const int from = boundary.origin(e), to = boundary.origin(boundary.next(e));
+    int* place = &waiting[static_cast<std::size_t>(std::min(from, to))];
+    while (*place >= 0) {
+      const int other = *place;
+      const int other_from = boundary.origin(other),
+                other_to = boundary.origin(boundary.next(other));
+      if (other_from == from && other_to == to)
+        throw GeometryError("an edge runs twice in the same direction");
+      if (other_from == to && other_to == from) break;
+      place = &behind[static_cast<std::size_t>(other)];
+    }
+    if (*place < 0) {
+      *place = e;
+      ++open;
+      continue;
+    }
+    const int twin = *place;
+    *place = behind[static_cast<std::size_t>(twin)];
+    boundary.pair(e, twin);
+    --open;
+  }
+  if (open > 0) throw GeometryError("a shell is not closed");
+}
+
+}  // namespace
+
 Boundary boundary_of(const Solid& solid, int lump, World& world) {
   Boundary boundary(world);
-  std::map<std::pair<int, int>, int>
-      open;  // half-edges that wait for their twin, by (origin, target)
+  boundary.reserve(4 * static_cast<int>(solid.vertices.size()),
+                   static_cast<int>(solid.facets.size()));
   for (const Shell& shell : solid.shells) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {
@@ -22,58 +55,58 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
         const int first = boundary.half_edge_count();
         const int size = static_cast<int>(loop.size());
         for (const int v : loop) boundary.add_edge(v);
-        for (int i = 0; i < size; ++i) {
-          const int e = first + i, origin = loop[static_cast<std::size_t>(i)],
-                    target = loop[static_cast<std::size_t>((i + 1) % size)];
-          boundary.link(e, first + (i + 1) % size);
-          const auto twin = open.find({target, origin});
-          if (twin == open.end()) {
-            if (!open.emplace(std::pair(origin, target), e).second)
-              throw GeometryError("an edge runs twice in the same direction");
-            continue;
-          }
-          boundary.pair(e, twin->second);
-          open.erase(twin);
-        }
+        for (int i = 0; i < size; ++i) boundary.link(first + i, first + (i + 1 < size ? i + 1 : 0));
         boundary.add_loop(first, f);
       }
     }
   }
-  if (!open.empty()) throw GeometryError("a shell is not closed");
+  pair_twins(boundary, static_cast<int>(solid.vertices.size()));
   return boundary;
 }
 
 Corners::Corners(const Boundary& body)
     : body_(body), is_corner_(static_cast<std::size_t>(body.half_edge_count()), 0) {
-  const auto is_kept = [&](int e) -> char& { return is_corner_[static_cast<std::size_t>(e)]; };
   for (int e = 0; e < body.half_edge_count(); ++e)
-    if (body.is_alive_edge(e)) is_kept(e) = body.next(body.twin(e)) != body.twin(body.prev(e));
+    if (body.is_alive_edge(e)) is_corner(e) = body.next(body.twin(e)) != body.twin(body.prev(e));
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
-    for (const int f : body.living_facets())
-      for (const int l : body.facet(f).loops) {
-        std::vector<int> edges;
-        int e = body.loop(l).first;
-        do {
-          edges.push_back(e);
-          e = body.next(e);
-        } while (e != body.loop(l).first);
-        const auto kept = std::ranges::count_if(edges, [&](int i) { return is_kept(i) != 0; });
-        if (kept >= 3 || kept == std::ssize(edges)) continue;
-        for (const int i : edges) is_kept(i) = is_kept(body.twin(body.prev(i))) = 1;
-        has_changed = true;
-      }
+    for (int f = 0; f < body.facet_count(); ++f) {
+      if (!body.is_alive(f)) continue;
+      for (const int l : body.facet(f).loops) has_changed |= keep_enough(l);
+    }
   }
+}
+
+bool Corners::keep_enough(int loop) {
+  const int first = body_.loop(loop).first;
+  int size = 0, kept = 0, e = first;
+  do {
+    ++size;
+    kept += is_corner(e);
+    e = body_.next(e);
+  } while (e != first);
+  if (kept >= 3 || kept == size) return false;
+  do {
+    is_corner(e) = is_corner(body_.twin(body_.prev(e))) = 1;
+    e = body_.next(e);
+  } while (e != first);
+  return true;
 }
 
 std::vector<Loop> Corners::loops(int facet) const {
   std::vector<Loop> loops;
   std::size_t outer = 0;
   const auto& numbers = body_.facet(facet).loops;
+  loops.reserve(numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const int first = body_.loop(numbers[i]).first;
     int e = first;
-    loops.emplace_back();
+    std::size_t size = 0;
+    do {
+      size += static_cast<std::size_t>(is_corner_[static_cast<std::size_t>(e)]);
+      e = body_.next(e);
+    } while (e != first);
+    loops.emplace_back().reserve(size);
     do {
       if (is_corner_[static_cast<std::size_t>(e)]) loops.back().push_back(body_.origin(e));
       e = body_.next(e);

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <map>
-#include <unordered_map>
-#include <unordered_set>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -15,47 +14,70 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Copies facets with their half-edges into a boundary of their own. Turned round, air becomes a
-/// body.
+/// body. Only one copier at a time may be in use.
 class Copier {
  public:
   Copier(const Boundary& from, bool is_turned)
-      : from_(from), to_(from.world()), is_turned_(is_turned) {}
+      : from_(from), to_(from.world()), scratch_(from.world().scratch), is_turned_(is_turned) {}
 
+  void add(const std::vector<int>& facets) {
+    scratch_.copied_edges.start(from_.half_edge_count());
+    if (std::ssize(scratch_.copy_of) < from_.half_edge_count())
+      scratch_.copy_of.resize(at(from_.half_edge_count()));
+    int edges = 0;
+    for (const int f : facets) from_.for_each_edge(f, [&](int) { ++edges; });
+    to_.reserve(2 * edges, static_cast<int>(facets.size()) + 2);
+    for (const int f : facets) add(f);
+    for (const int f : facets) pair_twins(f);
+  }
+
+  [[nodiscard]] int copy_of(int e) const { return scratch_.copy_of[at(e)]; }
+  Boundary& boundary() { return to_; }
+
+ private:
   void add(int f) {
     const auto& facet = from_.facet(f);
     const int copy =
         to_.add_facet(is_turned_ ? facet.side ^ 1 : facet.side, facet.sources, facet.marks);
-    from_.for_each_edge(f, [&](int e) {
-      copy_of_[e] = to_.add_edge(is_turned_ ? from_.target(e) : from_.origin(e));
-    });
-    from_.for_each_edge(f, [&](int e) {
-      if (is_turned_)
-        to_.link(copy_of_.at(from_.next(e)), copy_of_.at(e));
-      else
-        to_.link(copy_of_.at(e), copy_of_.at(from_.next(e)));
-    });
-    for (const int l : facet.loops) to_.add_loop(copy_of_.at(from_.loop(l).first), copy);
-    facets_.push_back(f);
+    for (const int l : facet.loops) {
+      const int first = from_.loop(l).first;
+      int e = first, last = -1;
+      do {
+        const int one = to_.add_edge(is_turned_ ? from_.target(e) : from_.origin(e));
+        if (last >= 0) link(last, one);
+        scratch_.copied_edges.insert(e);
+        scratch_.copy_of[at(e)] = last = one;
+        e = from_.next(e);
+      } while (e != first);
+      link(last, copy_of(first));
+      to_.add_loop(copy_of(first), copy);
+    }
   }
 
-  /// Pairs the copies of edges whose two sides were both copied.
-  void pair_twins() {
-    for (const auto& [e, copy] : copy_of_)
-      if (const auto twin = copy_of_.find(from_.twin(e)); twin != copy_of_.end())
-        to_.pair(copy, twin->second);
+  void link(int e, int after) { is_turned_ ? to_.link(after, e) : to_.link(e, after); }
+
+  /// Pairs the copies of edges whose two sides are both copied.
+  void pair_twins(int f) {
+    from_.for_each_edge(f, [&](int e) {
+      const int twin = from_.twin(e);
+      if (e < twin && scratch_.copied_edges.contains(twin)) to_.pair(copy_of(e), copy_of(twin));
+    });
   }
 
-  [[nodiscard]] int copy_of(int e) const { return copy_of_.at(e); }
-  [[nodiscard]] const std::vector<int>& facets() const { return facets_; }
-  Boundary& boundary() { return to_; }
-
- private:
   const Boundary& from_;
   Boundary to_;
+  Scratch& scratch_;
   bool is_turned_;
-  std::unordered_map<int, int> copy_of_;
-  std::vector<int> facets_;
 };
+
+/// A number for some half-edges.
+using EdgeMap = std::vector<std::pair<int, int>>;
+
+/// The number of e, or -1; the map is sorted.
+int find_in(const EdgeMap& map, int e) {
+  const auto found = std::ranges::lower_bound(map, e, {}, &std::pair<int, int>::first);
+  return found != map.end() && found->first == e ? found->second : -1;
+}
 
 class Remover {
  public:
@@ -64,79 +86,90 @@ class Remover {
     for (const Cap& cap : caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges)
-          if (edge.rim >= 0) twin_of_rim_[edge.rim] = body.twin(edge.rim);
+          if (edge.rim >= 0) twin_of_rim_.emplace_back(edge.rim, body.twin(edge.rim));
+    std::ranges::sort(twin_of_rim_);
+    find_lump();
   }
 
   Carved run(FeatureId mark, std::vector<int> touched) {
-    for (const int f : lump_facets()) copier_.add(f);
-    copier_.pair_twins();
+    copier_.add(facets_);
     close_lump();
-    for (const int f : copier_.facets())
+    for (const int f : facets_)
       body_.for_each_edge(f, [&](int e) { touched.push_back(body_.origin(e)); });
     for (const Cap& cap : caps_)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
-    body_.remove(copier_.facets());
+    body_.remove(facets_);
     close_rest(mark);
     return {std::move(copier_.boundary()), cap_point_, std::move(touched)};
   }
 
  private:
+  [[nodiscard]] bool is_rim(int e) const { return find_in(twin_of_rim_, e) >= 0; }
+
   /// The facets inside the rims, ascending.
-  std::vector<int> lump_facets() const {
-    std::unordered_set<int> is_beyond_rim;
-    for (const auto& [rim, twin] : twin_of_rim_)
-      if (!twin_of_rim_.contains(twin)) is_beyond_rim.insert(twin);
-    std::vector<int> facets;
-    std::vector<char> is_seen(at(body_.facet_count()), 0);
+  void find_lump() {
+    StampSet& seen = body_.world().scratch.facets_of_lump;
+    seen.start(body_.facet_count());
     const auto push = [&](int f) {
-      if (is_seen[at(f)]) return;
-      is_seen[at(f)] = 1;
-      facets.push_back(f);
+      if (seen.insert(f)) facets_.push_back(f);
     };
     for (const auto& [rim, twin] : twin_of_rim_) push(body_.facet_of(rim));
-    for (std::size_t i = 0; i < facets.size(); ++i)
-      body_.for_each_edge(facets[i], [&](int e) {
-        if (is_beyond_rim.contains(e))
-          throw GeometryError("the rim of a cut does not separate a lump");
-        if (!twin_of_rim_.contains(e)) push(body_.facet_of(body_.twin(e)));
+    for (std::size_t i = 0; i < facets_.size(); ++i)
+      body_.for_each_edge(facets_[i], [&](int e) {
+        if (is_rim(e)) return;
+        if (is_rim(body_.twin(e))) throw GeometryError("the rim of a cut does not separate a lump");
+        push(body_.facet_of(body_.twin(e)));
       });
-    std::ranges::sort(facets);
-    return facets;
+    std::ranges::sort(facets_);
   }
 
+  /// A free edge that waits for its other side.
+  struct Open {
+    int from, to, edge;
+  };
+
   /// Half-edges of a cap, linked loop by loop into a facet. Free edges wait in `free` for their
-  /// other side.
-  int add_cap(Boundary& boundary, const Cap& cap, Side side, bool is_backward,
-              std::map<std::pair<int, int>, int>& free, std::unordered_map<int, int>& of_rim) {
+  /// other side; those of the rim are added to `of_rim`.
+  static int add_cap(Boundary& boundary, const Cap& cap, Side side, bool is_backward,
+                     std::vector<Open>& free, EdgeMap& of_rim) {
     const int f = boundary.add_facet(side);
     for (const CapLoop& loop : cap.loops) {
-      std::vector<int> edges;
+      int first = -1, last = -1;
       for (const CapEdge& edge : loop.edges) {
         const int from = is_backward ? edge.to : edge.from, to = is_backward ? edge.from : edge.to;
         const int e = boundary.add_edge(from);
-        edges.push_back(e);
-        if (edge.rim >= 0)
-          of_rim[edge.rim] = e;
-        else if (const auto other = free.find({to, from}); other != free.end())
-          boundary.pair(e, other->second);
+        if (first < 0)
+          first = e;
         else
-          free[{from, to}] = e;
+          is_backward ? boundary.link(e, last) : boundary.link(last, e);
+        last = e;
+        if (edge.rim >= 0)
+          of_rim.emplace_back(edge.rim, e);
+        else
+          pair_free(boundary, {from, to, e}, free);
       }
-      if (is_backward) std::ranges::reverse(edges);
-      for (std::size_t i = 0; i < edges.size(); ++i)
-        boundary.link(edges[i], edges[(i + 1) % edges.size()]);
-      boundary.add_loop(edges[0], f);
+      is_backward ? boundary.link(first, last) : boundary.link(last, first);
+      boundary.add_loop(is_backward ? last : first, f);
     }
     return f;
+  }
+
+  static void pair_free(Boundary& boundary, const Open& open, std::vector<Open>& free) {
+    const auto other = std::ranges::find_if(
+        free, [&](const Open& o) { return o.from == open.to && o.to == open.from; });
+    if (other != free.end())
+      boundary.pair(open.edge, other->edge);
+    else
+      free.push_back(open);
   }
 
   /// A protrusion's own caps look back at the rest; the air of a hole ends where the rest is
   /// closed.
   void close_lump() {
     Boundary& lump = copier_.boundary();
-    std::map<std::pair<int, int>, int> free;
-    std::unordered_map<int, int> of_rim;
+    std::vector<Open> free;
+    EdgeMap of_rim;
     for (const Cap& cap : caps_) {
       const int f = add_cap(lump, cap, is_hole_ ? cap.side : cap.side ^ 1, !is_hole_, free, of_rim);
       for (const int g : cap.covered) {
@@ -154,15 +187,16 @@ class Remover {
   }
 
   void close_rest(FeatureId mark) {
-    std::map<std::pair<int, int>, int> free;
-    std::unordered_map<int, int> of_rim;
+    std::vector<Open> free;
+    EdgeMap of_rim;
     std::vector<int> facets;
     for (const Cap& cap : caps_)
       facets.push_back(add_cap(body_, cap, cap.side, false, free, of_rim));
+    std::ranges::sort(of_rim);
     for (const auto& [rim, e] : of_rim) {
-      const int beyond = twin_of_rim_.at(rim);
-      const auto also_rim = of_rim.find(beyond);
-      body_.pair(e, also_rim == of_rim.end() ? beyond : also_rim->second);
+      const int beyond = find_in(twin_of_rim_, rim);
+      const int also_rim = find_in(of_rim, beyond);
+      body_.pair(e, also_rim < 0 ? beyond : also_rim);
     }
     for (std::size_t i = 0; i < caps_.size(); ++i) {
       for (const int g : caps_[i].covered) body_.cover(facets[i], g);
@@ -184,7 +218,7 @@ class Remover {
   [[nodiscard]] int facet_beyond(const Cap& cap) const {
     for (const CapLoop& loop : cap.loops)
       for (const CapEdge& edge : loop.edges)
-        if (edge.rim >= 0) return body_.facet_of(twin_of_rim_.at(edge.rim));
+        if (edge.rim >= 0) return body_.facet_of(find_in(twin_of_rim_, edge.rim));
     throw GeometryError("a cap without a rim");
   }
 
@@ -208,7 +242,8 @@ class Remover {
   const std::vector<Cap>& caps_;
   bool is_hole_;
   Copier copier_;
-  std::unordered_map<int, int> twin_of_rim_;
+  EdgeMap twin_of_rim_;      ///< as they were before the cut, sorted
+  std::vector<int> facets_;  ///< of the lump
   std::vector<int> cap_facets_;
   Vec3 cap_point_;
 };
@@ -249,8 +284,7 @@ double winding_number(const Boundary& body, const std::vector<int>& facets, Vec3
 
 Boundary copy_facets(const Boundary& body, const std::vector<int>& facets, bool is_turned) {
   Copier copier(body, is_turned);
-  for (const int f : facets) copier.add(f);
-  copier.pair_twins();
+  copier.add(facets);
   return std::move(copier.boundary());
 }
 

@@ -3,12 +3,23 @@
 #include "kernel/geometry/exact.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace oriel::detail {
 
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Figures in one plane with these boxes may overlap. What is across the plane does not count:
+/// polygons are as they came, facets are snapped.
+bool may_overlap(const Box& p, const Box& q, Vec3 normal) {
+  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+  const double most = std::max({x, y, z});
+  return (x == most || (p.min.x < q.max.x && q.min.x < p.max.x)) &&
+         (y == most || (p.min.y < q.max.y && q.min.y < p.max.y)) &&
+         (z == most || (p.min.z < q.max.z && q.min.z < p.max.z));
+}
 
 /// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
 /// most of it lies.
@@ -71,6 +82,42 @@ void CellWriter::finish(const Building& building, const Solid& solid) {
   attribute_polygons(building, solid);
 }
 
+std::vector<CellWriter::Shape> CellWriter::shapes_of(
+    const std::vector<CellFacet>& cell_facets) const {
+  std::vector<Shape> shapes(cell_facets.size());
+  if (shapes.size() == 1) return shapes;  // nobody asks for its outlines
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const CellFacet here = cell_facets[i];
+    for (const Loop& loop : out_.cells[here.cell.index()].facets[at(here.facet)].loops) {
+      Outline& outline = shapes[i].outlines.emplace_back();
+      for (const int v : loop) outline.push_back(out_.vertices[at(v)].point);
+      for (const Vec3 p : outline) shapes[i].box.grow(p);
+    }
+  }
+  return shapes;
+}
+
+/// The shape that holds most of a polygon.
+std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon,
+                                const std::vector<Shape>& shapes, Vec3 normal) {
+  std::vector<Outline> rings;
+  Box box;
+  for (const auto& ring : polygon.rings) {
+    rings.emplace_back();
+    for (const int v : ring) rings.back().push_back(building.vertices[at(v)]);
+  }
+  for (const Vec3 p : rings[0]) box.grow(p);
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (may_overlap(box, shapes[i].box, normal)) near.push_back(i);
+  if (near.empty()) return 0;
+  if (near.size() == 1) return near[0];
+  std::vector<int> hits(shapes.size(), 0);
+  for (const Vec3 p : samples_of(rings, normal))
+    for (const std::size_t i : near) hits[i] += contains(shapes[i].outlines, normal, p) ? 1 : 0;
+  return static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
+}
+
 /// Every input polygon goes to the cell facet that holds most of it, and to the features that facet
 /// is in: those of its cell, what those lie in, and what hosts them.
 void CellWriter::attribute_polygons(const Building& building, const Solid& solid) {
@@ -83,28 +130,11 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
   for (const auto& [source, cell_facets] : made_of_) {
     const Facet& facet = solid.facets[at(source)];
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
-    std::vector<std::vector<Outline>> shapes;
-    for (const CellFacet& here : cell_facets) {
-      shapes.emplace_back();
-      for (const Loop& loop : out_.cells[here.cell.index()].facets[at(here.facet)].loops) {
-        shapes.back().emplace_back();
-        for (const int v : loop) shapes.back().back().push_back(out_.vertices[at(v)].point);
-      }
-    }
+    const std::vector<Shape> shapes = shapes_of(cell_facets);
     for (const int polygon : facet.polygons) {
-      std::size_t best = 0;
-      if (cell_facets.size() > 1) {
-        std::vector<Outline> rings;
-        for (const auto& ring : polygon_of_source[at(polygon)]->rings) {
-          rings.emplace_back();
-          for (const int v : ring) rings.back().push_back(building.vertices[at(v)]);
-        }
-        std::vector<int> hits(cell_facets.size(), 0);
-        for (const Vec3 p : samples_of(rings, normal))
-          for (std::size_t i = 0; i < shapes.size(); ++i)
-            hits[i] += contains(shapes[i], normal, p) ? 1 : 0;
-        best = static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
-      }
+      const std::size_t best =
+          shapes.size() == 1 ? 0
+                             : home_of(building, *polygon_of_source[at(polygon)], shapes, normal);
       const CellFacet home = cell_facets[best];
       out_.cells[home.cell.index()].facets[at(home.facet)].polygons.push_back(polygon);
       std::vector<FeatureId> around{out_.cells[home.cell.index()].feature};

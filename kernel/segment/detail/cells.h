@@ -4,6 +4,7 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/detail/boundary.h"
 
+#include <cstddef>
 #include <map>
 #include <utility>
 #include <vector>
@@ -28,7 +29,15 @@ class CellWriter {
   void finish(const Building& building, const Solid& solid);
 
  private:
+  /// The outlines of a cell facet.
+  struct Shape {
+    std::vector<Outline> outlines;
+    Box box;
+  };
   void attribute_polygons(const Building& building, const Solid& solid);
+  [[nodiscard]] std::vector<Shape> shapes_of(const std::vector<CellFacet>& cell_facets) const;
+  static std::size_t home_of(const Building& building, const Polygon& polygon,
+                             const std::vector<Shape>& shapes, Vec3 normal);
 
   World& world_;
   Segmentation& out_;

@@ -66,8 +66,7 @@ std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& o
 }  // namespace
 
 Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
-                 std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work,
-                 Scratch& scratch)
+                 std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work)
     : body_(body),
       world_(body.world()),
       options_(options),
@@ -75,16 +74,27 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
       own_planes_(std::move(own_planes)),
       stats_(stats),
       work_(work),
-      scratch_(scratch),
       planes_(split_planes_of(body, own_planes_)),
       edges_(body, planes_) {
+  slots_.reserve(2 * planes_.size());
   for (std::size_t i = 0; i < planes_.size(); ++i)
-    for (const int direction : {1, -1}) slots_.push_back({i, direction});
+    for (const int direction : {1, -1}) {
+      to_do_.push_back(slots_.size());
+      slots_.push_back({i});
+      slots_.back().section.plane = planes_[i];
+      slots_.back().section.direction = direction;
+    }
 }
 
-void Chooser::changed(const std::vector<Change>& changes) {
+void Chooser::changed(std::vector<Change> changes) {
   edges_.update();
-  for (const Change& change : changes) apply(change);
+  for (Change& change : changes) {
+    for (auto* points : {&change.points, &change.part}) {
+      std::ranges::sort(*points);
+      points->erase(std::unique(points->begin(), points->end()), points->end());
+    }
+    apply(change);
+  }
 }
 
 /// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
@@ -96,90 +106,100 @@ void Chooser::apply(const Change& change) {
   };
   for (int k = 0; k < world_.planes.class_count(); ++k) {
     const auto rank = world_.points.ranks(k);
-    Reach reach;
-    for (const int p : change.points) reach.ranks.push_back(rank[at(p)]);
-    std::ranges::sort(reach.ranks);
-    const auto first =
-        std::ranges::lower_bound(planes_, std::pair(k, reach.ranks.front()), {}, place);
-    const auto last =
-        std::ranges::upper_bound(planes_, std::pair(k, reach.ranks.back()), {}, place);
-    if (first >= last) continue;
-    reach.part_low = std::numeric_limits<int>::max();
+    Reach reach{k, std::numeric_limits<int>::max(), -1, std::numeric_limits<int>::max(), -1};
+    for (const int p : change.points) {
+      reach.low = std::min(reach.low, rank[at(p)]);
+      reach.high = std::max(reach.high, rank[at(p)]);
+    }
     for (const int p : change.part) {
       reach.part_low = std::min(reach.part_low, rank[at(p)]);
       reach.part_high = std::max(reach.part_high, rank[at(p)]);
     }
-    for (auto plane = first; plane != last; ++plane)
+    const auto first = std::ranges::lower_bound(planes_, std::pair(k, reach.low), {}, place);
+    const auto last = std::ranges::upper_bound(planes_, std::pair(k, reach.high), {}, place);
+    for (auto plane = first; plane < last; ++plane)
       for (std::size_t flip = 0; flip < 2; ++flip)
-        touch(slots_[2 * static_cast<std::size_t>(plane - planes_.begin()) + flip], change, reach,
-              part);
+        touch(2 * static_cast<std::size_t>(plane - planes_.begin()) + flip, change, reach, part);
   }
+}
+
+void Chooser::make_stale(std::size_t slot) {
+  if (slots_[slot].is_stale) return;
+  slots_[slot].is_stale = true;
+  to_do_.push_back(slot);
+}
+
+void Chooser::touch(std::size_t slot, const Change& change, const Reach& reach, const Box& part) {
+  if (slots_[slot].is_idle && stays_idle(slots_[slot], change, reach, part)) return;
+  slots_[slot].is_idle = false;
+  make_stale(slot);
 }
 
 /// An idle section stays idle if the change has no point on its plane and the part either is not
 /// met by it, or meets it in one piece that its cap closes with one chord: then one stretch of one
 /// loop is replaced by that chord. No loop is made, none becomes natural, and areas change by no
 /// more than that of the piece.
-void Chooser::touch(Slot& slot, const Change& change, const Reach& reach, const Box& part) const {
-  slot.is_stale = true;
-  if (!slot.is_idle) return;
+bool Chooser::stays_idle(Slot& slot, const Change& change, const Reach& reach,
+                         const Box& part) const {
+  if (change.rim.empty()) return false;
   const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
-  slot.is_idle = false;
-  if (change.rim.empty() || std::ranges::binary_search(reach.ranks, rank)) return;
-  if (rank > reach.part_low && rank < reach.part_high) {
-    const auto ranks = world_.points.ranks(world_.planes.class_of(plane));
-    const auto chords = std::ranges::count_if(change.rim, [&](const std::pair<int, int>& edge) {
-      return (ranks[at(edge.first)] < rank) != (ranks[at(edge.second)] < rank);
-    });
-    if (chords != 2) return;
-    const double area = most_area(part, world_.planes.plane(plane).normal);
-    for (double& margin : slot.margins) margin -= area;
-    if (slot.margins[0] <= 0 || slot.margins[1] <= 0) return;
-  }
-  slot.is_idle = true;
+  const auto ranks = world_.points.ranks(reach.normal_class);
+  for (const int p : change.points)
+    if (ranks[at(p)] == rank) return false;
+  if (rank <= reach.part_low || rank >= reach.part_high) return true;
+  const auto chords = std::ranges::count_if(change.rim, [&](const std::pair<int, int>& edge) {
+    return (ranks[at(edge.first)] < rank) != (ranks[at(edge.second)] < rank);
+  });
+  if (chords != 2) return false;
+  const double area = most_area(part, world_.planes.plane(plane).normal);
+  for (double& margin : slot.margins) margin -= area;
+  return slot.margins[0] > 0 && slot.margins[1] > 0;
 }
 
-/// Nothing to cut: no region is natural or smaller than the old area.
-void Chooser::judge_idle(Slot& slot) const {
-  const Section& section = slot.section;
+/// False if there is nothing to cut: no region is natural or smaller than the old area.
+bool Chooser::judge(Slot& slot, const Section& section) const {
   slot.margins.fill(std::numeric_limits<double>::infinity());
-  slot.is_idle = section.crossings.empty() || !section.loops.empty();
+  bool is_idle = section.crossings.empty() || !section.loops.empty();
   for (const Region& region : section.regions) {
-    const double old = old_area(section, region);
+    const double old = section.old_area(region);
     if (old <= 0) continue;
     double& margin = slot.margins[region.is_material ? 0 : 1];
     margin = std::min(margin, region.new_area - old);
-    slot.is_idle &= !region.is_natural && margin > 0;
+    is_idle &= !region.is_natural && margin > 0;
   }
+  return !is_idle;
 }
 
 void Chooser::refresh() {
-  for (Slot& slot : slots_) {
-    const int plane = planes_[slot.entry];
-    if (body_.area_on(2 * plane) <= 0 && body_.area_on(2 * plane + 1) <= 0) {
-      slot.section = {};
-      slot.is_stale = true;
-      slot.is_idle = false;
-    } else if (slot.is_stale && !slot.is_idle) {
-      refresh(slot);
-    }
+  for (const std::size_t i : to_do_) {
+    Slot& slot = slots_[i];
+    slot.is_stale = slot.is_idle = false;
+    refresh(slot);
+    if (slot.section.regions.empty())
+      promising_.erase(i);
+    else
+      promising_.insert(i);
   }
+  to_do_.clear();
 }
 
 void Chooser::refresh(Slot& slot) {
   const int plane = planes_[slot.entry];
+  const Side looking = 2 * plane + (slot.section.direction > 0 ? 0 : 1);
+  const bool has_front = body_.area_on(looking) > 0, has_back = body_.area_on(looking ^ 1) > 0;
+  slot.section.regions.clear();
+  if (!has_front && !has_back) return;
   const auto edges = edges_.edges_at(slot.entry);
-  slot.section = section_at(body_, plane, slot.direction, edges,
-                            {free_side_, options_.tolerances.weld_m}, scratch_);
-  slot.is_stale = false;
-  judge_idle(slot);
+  fresh_.plane = plane;
+  fresh_.direction = slot.section.direction;
+  section_at(body_, fresh_, edges, {free_side_, options_.tolerances.weld_m});
   work_ += std::ssize(edges);
-  const Side looking = 2 * plane + (slot.direction > 0 ? 0 : 1);
-  if (body_.area_on(looking) > 0) ++stats_.protrusion_tests;
-  if (body_.area_on(looking ^ 1) > 0) ++stats_.hole_tests;
-  for (const Region& region : slot.section.regions)
-    if (region.is_candidate && old_area(slot.section, region) > region.new_area)
-      ++stats_.candidates;
+  if (has_front) ++stats_.protrusion_tests;
+  if (has_back) ++stats_.hole_tests;
+  for (const Region& region : fresh_.regions)
+    if (region.is_candidate && fresh_.old_area(region) > region.new_area) ++stats_.candidates;
+  slot.is_idle = !judge(slot, fresh_);
+  if (!slot.is_idle) std::swap(slot.section, fresh_);
 }
 
 std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
@@ -267,7 +287,7 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
     return false;
   for (const int r : lump.regions) {
     const auto value =
-        key(section.regions[at(r)], lump.new_area, old_area(section, region), limit());
+        key(section.regions[at(r)], lump.new_area, section.old_area(region), limit());
     if (!value) return false;
     candidate.key = *value;
   }
@@ -291,7 +311,7 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
     std::erase_if(candidates, [&](Candidate& c) {
       if (c.is_checked || c.key > least * group) return false;
       is_settled = false;
-      if (c.slot != found_in) finder.emplace(body_, c.slot->section, scratch_);
+      if (c.slot != found_in) finder.emplace(body_, c.slot->section);
       found_in = c.slot;
       return !check(c, key, *finder);
     });
@@ -301,11 +321,11 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
 
 std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch>& rivals) {
   std::vector<Candidate> candidates;
-  for (Slot& slot : slots_) {
-    if (slot.is_idle) continue;
+  for (const std::size_t i : promising_) {
+    Slot& slot = slots_[i];
     for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
       const Region& region = slot.section.regions[at(r)];
-      const double old = region.is_candidate ? old_area(slot.section, region) : 0;
+      const double old = region.is_candidate ? slot.section.old_area(region) : 0;
       if (old <= 0 || is_banned(slot.section, region)) continue;
       if (const auto value = key(region, region.new_area, old, limit()))
         candidates.push_back({&slot, r, *value, false, {}});
@@ -340,7 +360,7 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
   choice.is_hole = !region.is_material;
   choice.is_natural = true;
   choice.value = first.key;
-  choice.old_area = old_area(section, region);
+  choice.old_area = section.old_area(region);
   choice.quality = first.lump.new_area / choice.old_area;
   choice.sides = {section.split_side(region)};
   choice.section = &section;

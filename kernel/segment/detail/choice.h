@@ -62,31 +62,31 @@ class Chooser {
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
   /// body.
   Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
-          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work,
-          Scratch& scratch);
+          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work);
 
   /// The best cut by the order that is not `banned`, or nothing: the body is a leaf.
   std::optional<Choice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
-  void changed(const std::vector<Change>& changes);
+  void changed(std::vector<Change> changes);
 
  private:
   /// A split plane seen from one side.
   struct Slot {
     std::size_t entry;  ///< of its plane in planes_
-    int direction;
     bool is_stale = true;
-    Section section{};
     /// Nothing can be cut here. Of material and of air, the area by which the smallest region is
     /// too large.
     bool is_idle = false;
     std::array<double, 2> margins{};
+    Section section{};  ///< kept if there is something to cut
   };
-  /// What a change means to the planes of one normal class.
+  /// What a change means to the planes of one normal class: the ranks of its points, and of those
+  /// of the part.
   struct Reach {
-    std::vector<int> ranks;            ///< of all points, ascending
-    int part_low = 0, part_high = -1;  ///< ranks of the part
+    int normal_class;
+    int low, high;
+    int part_low, part_high;
   };
   /// A region as a candidate of the pass at hand.
   struct Candidate {
@@ -99,14 +99,17 @@ class Chooser {
   using Key = std::optional<double> (*)(const Region&, double new_area, double old_area,
                                         double limit);
 
+  void make_stale(std::size_t slot);
   void refresh();
   std::optional<Choice> natural_next();
   std::optional<Choice> paper_next();
   std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
   void refresh(Slot& slot);
-  void judge_idle(Slot& slot) const;
+  [[nodiscard]] bool judge(Slot& slot, const Section& section) const;
   void apply(const Change& change);
-  void touch(Slot& slot, const Change& change, const Reach& reach, const Box& part) const;
+  void touch(std::size_t slot, const Change& change, const Reach& reach, const Box& part);
+  [[nodiscard]] bool stays_idle(Slot& slot, const Change& change, const Reach& reach,
+                                const Box& part) const;
   void check_leaders(std::vector<Candidate>& candidates, Key key) const;
   bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
@@ -124,9 +127,6 @@ class Chooser {
   std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
   std::optional<Choice> first_of_least_order(const std::vector<Patch>& patches);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
-  [[nodiscard]] double old_area(const Section& section, const Region& region) const {
-    return body_.area_on(section.split_side(region));
-  }
 
   const Boundary& body_;
   World& world_;
@@ -135,11 +135,13 @@ class Chooser {
   std::vector<int> own_planes_;
   SegmentationStats& stats_;
   std::int64_t& work_;
-  Scratch& scratch_;
   std::vector<int> planes_;  ///< the split planes, ascending
   EdgeIndex edges_;
   const std::set<CutKey>* banned_ = nullptr;
-  std::vector<Slot> slots_;  ///< of each plane in front, then behind
+  std::vector<Slot> slots_;          ///< of each plane in front, then behind
+  std::vector<std::size_t> to_do_;   ///< slots to look at again
+  std::set<std::size_t> promising_;  ///< slots with something to cut
+  Section fresh_;                    ///< room for the section at hand
 };
 
 }  // namespace oriel::detail

@@ -20,13 +20,12 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 class CornerCutter {
  public:
   CornerCutter(const Boundary& body, const std::vector<Side>& sides, double weld_m,
-               Scratch& scratch, std::int64_t& work)
+               std::int64_t& work)
       : old_edges_(body.half_edge_count()),
         old_points_(body.world().points.size()),
         body_(std::make_shared<Boundary>(body)),
         sides_(sides),
         weld_m_(weld_m),
-        scratch_(scratch),
         work_(work) {}
 
   std::vector<Patch> run() {
@@ -63,8 +62,8 @@ class CornerCutter {
   bool imprint_all(Side side) {
     const EdgeIndex edges(*body_, {side >> 1});
     const int behind = (side & 1) != 0 ? 1 : -1;
-    const Section section =
-        section_at(*body_, side >> 1, behind, edges.edges_at(0), {-1, weld_m_}, scratch_);
+    Section section{side >> 1, behind};
+    section_at(*body_, section, edges.edges_at(0), {-1, weld_m_});
     if (section.loops.empty()) return section.crossings.empty();
     Lump all;
     for (int r = 0; r < std::ssize(section.regions); ++r)
@@ -131,7 +130,6 @@ class CornerCutter {
   std::shared_ptr<Boundary> body_;
   const std::vector<Side>& sides_;
   double weld_m_;
-  Scratch& scratch_;
   std::int64_t& work_;
 };
 
@@ -259,7 +257,7 @@ class CornerHoleFinder {
     if (!can_cut(set) || !seen_.insert(set).second) return;
     auto& points = body_.world().points;
     const auto mark = points.mark();
-    auto patches = CornerCutter(body_, set, options_.weld_m, scratch_, work_).run();
+    auto patches = CornerCutter(body_, set, options_.weld_m, work_).run();
     if (patches.empty()) points.forget_since(mark);
     std::ranges::move(patches, std::back_inserter(patches_));
   }
@@ -267,7 +265,6 @@ class CornerHoleFinder {
   const Boundary& body_;
   const CornerHoleOptions& options_;
   std::int64_t& work_;
-  Scratch scratch_;
   std::set<Side> all_sides_;
   std::vector<int> group_of_;  ///< by facet
   std::vector<int> edges_;     ///< of the component at hand

@@ -27,6 +27,10 @@ class EdgeIndex {
     int number;
     std::vector<int> ranks;            ///< of its planes, ascending
     std::vector<std::size_t> entries;  ///< where they stand in `planes`
+    /// For each rank the first plane of that rank or more; empty if the class has many more planes
+    /// than are asked for.
+    std::vector<int> first;
+    [[nodiscard]] std::size_t first_from(int rank) const;
   };
   const Boundary& body_;
   std::vector<Class> classes_;

@@ -10,40 +10,41 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-LumpFinder::LumpFinder(const Boundary& body, const Section& section, Scratch& scratch)
+LumpFinder::LumpFinder(const Boundary& body, const Section& section)
     : body_(body),
       section_(section),
-      normal_class_(body.world().planes.class_of(section.plane)),
+      ranks_(body.world().points.ranks(body.world().planes.class_of(section.plane))),
       plane_rank_(body.world().planes.rank_of(section.plane)),
-      scratch_(scratch),
+      scratch_(body.world().scratch),
+      next_in_facet_(section.crossings.size(), -1),
       previous_(section.crossings.size(), -1),
-      material_region_(section.loops.size(), -1),
-      air_region_(section.loops.size(), -1),
+      region_of_(section.loops.size(), {-1, -1}),
       crossing_stamp_(section.crossings.size(), 0) {
   if (std::ssize(scratch_.crossing_of_edge) < body.half_edge_count())
     scratch_.crossing_of_edge.resize(at(body.half_edge_count()));
+  if (std::ssize(scratch_.last_chord_in) < body.facet_count())
+    scratch_.last_chord_in.resize(at(body.facet_count()));
+  scratch_.facets_with_chord.start(body.facet_count());
   for (int c = 0; c < std::ssize(section.crossings); ++c) {
-    scratch_.crossing_of_edge[at(section.crossings[at(c)].edge)] = c;
-    previous_[at(section.crossings[at(c)].next)] = c;
-    crossings_of_facet_[body.facet_of(section.crossings[at(c)].edge)].push_back(c);
+    const Crossing& crossing = section.crossings[at(c)];
+    scratch_.crossing_of_edge[at(crossing.edge)] = c;
+    previous_[at(crossing.next)] = c;
+    const int f = body.facet_of(crossing.edge);
+    if (!scratch_.facets_with_chord.insert(f))
+      next_in_facet_[at(c)] = scratch_.last_chord_in[at(f)];
+    scratch_.last_chord_in[at(f)] = c;
   }
   for (int r = 0; r < std::ssize(section.regions); ++r)
     for (const int l : section.regions[at(r)].loops)
-      (section.regions[at(r)].is_material ? material_region_ : air_region_)[at(l)] = r;
-}
-
-bool LumpFinder::is_up(int point) const {
-  return (body_.world().points.rank(point, normal_class_) - plane_rank_) * section_.direction > 0;
+      region_of_[at(l)][section.regions[at(r)].is_material ? 1 : 0] = r;
 }
 
 Lump LumpFinder::find(int region) {
   const Region& start = section_.regions[at(region)];
   is_material_ = start.is_material;
   ++stamp_;
-  edge_stamp_ =
-      Scratch::stamp(scratch_.edge_stamps, body_.half_edge_count(), scratch_.last_edge_stamp);
-  facet_stamp_ =
-      Scratch::stamp(scratch_.facet_stamps, body_.facet_count(), scratch_.last_facet_stamp);
+  scratch_.flooded_edges.start(body_.half_edge_count());
+  scratch_.flooded_facets.start(body_.facet_count());
   stack_.clear();
   facets_.clear();
   patch_volume_ = 0;
@@ -76,19 +77,14 @@ Lump LumpFinder::find(int region) {
 }
 
 void LumpFinder::push(int e) {
-  if (is_reached(e)) return;
-  scratch_.edge_stamps[at(e)] = edge_stamp_;
-  stack_.push_back(e);
+  if (scratch_.flooded_edges.insert(e)) stack_.push_back(e);
 }
 
 /// Half-edges that start on the looked-at side. From each the flood goes on along its facet and
 /// over to the neighbour.
 void LumpFinder::visit(int e) {
   const int f = body_.facet_of(e);
-  if (scratch_.facet_stamps[at(f)] != facet_stamp_) {
-    scratch_.facet_stamps[at(f)] = facet_stamp_;
-    facets_.push_back(f);
-  }
+  if (scratch_.flooded_facets.insert(f)) facets_.push_back(f);
   const int t = body_.twin(e);
   if (!lump_.has_bend && body_.is_reflex(e)) lump_.has_bend = true;
   if (is_up(body_.target(e))) {
@@ -115,20 +111,63 @@ void LumpFinder::reach(int c) {
   push(partner.edge);
 
   if (!has_sound_pieces(c)) lump_.is_sound = false;
-  const int region = (is_material_ ? material_region_ : air_region_)[at(crossing.loop)];
+  const int region = region_of_[at(crossing.loop)][is_material_ ? 1 : 0];
   if (region < 0)
     lump_.is_finite = false;
   else if (std::ranges::find(lump_.regions, region) == lump_.regions.end())
     lump_.regions.push_back(region);
 }
 
+/// The outline of the piece of a facet that the chord from crossing c bounds.
+template <class Visit>
+void LumpFinder::visit_piece(int c, Visit visit) const {
+  const int start = c;
+  do {
+    visit(section_.crossings[at(c)].at);
+    c = section_.crossings[at(c)].next;
+    visit(section_.crossings[at(c)].at);
+    int e = body_.next(body_.twin(section_.crossings[at(c)].edge));
+    for (; is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
+    visit(body_.at(e));
+    c = crossing_of(e);
+  } while (c != start);
+}
+
+/// The outline of the piece below the chord.
+template <class Visit>
+void LumpFinder::visit_lower_piece(int c, Visit visit) const {
+  const int start = c;
+  do {
+    visit(section_.crossings[at(c)].at);
+    int e = body_.next(section_.crossings[at(c)].edge);
+    for (; !is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
+    visit(body_.at(e));
+    const int end = crossing_of(body_.twin(e));
+    visit(section_.crossings[at(end)].at);
+    c = previous_[at(end)];
+  } while (c != start);
+}
+
 /// The pieces of the facet on both sides of the chord have area.
 bool LumpFinder::has_sound_pieces(int c) const {
   const int f = body_.facet_of(section_.crossings[at(c)].edge);
   const Vec3 normal = body_.world().planes.normal(body_.facet(f).side);
-  const Outline upper = piece_outline(c), lower = lower_outline(c);
-  return signed_area(upper, normal) > -kThin_m * perimeter(upper) &&
-         signed_area(lower, normal) > -kThin_m * perimeter(lower);
+  const Vec3 start = section_.crossings[at(c)].at;
+  const auto is_sound = [&](auto visit_points) {
+    Vec3 sum, from;
+    visit_points([&](Vec3 p) {
+      const Vec3 to = p - start;
+      sum = sum + cross(from, to);
+      from = to;
+    });
+    const double area = dot(sum, normal) / 2;
+    if (area > 0) return true;
+    Outline points;
+    visit_points([&](Vec3 p) { points.push_back(p); });
+    return area > -kThin_m * perimeter(points);
+  };
+  return is_sound([&](auto visit) { visit_piece(c, visit); }) &&
+         is_sound([&](auto visit) { visit_lower_piece(c, visit); });
 }
 
 /// What a directed piece of a facet's outline adds to a third of offset × area.
@@ -143,8 +182,11 @@ void LumpFinder::add_segment(int e, Vec3 from, Vec3 to) {
 void LumpFinder::tie_enclosed_loops() {
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     const int f = facets_[i];
-    const bool is_cut = crossings_of_facet_.contains(f);
-    for (const int l : body_.facet(f).loops) {
+    const bool is_cut = scratch_.facets_with_chord.contains(f);
+    const auto& loops = body_.facet(f).loops;
+    // The only loop was reached: nothing else to tie.
+    if (loops.size() == 1) continue;
+    for (const int l : loops) {
       if (!is_wholly_up(l)) continue;
       if (is_cut)
         tie_loop_to_piece(f, l);
@@ -168,46 +210,15 @@ void LumpFinder::tie_loop_to_piece(int facet, int loop) {
   const int first = body_.loop(loop).first;
   const bool has_loop = is_reached(first);
   const Vec3 normal = body_.world().planes.normal(body_.facet(facet).side);
-  for (const int c : crossings_of_facet_.at(facet)) {
+  for (int c = scratch_.last_chord_in[at(facet)]; c >= 0; c = next_in_facet_[at(c)]) {
     const bool has_piece = crossing_stamp_[at(c)] == stamp_;
     if (has_piece == has_loop) continue;
-    const Outline piece = piece_outline(c);
+    Outline piece;
+    visit_piece(c, [&](Vec3 p) { piece.push_back(p); });
     if (!contains({&piece, 1}, normal, body_.at(first))) continue;
     push(has_piece ? first : section_.crossings[at(c)].edge);
     return;
   }
-}
-
-/// The outline of the piece of a facet that the chord from crossing c bounds.
-Outline LumpFinder::piece_outline(int c) const {
-  Outline points;
-  const int start = c;
-  do {
-    points.push_back(section_.crossings[at(c)].at);
-    c = section_.crossings[at(c)].next;
-    points.push_back(section_.crossings[at(c)].at);
-    int e = body_.next(body_.twin(section_.crossings[at(c)].edge));
-    for (; is_up(body_.target(e)); e = body_.next(e)) points.push_back(body_.at(e));
-    points.push_back(body_.at(e));
-    c = crossing_of(e);
-  } while (c != start);
-  return points;
-}
-
-/// The outline of the piece below the chord.
-Outline LumpFinder::lower_outline(int c) const {
-  Outline points;
-  const int start = c;
-  do {
-    points.push_back(section_.crossings[at(c)].at);
-    int e = body_.next(section_.crossings[at(c)].edge);
-    for (; !is_up(body_.target(e)); e = body_.next(e)) points.push_back(body_.at(e));
-    points.push_back(body_.at(e));
-    const int end = crossing_of(body_.twin(e));
-    points.push_back(section_.crossings[at(end)].at);
-    c = previous_[at(end)];
-  } while (c != start);
-  return points;
 }
 
 }  // namespace oriel::detail

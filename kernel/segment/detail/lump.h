@@ -2,7 +2,8 @@
 
 #include "kernel/segment/detail/section.h"
 
-#include <unordered_map>
+#include <array>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -10,7 +11,7 @@ namespace oriel::detail {
 /// A connected piece of material (or air) in front of a section plane: what a cut there would split
 /// off.
 struct Lump {
-  std::vector<int> regions;  ///< of the section, ascending: all its contacts with the plane
+  Few<int, 2> regions;  ///< of the section, ascending: all its contacts with the plane
   double new_area = 0;
   double volume = 0;
   double value = 0;  ///< the key that the order sorts it by
@@ -27,8 +28,8 @@ struct Lump {
 /// lump's size.
 class LumpFinder {
  public:
-  /// Only one finder at a time may use the scratch.
-  LumpFinder(const Boundary& body, const Section& section, Scratch& scratch);
+  /// Only one finder at a time may be in use.
+  LumpFinder(const Boundary& body, const Section& section);
 
   /// The lump in front of region `region`.
   [[nodiscard]] Lump find(int region);
@@ -42,30 +43,31 @@ class LumpFinder {
   void tie_enclosed_loops();
   void tie_loop_to_piece(int facet, int loop);
   [[nodiscard]] bool is_wholly_up(int loop) const;
-  [[nodiscard]] Outline piece_outline(int crossing) const;
-  [[nodiscard]] Outline lower_outline(int crossing) const;
-  [[nodiscard]] bool is_up(int point) const;
+  template <class Visit>
+  void visit_piece(int crossing, Visit visit) const;
+  template <class Visit>
+  void visit_lower_piece(int crossing, Visit visit) const;
+  [[nodiscard]] bool is_up(int point) const {
+    return (ranks_[static_cast<std::size_t>(point)] - plane_rank_) * section_.direction > 0;
+  }
   [[nodiscard]] int crossing_of(int e) const {
     return scratch_.crossing_of_edge[static_cast<std::size_t>(e)];
   }
-  [[nodiscard]] bool is_reached(int e) const {
-    return scratch_.edge_stamps[static_cast<std::size_t>(e)] == edge_stamp_;
-  }
+  [[nodiscard]] bool is_reached(int e) const { return scratch_.flooded_edges.contains(e); }
 
   const Boundary& body_;
   const Section& section_;
-  int normal_class_;
+  std::span<const int> ranks_;
   int plane_rank_;
   Scratch& scratch_;
-  std::unordered_map<int, std::vector<int>>
-      crossings_of_facet_;     ///< those at which a chord in it begins
-  std::vector<int> previous_;  ///< where the chord that ends at a crossing begins
-  /// For each loop the region of material and of air that it bounds, -1: none.
-  std::vector<int> material_region_, air_region_;
+  std::vector<int> next_in_facet_;  ///< of crossings where a chord begins: another in its facet
+  std::vector<int> previous_;       ///< where the chord that ends at a crossing begins
+  /// For each loop the region of air and of material that it bounds, -1: none.
+  std::vector<std::array<int, 2>> region_of_;
 
   // The flood at hand.
   bool is_material_ = true;
-  int stamp_ = 0, edge_stamp_ = 0, facet_stamp_ = 0;
+  int stamp_ = 0;
   std::vector<int> crossing_stamp_;
   std::vector<int> stack_, facets_;
   double patch_volume_ = 0;

@@ -46,8 +46,9 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
         place(point, *where);
     point.is_by_decree = length(point.at - at) > kOnSegment_m || point.rational.w == 0;
     if (point.is_by_decree) place(point, exact::round_finely(at, grid_m_));
-    remember_meetings(static_cast<int>(v));
+    places_.push_back(point.at);
   }
+  solid_points_ = size();
 }
 
 void PointTable::place(Point& point, const exact::Rational& where) const {
@@ -115,14 +116,19 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
     point.is_by_decree = true;
     place(point, exact::round_finely(from + std::clamp(t, 0.0, 1.0) * along, grid_m_));
   }
-  points_.push_back(std::move(point));
+  add(std::move(point));
   return size() - 1;
+}
+
+void PointTable::add(Point point) {
+  places_.push_back(point.at);
+  points_.push_back(std::move(point));
 }
 
 std::optional<int> PointTable::meet(int p, int q, int r) {
   std::array<int, 3> key{p, q, r};
   std::ranges::sort(key);
-  if (const auto known = meetings_.find(key); known != meetings_.end()) return known->second;
+  if (const auto known = known_meeting(key)) return known;
   const auto where = exact::meet(planes_.plane(p), planes_.plane(q), planes_.plane(r));
   if (!where) return std::nullopt;
   Point point;
@@ -133,7 +139,7 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   if (const auto near = met_near(point)) return met = *near;
   met = size();
   met_in_[cell_of(point.at)].push_back(met);
-  points_.push_back(std::move(point));
+  add(std::move(point));
   return met;
 }
 
@@ -145,6 +151,7 @@ void PointTable::forget_since(Mark mark) {
       cell->second.pop_back();
   }
   points_.resize(index(mark.points));
+  places_.resize(index(mark.points));
   for (auto& ranks : ranks_)
     if (std::ssize(ranks) > mark.points) ranks.resize(index(mark.points));
 }
@@ -169,7 +176,7 @@ std::optional<int> PointTable::met_near(const Point& point) {
 }
 
 /// Adds planes to a point; false if it lies on parallel ones.
-bool PointTable::lies_on_too(int p, const std::vector<int>& planes) {
+bool PointTable::lies_on_too(int p, const Few<int, 4>& planes) {
   auto& own = points_[index(p)].planes;
   for (const int plane : planes)
     for (const int other : own)
@@ -183,13 +190,25 @@ bool PointTable::lies_on_too(int p, const std::vector<int>& planes) {
   return true;
 }
 
-/// The solid's own vertices are found by any three of their planes.
-void PointTable::remember_meetings(int p) {
-  const auto& planes = points_[index(p)].planes;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    for (std::size_t j = i + 1; j < planes.size(); ++j)
-      for (std::size_t k = j + 1; k < planes.size(); ++k)
-        meetings_.emplace(std::array{planes[i], planes[j], planes[k]}, p);
+std::optional<int> PointTable::known_meeting(const std::array<int, 3>& planes) {
+  if (const auto met = meetings_.find(planes); met != meetings_.end()) return met->second;
+  if (!has_own_meetings_) remember_meetings();
+  const auto own = std::ranges::lower_bound(own_meetings_, planes, {}, &Meeting::first);
+  if (own == own_meetings_.end() || own->first != planes) return std::nullopt;
+  return own->second;
+}
+
+/// The solid's own vertices are found by any three of their planes; the first vertex counts.
+void PointTable::remember_meetings() {
+  has_own_meetings_ = true;
+  for (int p = 0; p < solid_points_; ++p) {
+    const auto& planes = points_[index(p)].planes;
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      for (std::size_t j = i + 1; j < planes.size(); ++j)
+        for (std::size_t k = j + 1; k < planes.size(); ++k)
+          own_meetings_.push_back({{planes[i], planes[j], planes[k]}, p});
+  }
+  std::ranges::sort(own_meetings_);
 }
 
 }  // namespace oriel::detail

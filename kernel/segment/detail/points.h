@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
+#include "kernel/segment/detail/few.h"
 #include "kernel/segment/detail/planes.h"
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
@@ -26,13 +28,17 @@ class PointTable {
   /// Metres per unit of the solid's grid: what is nearer touches.
   [[nodiscard]] double grid_m() const { return grid_m_; }
   [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
-  [[nodiscard]] Vec3 at(int point) const { return points_[index(point)].at; }
+  [[nodiscard]] Vec3 at(int point) const { return places_[index(point)]; }
   /// True if the point is known by the three planes it was made of.
   [[nodiscard]] bool is_meeting(int point) const { return !points_[index(point)].is_by_decree; }
 
   /// The ranks of all points in class k, by point; valid until the next point is added.
   [[nodiscard]] std::span<const int> ranks(int k);
-  [[nodiscard]] int rank(int point, int k) { return ranks(k)[index(point)]; }
+  [[nodiscard]] int rank(int point, int k) {
+    const auto& ranks_of_class = ranks_[index(k)];
+    return index(point) < ranks_of_class.size() ? ranks_of_class[index(point)]
+                                                : ranks(k)[index(point)];
+  }
   /// -1, 0, +1: behind, on, in front of a plane as its class has it.
   [[nodiscard]] int side(int point, int plane);
   /// The same for an oriented plane: +1 where its normal points.
@@ -62,7 +68,7 @@ class PointTable {
  private:
   struct Point {
     Vec3 at;
-    std::vector<int> planes;  ///< sorted
+    Few<int, 4> planes;  ///< sorted
     bool is_by_decree = false;
     std::optional<exact::GridPoint> grid;
     exact::Rational rational{0, 0, 0, 0};  ///< w = 0: not placed yet
@@ -70,10 +76,12 @@ class PointTable {
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   using Cell = std::array<std::int64_t, 3>;
-  void remember_meetings(int p);
+  [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
+  void remember_meetings();
   [[nodiscard]] Cell cell_of(Vec3 p) const;
   std::optional<int> met_near(const Point& point);
-  bool lies_on_too(int p, const std::vector<int>& planes);
+  bool lies_on_too(int p, const Few<int, 4>& planes);
+  void add(Point point);
   void place(Point& point, const exact::Rational& where) const;
   [[nodiscard]] int exact_side(const Point& point, int plane) const;
   int compute_rank(int point, int k);
@@ -83,9 +91,15 @@ class PointTable {
   double near_m_;  ///< points that were met closer than this are one
   const PlaneTable& planes_;
   std::vector<Point> points_;
+  std::vector<Vec3> places_;  ///< by point, close together
   std::vector<std::vector<int>> ranks_;
-  std::map<std::array<int, 3>, int> meetings_;  ///< points by three of their planes
-  std::vector<std::array<int, 3>> met_;         ///< the keys that meet() has added, in order
+  using Meeting = std::pair<std::array<int, 3>, int>;
+  /// The solid's vertices by three of their planes, sorted; made when it is asked for.
+  std::vector<Meeting> own_meetings_;
+  bool has_own_meetings_ = false;
+  int solid_points_ = 0;
+  std::map<std::array<int, 3>, int> meetings_;  ///< the same of points that meet() has made
+  std::vector<std::array<int, 3>> met_;         ///< their keys, in order
   std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
 };
 

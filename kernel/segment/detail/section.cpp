@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
-#include <unordered_map>
 
 namespace oriel::detail {
 
@@ -15,29 +13,29 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Sectioner {
  public:
-  Sectioner(const Boundary& body, int plane, int direction, std::span<const int> edges,
-            const SectionOptions& options, Scratch& scratch)
+  Sectioner(const Boundary& body, Section& section, std::span<const int> edges,
+            const SectionOptions& options)
       : body_(body),
         world_(body.world()),
         edges_(edges),
         options_(options),
-        scratch_(scratch),
-        axis_(direction > 0 ? world_.planes.plane(plane).normal
-                            : -world_.planes.plane(plane).normal),
-        ranks_(world_.points.ranks(world_.planes.class_of(plane))),
-        plane_rank_(world_.planes.rank_of(plane)) {
-    section_.plane = plane;
-    section_.direction = direction;
-  }
+        scratch_(world_.scratch),
+        looking_(2 * section.plane + (section.direction > 0 ? 0 : 1)),
+        axis_(world_.planes.normal(looking_)),
+        offset_m_(world_.planes.offset_m(looking_)),
+        ranks_(world_.points.ranks(world_.planes.class_of(section.plane))),
+        plane_rank_(world_.planes.rank_of(section.plane)),
+        section_(section) {}
 
-  Section run() {
+  void run() {
+    section_.old_areas = {body_.area_on(looking_ ^ 1), body_.area_on(looking_)};
     find_crossings();
-    if (section_.crossings.empty() || !link_chords() || !close_loops()) {
+    if (section_.crossings.empty()) return;
+    if (!link_chords() || !close_loops()) {
       section_.loops.clear();
-      return std::move(section_);
+      return;
     }
     find_regions();
-    return std::move(section_);
   }
 
  private:
@@ -46,81 +44,96 @@ class Sectioner {
     const int difference = (ranks_[at(point)] - plane_rank_) * section_.direction;
     return (difference > 0) - (difference < 0);
   }
-  [[nodiscard]] bool is_up(int point) const { return level(point) > 0; }
-
-  [[nodiscard]] double height(Vec3 p) const {
-    const Side looking = 2 * section_.plane + (section_.direction > 0 ? 0 : 1);
-    return dot(axis_, p) - world_.planes.offset_m(looking);
-  }
 
   void find_crossings() {
-    std::vector<int> crossing;
+    scratch_.crossed_edges.start(body_.half_edge_count());
     for (const int one : edges_) {
       if (!body_.is_alive_edge(one)) continue;
       const int other = body_.twin(one);
-      const bool is_first_up = is_up(body_.origin(one));
-      if (is_first_up != is_up(body_.origin(other))) crossing.push_back(is_first_up ? one : other);
+      const int level_one = level(body_.origin(one)), level_other = level(body_.origin(other));
+      if ((level_one > 0) == (level_other > 0)) continue;
+      const int e = level_one > 0 ? one : other;
+      // An edge that was shortened or paired anew may be among them twice.
+      if (!scratch_.crossed_edges.insert(e)) continue;
+      const int down = std::min(level_one, level_other);
+      section_.crossings.push_back({e, meeting(e, body_.twin(e), down)});
     }
-    std::ranges::sort(crossing);
-    crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
-    section_.crossings.reserve(crossing.size());
-    for (const int e : crossing)
-      section_.crossings.push_back({e, meeting(body_.origin(e), body_.target(e)), -1, -1});
   }
 
-  [[nodiscard]] Vec3 meeting(int up, int down) const {
-    if (level(down) == 0) return world_.points.at(down);
-    const Vec3 p = world_.points.at(up), q = world_.points.at(down);
-    const double hp = height(p), hq = height(q);
+  /// Where an edge meets the plane, from the half-edges that start at its upper and its lower end.
+  [[nodiscard]] Vec3 meeting(int up, int down, int level_down) const {
+    const Vec3 q = body_.at(down);
+    if (level_down == 0) return q;
+    const Vec3 p = body_.at(up);
+    const double hp = dot(axis_, p) - offset_m_, hq = dot(axis_, q) - offset_m_;
     return hp > hq ? p + (hp / (hp - hq)) * (q - p) : q;
   }
-
-  /// A crossing as one of its two facets sees it.
-  struct End {
-    int crossing;
-    bool leads_down;  ///< the facet's own half-edge leads down here: a chord begins
-    int before;       ///< the end in the same facet that was met before, -1: none
-    double along = 0;
-    double slope = 0;
-  };
 
   /// Pairs the crossings of every facet along its line with the plane. A chord runs with the
   /// material above it to its left, from a half-edge that leads down to one that leads up.
   bool link_chords() {
-    const int stamp =
-        Scratch::stamp(scratch_.facet_stamps, body_.facet_count(), scratch_.last_facet_stamp);
-    auto& newest = scratch_.first_end;
-    newest.resize(scratch_.facet_stamps.size());
-    std::vector<End> ends;
-    std::vector<int> facets;
-    ends.reserve(2 * section_.crossings.size());
-    const auto add = [&](int facet, int crossing, bool leads_down) {
-      const bool is_new = scratch_.facet_stamps[at(facet)] != stamp;
-      if (is_new) facets.push_back(facet);
-      scratch_.facet_stamps[at(facet)] = stamp;
-      ends.push_back({crossing, leads_down, is_new ? -1 : newest[at(facet)]});
-      newest[at(facet)] = static_cast<int>(ends.size()) - 1;
-    };
-    for (int c = 0; c < std::ssize(section_.crossings); ++c) {
-      const int e = section_.crossings[at(c)].edge;
-      add(body_.facet_of(e), c, true);
-      add(body_.facet_of(body_.twin(e)), c, false);
+    auto& crossings = section_.crossings;
+    scratch_.start_chords(body_.facet_count());
+    for (int c = 0; c < std::ssize(crossings); ++c) {
+      Crossing& crossing = crossings[at(c)];
+      crossing.facet = body_.facet_of(crossing.edge);
+      crossing.facet_behind = body_.facet_of(body_.twin(crossing.edge));
+      ++scratch_.chords_in(crossing.facet).begins;
+      Chords& ended = scratch_.chords_in(crossing.facet_behind);
+      ++ended.ends;
+      ended.end = c;
     }
-    std::vector<End> in_facet;
-    for (const int f : facets) {
-      in_facet.clear();
-      for (int i = newest[at(f)]; i >= 0; i = ends[at(i)].before) in_facet.push_back(ends[at(i)]);
-      if (!link_in_facet(f, in_facet)) return false;
+    ends_.clear();
+    for (int c = 0; c < std::ssize(crossings); ++c) {
+      Crossing& crossing = crossings[at(c)];
+      const Chords& begun = scratch_.chords_in(crossing.facet);
+      if (begun.begins == 1 && begun.ends == 1)
+        crossing.next = begun.end;
+      else
+        ends_.push_back({crossing.facet, c, true});
+      const Chords& ended = scratch_.chords_in(crossing.facet_behind);
+      if (ended.begins != 1 || ended.ends != 1) ends_.push_back({crossing.facet_behind, c, false});
+    }
+    return ends_.empty() || link_several();
+  }
+
+  /// A crossing as one of its two facets sees it, in facets with several chords.
+  struct End {
+    int facet;
+    int crossing;
+    bool leads_down;  ///< the facet's own half-edge leads down here: a chord begins
+    double along = 0;
+  };
+
+  bool link_several() {
+    for (End& end : ends_)
+      end.along = dot(line_in(end.facet), section_.crossings[at(end.crossing)].at);
+    std::ranges::sort(ends_, [](const End& p, const End& q) {
+      return std::tie(p.facet, p.along, p.leads_down, p.crossing) <
+             std::tie(q.facet, q.along, q.leads_down, q.crossing);
+    });
+    for (std::size_t i = 0; i < ends_.size();) {
+      std::size_t j = i + 1;
+      while (j < ends_.size() && ends_[j].facet == ends_[i].facet) ++j;
+      if (!link_in_facet(std::span(ends_).subspan(i, j - i))) return false;
+      i = j;
     }
     return true;
   }
 
-  bool link_in_facet(int facet, std::span<End> ends) {
+  /// The ends come sorted along the line. Where edges leave one point of the plane, they are
+  /// sorted by where they are just above it.
+  bool link_in_facet(std::span<End> ends) {
     if (ends.size() % 2 != 0) return false;
-    if (ends.size() > 2)
-      sort_along(facet, ends);
-    else if (!ends[0].leads_down)
-      std::swap(ends[0], ends[1]);
+    for (std::size_t i = 0; i < ends.size();) {
+      std::size_t j = i + 1;
+      while (j < ends.size() && ends[j].along == ends[i].along) ++j;
+      if (j > i + 1)
+        std::ranges::stable_sort(ends.subspan(i, j - i), {}, [&](const End& end) {
+          return std::pair(slope(end), end.leads_down);
+        });
+      i = j;
+    }
     for (std::size_t i = 0; i < ends.size(); i += 2) {
       if (!ends[i].leads_down || ends[i + 1].leads_down) return false;
       section_.crossings[at(ends[i].crossing)].next = ends[i + 1].crossing;
@@ -128,18 +141,14 @@ class Sectioner {
     return true;
   }
 
-  /// By place on the line; where edges leave one point of the plane, by where they are just above
-  /// it.
-  void sort_along(int facet, std::span<End> ends) const {
-    const Vec3 line = cross(axis_, world_.planes.normal(body_.facet(facet).side));
-    for (End& end : ends) {
-      const Crossing& crossing = section_.crossings[at(end.crossing)];
-      const Vec3 up = body_.at(crossing.edge) - crossing.at;
-      end.along = dot(line, crossing.at);
-      end.slope = dot(line, up) / dot(axis_, up);
-    }
-    std::ranges::sort(
-        ends, {}, [](const End& end) { return std::tuple(end.along, end.slope, end.leads_down); });
+  [[nodiscard]] Vec3 line_in(int facet) const {
+    return cross(axis_, world_.planes.normal(body_.facet(facet).side));
+  }
+
+  [[nodiscard]] double slope(const End& end) const {
+    const Crossing& crossing = section_.crossings[at(end.crossing)];
+    const Vec3 up = body_.at(crossing.edge) - crossing.at;
+    return dot(line_in(end.facet), up) / dot(axis_, up);
   }
 
   bool close_loops() {
@@ -147,70 +156,97 @@ class Sectioner {
     for (int start = 0; start < std::ssize(crossings); ++start) {
       if (crossings[at(start)].loop >= 0) continue;
       const int number = static_cast<int>(section_.loops.size());
-      Vec3 sum;
-      int c = start;
+      const Vec3 origin = crossings[at(start)].at;
+      Vec3 sum, from;
+      int c = start, first = start;
       do {
         if (crossings[at(c)].loop >= 0 || crossings[at(c)].next < 0) return false;
         crossings[at(c)].loop = number;
-        const int n = crossings[at(c)].next;
-        sum = sum + cross(crossings[at(c)].at - crossings[at(start)].at,
-                          crossings[at(n)].at - crossings[at(start)].at);
-        c = n;
+        if (crossings[at(c)].edge < crossings[at(first)].edge) first = c;
+        c = crossings[at(c)].next;
+        const Vec3 to = crossings[at(c)].at - origin;
+        sum = sum + cross(from, to);
+        from = to;
       } while (c != start);
-      section_.loops.push_back({start, dot(sum, axis_) / 2});
+      section_.loops.push_back({first, dot(sum, axis_) / 2});
     }
     return true;
+  }
+
+  template <class Visit>
+  void for_each_crossing(int l, Visit visit) const {
+    const int first = section_.loops[at(l)].first;
+    int c = first;
+    do {
+      visit(section_.crossings[at(c)]);
+      c = section_.crossings[at(c)].next;
+    } while (c != first);
   }
 
   [[nodiscard]] Outline outline(int l) const { return outline_of(section_, l); }
 
   /// Thinner than weld_m, as a keel that touches the plane is.
-  [[nodiscard]] bool is_sliver(const Outline& points, double area) const {
-    return std::abs(area) < options_.weld_m * perimeter(points) / 2;
+  [[nodiscard]] bool is_sliver(int l, double area) const {
+    double around = 0;
+    for_each_crossing(
+        l, [&](const Crossing& c) { around += length(section_.crossings[at(c.next)].at - c.at); });
+    return std::abs(area) < options_.weld_m * around / 2;
   }
 
   /// A loop with what is needed to find the loops inside it.
   struct Shape {
     int loop;
     double area;
-    Outline points;
     Box box;
+    Outline points;  ///< filled in when asked for
   };
 
   /// Loops nest by turns: around material, around air in it, around material in that. Each loop
   /// belongs to the region inside it and is a hole in the region that its parent bounds.
   void find_regions() {
-    std::vector<Shape> shapes;
-    for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      Shape shape{l, section_.loops[at(l)].area, outline(l), {}};
-      for (const Vec3 p : shape.points) shape.box.grow(p);
-      shapes.push_back(std::move(shape));
-    }
-    std::ranges::sort(shapes, std::greater{},
-                      [](const Shape& s) { return std::tuple(std::abs(s.area), -s.loop); });
-    std::vector<int> region_of(section_.loops.size(), -1);
-    std::array<std::vector<int>, 2> larger;  // around air, around material
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      region_of[at(shapes[i].loop)] = static_cast<int>(section_.regions.size());
-      const double area = std::abs(shapes[i].area);
-      section_.regions.push_back({shapes[i].area > 0, {shapes[i].loop}, area, 0, {}, false, false});
-      const bool is_material = shapes[i].area > 0;
-      const int parent = parent_of(shapes, larger[is_material ? 0 : 1], shapes[i]);
-      larger[is_material ? 1 : 0].push_back(static_cast<int>(i));
-      if (parent < 0) continue;
-      Region& around = section_.regions[at(region_of[at(shapes[at(parent)].loop)])];
-      around.loops.push_back(shapes[i].loop);
-      around.area -= area;
-    }
+    if (section_.loops.size() == 1)
+      add_region(0);
+    else
+      nest_loops();
     for (Region& region : section_.regions) judge(region);
   }
 
+  void add_region(int l) {
+    const double area = section_.loops[at(l)].area;
+    section_.regions.push_back({area > 0, {l}, std::abs(area), 0, {}, false, false});
+  }
+
+  void nest_loops() {
+    std::vector<Shape> shapes;
+    shapes.reserve(section_.loops.size());
+    for (int l = 0; l < std::ssize(section_.loops); ++l) {
+      shapes.push_back({l, section_.loops[at(l)].area, {}, {}});
+      for_each_crossing(l, [&](const Crossing& c) { shapes.back().box.grow(c.at); });
+    }
+    std::ranges::sort(shapes, std::greater{}, [&](const Shape& s) {
+      return std::pair(std::abs(s.area),
+                       -section_.crossings[at(section_.loops[at(s.loop)].first)].edge);
+    });
+    std::array<std::vector<int>, 2> larger;  // around air, around material
+    for (int i = 0; i < std::ssize(shapes); ++i) {
+      const Shape& shape = shapes[at(i)];
+      add_region(shape.loop);
+      const bool is_material = shape.area > 0;
+      const int parent = parent_of(shapes, larger[is_material ? 0 : 1], shape);
+      larger[is_material ? 1 : 0].push_back(i);
+      if (parent < 0) continue;
+      Region& around = section_.regions[at(parent)];
+      around.loops.push_back(shape.loop);
+      around.area -= std::abs(shape.area);
+    }
+  }
+
   /// The smallest of the larger loops of the other kind that is around `inner`, or -1.
-  static int parent_of(const std::vector<Shape>& shapes, const std::vector<int>& others,
-                       const Shape& inner) {
+  int parent_of(std::vector<Shape>& shapes, const std::vector<int>& others,
+                const Shape& inner) const {
     for (std::size_t j = others.size(); j-- > 0;) {
-      const Shape& outer = shapes[at(others[j])];
-      if (is_within(inner.box, outer.box) && is_inside(inner.points, outer)) return others[j];
+      Shape& outer = shapes[at(others[j])];
+      if (is_within(inner.box, outer.box) && is_inside(inner, outer)) return others[j];
     }
     return -1;
   }
@@ -223,31 +259,29 @@ class Sectioner {
   /// Loops do not cross, so one point tells; the middle of the figure may lie in a loop further in,
   /// so it is asked from points of the loop itself until one is clear of the outer loop's own
   /// points.
-  static bool is_inside(const Outline& inner, const Shape& outer) {
-    const Vec3 normal = normalised(area_vector(outer.points));
-    for (std::size_t i = 0; i < inner.size(); ++i) {
-      const Vec3 p = inner[i];
+  bool is_inside(const Shape& inner, Shape& outer) const {
+    if (outer.points.empty()) outer.points = outline(outer.loop);
+    const int first = section_.loops[at(inner.loop)].first;
+    int c = first;
+    do {
+      const Vec3 p = section_.crossings[at(c)].at;
       if (std::ranges::find(outer.points, p) == outer.points.end())
-        return contains({&outer.points, 1}, normal, p);
-    }
-    const auto middle = interior_point({&inner, 1}, normal);
-    return middle && contains({&outer.points, 1}, normal, *middle);
-  }
-
-  static Vec3 area_vector(const Outline& points) {
-    Vec3 sum;
-    for (std::size_t i = 1; i + 1 < points.size(); ++i)
-      sum = sum + cross(points[i] - points[0], points[i + 1] - points[0]);
-    return sum;
+        return contains({&outer.points, 1}, axis_, p);
+      c = section_.crossings[at(c)].next;
+    } while (c != first);
+    const Outline points = outline(inner.loop);
+    const auto middle = interior_point({&points, 1}, axis_);
+    return middle && contains({&outer.points, 1}, axis_, *middle);
   }
 
   void judge(Region& region) {
-    const Side split = section_.split_side(region);
+    const double old_area = section_.old_area(region);
     region.new_area = region.area;
-    if (body_.area_on(split) <= 0) return;
-    take_off_covered(region, split ^ 1);
-    region.is_candidate = !is_sliver(outline(region.loops[0]), region.new_area);
+    if (old_area <= 0) return;
+    take_off_covered(region, section_.split_side(region) ^ 1);
     region.is_natural = std::ranges::all_of(region.loops, [&](int l) { return is_natural(l); });
+    region.is_candidate = (region.is_natural || region.new_area < old_area) &&
+                          !is_sliver(region.loops[0], region.new_area);
   }
 
   void take_off_covered(Region& region, Side opposite) {
@@ -291,10 +325,13 @@ class Sectioner {
   std::span<const int> edges_;
   SectionOptions options_;
   Scratch& scratch_;
+  Side looking_;
   Vec3 axis_;
+  double offset_m_;
   std::span<const int> ranks_;
   int plane_rank_;
-  Section section_;
+  Section& section_;
+  std::vector<End> ends_;
 };
 
 }  // namespace
@@ -310,9 +347,12 @@ Outline outline_of(const Section& section, int loop) {
   return points;
 }
 
-Section section_at(const Boundary& body, int plane, int direction, std::span<const int> edges,
-                   const SectionOptions& options, Scratch& scratch) {
-  return Sectioner(body, plane, direction, edges, options, scratch).run();
+void section_at(const Boundary& body, Section& section, std::span<const int> edges,
+                const SectionOptions& options) {
+  section.crossings.clear();
+  section.loops.clear();
+  section.regions.clear();
+  Sectioner(body, section, edges, options).run();
 }
 
 }  // namespace oriel::detail

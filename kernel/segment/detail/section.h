@@ -1,7 +1,9 @@
 #pragma once
 
 #include "kernel/segment/detail/boundary.h"
+#include "kernel/segment/detail/few.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,7 @@ struct Crossing {
   Vec3 at;        ///< on the plane
   int next = -1;  ///< the crossing at the other end of the chord in the facet of `edge`
   int loop = -1;
+  int facet = -1, facet_behind = -1;  ///< of the edge and of its twin
 };
 
 /// A closed chain of chords, counter-clockwise about the direction looked to if it encloses
@@ -26,15 +29,14 @@ struct SectionLoop {
 /// Of material it is the contact of a protrusion, of air the cap of a hole.
 struct Region {
   bool is_material = true;
-  std::vector<int> loops;  ///< the one around it first, then those it surrounds
+  Few<int, 2> loops;  ///< the one around it first, then those it surrounds
   /// Its area, and without what coplanar facets of the opposite side cover: the new area of the
   /// cut.
   double area = 0;
   double new_area = 0;
   /// Those facets.
   std::vector<int> covered;
-  /// It has new area and is no sliver: a feature may begin here if the body has facets on its split
-  /// side.
+  /// It is natural or smaller than the old area, and no sliver: a feature may begin here.
   bool is_candidate = false;
   /// Every chord follows existing edges (or lies in the ground): the cut splits no facet.
   bool is_natural = false;
@@ -47,10 +49,15 @@ struct Region {
 struct Section {
   int plane = -1;
   int direction = 1;
-  std::vector<Crossing> crossings;
-  std::vector<SectionLoop> loops;
-  std::vector<Region> regions;
+  std::vector<Crossing> crossings = {};
+  std::vector<SectionLoop> loops = {};
+  std::vector<Region> regions = {};
+  /// The area of the body's facets on the split side of air and of material: the old area of a cut.
+  std::array<double, 2> old_areas = {};
 
+  [[nodiscard]] double old_area(const Region& region) const {
+    return old_areas[region.is_material ? 1 : 0];
+  }
   /// The side of the split plane for features of a region: a protrusion's is the side that looks
   /// the same way, a hole's the opposite one.
   [[nodiscard]] Side split_side(const Region& region) const {
@@ -62,21 +69,6 @@ struct Section {
 /// A loop of a section as points.
 Outline outline_of(const Section& section, int loop);
 
-/// Room for sections and floods, kept from one to the next: what is stamped with an older number
-/// counts as empty.
-struct Scratch {
-  /// A number that nothing in `stamps` has yet, with room for `size` entries.
-  static int stamp(std::vector<int>& stamps, int size, int& last) {
-    if (std::ssize(stamps) < size) stamps.resize(static_cast<std::size_t>(size), 0);
-    return ++last;
-  }
-
-  std::vector<int> facet_stamps, edge_stamps;
-  int last_facet_stamp = 0, last_edge_stamp = 0;
-  std::vector<int> first_end;         ///< by facet
-  std::vector<int> crossing_of_edge;  ///< by half-edge
-};
-
 /// What a section needs to know beside the body.
 struct SectionOptions {
   /// Chords in facets of this side are as good as edges (-1: none): the ground.
@@ -85,11 +77,12 @@ struct SectionOptions {
   double weld_m = 0;
 };
 
-/// Makes the section. `edges` holds at least one half-edge of every edge that crosses the plane;
-/// dead ones and others do no harm. The air around the body has no region. A body whose crossings
-/// do not alternate along a facet (possible only where vertices lie on planes by decree) gives no
-/// loops and no regions.
-Section section_at(const Boundary& body, int plane, int direction, std::span<const int> edges,
-                   const SectionOptions& options, Scratch& scratch);
+/// Makes the section of `section.plane` towards `section.direction`, whatever was in `section`
+/// before. `edges` holds at least one half-edge of every edge that crosses the plane; dead ones and
+/// others do no harm. The air around the body has no region. A body whose crossings do not
+/// alternate along a facet (possible only where vertices lie on planes by decree) gives no loops
+/// and no regions.
+void section_at(const Boundary& body, Section& section, std::span<const int> edges,
+                const SectionOptions& options);
 
 }  // namespace oriel::detail

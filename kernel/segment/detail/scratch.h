@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A set of numbers that is emptied in no time: what was put in before the last start() counts as
+/// absent.
+class StampSet {
+ public:
+  void start(int size) {
+    if (std::ssize(stamps_) < size) stamps_.resize(static_cast<std::size_t>(size), 0);
+    ++last_;
+  }
+  /// True if it was not in.
+  bool insert(int i) {
+    int& stamp = stamps_[static_cast<std::size_t>(i)];
+    if (stamp == last_) return false;
+    stamp = last_;
+    return true;
+  }
+  [[nodiscard]] bool contains(int i) const { return stamps_[static_cast<std::size_t>(i)] == last_; }
+
+ private:
+  std::vector<int> stamps_;
+  int last_ = 0;
+};
+
+/// The chords of a section in one facet: how many begin and end, and the last crossing where one
+/// ends.
+struct Chords {
+  int stamp = 0;
+  int begins = 0, ends = 0;
+  int end = -1;
+};
+
+/// Room that steps use one after the other, numbered by the facets and half-edges of the body at
+/// hand. A step owns the members it starts until it ends; the comments say which.
+struct Scratch {
+  // Sections.
+  StampSet crossed_edges;
+  std::vector<Chords> chords;  ///< by facet
+  int last_chords = 0;
+  void start_chords(int facets) {
+    if (std::ssize(chords) < facets) chords.resize(static_cast<std::size_t>(facets));
+    ++last_chords;
+  }
+  Chords& chords_in(int facet) {
+    Chords& here = chords[static_cast<std::size_t>(facet)];
+    if (here.stamp != last_chords) here = {last_chords};
+    return here;
+  }
+
+  // Floods.
+  StampSet flooded_edges, flooded_facets;
+  StampSet facets_with_chord;
+  std::vector<int> last_chord_in;     ///< by facet
+  std::vector<int> crossing_of_edge;  ///< by half-edge
+
+  // Cuts.
+  StampSet facets_of_lump;
+  std::vector<int> copy_of;  ///< by half-edge
+  StampSet copied_edges;
+};
+
+}  // namespace oriel::detail
