@@ -235,10 +235,13 @@ class Judge {
   [[nodiscard]] bool is_pierced(const std::vector<Outline>& shape, Side side) const {
     const Vec3 normal = world_.planes.normal(side);
     const double offset_m = world_.planes.offset_m(side);
+    const auto ranks = world_.points.ranks(world_.planes.class_of(side >> 1));
+    const int rank = world_.planes.rank_of(side >> 1);
     for (int e = 0; e < body_.half_edge_count(); ++e) {
-      if (!body_.is_alive_edge(e) || e > body_.twin(e)) continue;
-      const int from = body_.origin(e), to = body_.target(e);
-      if (world_.points.level(from, side) * world_.points.level(to, side) >= 0) continue;
+      const int from = body_.origin(e);
+      if (ranks[at(from)] <= rank || !body_.is_alive_edge(e)) continue;
+      const int to = body_.target(e);
+      if (ranks[at(to)] >= rank) continue;
       const Vec3 p = world_.points.at(from), q = world_.points.at(to);
       const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
       if (contains_clearly(shape, normal, p + (hp / (hp - hq)) * (q - p), world_.points.grid_m()))

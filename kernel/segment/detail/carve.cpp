@@ -248,23 +248,26 @@ class Remover {
   Vec3 cap_point_;
 };
 
+/// Adds the facets that hang together with `start` and are not in `seen` yet.
+void add_piece(const Boundary& body, int start, StampSet& seen, std::vector<int>& piece) {
+  seen.insert(start);
+  piece.push_back(start);
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    body.for_each_edge(piece[i], [&](int e) {
+      const int g = body.facet_of(body.twin(e));
+      if (seen.insert(g)) piece.push_back(g);
+    });
+}
+
 /// The living facets in connected pieces, in the order of their first facets.
 std::vector<std::vector<int>> pieces_of(const Boundary& body) {
   std::vector<std::vector<int>> pieces;
-  std::vector<char> is_seen(at(body.facet_count()), 0);
+  StampSet& seen = body.world().scratch.facets_of_piece;
+  seen.start(body.facet_count());
   for (int start = 0; start < body.facet_count(); ++start) {
-    if (!body.is_alive(start) || is_seen[at(start)]) continue;
-    std::vector<int> piece{start};
-    is_seen[at(start)] = 1;
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      body.for_each_edge(piece[i], [&](int e) {
-        const int g = body.facet_of(body.twin(e));
-        if (is_seen[at(g)]) return;
-        is_seen[at(g)] = 1;
-        piece.push_back(g);
-      });
-    std::ranges::sort(piece);
-    pieces.push_back(std::move(piece));
+    if (!body.is_alive(start) || seen.contains(start)) continue;
+    add_piece(body, start, seen, pieces.emplace_back());
+    std::ranges::sort(pieces.back());
   }
   return pieces;
 }
@@ -295,7 +298,17 @@ Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, Feat
   return Remover(body, caps, is_hole).run(mark, std::move(touched));
 }
 
-bool is_connected(const Boundary& body) { return pieces_of(body).size() == 1; }
+bool is_connected(const Boundary& body) {
+  StampSet& seen = body.world().scratch.facets_of_piece;
+  seen.start(body.facet_count());
+  std::vector<int> piece;
+  for (int f = 0; f < body.facet_count(); ++f) {
+    if (!body.is_alive(f) || seen.contains(f)) continue;
+    if (!piece.empty()) return false;
+    add_piece(body, f, seen, piece);
+  }
+  return true;
+}
 
 std::vector<Boundary> part_into_lumps(const Boundary& body) {
   std::vector<Boundary> lumps;
@@ -317,8 +330,8 @@ std::vector<Boundary> part_into_lumps(const Boundary& body) {
 
 std::vector<Boundary> take_out_cavities(Boundary& body) {
   std::vector<Boundary> cavities;
+  if (is_connected(body)) return cavities;
   const auto pieces = pieces_of(body);
-  if (pieces.size() == 1) return cavities;
   for (const auto& piece : pieces) {
     if (volume_of(body, piece) > 0) continue;
     cavities.push_back(copy_facets(body, piece, true));

@@ -77,12 +77,16 @@ class CornerCutter {
     if (!body_->is_alive(f)) return false;
     const Side own = body_->facet(f).side;
     if (std::ranges::any_of(sides_, [&](Side s) { return s >> 1 == own >> 1; })) return false;
-    bool is_behind = true;
-    body_->for_each_edge(f, [&](int e) {
-      for (const Side side : sides_)
-        is_behind &= body_->world().points.level(body_->origin(e), side) <= 0;
+    return std::ranges::all_of(body_->facet(f).loops, [&](int l) {
+      const int first = body_->loop(l).first;
+      int e = first;
+      do {
+        for (const Side side : sides_)
+          if (body_->world().points.level(body_->origin(e), side) > 0) return false;
+        e = body_->next(e);
+      } while (e != first);
+      return true;
     });
-    return is_behind;
   }
 
   /// Connected facets behind all planes whose rim lies on all of them, and that bend inward.

@@ -28,12 +28,19 @@ class StampSet {
   int last_ = 0;
 };
 
-/// The chords of a section in one facet: how many begin and end, and the last crossing where one
-/// ends.
+/// The ends of chords of a section in one facet.
 struct Chords {
   int stamp = 0;
-  int begins = 0, ends = 0;
-  int end = -1;
+  int ends = 0;              ///< how many
+  int begin = -1, end = -1;  ///< of the first two: crossings where a chord begins and ends
+  int number = -1;           ///< among facets with several chords
+};
+
+/// A crossing as one of its two facets sees it.
+struct ChordEnd {
+  double along;  ///< place on the line in which the facet meets the plane
+  int crossing;
+  bool leads_down;  ///< the facet's own half-edge leads down here: a chord begins
 };
 
 /// Room that steps use one after the other, numbered by the facets and half-edges of the body at
@@ -43,9 +50,12 @@ struct Scratch {
   StampSet crossed_edges;
   std::vector<Chords> chords;  ///< by facet
   int last_chords = 0;
+  std::vector<int> facets_with_several;
+  std::vector<std::vector<ChordEnd>> chord_ends;  ///< of those facets
   void start_chords(int facets) {
     if (std::ssize(chords) < facets) chords.resize(static_cast<std::size_t>(facets));
     ++last_chords;
+    facets_with_several.clear();
   }
   Chords& chords_in(int facet) {
     Chords& here = chords[static_cast<std::size_t>(facet)];
@@ -60,7 +70,7 @@ struct Scratch {
   std::vector<int> crossing_of_edge;  ///< by half-edge
 
   // Cuts.
-  StampSet facets_of_lump;
+  StampSet facets_of_lump, facets_of_piece;
   std::vector<int> copy_of;  ///< by half-edge
   StampSet copied_edges;
 };

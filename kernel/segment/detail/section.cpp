@@ -47,23 +47,26 @@ class Sectioner {
 
   void find_crossings() {
     scratch_.crossed_edges.start(body_.half_edge_count());
+    const int limit = plane_rank_ * section_.direction;
     for (const int one : edges_) {
       if (!body_.is_alive_edge(one)) continue;
       const int other = body_.twin(one);
-      const int level_one = level(body_.origin(one)), level_other = level(body_.origin(other));
-      if ((level_one > 0) == (level_other > 0)) continue;
-      const int e = level_one > 0 ? one : other;
+      const int rank_one = ranks_[at(body_.origin(one))],
+                rank_other = ranks_[at(body_.origin(other))];
+      const bool is_one_up = rank_one * section_.direction > limit;
+      if (is_one_up == (rank_other * section_.direction > limit)) continue;
+      const int e = is_one_up ? one : other;
       // An edge that was shortened or paired anew may be among them twice.
       if (!scratch_.crossed_edges.insert(e)) continue;
-      const int down = std::min(level_one, level_other);
-      section_.crossings.push_back({e, meeting(e, body_.twin(e), down)});
+      const bool ends_on_plane = (is_one_up ? rank_other : rank_one) == plane_rank_;
+      section_.crossings.push_back({e, meeting(e, is_one_up ? other : one, ends_on_plane)});
     }
   }
 
   /// Where an edge meets the plane, from the half-edges that start at its upper and its lower end.
-  [[nodiscard]] Vec3 meeting(int up, int down, int level_down) const {
+  [[nodiscard]] Vec3 meeting(int up, int down, bool ends_on_plane) const {
     const Vec3 q = body_.at(down);
-    if (level_down == 0) return q;
+    if (ends_on_plane) return q;
     const Vec3 p = body_.at(up);
     const double hp = dot(axis_, p) - offset_m_, hq = dot(axis_, q) - offset_m_;
     return hp > hq ? p + (hp / (hp - hq)) * (q - p) : q;
@@ -72,65 +75,69 @@ class Sectioner {
   /// Pairs the crossings of every facet along its line with the plane. A chord runs with the
   /// material above it to its left, from a half-edge that leads down to one that leads up.
   bool link_chords() {
-    auto& crossings = section_.crossings;
     scratch_.start_chords(body_.facet_count());
-    for (int c = 0; c < std::ssize(crossings); ++c) {
-      Crossing& crossing = crossings[at(c)];
-      crossing.facet = body_.facet_of(crossing.edge);
-      crossing.facet_behind = body_.facet_of(body_.twin(crossing.edge));
-      ++scratch_.chords_in(crossing.facet).begins;
-      Chords& ended = scratch_.chords_in(crossing.facet_behind);
-      ++ended.ends;
-      ended.end = c;
+    std::size_t several = 0;
+    for (int c = 0; c < std::ssize(section_.crossings); ++c) {
+      const int e = section_.crossings[at(c)].edge;
+      several += link_end(body_.facet_of(e), c, true) ? 1 : 0;
+      several += link_end(body_.facet_of(body_.twin(e)), c, false) ? 1 : 0;
     }
-    ends_.clear();
-    for (int c = 0; c < std::ssize(crossings); ++c) {
-      Crossing& crossing = crossings[at(c)];
-      const Chords& begun = scratch_.chords_in(crossing.facet);
-      if (begun.begins == 1 && begun.ends == 1)
-        crossing.next = begun.end;
-      else
-        ends_.push_back({crossing.facet, c, true});
-      const Chords& ended = scratch_.chords_in(crossing.facet_behind);
-      if (ended.begins != 1 || ended.ends != 1) ends_.push_back({crossing.facet_behind, c, false});
-    }
-    return ends_.empty() || link_several();
+    return several == 0 ? are_all_linked() : link_several(several);
   }
 
-  /// A crossing as one of its two facets sees it, in facets with several chords.
-  struct End {
-    int facet;
-    int crossing;
-    bool leads_down;  ///< the facet's own half-edge leads down here: a chord begins
-    double along = 0;
-  };
-
-  bool link_several() {
-    for (End& end : ends_)
-      end.along = dot(line_in(end.facet), section_.crossings[at(end.crossing)].at);
-    std::ranges::sort(ends_, [](const End& p, const End& q) {
-      return std::tie(p.facet, p.along, p.leads_down, p.crossing) <
-             std::tie(q.facet, q.along, q.leads_down, q.crossing);
-    });
-    for (std::size_t i = 0; i < ends_.size();) {
-      std::size_t j = i + 1;
-      while (j < ends_.size() && ends_[j].facet == ends_[i].facet) ++j;
-      if (!link_in_facet(std::span(ends_).subspan(i, j - i))) return false;
-      i = j;
+  /// Links the two ends of a facet that has no more, as most have. True if the facet is found to
+  /// have several chords: then they wait for link_several.
+  bool link_end(int facet, int c, bool leads_down) {
+    Chords& here = scratch_.chords_in(facet);
+    ++here.ends;
+    if (here.ends > 2) {
+      if (here.ends > 3) return false;
+      here.number = static_cast<int>(scratch_.facets_with_several.size());
+      scratch_.facets_with_several.push_back(facet);
+      return true;
     }
-    return true;
+    (leads_down ? here.begin : here.end) = c;
+    if (here.begin >= 0 && here.end >= 0) section_.crossings[at(here.begin)].next = here.end;
+    return false;
   }
 
-  /// The ends come sorted along the line. Where edges leave one point of the plane, they are
-  /// sorted by where they are just above it.
-  bool link_in_facet(std::span<End> ends) {
+  [[nodiscard]] bool are_all_linked() const {
+    return std::ranges::all_of(section_.crossings, [](const Crossing& c) { return c.next >= 0; });
+  }
+
+  bool link_several(std::size_t several) {
+    auto& lists = scratch_.chord_ends;
+    if (lists.size() < several) lists.resize(several);
+    for (std::size_t i = 0; i < several; ++i) lists[i].clear();
+    const auto add = [&](int facet, int c, bool leads_down) {
+      if (const int number = scratch_.chords_in(facet).number; number >= 0)
+        lists[at(number)].push_back({0, c, leads_down});
+    };
+    for (int c = 0; c < std::ssize(section_.crossings); ++c) {
+      const int e = section_.crossings[at(c)].edge;
+      add(body_.facet_of(e), c, true);
+      add(body_.facet_of(body_.twin(e)), c, false);
+    }
+    for (std::size_t i = 0; i < several; ++i)
+      if (!link_in_facet(scratch_.facets_with_several[i], lists[i])) return false;
+    return are_all_linked();
+  }
+
+  /// Sorts the ends along the line; where edges leave one point of the plane, by where they are just
+  /// above it.
+  bool link_in_facet(int facet, std::span<ChordEnd> ends) {
     if (ends.size() % 2 != 0) return false;
+    const Vec3 line = line_in(facet);
+    for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[at(end.crossing)].at);
+    std::ranges::sort(ends, {}, [](const ChordEnd& end) {
+      return std::tuple(end.along, end.leads_down, end.crossing);
+    });
     for (std::size_t i = 0; i < ends.size();) {
       std::size_t j = i + 1;
       while (j < ends.size() && ends[j].along == ends[i].along) ++j;
       if (j > i + 1)
-        std::ranges::stable_sort(ends.subspan(i, j - i), {}, [&](const End& end) {
-          return std::pair(slope(end), end.leads_down);
+        std::ranges::stable_sort(ends.subspan(i, j - i), {}, [&](const ChordEnd& end) {
+          return std::pair(slope(line, end), end.leads_down);
         });
       i = j;
     }
@@ -145,10 +152,10 @@ class Sectioner {
     return cross(axis_, world_.planes.normal(body_.facet(facet).side));
   }
 
-  [[nodiscard]] double slope(const End& end) const {
+  [[nodiscard]] double slope(Vec3 line, const ChordEnd& end) const {
     const Crossing& crossing = section_.crossings[at(end.crossing)];
     const Vec3 up = body_.at(crossing.edge) - crossing.at;
-    return dot(line_in(end.facet), up) / dot(axis_, up);
+    return dot(line, up) / dot(axis_, up);
   }
 
   bool close_loops() {
@@ -331,7 +338,6 @@ class Sectioner {
   std::span<const int> ranks_;
   int plane_rank_;
   Section& section_;
-  std::vector<End> ends_;
 };
 
 }  // namespace

@@ -15,7 +15,6 @@ struct Crossing {
   Vec3 at;        ///< on the plane
   int next = -1;  ///< the crossing at the other end of the chord in the facet of `edge`
   int loop = -1;
-  int facet = -1, facet_behind = -1;  ///< of the edge and of its twin
 };
 
 /// A closed chain of chords, counter-clockwise about the direction looked to if it encloses
