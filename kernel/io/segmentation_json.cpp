@@ -190,7 +190,7 @@ void append_stats(std::string& out, const SegmentationStats& stats) {
   append_field(out, "protrusion_tests", stats.protrusion_tests);
   append_field(out, "hole_tests", stats.hole_tests);
   append_field(out, "candidates", stats.candidates);
-  append_field(out, "instanced", 0);
+  append_field(out, "instanced", stats.instanced);
   out += '}';
 }
 

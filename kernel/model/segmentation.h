@@ -114,6 +114,9 @@ struct SegmentationStats {
   std::size_t hole_tests = 0;
   /// Candidates found by them.
   std::size_t candidates = 0;
+  /// Parts that were not segmented themselves: they are congruent to another one of their node and
+  /// have got its subtree.
+  std::size_t instanced = 0;
 };
 
 /// The whole result for one solid.

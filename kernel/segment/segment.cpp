@@ -3,6 +3,7 @@
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/cells.h"
 #include "kernel/segment/detail/choice.h"
+#include "kernel/segment/detail/instance.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,6 +32,8 @@ struct Task {
   FeatureId feature;            ///< the body is in it; invalid: the solid itself
   int sign = 1;                 ///< -1 for air
   std::vector<int> own_planes;  ///< no split planes of this body
+  int model = -1;               ///< others wait for what becomes of it, or it waits itself
+  std::optional<detail::Congruence> copy_of_model = std::nullopt;
 };
 
 class Segmenter {
@@ -48,6 +52,9 @@ class Segmenter {
     while (!tasks_.empty()) {
       Task task = std::move(tasks_.back());
       tasks_.pop_back();
+      close_models();
+      if (task.copy_of_model && copy(task)) continue;
+      if (task.model >= 0 && !task.copy_of_model) open_model(task);
       split(std::move(task));
     }
     finish();
@@ -85,6 +92,71 @@ class Segmenter {
       node(id).rest.push_back(child);
       tasks_.push_back({std::move(body), child, feature, sign, own_planes});
     }
+  }
+
+  /// A body that others are congruent to. It is on top of them, so it is split before them.
+  struct Model {
+    detail::Subtree subtree;
+    std::size_t waiting = 0;  ///< tasks below it
+  };
+
+  /// Of the parts of one node, the tasks from `first`, those that are congruent to a later one wait
+  /// for what becomes of it.
+  void find_congruent(std::size_t first) {
+    for (std::size_t i = tasks_.size(); i-- > first;)
+      for (std::size_t j = tasks_.size(); --j > i;)
+        if (!tasks_[j].copy_of_model && become_copy(tasks_[i], tasks_[j])) break;
+  }
+
+  bool become_copy(Task& task, Task& model) {
+    const Feature &one = out_.features[model.feature.index()],
+                  &two = out_.features[task.feature.index()];
+    constexpr double kSame = 1e-9;  // tolerance of doubles; what is congruent is decided exactly
+    if (std::abs(one.volume_m3 - two.volume_m3) > kSame * one.volume_m3) return false;
+    auto how = find_congruence(model.body, task.body, ground_);
+    if (!how) return false;
+    // The planes of their cut are no split planes of either.
+    for (const int plane : model.own_planes)
+      if (detail::find_in(how->planes, plane).value_or(plane) != plane) return false;
+    if (model.model < 0) {
+      model.model = static_cast<int>(models_.size());
+      models_.emplace_back();
+    }
+    task.model = model.model;
+    task.copy_of_model = std::move(how);
+    return true;
+  }
+
+  void open_model(const Task& task) {
+    Model& model = models_[static_cast<std::size_t>(task.model)];
+    const auto [node, feature, cell] = counts();
+    model.subtree = {task.node, task.feature, node, node, feature, feature, cell, cell};
+    model.waiting = tasks_.size();
+    open_models_.push_back(task.model);
+  }
+
+  /// Models whose own tasks are all done have their whole subtree.
+  void close_models() {
+    while (!open_models_.empty()) {
+      Model& model = models_[static_cast<std::size_t>(open_models_.back())];
+      if (tasks_.size() >= model.waiting) return;
+      std::tie(model.subtree.last_node, model.subtree.last_feature, model.subtree.last_cell) =
+          counts();
+      open_models_.pop_back();
+    }
+  }
+
+  [[nodiscard]] std::tuple<int, int, CellId> counts() const {
+    return {static_cast<int>(out_.nodes.size()), static_cast<int>(out_.features.size()),
+            CellId{static_cast<int>(out_.cells.size())}};
+  }
+
+  bool copy(const Task& task) {
+    const detail::Subtree& model = models_[static_cast<std::size_t>(task.model)].subtree;
+    if (!copy_subtree(model, *task.copy_of_model, task.node, task.feature, world_, cells_, out_))
+      return false;
+    ++out_.stats.instanced;
+    return true;
   }
 
   /// Splits one body down to its leaf: each round is a node of the tree.
@@ -199,6 +271,7 @@ class Segmenter {
     const NodeId rest = add_node();
     node(task.node).rest = {rest};
 
+    const std::size_t first_part = tasks_.size();
     std::vector<detail::Change> changes;
     for (const detail::Lump& lump : choice.lumps) {
       std::vector<int> touched;
@@ -214,6 +287,7 @@ class Segmenter {
       changes.push_back(take_off_part(task, choice, patch.caps,
                                       {patch.new_area, patch.new_area / patch.old_area}, {}));
     }
+    find_congruent(first_part);
     parent_of_rest_ = task.node;
     task.node = rest;
     return changes;
@@ -331,6 +405,8 @@ class Segmenter {
   detail::CellWriter cells_;
   Side ground_ = -1;
   std::vector<Task> tasks_;
+  std::vector<Model> models_;
+  std::vector<int> open_models_;  ///< those that are being split, the innermost last
   std::int64_t work_ = 0;
   bool may_have_parted_ = false;
   bool is_out_of_budget_ = false;

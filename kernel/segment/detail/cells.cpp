@@ -50,8 +50,25 @@ PlaneId CellWriter::plane_id(Side side) {
   if (is_new) {
     const Plane& plane = world_.planes.plane(side >> 1);
     out_.planes.push_back((side & 1) != 0 ? exact::opposite(plane) : plane);
+    extra_sides_.push_back(side);
   }
   return entry->second;
+}
+
+Side CellWriter::side_of(PlaneId id) const {
+  const std::size_t own = out_.planes.size() - extra_sides_.size();
+  return id.index() < own ? world_.planes.side_of(id) : extra_sides_[id.index() - own];
+}
+
+void CellWriter::copy_sources(const NumberMap& sources, CellId first, CellId last, int copies) {
+  for (const auto& [source, copy] : sources) {
+    const auto made = made_of_.find(source);
+    if (made == made_of_.end()) continue;
+    const std::vector<CellFacet> all = made->second;
+    for (const CellFacet& here : all)
+      if (here.cell.value >= first.value && here.cell.value < last.value)
+        made_of_[copy].push_back({CellId{here.cell.value - first.value + copies}, here.facet});
+  }
 }
 
 CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,

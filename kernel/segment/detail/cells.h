@@ -3,6 +3,7 @@
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/detail/boundary.h"
+#include "kernel/segment/detail/congruence.h"
 
 #include <cstddef>
 #include <map>
@@ -24,6 +25,13 @@ class CellWriter {
   CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
              FeatureId feature);
 
+  /// The side that such an id stands for.
+  [[nodiscard]] Side side_of(PlaneId id) const;
+
+  /// The cells from `first` up to `last` were copied, to where `copies` begins: what is made of a
+  /// facet of the solid among them has a copy made of the facet that `sources` says.
+  void copy_sources(const NumberMap& sources, CellId first, CellId last, int copies);
+
   /// Copies the points, and fills in what can be said only now that all leaves are there: hosts of
   /// features, polygons of facets and features.
   void finish(const Building& building, const Solid& solid);
@@ -42,6 +50,7 @@ class CellWriter {
   World& world_;
   Segmentation& out_;
   std::map<Side, PlaneId> extra_planes_;
+  std::vector<Side> extra_sides_;  ///< in the order of their ids
   /// For each facet of the solid the cell facets made of it.
   std::map<int, std::vector<CellFacet>> made_of_;
 };

@@ -120,6 +120,25 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
   return size() - 1;
 }
 
+int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
+                          const std::vector<std::pair<int, int>>& planes) {
+  const Point& model = points_[index(p)];
+  Point point;
+  point.is_by_decree = model.is_by_decree;
+  for (const int plane : model.planes) {
+    const auto moved = std::ranges::lower_bound(planes, plane, {}, &std::pair<int, int>::first);
+    if (moved != planes.end() && moved->first == plane) point.planes.push_back(moved->second);
+  }
+  std::ranges::sort(point.planes);
+  exact::Rational where = model.rational;
+  where.x += shift[0] * where.w;
+  where.y += shift[1] * where.w;
+  where.z += shift[2] * where.w;
+  place(point, where);
+  add(std::move(point));
+  return size() - 1;
+}
+
 void PointTable::add(Point point) {
   places_.push_back(point.at);
   points_.push_back(std::move(point));

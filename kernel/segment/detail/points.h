@@ -56,6 +56,10 @@ class PointTable {
   /// weld_m, it is one point and lies on all of them.
   std::optional<int> meet(int p, int q, int r);
 
+  /// Point `p` moved by a whole number of grid units, on the planes that those of p are mapped to.
+  int add_moved(int p, const std::array<std::int64_t, 3>& shift,
+                const std::vector<std::pair<int, int>>& planes);
+
   /// What is there now, to come back to if what is tried next is not kept.
   struct Mark {
     int points;

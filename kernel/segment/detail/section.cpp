@@ -123,8 +123,8 @@ class Sectioner {
     return are_all_linked();
   }
 
-  /// Sorts the ends along the line; where edges leave one point of the plane, by where they are just
-  /// above it.
+  /// Sorts the ends along the line; where edges leave one point of the plane, by where they are
+  /// just above it.
   bool link_in_facet(int facet, std::span<ChordEnd> ends) {
     if (ends.size() % 2 != 0) return false;
     const Vec3 line = line_in(facet);
