@@ -12,7 +12,14 @@ bool is_in_range(int index, std::size_t size) {
   return index >= 0 && index < static_cast<int>(size);
 }
 
+/// Termination does not need its safety net.
+void check_flags(const Segmentation& s) {
+  CHECK(
+      std::ranges::none_of(s.cells, [](const Cell& cell) { return cell.flag == LeafFlag::cycle; }));
+}
+
 void check_tree(const Segmentation& s) {
+  check_flags(s);
   std::vector<int> uses(s.nodes.size(), 0), cell_uses(s.cells.size(), 0);
   ++uses[s.root.index()];
   std::size_t inner = 0;

@@ -49,6 +49,8 @@ std::vector<GridBox> random_boxes(std::uint64_t seed) {
 Reference found_in(const std::vector<GridBox>& boxes) {
   const test::Segmented s = test::in_paper_order(building_of(boxes));
   Reference out;
+  CHECK(std::ranges::none_of(s.segmentation.cells,
+                             [](const Cell& cell) { return cell.flag == LeafFlag::cycle; }));
   out.leaves = static_cast<int>(s.segmentation.stats.leaves);
   out.inner = static_cast<int>(s.segmentation.stats.inner);
   // Senses are the building's; the reference tells of the body at hand.
