@@ -301,8 +301,10 @@ class Segmenter {
   detail::Change take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
                                Measures measures, std::vector<int> touched) {
     const FeatureId id{static_cast<int>(out_.features.size())};
+    const bool is_natural = choice.is_natural && touched.empty();
     auto carved = take_off(task.body, caps, choice.is_hole, id, std::move(touched));
     detail::Change change = change_of(carved, caps);
+    change.is_natural = is_natural;
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
     std::ranges::stable_sort(caps, std::greater{},
                              [&](const detail::Cap& cap) { return area_of(cap); });
@@ -333,7 +335,7 @@ class Segmenter {
 
   static detail::Change change_of(const detail::Carved& carved,
                                   const std::vector<detail::Cap>& caps) {
-    detail::Change change{carved.touched, {}, {}};
+    detail::Change change{carved.touched, {}, {}, false};
     const Boundary& part = carved.lump;
     for (int e = 0; e < part.half_edge_count(); ++e)
       if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));

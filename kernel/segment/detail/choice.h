@@ -52,6 +52,8 @@ struct Change {
   /// The edges around its cap, if it has a single one with a single outline that covers nothing;
   /// else none.
   std::vector<std::pair<int, int>> rim;
+  /// The cut follows existing edges: nothing was split.
+  bool is_natural = false;
 };
 
 /// Finds the best cut of one body, step after step. Sections of planes that a cut has not touched
@@ -79,6 +81,10 @@ class Chooser {
     /// too large.
     bool is_idle = false;
     std::array<double, 2> margins{};
+    /// No region's outline follows edges, so none becomes natural by losing a loop in it.
+    bool is_fenced = false;
+    /// Some loops have gone; nothing else has changed.
+    bool is_to_prune = false;
     Section section{};  ///< kept if there is something to cut
   };
   /// What a change means to the planes of one normal class: the ranks of its points, and of those
@@ -99,17 +105,23 @@ class Chooser {
   using Key = std::optional<double> (*)(const Region&, double new_area, double old_area,
                                         double limit);
 
-  void make_stale(std::size_t slot);
+  void sweep_classes();
+  void sweep_class(int normal_class, std::size_t first, std::size_t last);
+  void let_rest(Slot& slot, double area_m2);
+  void count_tests(const Slot& slot);
   void refresh();
   std::optional<Choice> natural_next();
   std::optional<Choice> paper_next();
   std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
   void refresh(Slot& slot);
+  bool prune(Slot& slot);
   [[nodiscard]] bool judge(Slot& slot, const Section& section) const;
   void apply(const Change& change);
-  void touch(std::size_t slot, const Change& change, const Reach& reach, const Box& part);
+  void touch(std::size_t number, const Change& change, const Reach& reach, const Box& part);
   [[nodiscard]] bool stays_idle(Slot& slot, const Change& change, const Reach& reach,
                                 const Box& part) const;
+  [[nodiscard]] bool loses_loops_only(const Slot& slot, const Change& change,
+                                      const Reach& reach) const;
   void check_leaders(std::vector<Candidate>& candidates, Key key) const;
   bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);

@@ -25,7 +25,7 @@ class Imprinter {
         touched_(touched),
         normal_class_(body.world().planes.class_of(section.plane)),
         plane_rank_(body.world().planes.rank_of(section.plane)),
-        axis_(body.world().planes.normal(2 * section.plane + (section.direction > 0 ? 0 : 1))) {}
+        axis_(body.world().planes.normal(section.looking())) {}
 
   std::vector<Cap> run() {
     split_edges();

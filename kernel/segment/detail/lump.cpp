@@ -65,7 +65,7 @@ Lump LumpFinder::find(int region) {
   } while (!stack_.empty());
 
   std::ranges::sort(lump_.regions);
-  const Side looking = 2 * section_.plane + (section_.direction > 0 ? 0 : 1);
+  const Side looking = section_.looking();
   double cap_area = 0;
   for (const int r : lump_.regions) {
     cap_area += section_.regions[at(r)].area;

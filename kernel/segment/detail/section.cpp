@@ -20,7 +20,7 @@ class Sectioner {
         edges_(edges),
         options_(options),
         scratch_(world_.scratch),
-        looking_(2 * section.plane + (section.direction > 0 ? 0 : 1)),
+        looking_(section.looking()),
         axis_(world_.planes.normal(looking_)),
         offset_m_(world_.planes.offset_m(looking_)),
         ranks_(world_.points.ranks(world_.planes.class_of(section.plane))),
@@ -36,6 +36,17 @@ class Sectioner {
       return;
     }
     find_regions();
+  }
+
+  bool prune() {
+    section_.old_areas = {body_.area_on(looking_ ^ 1), body_.area_on(looking_)};
+    if (!drop_dead_loops()) return false;
+    for (Region& region : section_.regions) {
+      region.covered.clear();
+      region.is_natural = region.has_natural_outline = region.is_candidate = false;
+      judge(region);
+    }
+    return true;
   }
 
  private:
@@ -220,7 +231,7 @@ class Sectioner {
 
   void add_region(int l) {
     const double area = section_.loops[at(l)].area;
-    section_.regions.push_back({area > 0, {l}, std::abs(area), 0, {}, false, false});
+    section_.regions.push_back({area > 0, {l}, std::abs(area)});
   }
 
   void nest_loops() {
@@ -286,9 +297,55 @@ class Sectioner {
     region.new_area = region.area;
     if (old_area <= 0) return;
     take_off_covered(region, section_.split_side(region) ^ 1);
-    region.is_natural = std::ranges::all_of(region.loops, [&](int l) { return is_natural(l); });
+    region.has_natural_outline = is_natural(region.loops[0]);
+    region.is_natural = region.has_natural_outline &&
+                        std::ranges::all_of(region.loops, [&](int l) { return is_natural(l); });
     region.is_candidate = (region.is_natural || region.new_area < old_area) &&
                           !is_sliver(region.loops[0], region.new_area);
+  }
+
+  /// False if a loop has living and dead edges, or a living one lies in a dead one.
+  bool drop_dead_loops() {
+    std::vector<Crossing> crossings;
+    std::vector<SectionLoop> loops;
+    std::vector<Region> regions;
+    std::vector<int> new_loop(section_.loops.size(), -1);
+    for (int l = 0; l < std::ssize(section_.loops); ++l) {
+      std::size_t living = 0, all = 0;
+      for_each_crossing(l, [&](const Crossing& c) {
+        ++all;
+        living += body_.is_alive_edge(c.edge) ? 1 : 0;
+      });
+      if (living == 0) continue;
+      if (living < all) return false;
+      new_loop[at(l)] = static_cast<int>(loops.size());
+      const int first = static_cast<int>(crossings.size());
+      loops.push_back({first, section_.loops[at(l)].area});
+      for_each_crossing(l, [&](const Crossing& c) {
+        const int next = static_cast<int>(crossings.size()) + 1;
+        crossings.push_back({c.edge, c.at, next, new_loop[at(l)]});
+      });
+      crossings.back().next = first;
+    }
+    for (Region& region : section_.regions) {
+      if (new_loop[at(region.loops[0])] < 0) {
+        if (std::ranges::any_of(region.loops, [&](int l) { return new_loop[at(l)] >= 0; }))
+          return false;
+        continue;
+      }
+      Region& same = regions.emplace_back(std::move(region));
+      Few<int, 2> living;
+      for (const int l : same.loops)
+        if (new_loop[at(l)] >= 0)
+          living.push_back(new_loop[at(l)]);
+        else
+          same.area += std::abs(section_.loops[at(l)].area);
+      same.loops = std::move(living);
+    }
+    section_.crossings.swap(crossings);
+    section_.loops.swap(loops);
+    section_.regions.swap(regions);
+    return true;
   }
 
   void take_off_covered(Region& region, Side opposite) {
@@ -359,6 +416,10 @@ void section_at(const Boundary& body, Section& section, std::span<const int> edg
   section.loops.clear();
   section.regions.clear();
   Sectioner(body, section, edges, options).run();
+}
+
+bool prune_section(const Boundary& body, Section& section, const SectionOptions& options) {
+  return Sectioner(body, section, {}, options).prune();
 }
 
 }  // namespace oriel::detail

@@ -34,11 +34,13 @@ struct Region {
   double area = 0;
   double new_area = 0;
   /// Those facets.
-  std::vector<int> covered;
+  std::vector<int> covered = {};
   /// It is natural or smaller than the old area, and no sliver: a feature may begin here.
   bool is_candidate = false;
   /// Every chord follows existing edges (or lies in the ground): the cut splits no facet.
   bool is_natural = false;
+  /// The same of the loop around it alone.
+  bool has_natural_outline = false;
 };
 
 /// The section of a body at a plane ± 0: `direction` +1 looks just in front of the plane (as its
@@ -54,14 +56,15 @@ struct Section {
   /// The area of the body's facets on the split side of air and of material: the old area of a cut.
   std::array<double, 2> old_areas = {};
 
+  /// The side that looks to where the section looks.
+  [[nodiscard]] Side looking() const { return 2 * plane + (direction > 0 ? 0 : 1); }
   [[nodiscard]] double old_area(const Region& region) const {
     return old_areas[region.is_material ? 1 : 0];
   }
   /// The side of the split plane for features of a region: a protrusion's is the side that looks
   /// the same way, a hole's the opposite one.
   [[nodiscard]] Side split_side(const Region& region) const {
-    const Side looking = 2 * plane + (direction > 0 ? 0 : 1);
-    return region.is_material ? looking : looking ^ 1;
+    return region.is_material ? looking() : looking() ^ 1;
   }
 };
 
@@ -83,5 +86,10 @@ struct SectionOptions {
 /// and no regions.
 void section_at(const Boundary& body, Section& section, std::span<const int> edges,
                 const SectionOptions& options);
+
+/// Brings a section up to date after natural cuts whose parts it met in whole loops or not at all:
+/// loops of dead edges go, and with them the regions inside. False if a loop is dead in part only:
+/// then the section is to be made anew.
+bool prune_section(const Boundary& body, Section& section, const SectionOptions& options);
 
 }  // namespace oriel::detail
