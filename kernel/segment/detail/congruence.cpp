@@ -12,11 +12,21 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Meetings of planes that are moved alike differ by no more than rounding.
 constexpr double kSame_m = 1e-9;  // tolerance of doubles, planes are compared exactly
 
-Box box_of(const Boundary& body) {
-  Box box;
+/// The lowest corner of a body's box.
+Vec3 corner_of(const Boundary& body) {
+  Vec3 least{Box::kInfinity, Box::kInfinity, Box::kInfinity};
   for (int e = 0; e < body.half_edge_count(); ++e)
-    if (body.is_alive_edge(e)) box.grow(body.at(e));
-  return box;
+    if (body.is_alive_edge(e)) {
+      const Vec3 p = body.at(e);
+      least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    }
+  return least;
+}
+
+int count_facets(const Boundary& body) {
+  int count = 0;
+  for (int f = 0; f < body.facet_count(); ++f) count += body.is_alive(f) ? 1 : 0;
+  return count;
 }
 
 class Matcher {
@@ -29,14 +39,12 @@ class Matcher {
         edge_of_(at(model.half_edge_count()), -1) {}
 
   std::optional<Congruence> run() {
+    if (count_facets(model_) != count_facets(other_)) return std::nullopt;
     find_shift();
-    int facets = 0;
-    for (int f = 0; f < model_.facet_count(); ++f) {
-      if (!model_.is_alive(f)) continue;
-      ++facets;
-      if (!match_facet(f)) return std::nullopt;
-    }
-    if (std::ssize(other_.living_facets()) != facets || !do_twins_match()) return std::nullopt;
+    how_.points.reserve(edge_of_.size());
+    for (int f = 0; f < model_.facet_count(); ++f)
+      if (model_.is_alive(f) && !match_facet(f)) return std::nullopt;
+    if (!do_twins_match()) return std::nullopt;
     if (!make_unique(how_.points) || !make_unique(how_.planes) || !make_unique(how_.sources) ||
         !make_unique(how_.marks))
       return std::nullopt;
@@ -46,7 +54,7 @@ class Matcher {
  private:
   void find_shift() {
     const double grid_m = model_.world().points.grid_m();
-    const Vec3 difference = box_of(other_).min - box_of(model_).min;
+    const Vec3 difference = corner_of(other_) - corner_of(model_);
     how_.shift = {std::llround(difference.x / grid_m), std::llround(difference.y / grid_m),
                   std::llround(difference.z / grid_m)};
     how_.shift_m = {static_cast<double>(how_.shift[0]) * grid_m,
@@ -58,6 +66,8 @@ class Matcher {
     const auto side = moved(model_.facet(f).side);
     if (!side) return false;
     how_.planes.emplace_back(model_.facet(f).side >> 1, *side >> 1);
+    // Bodies that were cut off alike are mostly numbered alike.
+    if (f < other_.facet_count() && other_.facet(f).side == *side && match(f, f)) return true;
     return std::ranges::any_of(other_.facets_on(*side), [&](int g) { return match(f, g); });
   }
 
@@ -104,10 +114,10 @@ class Matcher {
   }
 
   bool match_loop(int l, int m) {
-    const int first = other_.loop(m).first;
+    const int first_of_model = model_.loop(l).first, first = other_.loop(m).first;
     int start = first;
     do {
-      if (match_from(model_.loop(l).first, start)) return true;
+      if (match_from(first_of_model, start)) return true;
       start = other_.next(start);
     } while (start != first);
     return false;
