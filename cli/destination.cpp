@@ -18,6 +18,8 @@ const char* extension_of(Format format) {
       return ".city.json";
     case Format::cityjson_seq:
       return ".city.jsonl";
+    case Format::citygml:
+      return ".gml";
     case Format::obj:
       return ".obj";
     case Format::off:
@@ -32,7 +34,7 @@ const char* extension_of(Format format) {
 std::string stem_of(const std::string& path) {
   std::string name = fs::path(path).filename().string();
   for (const std::string extension :
-       {".city.jsonl", ".city.json", ".jsonl", ".json", ".obj", ".off"})
+       {".city.jsonl", ".city.json", ".jsonl", ".json", ".citygml", ".gml", ".xml", ".obj", ".off"})
     if (name.size() > extension.size() && name.ends_with(extension))
       return name.substr(0, name.size() - extension.size());
   return name;
@@ -67,6 +69,11 @@ Format Destination::format_of_input(std::size_t input) const {
 void Destination::check(std::size_t input) const {
   const Format from = format_of_input(input);
   const Format to = to_ ? *to_ : is_folder_ || out_ == "-" ? from : format_of(out_).value_or(from);
+  if (!is_folder_ && out_ != "-" && to == Format::citygml)
+    throw CLI::ValidationError("-o",
+                               "CityGML is read only; it is written as CityJSON (.city.json) "
+                               "or CityJSONSeq (.city.jsonl)");
+  if (from == Format::citygml) return;
   const bool is_stream_in = from == Format::cityjson_seq,
              is_stream_out = to == Format::cityjson_seq;
   if (is_stream_in != is_stream_out && (is_stream_out || to == Format::cityjson))
@@ -79,8 +86,9 @@ std::string Destination::path_for(std::size_t input) const {
   if (!is_folder_) return out_;
   const Format from = format_of_input(input);
   Format to = to_.value_or(from);
-  // OBJ and OFF with labels are CityJSON unless asked otherwise.
-  if (!to_ && (from == Format::obj || from == Format::off)) to = Format::cityjson;
+  // CityGML, OBJ and OFF with labels are CityJSON unless asked otherwise.
+  if (!to_ && (from == Format::citygml || from == Format::obj || from == Format::off))
+    to = Format::cityjson;
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
@@ -90,6 +98,7 @@ void Destination::begin(std::size_t input, bool is_rehearsal) {
   format_ = to_ ? *to_
                 : format_of(path_).value_or(from == Format::cityjson_seq ? from : Format::cityjson);
   mesh_ = {};
+  collector_ = {};
   if (is_rehearsal) path_ = "/dev/null";
   if (is_folder_ && !is_rehearsal) {
     std::error_code error;
@@ -100,13 +109,16 @@ void Destination::begin(std::size_t input, bool is_rehearsal) {
 
 void Destination::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
                       const WriteOptions& options) {
-  if (format_ == Format::cityjson || format_ == Format::cityjson_seq)
+  if (format_ == Format::cityjson && document.format == Format::citygml)
+    collector_.add(write_cityjson(document, labelled, options));
+  else if (format_ == Format::cityjson || format_ == Format::cityjson_seq)
     file_->append(write_cityjson(document, labelled, options));
   else
     append_mesh(mesh_, document, labelled);
 }
 
 std::string Destination::end() {
+  if (collector_.has_lines()) file_->append(collector_.text());
   if (format_ == Format::obj) file_->append(write_obj(mesh_));
   if (format_ == Format::off) file_->append(write_off(mesh_));
   if (format_ == Format::stl) file_->append(write_stl(mesh_));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/io/cityjson_collector.h"
 #include "kernel/io/document.h"
 #include "kernel/io/format.h"
 #include "kernel/io/mesh_writer.h"
@@ -19,8 +20,8 @@ namespace oriel::cli {
 class Destination {
  public:
   /// `to` is a format's name or empty: then the name of `out` says it, or, for a folder and stdout,
-  /// the input's format. Throws CLI::ValidationError if that makes no sense (several inputs and no
-  /// folder, a stream into one file).
+  /// the input's format (CityJSON for CityGML). Throws CLI::ValidationError if that makes no sense
+  /// (several inputs and no folder, a stream into one file).
   Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
               std::optional<Format> from);
 
@@ -45,6 +46,7 @@ class Destination {
   std::string path_;
   std::unique_ptr<OutputFile> file_;
   LabelledMesh mesh_;
+  CityJsonCollector collector_;
 };
 
 }  // namespace oriel::cli

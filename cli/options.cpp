@@ -27,7 +27,7 @@ std::string LineArguments::configuration() const {
 }
 
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
-  const char* what = "CityJSON, CityJSONSeq, OBJ or OFF; - is stdin";
+  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
   } else {
@@ -38,7 +38,7 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   command.add_option("--lod", a.lod,
                      "Level of detail to read, as written in the input (default: the highest)");
   command.add_option("--from", a.from, "Format of the input (default: by its name)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off"}));
+      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"}));
   command
       .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
       ->check(CLI::IsMember({"natural", "paper"}))

@@ -101,7 +101,8 @@ class CityJsonWriter {
     std::string result(text.substr(0, start));
     result += root_.text();
     result += text.substr(start + root.size());
-    if (document_.format == Format::cityjson_seq) result += '\n';
+    if (document_.format == Format::cityjson_seq || document_.format == Format::citygml)
+      result += '\n';
     return result;
   }
 
@@ -270,6 +271,7 @@ class CityJsonWriter {
 
 std::string write_cityjson(const Document& document, const std::vector<LabelledBuilding>& labelled,
                            const WriteOptions& options) {
+  if (!document.source && document.format == Format::citygml) return {};
   if (document.source)
     return CityJsonWriter(*document.source, document).write(labelled, options.removed);
   const detail::CityJsonSource fresh = detail::fresh_cityjson(document.buildings);

@@ -13,16 +13,19 @@ namespace detail {
 struct CityJsonSource;
 }
 
-/// One record of a file: a whole CityJSON, OBJ or OFF file, or one line of a CityJSONSeq. It keeps
-/// the text it was read from, so that writing leaves every byte alone that it need not change.
+/// One record of a file: a whole CityJSON, OBJ or OFF file, one line of a CityJSONSeq, or one
+/// Building of a CityGML file. It keeps the text it was read from, so that writing leaves every
+/// byte alone that it need not change.
 struct Document {
-  /// The record's name in messages: the file, and for CityJSONSeq the line (`tile.city.jsonl:12`).
+  /// The record's name in messages: the file, and for CityJSONSeq the line (`tile.city.jsonl:12`),
+  /// for CityGML the line where the Building starts.
   std::string name;
   Format format = Format::cityjson;
-  /// The buildings that could be read, in the order of the file. The header line of a CityJSONSeq
-  /// is a record without buildings.
+  /// The buildings that could be read, in the order of the file. The header line of a CityJSONSeq,
+  /// and that of CityGML, is a record without buildings.
   std::vector<Building> buildings;
-  /// The CityJSON text and where the buildings stand in it; null for other formats.
+  /// The CityJSON text and where the buildings stand in it. Of CityGML, the lines of the
+  /// CityJSONSeq that it becomes; null for a Building that could not be read. Null for OBJ and OFF.
   std::shared_ptr<const detail::CityJsonSource> source;
 };
 

@@ -8,17 +8,21 @@ namespace oriel {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Format>, 5> kExtensions{{
+constexpr std::array<std::pair<std::string_view, Format>, 8> kExtensions{{
     {".json", Format::cityjson},
     {".jsonl", Format::cityjson_seq},
+    {".gml", Format::citygml},
+    {".citygml", Format::citygml},
+    {".xml", Format::citygml},
     {".obj", Format::obj},
     {".off", Format::off},
     {".stl", Format::stl},
 }};
 
-constexpr std::array<std::pair<std::string_view, Format>, 5> kNames{{
+constexpr std::array<std::pair<std::string_view, Format>, 6> kNames{{
     {"cityjson", Format::cityjson},
     {"cityjsonseq", Format::cityjson_seq},
+    {"citygml", Format::citygml},
     {"obj", Format::obj},
     {"off", Format::off},
     {"stl", Format::stl},

@@ -6,18 +6,18 @@
 
 namespace oriel {
 
-/// The file formats of buildings. STL is written only.
-enum class Format { cityjson, cityjson_seq, obj, off, stl };
+/// The file formats of buildings. CityGML is read only, STL is written only.
+enum class Format { cityjson, cityjson_seq, citygml, obj, off, stl };
 
 /// The format that a file's name says, by its last extensions, upper or lower case: `.city.json`
-/// and `.json`, `.city.jsonl` and `.jsonl`, `.obj`, `.off`, `.stl`. Nothing for any other name, and
-/// for "-".
+/// and `.json`, `.city.jsonl` and `.jsonl`, `.gml`, `.citygml` and `.xml`, `.obj`, `.off`, `.stl`.
+/// Nothing for any other name, and for "-".
 std::optional<Format> format_of(std::string_view path);
 
 /// The format of that name, as `--from` and `--to` take it: the names that `to_string` gives.
 std::optional<Format> parse_format(std::string_view name);
 
-/// "cityjson", "cityjsonseq", "obj", "off", "stl".
+/// "cityjson", "cityjsonseq", "citygml", "obj", "off", "stl".
 std::string to_string(Format format);
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #include "kernel/io/reader.h"
 
+#include "kernel/io/detail/citygml_reader.h"
 #include "kernel/io/detail/cityjson_reader.h"
 #include "kernel/io/detail/input.h"
 #include "kernel/io/detail/mesh_reader.h"
@@ -18,8 +19,8 @@ Format format_to_read(const std::string& path, const ReadOptions& options) {
   if (!format)
     throw InputError(detail::error_in(
         name, {"E106",
-               "the format is unknown; expected a name in .city.json, .city.jsonl, .obj or "
-               ".off, or --from cityjson, cityjsonseq, obj or off"}));
+               "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj "
+               "or .off, or --from cityjson, cityjsonseq, citygml, obj or off"}));
   if (*format == Format::stl)
     throw InputError(
         detail::error_in(name, {"E106", "STL is written only: it has no polygons to read"}));
@@ -37,7 +38,8 @@ struct Reader::State {
       : format(format_to_read(path, options)),
         name{path == "-" ? "stdin" : path, 0},
         input(std::move(path)),
-        cityjson(std::move(options.lod)) {}
+        cityjson(options.lod),
+        citygml(input, name, std::move(options.lod)) {}
 
   std::string read_text();
   Checked<Document> read_file();
@@ -47,6 +49,7 @@ struct Reader::State {
   detail::TextName name;
   detail::Input input;
   detail::CityJsonReader cityjson;
+  detail::CityGmlReader citygml;
   std::optional<detail::SequenceHeader> header;
   bool is_done = false;
 };
@@ -62,6 +65,7 @@ Format Reader::format() const { return state_->format; }
 
 std::optional<Checked<Document>> Reader::next() {
   if (state_->is_done) return std::nullopt;
+  if (state_->format == Format::citygml) return state_->citygml.next();
   if (state_->format == Format::cityjson_seq) return state_->read_line();
   state_->is_done = true;
   return state_->read_file();

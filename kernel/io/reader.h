@@ -19,15 +19,16 @@ struct ReadOptions {
   std::optional<Format> format;
 };
 
-/// Reads a file record by record, in bounded memory for CityJSONSeq.
+/// Reads a file record by record, in bounded memory for CityJSONSeq and CityGML.
 ///
 /// CityJSON 1.1 and 2.0: every Building and BuildingPart with a geometry of the chosen level of
 /// detail becomes a Building; of several such geometries the first solid, else the first surface.
+/// CityGML 2.0 and 3.0: every Building with its parts, by the same choice of geometry.
 /// OBJ and OFF: one Building, its id the file's stem; a solid if the faces are one closed connected
 /// shell.
 ///
 /// What is wrong with the data comes back as issues (docs/errors.md). A fault in one building costs
-/// that building, a fault in a line of a CityJSONSeq that line.
+/// that building (of CityGML with its parts), a fault in a line of a CityJSONSeq that line.
 class Reader {
  public:
   /// Opens `path`, or stdin for "-". Throws InputError: E101 the file cannot be opened; E106 the
@@ -39,8 +40,9 @@ class Reader {
 
   /// The next record, or nothing at the end. Without a value the record cannot be used and its
   /// issues say why. The first record of a CityJSONSeq is its header line; without a header there
-  /// are no further records. Throws InputError E101 if reading fails half-way, E505 for a record of
-  /// more than 4 GB.
+  /// are no further records. CityGML has a header, too, then a record for each Building, without
+  /// buildings if it has a fault; a record without a value is the last: there the file is broken.
+  /// Throws InputError E101 if reading fails half-way, E505 for a record of more than 4 GB.
   std::optional<Checked<Document>> next();
 
   [[nodiscard]] Format format() const;

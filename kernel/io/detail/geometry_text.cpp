@@ -4,6 +4,7 @@
 #include "kernel/io/detail/raw_json.h"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 namespace oriel::detail {
@@ -124,6 +125,33 @@ void for_each_boundaries(std::string_view object,
       if (RawNode::is_array(array) && holds_numbers(array)) visit(array);
     }
   }
+}
+
+void for_each_number(std::string_view array,
+                     const std::function<void(std::size_t, std::size_t, std::size_t)>& visit) {
+  constexpr std::string_view kDigits = "-0123456789";
+  for (std::size_t from = array.find_first_of(kDigits); from < array.size();) {
+    const std::size_t to = std::min(array.find_first_not_of(kDigits, from), array.size());
+    std::size_t number = 0;
+    const auto error = std::from_chars(array.data() + from, array.data() + to, number).ec;
+    if (error == std::errc()) visit(from, to, number);
+    from = array.find_first_of(kDigits, to);
+  }
+}
+
+std::string with_vertex_numbers(std::string_view object,
+                                const std::function<std::int64_t(std::size_t)>& number_of) {
+  std::string text;
+  std::size_t copied = 0;
+  for_each_boundaries(object, [&](std::string_view array) {
+    const auto start = static_cast<std::size_t>(array.data() - object.data());
+    for_each_number(array, [&](std::size_t from, std::size_t to, std::size_t number) {
+      text += object.substr(copied, start + from - copied);
+      append_json(text, number_of(number));
+      copied = start + to;
+    });
+  });
+  return text.append(object.substr(copied));
 }
 
 }  // namespace oriel::detail

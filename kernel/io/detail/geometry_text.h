@@ -3,6 +3,8 @@
 #include "kernel/io/detail/semantics_text.h"
 #include "kernel/model/solid.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -41,5 +43,13 @@ SolidText solid_text(const Solid& solid, std::span<const int> number_of);
 /// CityObject `object` but its attributes. Templates are no part of CityObjects.
 void for_each_boundaries(std::string_view object,
                          const std::function<void(std::string_view)>& visit);
+
+/// `object` with each vertex number n in its boundaries as `number_of(n)`.
+std::string with_vertex_numbers(std::string_view object,
+                                const std::function<std::int64_t(std::size_t)>& number_of);
+
+/// Calls `visit(from, to, number)` with each whole number of `array` and its place.
+void for_each_number(std::string_view array,
+                     const std::function<void(std::size_t, std::size_t, std::size_t)>& visit);
 
 }  // namespace oriel::detail

@@ -51,7 +51,15 @@ bool Input::fill() {
   const int reason = errno;
   buffer_.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   if (count < 0) throw unreadable(path_, reason);
+  bytes_read_ += buffer_.size();
   return count > 0;
+}
+
+std::string_view Input::read_some() {
+  if (at_ >= buffer_.size()) fill();
+  const std::string_view bytes = std::string_view(buffer_).substr(at_);
+  at_ = buffer_.size();
+  return bytes;
 }
 
 std::string Input::read_all() {

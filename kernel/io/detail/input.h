@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace oriel::detail {
 
@@ -24,6 +25,13 @@ class Input {
   /// Throws as `read_all`.
   bool read_line(std::string& line);
 
+  /// The next bytes, as many as there are at hand; none at the end of the input. They stay until
+  /// the next call. Throws InputError E101 if reading fails.
+  std::string_view read_some();
+
+  /// How many bytes were read so far, those that were not yet given included.
+  [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
+
  private:
   bool fill();
 
@@ -31,6 +39,7 @@ class Input {
   int descriptor_ = -1;
   std::string buffer_;
   std::size_t at_ = 0;
+  std::size_t bytes_read_ = 0;
 };
 
 }  // namespace oriel::detail

@@ -92,19 +92,6 @@ std::optional<std::array<std::int64_t, 3>> key_of(std::string_view vertex) {
   return key;
 }
 
-/// Calls `visit(from, to, number)` with each whole number of `array` and its place.
-template <class Visit>
-void for_each_number(std::string_view array, const Visit& visit) {
-  constexpr std::string_view kDigits = "-0123456789";
-  for (std::size_t from = array.find_first_of(kDigits); from < array.size();) {
-    const std::size_t to = std::min(array.find_first_not_of(kDigits, from), array.size());
-    std::size_t number = 0;
-    const auto error = std::from_chars(array.data() + from, array.data() + to, number).ec;
-    if (error == std::errc()) visit(from, to, number);
-    from = array.find_first_of(kDigits, to);
-  }
-}
-
 std::string vertex_text(std::string_view vertex, int digits) {
   if (digits == 0 || !RawNode::is_array(vertex)) return std::string(vertex);
   std::string text = "[";
@@ -191,18 +178,10 @@ void VertexPool::renumber() {
 }
 
 std::string VertexPool::renumbered(std::string_view object) const {
-  std::string text;
-  std::size_t copied = 0;
-  for_each_boundaries(object, [&](std::string_view array) {
-    const auto start = static_cast<std::size_t>(array.data() - object.data());
-    for_each_number(array, [&](std::size_t from, std::size_t to, std::size_t number) {
-      if (number >= new_number_.size()) return;
-      text += object.substr(copied, start + from - copied);
-      append_json(text, new_number_[number]);
-      copied = start + to;
-    });
+  return with_vertex_numbers(object, [&](std::size_t number) {
+    const bool is_known = number < new_number_.size();
+    return is_known ? new_number_[number] : static_cast<std::int64_t>(number);
   });
-  return text.append(object.substr(copied));
 }
 
 std::string VertexPool::text() const {
