@@ -14,7 +14,8 @@ namespace {
 
 constexpr Um kMetre = 1'000'000;
 constexpr std::string_view kFooter = R"(
-A folder gets NAME.labelled.city.json, NAME.stripped.city.json and NAME.truth.json for each house.
+A folder gets NAME.labelled.city.json, NAME.stripped.city.json and NAME.truth.json for each house;
+with --format citygml or citygml3, .gml in place of .city.json.
 Features: )";
 
 std::string feature_names() {
@@ -96,9 +97,15 @@ struct Typed {
 
 void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
   Options& options = arguments.options;
-  app.add_option("-o,--output", arguments.output,
-                 "a folder, a CityJSONSeq (X.city.jsonl), or - for a CityJSONSeq on stdout")
+  app.add_option(
+         "-o,--output", arguments.output,
+         "a folder, or all houses in a CityJSONSeq (X.city.jsonl; - is stdout) or a CityGML "
+         "file (X.gml)")
       ->required();
+  app.add_option("--format", arguments.format,
+                 "cityjson, citygml (2.0) or citygml3; X.gml is CityGML 2.0 unless this says more")
+      ->check(CLI::IsMember({"cityjson", "citygml", "citygml3"}))
+      ->capture_default_str();
   app.add_option("--seed", options.seed, "same options and seed, same bytes")
       ->capture_default_str();
   app.add_option("--count", arguments.count, "how many houses")
@@ -133,9 +140,10 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--triangulate", options.triangulate, "cut every polygon into triangles");
   app.add_option("--origin", typed.origin, "X,Y,Z in metres, e.g. 604000,5403766,370");
-  app.add_flag("--labelled", arguments.is_labelled, "a stream of labelled features, not stripped");
+  app.add_flag("--labelled", arguments.is_labelled,
+               "all houses in one file: labelled, not stripped");
   app.add_option("--truth", arguments.truth,
-                 "where a stream's truths go: a .jsonl file or a folder");
+                 "where the truths of such a file go: a .jsonl file or a folder");
 }
 
 void understand(const Typed& typed, Arguments& arguments) {
@@ -153,10 +161,15 @@ void understand(const Typed& typed, Arguments& arguments) {
   if (!typed.origin.empty()) options.origin = origin(typed.origin);
   options.jitter = micrometres(typed.jitter_m) / 1000 * 1000;
   options.noise = micrometres(typed.noise_mm / 1000);
-  const bool is_stream = arguments.output == "-" || arguments.output.ends_with(".city.jsonl");
+  if (arguments.is_gml_file() && arguments.format == "cityjson") arguments.format = "citygml";
+  const bool is_sequence = arguments.output == "-" || arguments.output.ends_with(".city.jsonl");
+  if (is_sequence && arguments.format != "cityjson")
+    throw CLI::ValidationError("--format", "CityGML goes to a folder or to X.gml");
+  const bool is_stream = is_sequence || arguments.is_gml_file();
   if (!is_stream && (arguments.is_labelled || !arguments.truth.empty()))
-    throw CLI::ValidationError("--labelled, --truth",
-                               "they are for a CityJSONSeq; a folder gets all files anyway");
+    throw CLI::ValidationError(
+        "--labelled, --truth",
+        "they are for a CityJSONSeq or X.gml; a folder gets all files anyway");
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
   };

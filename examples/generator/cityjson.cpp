@@ -12,20 +12,6 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// SIG3D's code of an installation.
-std::string_view function_code(Class kind) {
-  switch (kind) {
-    case Class::balcony:
-      return "1000";
-    case Class::chimney:
-      return "1030";
-    case Class::stairs:
-      return "1060";
-    default:
-      return "1070";
-  }
-}
-
 void append_boundaries(Json& json, const Body& body, const std::vector<int>& polygons) {
   append_list(json, polygons, [&](int polygon) {
     append_list(json, body.polygons[at(polygon)].rings, [&](const std::vector<int>& ring) {
@@ -61,16 +47,6 @@ void append_installation(Json& json, const Building& building, int number,
   append_text(json, "\"oriel_geometry\":\"shared\"},");
   append_geometry(json, building, polygons, Content::labelled, false);
   json.push_back('}');
-}
-
-/// Per object, its polygons and those of the objects that are part of it.
-std::vector<std::vector<int>> polygons_by_object(const Body& body) {
-  std::vector<std::vector<int>> polygons(body.objects.size());
-  for (std::size_t i = 0; i < body.polygons.size(); ++i)
-    for (int object = body.polygons[i].owner.object; object >= 0;
-         object = body.objects[at(object)].parent)
-      polygons[at(object)].push_back(static_cast<int>(i));
-  return polygons;
 }
 
 void append_building(Json& json, const Building& building, Content content) {
@@ -126,6 +102,28 @@ void append_head(Json& json, Point origin) {
 }
 
 }  // namespace
+
+std::string_view function_code(Class kind) {
+  switch (kind) {
+    case Class::balcony:
+      return "1000";
+    case Class::chimney:
+      return "1030";
+    case Class::stairs:
+      return "1060";
+    default:
+      return "1070";
+  }
+}
+
+std::vector<std::vector<int>> polygons_by_object(const Body& body) {
+  std::vector<std::vector<int>> polygons(body.objects.size());
+  for (std::size_t i = 0; i < body.polygons.size(); ++i)
+    for (int object = body.polygons[i].owner.object; object >= 0;
+         object = body.objects[at(object)].parent)
+      polygons[at(object)].push_back(static_cast<int>(i));
+  return polygons;
+}
 
 Body shuffled(const Body& body, Random& random) {
   Body result = body;

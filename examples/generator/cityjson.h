@@ -4,6 +4,8 @@
 #include "examples/generator/random.h"
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace oriel::generator {
 
@@ -20,6 +22,12 @@ struct Building {
 
 /// The same body with its polygons, vertices and ring starts in random order.
 Body shuffled(const Body& body, Random& random);
+
+/// SIG3D's code of an installation.
+std::string_view function_code(Class kind);
+
+/// Per object, its polygons and those of the objects that are part of it.
+std::vector<std::vector<int>> polygons_by_object(const Body& body);
 
 /// A CityJSON 2.0 file; integer vertices in micrometres.
 std::string cityjson(const Building& building, Content content);

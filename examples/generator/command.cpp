@@ -1,6 +1,7 @@
 #include "examples/generator/command.h"
 
 #include "examples/generator/arguments.h"
+#include "examples/generator/citygml.h"
 #include "examples/generator/cityjson.h"
 #include "examples/generator/generate.h"
 #include "examples/generator/output.h"
@@ -44,14 +45,28 @@ void make_folder(const fs::path& folder) {
   if (error) throw OutputError("cannot make the folder " + folder.string());
 }
 
+CityGml version_of(const Arguments& arguments) {
+  return arguments.format == "citygml3" ? CityGml::v3 : CityGml::v2;
+}
+
 void write_folder(const Arguments& arguments) {
   const fs::path folder = arguments.output;
   make_folder(folder);
   for (int i = 0; i < arguments.count; ++i) {
     const Sample sample = make_sample(arguments, i);
     const std::string& id = sample.labelled.id;
-    write_file(folder / (id + ".labelled.city.json"), cityjson(sample.labelled, Content::labelled));
-    write_file(folder / (id + ".stripped.city.json"), cityjson(sample.stripped, Content::stripped));
+    if (arguments.format == "cityjson") {
+      write_file(folder / (id + ".labelled.city.json"),
+                 cityjson(sample.labelled, Content::labelled));
+      write_file(folder / (id + ".stripped.city.json"),
+                 cityjson(sample.stripped, Content::stripped));
+    } else {
+      const CityGml version = version_of(arguments);
+      write_file(folder / (id + ".labelled.gml"),
+                 citygml(sample.labelled, Content::labelled, version));
+      write_file(folder / (id + ".stripped.gml"),
+                 citygml(sample.stripped, Content::stripped, version));
+    }
     write_file(folder / (id + ".truth.json"), truth_json(sample.stripped));
   }
 }
@@ -84,13 +99,17 @@ class TruthSink {
 
 void write_stream(const Arguments& arguments, const std::function<void(std::string_view)>& write) {
   TruthSink truths(arguments.truth);
-  write(cityjson_header(arguments.options.origin));
+  const bool is_gml = arguments.is_gml_file();
+  const CityGml version = version_of(arguments);
+  const Content content = arguments.is_labelled ? Content::labelled : Content::stripped;
+  write(is_gml ? citygml_head(version) : cityjson_header(arguments.options.origin));
   for (int i = 0; i < arguments.count; ++i) {
     const Sample sample = make_sample(arguments, i);
     const Building& written = arguments.is_labelled ? sample.labelled : sample.stripped;
-    write(cityjson_feature(written, arguments.is_labelled ? Content::labelled : Content::stripped));
+    write(is_gml ? citygml_member(written, content, version) : cityjson_feature(written, content));
     truths.write(written);
   }
+  if (is_gml) write(citygml_foot());
   truths.finish();
 }
 
@@ -101,7 +120,7 @@ void write_output(const Arguments& arguments, std::ostream& out) {
         throw OutputError("cannot write to the standard output");
     });
     if (!out.flush()) throw OutputError("cannot write to the standard output");
-  } else if (arguments.output.ends_with(".city.jsonl")) {
+  } else if (arguments.output.ends_with(".city.jsonl") || arguments.is_gml_file()) {
     OutputFile file(arguments.output);
     write_stream(arguments, [&](std::string_view text) { file.write(text); });
     file.finish();

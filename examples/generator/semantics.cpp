@@ -6,7 +6,7 @@ namespace oriel::generator {
 namespace {
 
 enum class Surface { wall, roof, ground, floor, ceiling, window, door };
-constexpr std::array<std::string_view, 7> kSurfaceNames{
+constexpr std::array<std::string_view, 7> kTypeNames{
     "WallSurface",         "RoofSurface", "GroundSurface", "OuterFloorSurface",
     "OuterCeilingSurface", "Window",      "Door"};
 
@@ -37,78 +37,76 @@ Surface surface_of(const Body& body, const Polygon& polygon) {
   return is_walked_on ? Surface::floor : Surface::roof;
 }
 
-/// The semantic surfaces of some polygons: one per object and type, openings below the surface they
-/// are cut into.
-class Semantics {
+/// Numbers the surfaces of one body: one per object and type.
+class Numbering {
  public:
-  Semantics(const Building& building, const std::vector<int>& polygons)
-      : building_(building), index_of_(building.body.objects.size()) {
+  explicit Numbering(const Body& body) : body_(body), index_of_(body.objects.size()) {
     for (auto& indices : index_of_) indices.fill(-1);
-    for (const int polygon : polygons)
-      values_.push_back(index(building.body.polygons[at(polygon)]));
-    children_.resize(surfaces_.size());
-    for (std::size_t i = 0; i < surfaces_.size(); ++i)
-      if (const int parent = parent_of(i); parent >= 0)
-        children_[at(parent)].push_back(static_cast<int>(i));
   }
 
-  void append_to(Json& json, bool is_solid) const {
-    append_text(json, "{\"surfaces\":");
-    std::size_t i = 0;
-    append_list(json, surfaces_, [&](const Entry&) { append_surface(json, i++); });
-    append_text(json, is_solid ? ",\"values\":[" : ",\"values\":");
-    append_list(json, values_, [&](int value) { append_number(json, value); });
-    append_text(json, is_solid ? "]}" : "}");
+  Surfaces of(const std::vector<int>& polygons) {
+    for (const int polygon : polygons)
+      result_.of_polygon.push_back(index(body_.polygons[at(polygon)]));
+    for (std::size_t i = 0; i < result_.surfaces.size(); ++i) {
+      const int parent = result_.surfaces[i].parent = parent_of(result_.surfaces[i]);
+      if (parent >= 0) result_.surfaces[at(parent)].children.push_back(static_cast<int>(i));
+    }
+    return std::move(result_);
   }
 
  private:
-  struct Entry {
-    int object;
-    Surface type;
-  };
-
   int index(const Polygon& polygon) {
-    const Surface type = surface_of(building_.body, polygon);
-    int& found = index_of_[at(polygon.owner.object)][static_cast<std::size_t>(type)];
+    const auto type = static_cast<std::size_t>(surface_of(body_, polygon));
+    int& found = index_of_[at(polygon.owner.object)][type];
     if (found < 0) {
-      found = static_cast<int>(surfaces_.size());
-      surfaces_.push_back({polygon.owner.object, type});
+      found = static_cast<int>(result_.surfaces.size());
+      result_.surfaces.push_back({polygon.owner.object, kTypeNames[type], -1, {}});
     }
     return found;
   }
-  [[nodiscard]] int parent_of(std::size_t surface) const {
-    const Object& object = building_.body.objects[at(surfaces_[surface].object)];
+  [[nodiscard]] int parent_of(const SemanticSurface& surface) const {
+    const Object& object = body_.objects[at(surface.object)];
     if (!is_opening(object.kind)) return -1;
-    const bool is_in_roof = building_.body.objects[at(object.host)].kind == Class::roof;
+    const bool is_in_roof = body_.objects[at(object.host)].kind == Class::roof;
     const Surface type = is_in_roof ? Surface::roof : Surface::wall;
     return index_of_[at(object.host)][static_cast<std::size_t>(type)];
   }
-  void append_surface(Json& json, std::size_t i) const {
-    const Object& object = building_.body.objects[at(surfaces_[i].object)];
-    append_format(json, "{{\"type\":\"{}\",\"oriel_id\":\"{}_{}\",\"oriel_label\":\"{}\"",
-                  kSurfaceNames[static_cast<std::size_t>(surfaces_[i].type)], building_.id,
-                  object.name, name_of(object.kind));
-    append_format(json, ",\"oriel_subclass\":\"{}\"", object.subclass);
-    if (const int parent = parent_of(i); parent >= 0) append_format(json, ",\"parent\":{}", parent);
-    if (!children_[i].empty()) {
-      append_text(json, ",\"children\":");
-      append_list(json, children_[i], [&](int child) { append_number(json, child); });
-    }
-    json.push_back('}');
-  }
 
-  const Building& building_;
-  std::vector<Entry> surfaces_;
-  std::vector<std::array<int, kSurfaceNames.size()>> index_of_;
-  std::vector<int> values_;
-  std::vector<std::vector<int>> children_;
+  const Body& body_;
+  std::vector<std::array<int, kTypeNames.size()>> index_of_;
+  Surfaces result_;
 };
+
+void append_surface(Json& json, const Building& building, const Surfaces& all, std::size_t i) {
+  const SemanticSurface& surface = all.surfaces[i];
+  const Object& object = building.body.objects[at(surface.object)];
+  append_format(json, "{{\"type\":\"{}\",\"oriel_id\":\"{}_{}\",\"oriel_label\":\"{}\"",
+                surface.type, building.id, object.name, name_of(object.kind));
+  append_format(json, ",\"oriel_subclass\":\"{}\"", object.subclass);
+  if (surface.parent >= 0) append_format(json, ",\"parent\":{}", surface.parent);
+  if (!surface.children.empty()) {
+    append_text(json, ",\"children\":");
+    append_list(json, surface.children, [&](int child) { append_number(json, child); });
+  }
+  json.push_back('}');
+}
 
 }  // namespace
 
+Surfaces surfaces_of(const Body& body, const std::vector<int>& polygons) {
+  return Numbering(body).of(polygons);
+}
+
 void append_semantics(Json& json, const Building& building, const std::vector<int>& polygons,
                       bool is_solid) {
-  Semantics(building, polygons).append_to(json, is_solid);
+  const Surfaces all = surfaces_of(building.body, polygons);
+  append_text(json, "{\"surfaces\":");
+  std::size_t i = 0;
+  append_list(json, all.surfaces,
+              [&](const SemanticSurface&) { append_surface(json, building, all, i++); });
+  append_text(json, is_solid ? ",\"values\":[" : ",\"values\":");
+  append_list(json, all.of_polygon, [&](int value) { append_number(json, value); });
+  append_text(json, is_solid ? "]}" : "}");
 }
 
 }  // namespace oriel::generator
