@@ -14,13 +14,16 @@ TEST_SUITE("kernel/io") {
     CHECK(format_of("b.obj") == Format::obj);
     CHECK(format_of("b.off") == Format::off);
     CHECK(format_of("b.stl") == Format::stl);
-    CHECK_FALSE(format_of("b.gml"));
+    CHECK(format_of("b.gml") == Format::citygml);
+    CHECK(format_of("b.citygml") == Format::citygml);
+    CHECK(format_of("b.XML") == Format::citygml);
+    CHECK_FALSE(format_of("b.ifc"));
     CHECK_FALSE(format_of("-"));
   }
 
   TEST_CASE("every format reads back from its name") {
-    for (const Format format :
-         {Format::cityjson, Format::cityjson_seq, Format::obj, Format::off, Format::stl})
+    for (const Format format : {Format::cityjson, Format::cityjson_seq, Format::citygml, Format::obj,
+                                Format::off, Format::stl})
       CHECK(parse_format(to_string(format)) == format);
     CHECK_FALSE(parse_format("CityJSON "));
   }
