@@ -211,13 +211,13 @@ std::string_view CityGmlStream::State::ahead() const {
 Fault CityGmlStream::State::fault_of(XML_Error error, bool is_last) const {
   if (fed == 0) return {"E102", "the file is empty"};
   const std::string_view rest = ahead();
-  if (!is_last && !has_root && !rest.starts_with('<'))
-    return {"E107", fmt::format("is not XML: it starts with {}; expected a CityGML file",
-                                in_quotes(rest.substr(0, 8)))};
   if (error == XML_ERROR_UNKNOWN_ENCODING || error == XML_ERROR_INCORRECT_ENCODING)
     return {"E103",
             "the encoding that the XML declaration names is not read; expected UTF-8, "
             "UTF-16 or ISO-8859-1"};
+  if (!is_last && !has_root && !rest.starts_with('<'))
+    return {"E107", fmt::format("is not XML: it starts with {}; expected a CityGML file",
+                                in_quotes(rest.substr(0, 8)))};
   if (error == XML_ERROR_INVALID_TOKEN && find_non_utf8(rest.substr(0, 4)) == std::size_t{0})
     return {"E103", "a byte that is not UTF-8"};
   if (is_last && error == XML_ERROR_NO_ELEMENTS && !has_root)
