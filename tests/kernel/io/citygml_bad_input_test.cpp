@@ -61,7 +61,8 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("a file that is not XML is refused as CityGML") {
-    for (const std::string text : {"{\"type\":\"CityJSON\"}", "\x89PNG\r\n", "v 0 0 0\n", "\xFF\xD8\xFF\xE0JFIF"}) {
+    for (const std::string text :
+         {"{\"type\":\"CityJSON\"}", "\x89PNG\r\n", "v 0 0 0\n", "\xFF\xD8\xFF\xE0JFIF"}) {
       CAPTURE(text);
       const Issue issue = refusal_of(text);
       CHECK(issue.code == "E107");
