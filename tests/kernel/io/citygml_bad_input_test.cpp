@@ -1,5 +1,5 @@
-#include "tests/kernel/io/citygml_samples.h"
 #include "tests/kernel/io/files.h"
+#include "tests/support/citygml_samples.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,22 +1,17 @@
 #include "examples/generator/citygml.h"
 #include "examples/generator/generate.h"
-#include "tests/kernel/io/citygml_samples.h"
 #include "tests/kernel/io/files.h"
+#include "tests/support/citygml_samples.h"
 #include "tests/support/shared.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace oriel {
 namespace {
 
 using namespace test;
-using nlohmann::json;
 
 /// A polygon in the input's coordinates: its rings, and what it was said to be.
 struct Placed {
@@ -79,84 +74,6 @@ std::vector<Building> buildings_of(const std::string& path, const std::string& l
   return buildings;
 }
 
-/// Turns buildings that were read into a CityGML file: level `lod`, polygons with a hint in a
-/// boundary surface of their own, in openings' case below a wall; the geometry links to them.
-class Converter {
- public:
-  Converter(std::string version, char lod) : version_(std::move(version)), lod_(lod) {}
-
-  std::string file(const std::vector<Building>& buildings) {
-    std::string members;
-    for (const Building& building : buildings) {
-      ++number_;
-      members += test::building(building.id, content_of(building));
-    }
-    return CityGmlFile{version_, members}.text();
-  }
-
- private:
-  [[nodiscard]] bool is_v3() const { return version_ == "3.0"; }
-
-  [[nodiscard]] std::string lod_property(const std::string& kind, const std::string& inside) const {
-    return element(fmt::format("{}lod{}{}", is_v3() ? "c:" : "bldg:", lod_, kind), inside);
-  }
-
-  static std::string positions(const Building& building, const std::vector<int>& ring) {
-    std::string text;
-    for (std::size_t i = 0; i <= ring.size(); ++i) {
-      const Vec3 p = building.vertices[static_cast<std::size_t>(ring[i % ring.size()])] +
-                     building.frame.origin_m;
-      text += fmt::format("{} {} {} ", p.x, p.y, p.z);
-    }
-    return text;
-  }
-
-  std::string polygon_text(const Building& building, const Polygon& polygon) const {
-    std::string rings = element("gml:exterior", ring(positions(building, polygon.rings[0])));
-    for (std::size_t r = 1; r < polygon.rings.size(); ++r)
-      rings += element("gml:interior", ring(positions(building, polygon.rings[r])));
-    return element("gml:Polygon", rings, fmt::format("gml:id=\"{}\"", id_of(polygon)));
-  }
-
-  [[nodiscard]] std::string id_of(const Polygon& polygon) const {
-    return fmt::format("b{}p{}", number_, polygon.source);
-  }
-
-  std::string boundary(const Polygon& polygon, const std::string& text) const {
-    const std::string space = is_v3() ? "con:" : "bldg:";
-    const std::string surface = lod_property("MultiSurface", multi_surface(surface_member(text)));
-    const bool is_opening = polygon.hint == "Window" || polygon.hint == "Door";
-    std::string inside = surface;
-    if (is_opening) {
-      const std::string name = fmt::format("{}{}{}", space, polygon.hint, is_v3() ? "Surface" : "");
-      inside = element(is_v3() ? "con:fillingSurface" : "bldg:opening", element(name, surface));
-    }
-    return element(
-        is_v3() ? "c:boundary" : "bldg:boundedBy",
-        element(fmt::format("{}{}", space, is_opening ? "WallSurface" : polygon.hint), inside));
-  }
-
-  std::string content_of(const Building& building) const {
-    std::string boundaries, members, geometry;
-    for (const Polygon& polygon : building.polygons) {
-      const std::string text = polygon_text(building, polygon);
-      if (polygon.hint.empty()) {
-        members += surface_member(text);
-      } else {
-        boundaries += boundary(polygon, text);
-        members += link_to(id_of(polygon));
-      }
-    }
-    geometry = building.is_solid ? lod_property("Solid", solid(members))
-                                 : lod_property("MultiSurface", multi_surface(members));
-    return boundaries + geometry;
-  }
-
-  std::string version_;
-  char lod_;
-  int number_ = 0;
-};
-
 /// All CityJSON files of the shared data.
 std::vector<std::string> city_files(const std::filesystem::path& shared) {
   std::vector<std::string> files;
@@ -198,8 +115,7 @@ TEST_SUITE("kernel/io") {
       CAPTURE(path);
       const auto expected = buildings_of(path);
       const std::string version = ++count % 2 == 0 ? "2.0" : "3.0";
-      const auto found =
-          buildings_of(folder.write("a.gml", Converter(version, '3').file(expected)));
+      const auto found = buildings_of(folder.write("a.gml", citygml_of(expected, version, '3')));
       REQUIRE(found.size() == expected.size());
       for (std::size_t i = 0; i < found.size(); ++i) check_same(found[i], expected[i]);
     }
@@ -211,7 +127,7 @@ TEST_SUITE("kernel/io") {
     const TemporaryFolder folder;
     auto expected = buildings_of(shared / "data" / "3dbag" / "tile_5910.city.jsonl", "2.2");
     CHECK(expected.size() > 200);
-    const auto found = buildings_of(folder.write("a.gml", Converter("2.0", '2').file(expected)));
+    const auto found = buildings_of(folder.write("a.gml", citygml_of(expected, "2.0", '2')));
     REQUIRE(found.size() == expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       CAPTURE(found[i].id);

@@ -1,10 +1,10 @@
 #include "kernel/io/cityjson_collector.h"
 #include "kernel/io/detail/citygml_stream.h"
 #include "kernel/io/writer.h"
-#include "tests/kernel/io/citygml_samples.h"
 #include "tests/kernel/io/cityjson_checks.h"
 #include "tests/kernel/io/cityjson_samples.h"
 #include "tests/kernel/io/files.h"
+#include "tests/support/citygml_samples.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "kernel/io/mesh_writer.h"
 #include "kernel/io/writer.h"
-#include "tests/kernel/io/citygml_samples.h"
+#include "tests/support/citygml_samples.h"
 #include "tests/kernel/io/cityjson_samples.h"
 #include "tests/kernel/io/files.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/model/building.h"
+
 #include <string>
 #include <vector>
 
@@ -42,5 +44,11 @@ std::string box_solid(const std::string& prefix);
 
 /// The box as boundary surfaces of level 2 and a solid that links to their polygons.
 std::string box_by_links(const std::string& version, const std::string& prefix);
+
+/// A CityGML file of buildings that were read from elsewhere, at level `lod`: a polygon with a hint
+/// in a boundary surface of that type of its own, an opening below a wall without polygons, and a
+/// solid (or surfaces) that links to them; polygons without a hint stand in the solid.
+std::string citygml_of(const std::vector<Building>& buildings, const std::string& version,
+                       char lod);
 
 }  // namespace oriel::test

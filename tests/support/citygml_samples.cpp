@@ -1,4 +1,4 @@
-#include "tests/kernel/io/citygml_samples.h"
+#include "tests/support/citygml_samples.h"
 
 #include <fmt/format.h>
 
@@ -88,6 +88,92 @@ std::string box_by_links(const std::string& version, const std::string& prefix) 
     links += link_to(id);
   }
   return content + element(core + "lod2Solid", solid(links));
+}
+
+namespace {
+
+/// Writes one file.
+class Converter {
+ public:
+  Converter(std::string version, char lod) : version_(std::move(version)), lod_(lod) {}
+
+  std::string file(const std::vector<Building>& buildings) {
+    std::string members;
+    for (const Building& building : buildings) {
+      ++number_;
+      members += test::building(building.id, content_of(building));
+    }
+    return CityGmlFile{version_, members}.text();
+  }
+
+ private:
+  [[nodiscard]] bool is_v3() const { return version_ == "3.0"; }
+
+  [[nodiscard]] std::string lod_property(const std::string& kind, const std::string& inside) const {
+    return element(fmt::format("{}lod{}{}", is_v3() ? "c:" : "bldg:", lod_, kind), inside);
+  }
+
+  static std::string positions(const Building& building, const std::vector<int>& ring) {
+    std::string text;
+    for (std::size_t i = 0; i <= ring.size(); ++i) {
+      const Vec3 p = building.vertices[static_cast<std::size_t>(ring[i % ring.size()])] +
+                     building.frame.origin_m;
+      text += fmt::format("{} {} {} ", p.x, p.y, p.z);
+    }
+    return text;
+  }
+
+  std::string polygon_text(const Building& building, const Polygon& polygon) const {
+    std::string rings = element("gml:exterior", ring(positions(building, polygon.rings[0])));
+    for (std::size_t r = 1; r < polygon.rings.size(); ++r)
+      rings += element("gml:interior", ring(positions(building, polygon.rings[r])));
+    return element("gml:Polygon", rings, fmt::format("gml:id=\"{}\"", id_of(polygon)));
+  }
+
+  [[nodiscard]] std::string id_of(const Polygon& polygon) const {
+    return fmt::format("b{}p{}", number_, polygon.source);
+  }
+
+  std::string boundary(const Polygon& polygon, const std::string& text) const {
+    const std::string space = is_v3() ? "con:" : "bldg:";
+    const std::string surface = lod_property("MultiSurface", multi_surface(surface_member(text)));
+    const bool is_opening = polygon.hint == "Window" || polygon.hint == "Door";
+    std::string inside = surface;
+    if (is_opening) {
+      const std::string name = fmt::format("{}{}{}", space, polygon.hint, is_v3() ? "Surface" : "");
+      inside = element(is_v3() ? "con:fillingSurface" : "bldg:opening", element(name, surface));
+    }
+    return element(
+        is_v3() ? "c:boundary" : "bldg:boundedBy",
+        element(fmt::format("{}{}", space, is_opening ? "WallSurface" : polygon.hint), inside));
+  }
+
+  std::string content_of(const Building& building) const {
+    std::string boundaries, members, geometry;
+    for (const Polygon& polygon : building.polygons) {
+      const std::string text = polygon_text(building, polygon);
+      if (polygon.hint.empty()) {
+        members += surface_member(text);
+      } else {
+        boundaries += boundary(polygon, text);
+        members += link_to(id_of(polygon));
+      }
+    }
+    geometry = building.is_solid ? lod_property("Solid", solid(members))
+                                 : lod_property("MultiSurface", multi_surface(members));
+    return boundaries + geometry;
+  }
+
+  std::string version_;
+  char lod_;
+  int number_ = 0;
+};
+
+}  // namespace
+
+std::string citygml_of(const std::vector<Building>& buildings, const std::string& version,
+                       char lod) {
+  return Converter(version, lod).file(buildings);
 }
 
 }  // namespace oriel::test
