@@ -77,6 +77,9 @@ TEST_SUITE("examples/generator") {
         {{"-o", "x", "--windows", "100000"}, "--windows"},
         {{"-o", "x", "--name", "1st"}, "--name"},
         {{"-o", "x", "--labelled"}, "CityJSONSeq"},
+        {{"-o", "x", "--format", "gml"}, "--format"},
+        {{"-o", "x.city.jsonl", "--format", "citygml"}, "--format"},
+        {{"-o", "-", "--format", "citygml3"}, "--format"},
     };
     for (const Case& wrong : cases) {
       const Result result = run(wrong.arguments);
@@ -132,6 +135,36 @@ TEST_SUITE("examples/generator") {
     const auto first = nlohmann::json::parse(read(fs::path(truth) / "house-000001.truth.json"));
     CHECK(first["objects"][0]["class"] == "other");
     CHECK(first["objects"][0]["faces"][0] == 0);
+  }
+
+  TEST_CASE("houses are written as CityGML of both versions beside the same truths") {
+    const Scratch scratch;
+    const std::string json = scratch.at("json");
+    REQUIRE(run({"--count", "2", "-o", json.c_str()}).code == 0);
+    for (const auto& [format, space] :
+         {std::pair("citygml", "\"http://www.opengis.net/citygml/2.0\""),
+          std::pair("citygml3", "\"http://www.opengis.net/citygml/3.0\"")}) {
+      const std::string folder = scratch.at(format);
+      REQUIRE(run({"--count", "2", "--format", format, "-o", folder.c_str()}).code == 0);
+      CHECK(std::distance(fs::directory_iterator(folder), {}) == 6);
+      const std::string labelled = read(fs::path(folder) / "house-000001.labelled.gml");
+      CHECK(labelled.find(space) != std::string::npos);
+      CHECK(labelled.find("WallSurface") != std::string::npos);
+      const std::string stripped = read(fs::path(folder) / "house-000001.stripped.gml");
+      CHECK(stripped.find("WallSurface") == std::string::npos);
+      const char* truth = "house-000002.truth.json";
+      CHECK(read(fs::path(folder) / truth) == read(fs::path(json) / truth));
+    }
+  }
+
+  TEST_CASE("all houses go into one CityGML file and their truths beside it") {
+    const Scratch scratch;
+    const std::string file = scratch.at("town.gml"), truth = scratch.at("truth.jsonl");
+    REQUIRE(run({"--count", "3", "-o", file.c_str(), "--truth", truth.c_str()}).code == 0);
+    const std::string text = read(file);
+    CHECK(text.find("gml:id=\"house-000003\"") != std::string::npos);
+    CHECK(text.ends_with("</CityModel>\n"));
+    CHECK(lines_of(read(truth)).size() == 3);
   }
 
   TEST_CASE("an unwritable output ends with 6 and leaves nothing behind") {
