@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -135,20 +136,18 @@ class Attributes {
   void read_height(const XmlNode& property) {
     const XmlNode* height = child_named(property, "Height");
     const XmlNode* value = height != nullptr ? child_named(*height, "value") : nullptr;
-    const bool is_there =
-        std::ranges::find(attributes_, "measuredHeight", &Attribute::name) != attributes_.end();
-    if (value != nullptr && !is_there)
+    if (value != nullptr && !number_of_.contains("measuredHeight"))
       add("measuredHeight", json_of(trimmed(value->text), ValueKind::number));
   }
 
   void add(const std::string& name, std::string value) {
-    const auto found = std::ranges::find(attributes_, name, &Attribute::name);
-    Attribute& attribute =
-        found != attributes_.end() ? *found : attributes_.emplace_back(Attribute{name, {}});
-    attribute.values.push_back(std::move(value));
+    const auto [found, is_new] = number_of_.try_emplace(name, attributes_.size());
+    if (is_new) attributes_.push_back({name, {}});
+    attributes_[found->second].values.push_back(std::move(value));
   }
 
   std::vector<Attribute> attributes_;
+  std::unordered_map<std::string, std::size_t> number_of_;
 };
 
 }  // namespace

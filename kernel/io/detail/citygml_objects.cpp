@@ -117,8 +117,15 @@ class ObjectReader {
   /// Calls `visit` with each value of `property`; false for a fault.
   template <class Visit>
   bool for_each_value(const XmlNode& property, const Visit& visit) {
-    for (const XmlNode* value : links_.values_of(property))
-      if (!visit(*value)) return false;
+    ++depth_;
+    for (const XmlNode* value : links_.values_of(property)) {
+      if (++visited_ > XmlLinks::kVisits * links_.node_count())
+        fault_ = XmlLinks::too_many(property);
+      else if (depth_ > XmlLinks::kMaxDepth)
+        fault_ = XmlLinks::too_deep(property);
+      if (fault_ || !visit(*value)) return false;
+    }
+    --depth_;
     return !has_failed();
   }
 
@@ -128,6 +135,9 @@ class ObjectReader {
   /// The surfaces of this object and all objects met so far: each is read once.
   std::set<const XmlNode*> met_surfaces_;
   std::set<const XmlNode*> met_objects_;
+  /// How many properties reading stands in.
+  int depth_ = 0;
+  std::size_t visited_ = 0;
   std::optional<NodeFault> fault_;
 };
 
@@ -146,6 +156,8 @@ bool ObjectReader::read(const XmlNode& node, std::string_view type, std::string 
   object.parent = parent;
   if (!read_surfaces(node, "", -1, object) || !read_stated(object)) return false;
   for (const char lod : {'0', '1', '2', '3', '4'}) collect(lod, object);
+  const auto index = static_cast<int>(building_.objects.size());
+  if (parent >= 0) building_.objects[static_cast<std::size_t>(parent)].children.push_back(index);
   building_.objects.push_back(std::move(object));
   return read_children(building_.objects.size() - 1);
 }

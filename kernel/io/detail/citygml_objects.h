@@ -39,6 +39,7 @@ struct CityGmlObject {
   const XmlNode* node = nullptr;
   /// The object it belongs to; -1 for the building.
   int parent = -1;
+  std::vector<int> children;
   std::vector<CityGmlSurface> surfaces;
   std::vector<CityGmlGeometry> geometries;
 };

@@ -24,17 +24,6 @@ std::string_view srs_name_in(const XmlNode& node) {
   return {};
 }
 
-/// The first position that is read of `member`, floored to whole metres; zero if none is.
-Vec3 first_position(const XmlNode& member) {
-  std::optional<Vec3> origin;
-  XmlLinks links(member);
-  GmlVertices vertices(origin);
-  GmlReader reader(links, vertices);
-  std::optional<NodeFault> fault;
-  read_objects(member, "", links, reader, fault);
-  return origin.value_or(Vec3{});
-}
-
 }  // namespace
 
 struct CityGmlReader::State {
@@ -52,7 +41,6 @@ struct CityGmlReader::State {
   CityGmlStream stream;
   CityJsonReader cityjson;
   std::optional<SequenceHeader> header;
-  std::optional<Vec3> origin;
   /// The building that was read to make the header.
   std::optional<XmlNode> first;
   /// The ids of all objects so far: the one thing that grows with the file.
@@ -87,10 +75,10 @@ Checked<Document> CityGmlReader::State::read_header() {
   header.emplace();
   std::string crs = stream.srs_name();
   if (first) {
-    origin = first_position(*first);
+    header->transform.translate = first_position(*first);
     if (crs.empty()) crs = srs_name_in(*first);
   }
-  header->transform = {{kCityGmlScale, kCityGmlScale, kCityGmlScale}, origin.value_or(Vec3{})};
+  header->transform.scale = {kCityGmlScale, kCityGmlScale, kCityGmlScale};
   header->crs = reference_system_of(crs);
   auto source = std::make_shared<CityJsonSource>();
   source->text = citygml_header_text(*header);
@@ -137,7 +125,7 @@ Checked<Document> CityGmlReader::State::read_member(const XmlNode& member) {
   ++members;
   const std::string id = id_for(member);
   XmlLinks links(member);
-  GmlVertices vertices(origin);
+  GmlVertices vertices(header->transform.translate);
   GmlReader reader(links, vertices);
   std::optional<NodeFault> fault;
   std::optional<CityGmlBuilding> building = read_objects(member, id, links, reader, fault);

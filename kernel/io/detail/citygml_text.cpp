@@ -125,8 +125,7 @@ void append_object(std::string& out, const CityGmlBuilding& building, std::size_
   append_attributes(out, *object.node);
   out += '}';
   std::vector<std::string_view> children;
-  for (const CityGmlObject& other : building.objects)
-    if (other.parent == static_cast<int>(index)) children.push_back(other.id);
+  for (const int child : object.children) children.push_back(building.objects[at(child)].id);
   if (!children.empty()) {
     append_json_key(out, "children");
     append_json_array(out, children);

@@ -14,9 +14,6 @@ namespace oriel::detail {
 namespace {
 
 constexpr double kPerMetre = 1e6;
-/// How often an element may be visited, on average: by the solid and the boundary surfaces of some
-/// levels of detail, from both sides. Links of links that multiply are stopped there.
-constexpr std::size_t kVisits = 16;
 
 template <std::size_t n>
 bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
@@ -64,6 +61,21 @@ bool for_each_word(std::string_view text, std::string_view separators, const Vis
 
 }  // namespace
 
+Vec3 first_position(const XmlNode& node) {
+  if (node.name == "posList" || node.name == "pos" || node.name == "coordinates") {
+    std::vector<double> numbers;
+    for_each_word(node.text, ", \t\r\n", [&](std::string_view word) {
+      const auto number = as_double(word);
+      if (number && std::abs(*number) <= kMaxCoordinate_m) numbers.push_back(std::floor(*number));
+      return number && numbers.size() < 3;
+    });
+    if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
+  }
+  for (const XmlNode& child : node.children)
+    if (const Vec3 found = first_position(child); found != Vec3{}) return found;
+  return {};
+}
+
 std::size_t GmlVertices::Hash::operator()(const Position& position) const noexcept {
   std::uint64_t hash = 0;
   for (const std::int64_t value : position)
@@ -72,8 +84,7 @@ std::size_t GmlVertices::Hash::operator()(const Position& position) const noexce
 }
 
 int GmlVertices::add(Vec3 point) {
-  if (!origin_) origin_ = Vec3{std::floor(point.x), std::floor(point.y), std::floor(point.z)};
-  const Vec3 from = point - *origin_;
+  const Vec3 from = point - origin_;
   const Position position{std::llround(from.x * kPerMetre), std::llround(from.y * kPerMetre),
                           std::llround(from.z * kPerMetre)};
   const auto [found, is_new] =
@@ -87,26 +98,31 @@ bool GmlReader::fail(const XmlNode& node, std::string code, std::string sentence
   return false;
 }
 
+bool GmlReader::may_visit(const XmlNode& property, const XmlNode& value) {
+  if (++visited_ > XmlLinks::kVisits * links_.node_count())
+    fault_ = XmlLinks::too_many(property);
+  else if (depth_ > XmlLinks::kMaxDepth)
+    fault_ = XmlLinks::too_deep(property);
+  else if (followed_.contains(&value))
+    fail(property, "E212",
+         fmt::format("the link {} leads in a circle", in_quotes(property.attribute("href"))));
+  return !fault_;
+}
+
 template <class Visit>
 bool GmlReader::for_each_value(const XmlNode& property, const Visit& visit) {
   const std::vector<const XmlNode*> values = links_.values_of(property);
-  if (links_.fault()) {
-    fault_ = links_.fault();
-    return false;
-  }
+  fault_ = links_.fault();
   const bool is_link = property.children.empty();
-  for (const XmlNode* value : values) {
-    if (++visited_ > kVisits * links_.node_count())
-      return fail(property, "E212", "links to links multiply the surfaces of the building");
-    if (is_link && !followed_.insert(value).second)
-      return fail(
-          property, "E212",
-          fmt::format("the link {} leads in a circle", in_quotes(property.attribute("href"))));
-    const bool is_good = visit(*value);
-    if (is_link) followed_.erase(value);
-    if (!is_good) return false;
+  ++depth_;
+  for (std::size_t i = 0; i < values.size() && !fault_; ++i) {
+    if (!may_visit(property, *values[i])) break;
+    if (is_link) followed_.insert(values[i]);
+    visit(*values[i]);
+    if (is_link) followed_.erase(values[i]);
   }
-  return true;
+  --depth_;
+  return !fault_;
 }
 
 std::optional<GmlGeometry> GmlReader::read(const XmlNode& property) {

@@ -35,8 +35,7 @@ class GmlVertices {
   /// Whole micrometres from the origin.
   using Position = std::array<std::int64_t, 3>;
 
-  /// `origin` is set to the first position, floored to whole metres, if it has no value yet.
-  explicit GmlVertices(std::optional<Vec3>& origin) : origin_(origin) {}
+  explicit GmlVertices(Vec3 origin) : origin_(origin) {}
   /// The number of the vertex at `point`, whose coordinates are finite and at most 1e9.
   int add(Vec3 point);
   [[nodiscard]] const std::vector<Position>& positions() const { return positions_; }
@@ -46,10 +45,13 @@ class GmlVertices {
     std::size_t operator()(const Position& position) const noexcept;
   };
 
-  std::optional<Vec3>& origin_;
+  Vec3 origin_;
   std::vector<Position> positions_;
   std::unordered_map<Position, int, Hash> number_of_;
 };
+
+/// The first position below `node`, floored to whole metres; zero if there is none.
+Vec3 first_position(const XmlNode& node);
 
 /// Reads the geometries of one building.
 ///
@@ -65,7 +67,8 @@ class GmlReader {
 
   /// The geometry in `property`; nothing if it is empty, or for a fault (then `fault()` has it):
   /// E201 a polygon without a ring, E204 an element that is no surface, E207 and E211 as XmlLinks,
-  /// E210 coordinates that are not, E212 links in a circle, E506.
+  /// E210 coordinates that are not, E212 links in a circle, E503 nested too deep by way of links,
+  /// E506.
   std::optional<GmlGeometry> read(const XmlNode& property);
   /// All polygons in `property`, of solids too.
   std::vector<GmlPolygon> read_polygons(const XmlNode& property);
@@ -89,7 +92,9 @@ class GmlReader {
   bool read_rings(const XmlNode& node, Context context, std::vector<std::vector<int>>& rings);
   bool read_ring(const XmlNode& ring, Context context, std::vector<int>& vertices);
   bool read_positions(const XmlNode& node, Context context, std::vector<int>& vertices);
-  /// Calls `visit` with each value of `property`; guards against circles of links.
+  /// True unless the value of `property` is one too many, too deep, or one that reading is in.
+  bool may_visit(const XmlNode& property, const XmlNode& value);
+  /// Calls `visit` with each value of `property`, up to the first fault; false if there is one.
   template <class Visit>
   bool for_each_value(const XmlNode& property, const Visit& visit);
   bool fail(const XmlNode& node, std::string code, std::string sentence);
@@ -99,6 +104,8 @@ class GmlReader {
   std::unordered_map<const XmlNode*, std::vector<std::vector<int>>> rings_of_;
   /// The targets of the links that were followed to where reading stands.
   std::unordered_set<const XmlNode*> followed_;
+  /// How many properties reading stands in.
+  int depth_ = 0;
   /// How many values of properties were visited, those behind links counted each time.
   std::size_t visited_ = 0;
   std::optional<NodeFault> fault_;

@@ -4,6 +4,17 @@
 
 namespace oriel::detail {
 
+NodeFault XmlLinks::too_deep(const XmlNode& property) {
+  return {{"E503", fmt::format("{} is nested deeper than {} properties, those behind links "
+                               "included",
+                               property.name, kMaxDepth)},
+          &property};
+}
+
+NodeFault XmlLinks::too_many(const XmlNode& property) {
+  return {{"E212", "links to links multiply what is in the building"}, &property};
+}
+
 XmlLinks::XmlLinks(const XmlNode& member) { add(member); }
 
 void XmlLinks::add(const XmlNode& node) {

@@ -29,6 +29,17 @@ class XmlLinks {
   /// The number of elements in the building.
   [[nodiscard]] std::size_t node_count() const { return count_; }
 
+  /// How deep properties may be nested, those behind links included; without links the depth of an
+  /// XML document is limited anyway.
+  static constexpr int kMaxDepth = 500;
+  /// How often elements may be visited, on average: by the solid and the boundary surfaces of some
+  /// levels of detail, from both sides. Links to links that multiply are stopped there.
+  static constexpr std::size_t kVisits = 16;
+  /// E212 for the property whose value would be one visit too many.
+  static NodeFault too_many(const XmlNode& property);
+  /// E503 for a property that is nested deeper.
+  static NodeFault too_deep(const XmlNode& property);
+
  private:
   struct Target {
     const XmlNode* node = nullptr;

@@ -253,6 +253,50 @@ TEST_SUITE("kernel/io") {
               .code == "E212");
   }
 
+  TEST_CASE("parts that all link to the same many surfaces cost their building and no time") {
+    std::string openings, parts;
+    for (int i = 0; i < 20000; ++i) {
+      openings += element("bldg:opening", element("bldg:Window", ""));
+      parts += element("bldg:consistsOfBuildingPart",
+                       element("bldg:BuildingPart", "<bldg:boundedBy xlink:href=\"#w\"/>"));
+    }
+    CHECK(
+        loss_of(element("x", element("bldg:WallSurface", openings, "gml:id=\"w\"")) + parts).code ==
+        "E212");
+  }
+
+  TEST_CASE("links that lead ever deeper cost their building") {
+    const auto chain = [](const std::string& property, const std::string& name,
+                          const std::string& inside, int length) {
+      std::string content = inside;
+      for (int i = 0; i < length; ++i) {
+        const std::string next =
+            i + 1 < length ? fmt::format("<{} xlink:href=\"#a{}\"/>", property, i + 1) : "";
+        content += element(property, element(name, next, fmt::format("gml:id=\"a{}\"", i)));
+      }
+      return content;
+    };
+    CHECK(loss_of(
+              lod2(link_to("a0") + chain("gml:surfaceMember", "gml:CompositeSurface", "", 100000)))
+              .code == "E503");
+    CHECK(loss_of("<bldg:opening xlink:href=\"#a0\"/>" +
+                  element("x", chain("bldg:opening", "bldg:Window", "", 100000)))
+              .code == "E503");
+    CHECK(
+        loss_of("<bldg:consistsOfBuildingPart xlink:href=\"#a0\"/>" +
+                element("x", chain("bldg:consistsOfBuildingPart", "bldg:BuildingPart", "", 100000)))
+            .code == "E503");
+  }
+
+  TEST_CASE("a building without geometry is told with a warning") {
+    const TemporaryFolder folder;
+    const auto records =
+        read_all(folder.write("a.gml", CityGmlFile{"2.0", building("a", "")}.text()));
+    CHECK(codes_of(records.at(1).issues) == "E209");
+    CHECK_FALSE(has_errors(records[1].issues));
+    CHECK(records[1].value->buildings.empty());
+  }
+
   TEST_CASE("an id that stands twice in a CityGML file costs the second building") {
     const TemporaryFolder folder;
     const CityGmlFile file{"2.0", building("a", box_by_links("2.0", "p")) +
