@@ -7,6 +7,8 @@
 #include "kernel/io/detail/gml_geometry.h"
 #include "kernel/io/detail/xml_links.h"
 
+#include <algorithm>
+#include <cmath>
 #include <unordered_set>
 #include <utility>
 
@@ -22,6 +24,23 @@ std::string_view srs_name_in(const XmlNode& node) {
   for (const XmlNode& child : node.children)
     if (const std::string_view name = srs_name_in(child); !name.empty()) return name;
   return {};
+}
+
+/// E213 if the building is so small that its coordinates must be degrees.
+std::optional<Fault> find_degrees(const GmlVertices& vertices, Vec3 origin) {
+  constexpr double kSmallest = 0.01;
+  Box box;
+  for (const auto& [x, y, z] : vertices.positions())
+    box.grow(origin + kCityGmlScale * Vec3{static_cast<double>(x), static_cast<double>(y),
+                                           static_cast<double>(z)});
+  if (box.is_empty()) return std::nullopt;
+  const Vec3 size = box.max - box.min;
+  const bool is_on_globe = std::max(std::abs(box.min.x), std::abs(box.max.x)) <= 180 &&
+                           std::max(std::abs(box.min.y), std::abs(box.max.y)) <= 180;
+  if (!is_on_globe || size.x > kSmallest || size.y > kSmallest) return std::nullopt;
+  return Fault{"E213",
+               "the building is less than 1 cm wide: its coordinates look like degrees; "
+               "expected metres"};
 }
 
 }  // namespace
@@ -129,13 +148,13 @@ Checked<Document> CityGmlReader::State::read_member(const XmlNode& member) {
   GmlReader reader(links, vertices);
   std::optional<NodeFault> fault;
   std::optional<CityGmlBuilding> building = read_objects(member, id, links, reader, fault);
-  if (building)
-    if (auto clash = claim_ids(*building)) {
-      fault = {std::move(*clash), &member};
-      building.reset();
-    }
+  if (building) {
+    auto found = claim_ids(*building);
+    if (!found) found = find_degrees(vertices, header->transform.translate);
+    if (found) fault = {std::move(*found), &member};
+  }
   Checked<Document> result;
-  if (!building) {
+  if (fault) {
     result.value = Document{fmt::format("{}:{}", name.file, member.line), Format::citygml, {}, {}};
     result.issues.push_back(issue_at(*fault->node, Severity::error, id, std::move(fault->fault)));
     return result;

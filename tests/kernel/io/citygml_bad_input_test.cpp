@@ -181,6 +181,13 @@ TEST_SUITE("kernel/io") {
               .code == "E210");
   }
 
+  TEST_CASE("latitudes and longitudes are no metres") {
+    CHECK(loss_of(lod2_polygon(element("gml:posList",
+                                       "35.65898 139.69839 18.9 35.65896 139.69835 18.9 "
+                                       "35.65897 139.69834 25 35.65898 139.69839 18.9")))
+              .code == "E213");
+  }
+
   TEST_CASE("the place of what is wrong in a building is its element") {
     const Issue issue =
         loss_of(fmt::format("\n\n{}", lod2_polygon("\n  <gml:posList>1 2</gml:posList>")));
