@@ -22,8 +22,8 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("every format reads back from its name") {
-    for (const Format format : {Format::cityjson, Format::cityjson_seq, Format::citygml, Format::obj,
-                                Format::off, Format::stl})
+    for (const Format format : {Format::cityjson, Format::cityjson_seq, Format::citygml,
+                                Format::obj, Format::off, Format::stl})
       CHECK(parse_format(to_string(format)) == format);
     CHECK_FALSE(parse_format("CityJSON "));
   }

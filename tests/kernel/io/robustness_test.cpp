@@ -1,8 +1,8 @@
 #include "kernel/io/mesh_writer.h"
 #include "kernel/io/writer.h"
-#include "tests/support/citygml_samples.h"
 #include "tests/kernel/io/cityjson_samples.h"
 #include "tests/kernel/io/files.h"
+#include "tests/support/citygml_samples.h"
 
 #include <doctest/doctest.h>
 
