@@ -26,6 +26,8 @@ using FacetId = Id<struct FacetTag>;
 using NodeId = Id<struct NodeTag>;
 /// A leaf of the CSG tree as a body: Segmentation::cells.
 using CellId = Id<struct CellTag>;
+/// A face of the cell complex: CellComplex::faces.
+using FaceId = Id<struct FaceTag>;
 /// A split-off part: Segmentation::features, and the rows of FeatureTable.
 using FeatureId = Id<struct FeatureTag>;
 
