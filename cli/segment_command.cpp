@@ -4,8 +4,10 @@
 #include "kernel/io/feature_records.h"
 #include "kernel/io/output_file.h"
 #include "kernel/io/segmentation_json.h"
+#include "kernel/segment/cell_complex.h"
 
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@ namespace {
 
 struct Arguments : LineArguments {
   bool is_json = false;
+  bool has_faces = false;
   std::string out = "-";
   std::string features;
 };
@@ -59,9 +62,13 @@ class Outputs {
   /// Before open() nothing is kept.
   void add(const Building& building, const OnLine& line) {
     const auto& [table, graph] = line.description;
-    const std::string text = arguments_.is_json
-                                 ? segmentation_json(building, *line.segmentation, table)
-                                 : listing(building, line);
+    std::optional<CellComplex> complex;
+    if (arguments_.has_faces)
+      complex = cell_complex(*line.segmentation, arguments_.tolerances);
+    const std::string text =
+        arguments_.is_json
+            ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
+            : listing(building, line);
     if (text_) text_->append(text);
     if (features_)
       features_->append(feature_records(building, *line.segmentation, table, graph, nullptr));
@@ -107,8 +114,12 @@ void add_segment(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "segment", "Find the parts of buildings: features, cells and the CSG tree");
   add_line_arguments(*command, *arguments, true);
-  command->add_flag("--json", arguments->is_json,
-                    "One JSON object per building and line instead of a table");
+  CLI::Option* json = command->add_flag("--json", arguments->is_json,
+                                        "One JSON object per building and line instead of a table");
+  command
+      ->add_flag("--faces", arguments->has_faces,
+                 "With --json: the faces between cells, and which cells touch")
+      ->needs(json);
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   command->add_option("--features", arguments->features,
                       "Write one record per feature: .csv, .json or .jsonl");

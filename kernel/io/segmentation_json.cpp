@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -135,6 +136,58 @@ class TreeWriter {
   std::vector<Item> todo_;
 };
 
+void append_side(std::string& out, std::string_view key, CellId side) {
+  append_json_key(out, key);
+  if (side.is_valid())
+    append_json(out, side.value);
+  else
+    out += "null";
+}
+
+/// Vertices are numbered anew: those that faces use, in their order.
+void append_complex(std::string& out, const CellComplex& complex, std::size_t cells) {
+  std::vector<int> number(complex.vertices().size(), -1);
+  for (const Face& face : complex.faces())
+    for (const Loop& loop : face.loops)
+      for (const int v : loop) number[static_cast<std::size_t>(v)] = 0;
+  std::vector<Vec3> used;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(used.size());
+    used.push_back(complex.vertices()[v].point);
+  }
+  append_list(out, "vertices", used, [&](Vec3 v) {
+    append_json_array(out, std::array{v.x, v.y, v.z});
+  });
+  append_list(out, "faces", complex.faces(), [&](const Face& face) {
+    out += '{';
+    append_field(out, "id", static_cast<int>(&face - complex.faces().data()));
+    append_field(out, "plane", face.plane.value);
+    append_side(out, "front", face.front);
+    append_side(out, "behind", face.behind);
+    append_field(out, "area_m2", face.area_m2);
+    append_list(out, "loops", face.loops, [&](Loop loop) {
+      for (int& v : loop) v = number[static_cast<std::size_t>(v)];
+      append_json_array(out, loop);
+    });
+    out += '}';
+  });
+  // Each pair once, at the cell with the smaller id; the outside is always the neighbour.
+  std::vector<std::pair<CellId, Contact>> contacts;
+  for (int c = 0; c < static_cast<int>(cells); ++c)
+    for (const Contact& contact : complex.neighbours({c}))
+      if (!contact.cell.is_valid() || contact.cell.value > c)
+        contacts.emplace_back(CellId{c}, contact);
+  append_list(out, "contacts", contacts, [&](const std::pair<CellId, Contact>& contact) {
+    out += '{';
+    append_side(out, "cell", contact.first);
+    append_side(out, "neighbour", contact.second.cell);
+    append_field(out, "area_m2", contact.second.area_m2);
+    out += '}';
+  });
+  append_field(out, "open_edges", complex.open_edge_count());
+}
+
 void append_id(std::string& out, std::string_view key, const FeatureTable& table, FeatureId id) {
   append_json_key(out, key);
   if (id.is_valid())
@@ -206,7 +259,7 @@ void append_issue(std::string& out, const Issue& issue) {
 }  // namespace
 
 std::string segmentation_json(const Building& building, const Segmentation& segmentation,
-                              const FeatureTable& table) {
+                              const FeatureTable& table, const CellComplex* complex) {
   std::string out = "{";
   append_field(out, "id", std::string_view(building.id));
   append_json_key(out, "frame");
@@ -217,6 +270,7 @@ std::string segmentation_json(const Building& building, const Segmentation& segm
   append_planes(out, segmentation);
   append_field(out, "order", std::string_view(to_string(segmentation.order)));
   append_cells(out, segmentation);
+  if (complex != nullptr) append_complex(out, *complex, segmentation.cells.size());
   append_json_key(out, "tree");
   if (segmentation.root.is_valid())
     TreeWriter(out, segmentation).write();

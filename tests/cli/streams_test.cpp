@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -96,6 +98,41 @@ TEST_SUITE("cli") {
       CHECK(found["order"] == "natural");
       CHECK(found["tree"].contains("kind"));
     }
+  }
+
+  TEST_CASE("the faces of segment --faces have a cell on either side and close around the solid") {
+    const Outcome outcome = run({"segment", sample("house"), "--json", "--faces"});
+    CHECK(outcome.exit == 0);
+    const json found = json::parse(outcome.out);
+    const auto is_solid = [&](const json& cell) {
+      return !cell.is_null() && found["cells"][cell.get<std::size_t>()]["sign"] == 1;
+    };
+    double volume = 0, solid_volume = 0;
+    std::map<std::pair<json, json>, double> areas;
+    for (const json& face : found["faces"]) {
+      CHECK(face["front"] != face["behind"]);
+      for (const json& loop : face["loops"])
+        for (const json& v : loop) CHECK(v < found["vertices"].size());
+      const double area = face["area_m2"];
+      const double offset = found["planes"][face["plane"].get<std::size_t>()]["offset_m"];
+      if (is_solid(face["behind"])) volume += area * offset / 3;
+      if (is_solid(face["front"])) volume -= area * offset / 3;
+      for (const auto& [p, q] :
+           {std::pair{face["front"], face["behind"]}, std::pair{face["behind"], face["front"]}})
+        areas[{p, q}] += area;
+    }
+    for (const json& cell : found["cells"])
+      solid_volume += cell["sign"].get<double>() * cell["volume_m3"].get<double>();
+    CHECK(std::abs(volume / solid_volume - 1) < 1e-9);
+    CHECK(2 * found["contacts"].size() == areas.size());
+    for (const json& contact : found["contacts"])
+      CHECK(std::abs(areas.at({contact["cell"], contact["neighbour"]}) -
+                     contact["area_m2"].get<double>()) < 1e-9);
+    CHECK(found["open_edges"] == 0);
+  }
+
+  TEST_CASE("segment --faces needs --json") {
+    CHECK(run({"segment", sample("hip"), "--faces"}).exit == 2);
   }
 
   TEST_CASE("segment --json has one building on each line") {

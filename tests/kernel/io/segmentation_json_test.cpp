@@ -49,6 +49,29 @@ TEST_SUITE("kernel/io") {
         "source_polygons":[5],"flags":["natural","own"]})"));
   }
 
+  TEST_CASE("a cell complex adds its faces, the vertices in use and each contact once") {
+    const test::SmallSegmentation small;
+    const std::vector<Vertex> vertices{
+        {{9, 9, 9}}, {{0, 0, 0}}, {{1, 0, 0}}, {{1, 0, 2}}, {{0, 0, 2}}};
+    const Loop loop{1, 2, 3, 4};
+    const CellComplex complex(vertices,
+                              {{PlaneId{0}, {loop}, CellId{}, CellId{1}, 2},
+                               {PlaneId{1}, {loop}, CellId{2}, CellId{1}, 2}},
+                              3);
+    const json root =
+        json::parse(segmentation_json(small.building, small.segmentation, small.table, &complex));
+    CHECK(root["vertices"] == json::parse("[[0,0,0],[1,0,0],[1,0,2],[0,0,2]]"));
+    CHECK(root["faces"] == json::parse(R"([
+        {"id":0,"plane":0,"front":null,"behind":1,"area_m2":2,"loops":[[0,1,2,3]]},
+        {"id":1,"plane":1,"front":2,"behind":1,"area_m2":2,"loops":[[0,1,2,3]]}])"));
+    CHECK(root["contacts"] == json::parse(R"([
+        {"cell":1,"neighbour":null,"area_m2":2},{"cell":1,"neighbour":2,"area_m2":2}])"));
+    // Two faces of four edges do not close around anything.
+    CHECK(root["open_edges"] == 3 * 4);
+    CHECK_FALSE(json::parse(segmentation_json(small.building, small.segmentation, small.table))
+                    .contains("faces"));
+  }
+
   TEST_CASE("a tree of any depth is written") {
     test::SmallSegmentation small;
     Segmentation& segmentation = small.segmentation;
