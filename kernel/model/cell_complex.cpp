@@ -9,7 +9,8 @@ namespace oriel {
 
 namespace {
 
-std::size_t slot_of(CellId cell) { return static_cast<std::size_t>(cell.value + 1); }
+/// 0 for the outside.
+std::size_t slot_of(CellId cell) { return cell.index() + 1; }
 
 }  // namespace
 
@@ -98,7 +99,7 @@ std::vector<CellId> cells_of_sign(const Segmentation& segmentation, int sign) {
 std::vector<CellId> cells_of(const Segmentation& segmentation, FeatureId feature) {
   // Parents come before what they contain.
   std::vector<char> is_in(segmentation.features.size() + 1, 0);
-  const auto slot = [](FeatureId id) { return static_cast<std::size_t>(id.value + 1); };
+  const auto slot = [](FeatureId id) { return id.index() + 1; };  // 0 for the body
   is_in[slot(feature)] = 1;
   for (int f = 0; f < std::ssize(segmentation.features); ++f) {
     const FeatureId parent = segmentation.features[static_cast<std::size_t>(f)].parent;

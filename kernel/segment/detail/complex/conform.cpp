@@ -40,6 +40,7 @@ class Vertices {
     }
     std::ranges::sort(found);
     std::vector<int> on;
+    on.reserve(found.size());
     for (const auto& [position, v] : found) on.push_back(v);
     return on;
   }

@@ -95,6 +95,7 @@ class Outlines {
     }
     std::ranges::sort(between);
     std::vector<int> vertices;
+    vertices.reserve(between.size());
     for (const auto& [position, v] : between) vertices.push_back(v);
     return vertices;
   }
