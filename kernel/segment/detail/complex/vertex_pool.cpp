@@ -5,6 +5,13 @@
 
 namespace oriel::detail {
 
+namespace {
+
+/// Buckets are wider than the reach by this, so that most searches end in one.
+constexpr double kBucket = 16;
+
+}  // namespace
+
 VertexPool::VertexPool(std::vector<Vertex> vertices, double reach_m)
     : vertices_(std::move(vertices)), reach_m_(reach_m) {
   represented_by_.reserve(vertices_.size());
@@ -23,25 +30,27 @@ std::size_t VertexPool::BucketHash::operator()(const Bucket& bucket) const {
 }
 
 VertexPool::Bucket VertexPool::bucket_of(Vec3 point) const {
-  return {std::llround(point.x / reach_m_), std::llround(point.y / reach_m_),
-          std::llround(point.z / reach_m_)};
+  const double width = kBucket * reach_m_;
+  return {std::llround(std::floor(point.x / width)), std::llround(std::floor(point.y / width)),
+          std::llround(std::floor(point.z / width))};
 }
 
 std::optional<int> VertexPool::find(Vec3 point) const {
-  const Bucket middle = bucket_of(point);
+  const Vec3 reach{reach_m_, reach_m_, reach_m_};
+  const Bucket low = bucket_of(point - reach), high = bucket_of(point + reach);
   std::optional<int> nearest;
   double distance = reach_m_;
-  for (int around = 0; around < 27; ++around) {
-    const auto bucket = buckets_.find(
-        {middle[0] + around % 3 - 1, middle[1] + around / 3 % 3 - 1, middle[2] + around / 9 - 1});
-    if (bucket == buckets_.end()) continue;
-    for (const int v : bucket->second) {
-      const double gap = length(at(v) - point);
-      if (gap > distance || (nearest && gap == distance && v > *nearest)) continue;
-      nearest = v;
-      distance = gap;
-    }
-  }
+  const auto look_at = [&](int v) {
+    const double gap = length(at(v) - point);
+    if (gap > distance || (nearest && gap == distance && v > *nearest)) return;
+    nearest = v;
+    distance = gap;
+  };
+  for (std::int64_t x = low[0]; x <= high[0]; ++x)
+    for (std::int64_t y = low[1]; y <= high[1]; ++y)
+      for (std::int64_t z = low[2]; z <= high[2]; ++z)
+        if (const auto bucket = buckets_.find({x, y, z}); bucket != buckets_.end())
+          for (const int v : bucket->second) look_at(v);
   return nearest;
 }
 

@@ -49,7 +49,7 @@ class VertexPool {
   std::vector<Vertex> vertices_;
   std::vector<int> represented_by_;
   double reach_m_;
-  /// Cubes as wide as the reach, with the vertices that stand for themselves.
+  /// Cubes in space, with the vertices in them that stand for themselves.
   std::unordered_map<Bucket, std::vector<int>, BucketHash> buckets_;
 };
 
