@@ -63,8 +63,7 @@ class Outputs {
   void add(const Building& building, const OnLine& line) {
     const auto& [table, graph] = line.description;
     std::optional<CellComplex> complex;
-    if (arguments_.has_faces)
-      complex = cell_complex(*line.segmentation, arguments_.tolerances);
+    if (arguments_.has_faces) complex = cell_complex(*line.segmentation, arguments_.tolerances);
     const std::string text =
         arguments_.is_json
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
