@@ -88,9 +88,16 @@ std::optional<RoofKind> roof(const std::string& name) {
   return std::nullopt;
 }
 
+std::optional<ChimneyPlace> chimney(const std::string& name) {
+  if (name == "slope") return ChimneyPlace::slope;
+  if (name == "ridge") return ChimneyPlace::ridge;
+  if (name == "apex") return ChimneyPlace::apex;
+  return std::nullopt;
+}
+
 /// The arguments as they are typed, before they are understood.
 struct Typed {
-  std::string roof = "mixed", storeys, width, depth, origin;
+  std::string roof = "mixed", chimney = "mixed", storeys, width, depth, origin;
   std::vector<std::string> features{"all"};
   double jitter_m = 0, noise_mm = 0;
 };
@@ -123,6 +130,9 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
                  "what every house has where there is room, by commas; all: each draws its own")
       ->delimiter(',')
       ->capture_default_str();
+  app.add_option("--chimney", typed.chimney, "where chimneys stand: slope, ridge, apex or mixed")
+      ->check(CLI::IsMember({"slope", "ridge", "apex", "mixed"}))
+      ->capture_default_str();
   app.add_option("--flush", options.flush, "share of windows and doors flush with their wall")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
@@ -149,6 +159,7 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
 void understand(const Typed& typed, Arguments& arguments) {
   Options& options = arguments.options;
   options.roof = roof(typed.roof);
+  options.chimney = chimney(typed.chimney);
   if (!typed.storeys.empty()) {
     const Range<double> storeys = range(typed.storeys, "--storeys", 1, 8);
     options.storeys = {static_cast<int>(storeys.low), static_cast<int>(storeys.high)};

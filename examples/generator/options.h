@@ -57,6 +57,10 @@ class FeatureSet {
   std::bitset<kFeatures> bits_;
 };
 
+/// Where on its roof a chimney stands: on one plane, across the ridge, or over the end of the ridge
+/// where hips meet.
+enum class ChimneyPlace { slope, ridge, apex };
+
 template <class T>
 struct Range {
   T low{}, high{};
@@ -74,6 +78,8 @@ struct Options {
   Range<Um> width{8'000'000, 18'000'000}, depth{7'000'000, 12'000'000};
   /// Features every house shall have where there is room; nothing: each house draws its own.
   std::optional<FeatureSet> features;
+  /// Where chimneys stand; roofs without such a place get none. Nothing: each is drawn.
+  std::optional<ChimneyPlace> chimney;
   /// Share of windows and doors that are flush with their wall, 0 … 1.
   double flush = 0;
   /// How far windows may be moved, and each of their sides again.

@@ -153,6 +153,7 @@ Plan draw_plan(const Options& options, Random& random) {
   if (options.windows > 0 && !options.features) plan.features = features_for_bench();
   plan.flush = options.flush;
   plan.jitter = options.jitter;
+  plan.chimney = options.chimney;
   const int drawn_roof = random.below(8);
   constexpr std::array roofs{RoofKind::gable, RoofKind::gable, RoofKind::gable, RoofKind::hip,
                              RoofKind::hip,   RoofKind::flat,  RoofKind::flat,  RoofKind::shed};

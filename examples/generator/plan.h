@@ -32,6 +32,7 @@ struct Plan {
   double density = 0.92;
   double flush = 0;
   Um jitter = 0;
+  std::optional<ChimneyPlace> chimney;
   /// Height of the band at the foot of the walls; 0 = none.
   Um plinth = 0;
 

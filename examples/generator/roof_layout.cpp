@@ -30,6 +30,7 @@ class RoofLayout {
   /// A free rectangle of this size somewhere in the plane; empty (u0 = u1) if none was found.
   Rect draw_place(const RoofPlane& plane, Um width, Um height);
   bool place_ridge_chimney(Chimney chimney, Um width, Um depth);
+  bool goes_on_apex(bool has_apex, bool has_ridge);
   Dormer draw_dormer(const RoofPlane& plane);
   void fill_dormer(Panel front);
 
@@ -50,6 +51,12 @@ Rect RoofLayout::draw_place(const RoofPlane& plane, Um width, Um height) {
   return {};
 }
 
+/// Whether a chimney of the ridge goes over the ridge's end where hips meet.
+bool RoofLayout::goes_on_apex(bool has_apex, bool has_ridge) {
+  const bool is_drawn = has_apex && (!has_ridge || random_.chance(0.5));
+  return plan_.chimney ? *plan_.chimney == ChimneyPlace::apex : is_drawn;
+}
+
 /// Across the ridge, or over one of its ends where hips meet there.
 bool RoofLayout::place_ridge_chimney(Chimney chimney, Um width, Um depth) {
   if (house_.ridge.empty()) return false;
@@ -57,12 +64,14 @@ bool RoofLayout::place_ridge_chimney(Chimney chimney, Um width, Um depth) {
   const Um margin = plan_.massing.overhang + 800_mm;
   const Um half_width = width / 20'000 * 10'000, half_depth = depth / 20'000 * 10'000;
   const bool has_apex = plan_.massing.roof == RoofKind::hip;
-  const bool is_short = end.x - start.x < 2 * margin + width;
-  if (is_short && !has_apex) return false;
+  const bool has_ridge = end.x - start.x >= 2 * margin + width;
+  if (!has_ridge && !has_apex) return false;
   Um x = draw(start.x + margin + half_width, end.x - margin - half_width);
-  if (has_apex && (is_short || random_.chance(0.5))) x = start.x;
+  const bool is_on_apex = goes_on_apex(has_apex, has_ridge);
+  if (is_on_apex ? !has_apex : !has_ridge) return false;
+  if (is_on_apex) x = start.x;
   // Off the middle: a chimney rarely stands on the ridge exactly.
-  const Um y = x == start.x ? start.y : start.y + draw(-half_depth / 2, half_depth / 2);
+  const Um y = is_on_apex ? start.y : start.y + draw(-half_depth / 2, half_depth / 2);
   chimney.plan = {x - half_width, x + half_width, y - half_depth, y + half_depth};
   chimney.top = start.z + draw(500_mm, 1100_mm);
   if (!is_roof_free(house_, chimney.plan, kDistance)) return false;
@@ -76,7 +85,10 @@ void RoofLayout::place_chimney() {
   chimney.flues = random_.between(1, 2);
   const Um width = depth + (chimney.flues - 1) * draw(300_mm, 450_mm);
   if (random_.chance(0.3)) chimney.cap = 60_mm;
-  if (random_.chance(0.45) && place_ridge_chimney(chimney, width, depth)) return;
+  const bool is_drawn = random_.chance(0.45);
+  const bool is_on_ridge = plan_.chimney ? *plan_.chimney != ChimneyPlace::slope : is_drawn;
+  if (is_on_ridge && place_ridge_chimney(chimney, width, depth)) return;
+  if (is_on_ridge && plan_.chimney) return;
   const RoofPlane& plane = draw_plane();
   const Rect place = draw_place(plane, width, depth);
   if (place == Rect{}) return;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -71,6 +72,7 @@ TEST_SUITE("examples/generator") {
         {{"-o", "x", "--width", "wide"}, "'wide' is not a number"},
         {{"-o", "x", "--depth", "8..nan"}, "--depth"},
         {{"-o", "x", "--features", "window,dor"}, "there is no feature 'dor'"},
+        {{"-o", "x", "--chimney", "wall"}, "--chimney"},
         {{"-o", "x", "--flush", "1.5"}, "--flush"},
         {{"-o", "x", "--noise", "11"}, "--noise"},
         {{"-o", "x", "--origin", "1,2"}, "X,Y,Z"},
@@ -188,6 +190,15 @@ TEST_SUITE("examples/generator") {
       CHECK(result.code == 0);
       CHECK_MESSAGE(result.out != plain, option);
     }
+  }
+
+  TEST_CASE("each place for chimneys makes another house") {
+    std::set<std::string> houses;
+    for (const char* place : {"slope", "ridge", "apex"})
+      houses.insert(run({"-o", "-", "--roof", "hip", "--width", "14", "--depth", "8", "--features",
+                         "window,chimney", "--chimney", place})
+                        .out);
+    CHECK(houses.size() == 3);
   }
 }
 

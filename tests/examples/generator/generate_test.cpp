@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <doctest/doctest.h>
 
@@ -38,6 +39,25 @@ std::vector<Extent> boxes_of(const Body& body) {
 bool overlap(const Extent& a, const Extent& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y &&
          a.low.z < b.high.z && b.low.z < a.high.z;
+}
+
+/// The roof planes, as objects, that share a corner with the object.
+std::set<int> roof_planes_around(const Body& body, int object) {
+  std::set<int> corners, planes;
+  const auto each_corner = [&](const Polygon& polygon, const auto& act) {
+    for (const std::vector<int>& ring : polygon.rings) std::ranges::for_each(ring, act);
+  };
+  for (const Polygon& polygon : body.polygons)
+    if (polygon.owner.object == object)
+      each_corner(polygon, [&](int corner) { corners.insert(corner); });
+  for (const Polygon& polygon : body.polygons) {
+    const int owner = polygon.owner.object;
+    if (body.objects[static_cast<std::size_t>(owner)].kind != Class::roof) continue;
+    each_corner(polygon, [&](int corner) {
+      if (corners.contains(corner)) planes.insert(owner);
+    });
+  }
+  return planes;
 }
 
 /// True for what stands by itself: surfaces and bands around the house contain other boxes.
@@ -142,6 +162,31 @@ TEST_SUITE("examples/generator") {
       CHECK(count(body, Class::other) == 0);
       CHECK(body.roof == "gable");
       CHECK(body.storeys == 2);
+    }
+  }
+
+  TEST_CASE("chimneys stand where they are asked to") {
+    struct Case {
+      ChimneyPlace place;
+      std::size_t fewest_planes, most_planes;
+    };
+    const std::vector<Case> cases{
+        {ChimneyPlace::slope, 1, 1}, {ChimneyPlace::ridge, 2, 2}, {ChimneyPlace::apex, 3, 4}};
+    for (const Case& c : cases) {
+      Options options = with_features({Feature::chimney, Feature::dormer});
+      options.chimney = c.place;
+      int chimneys = 0;
+      for (int i = 0; i < kSeeds; ++i) {
+        const Body body = generate(options, i);
+        for (std::size_t object = 0; object < body.objects.size(); ++object) {
+          if (body.objects[object].kind != Class::chimney) continue;
+          ++chimneys;
+          const std::size_t planes = roof_planes_around(body, static_cast<int>(object)).size();
+          CHECK(planes >= c.fewest_planes);
+          CHECK(planes <= c.most_planes);
+        }
+      }
+      CHECK(chimneys > 20);
     }
   }
 
