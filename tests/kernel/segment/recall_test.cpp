@@ -1,8 +1,10 @@
 #include "kernel/io/truth.h"
 #include "tests/support/corpus.h"
+#include "tests/support/generated.h"
 #include "tests/support/segmented.h"
 
 #include <map>
+#include <ranges>
 
 #include <doctest/doctest.h>
 
@@ -22,22 +24,27 @@ double overlap_of(const Box& p, const Box& q) {
   return shared / (volume_of(p) + volume_of(q) - shared);
 }
 
+/// Whether a feature has this box at IoU 0.8, the boxes as they are, in the input's coordinates.
+bool has_feature_in(const test::Segmented& s, const Box& box) {
+  return std::ranges::any_of(s.segmentation.features, [&](const Feature& f) {
+    return overlap_of(f.box.moved(s.building.frame.origin_m), box) >= 0.8;
+  });
+}
+
 /// Objects of a class, and how many of them a feature has the box of.
 struct Recall {
   int objects = 0, found = 0;
 };
 
 /// Looks for every object that is in the shell (openings: and recessed) among all features of its
-/// building, at IoU 0.8 of the boxes as they are.
+/// building.
 void count(const test::Segmented& s, const Truth& truth, std::map<std::string, Recall>& recalls) {
   for (const TruthObject& object : truth.objects) {
     if (object.faces.empty() || object.is_detectable == false) continue;
     const Box box = object.feature_aabb.value_or(object.aabb);
     Recall& recall = recalls[object.label];
     ++recall.objects;
-    recall.found += std::ranges::any_of(s.segmentation.features, [&](const Feature& f) {
-      return overlap_of(f.box.moved(s.building.frame.origin_m), box) >= 0.8;
-    });
+    recall.found += has_feature_in(s, box) ? 1 : 0;
   }
 }
 
@@ -62,6 +69,33 @@ TEST_SUITE("kernel/segment") {
       CHECK(recalls[label].found == recalls[label].objects);
       MESSAGE(std::string(label) << ": " << recalls[label].found << " of "
                                  << recalls[label].objects);
+    }
+  }
+
+  TEST_CASE("of chimneys across a ridge and on an apex 99 in 100 are features") {
+    using generator::ChimneyPlace;
+    for (const ChimneyPlace place : {ChimneyPlace::ridge, ChimneyPlace::apex}) {
+      generator::Options options;
+      options.seed = 4;
+      options.chimney = place;
+      if (place == ChimneyPlace::apex) options.roof = generator::RoofKind::hip;
+      Recall recall;
+      for (int i = 0; i < 120; ++i) {
+        const test::Generated house = test::generated(options, i);
+        const auto is_chimney = [](const auto& object) {
+          return object.first == generator::Class::chimney;
+        };
+        if (std::ranges::none_of(house.objects, is_chimney)) continue;
+        const test::Segmented s = test::segmented(house.building);
+        for (const auto& [kind, box] : std::views::filter(house.objects, is_chimney)) {
+          ++recall.objects;
+          recall.found += has_feature_in(s, box) ? 1 : 0;
+        }
+      }
+      CAPTURE(place == ChimneyPlace::ridge);
+      CHECK(recall.objects > 20);
+      CHECK(100 * recall.found >= 99 * recall.objects);
+      MESSAGE(recall.found << " of " << recall.objects);
     }
   }
 }
