@@ -1,22 +1,15 @@
 /// The straight line on one core: read, solidify, segment, describe, interpret, write; each stage
-/// by itself, and reading beside a peer that only parses the same file. `bench/run.sh` runs it.
-#include "examples/generator/cityjson.h"
-#include "examples/generator/generate.h"
-#include "examples/generator/random.h"
+/// by itself, and reading beside a peer that only parses the same file. `bench/run.sh line` runs it.
+#include "bench/sample_file.h"
 #include "interpret/annotate.h"
 #include "interpret/interpret.h"
 #include "interpret/rule_base.h"
 #include "kernel/describe/describe.h"
-#include "kernel/io/output_file.h"
-#include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include <benchmark/benchmark.h>
@@ -26,31 +19,15 @@ namespace {
 
 using namespace oriel;
 
-/// A generated house of about that many windows as a file that goes with the object.
-class SampleFile {
- public:
-  explicit SampleFile(int windows) {
-    generator::Options options;
-    options.seed = 3;
-    options.windows = windows;
-    generator::Random random(options.seed);
-    generator::Building house{"house", generator::generate(options, 0), options.origin};
-    house.body = generator::shuffled(house.body, random);
-    path_ = (std::filesystem::temp_directory_path() /
-             ("oriel-bench-" + std::to_string(windows) + ".city.json"))
-                .string();
-    write_file(path_, generator::cityjson(house, generator::Content::stripped));
-  }
-  ~SampleFile() { std::remove(path_.c_str()); }
-  SampleFile(const SampleFile&) = delete;
-  SampleFile& operator=(const SampleFile&) = delete;
+using bench::SampleFile;
 
-  [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] Document document() const { return std::move(*Reader(path_).next()->value); }
-
- private:
-  std::string path_;
-};
+/// A generated house of about so many windows.
+SampleFile house(const benchmark::State& state) {
+  generator::Options options;
+  options.seed = 3;
+  options.windows = static_cast<int>(state.range(0));
+  return SampleFile(options);
+}
 
 const RuleBase& residential() {
   static const RuleBase base = *load_pack_file("residential").value;
@@ -58,7 +35,7 @@ const RuleBase& residential() {
 }
 
 void line(benchmark::State& state) {
-  const SampleFile file(static_cast<int>(state.range(0)));
+  const SampleFile file = house(state);
   std::size_t bytes = 0, features = 0;
   for (auto _ : state) {
     const Document document = file.document();
@@ -78,13 +55,13 @@ void line(benchmark::State& state) {
 }
 
 void read(benchmark::State& state) {
-  const SampleFile file(static_cast<int>(state.range(0)));
+  const SampleFile file = house(state);
   for (auto _ : state) benchmark::DoNotOptimize(file.document());
 }
 
 /// The peer: nlohmann-json parses the file and does nothing else.
 void read_nlohmann(benchmark::State& state) {
-  const SampleFile file(static_cast<int>(state.range(0)));
+  const SampleFile file = house(state);
   for (auto _ : state) {
     std::ifstream in(file.path());
     benchmark::DoNotOptimize(nlohmann::json::parse(in));
@@ -92,13 +69,13 @@ void read_nlohmann(benchmark::State& state) {
 }
 
 void solidify_only(benchmark::State& state) {
-  const SampleFile file(static_cast<int>(state.range(0)));
+  const SampleFile file = house(state);
   const Document document = file.document();
   for (auto _ : state) benchmark::DoNotOptimize(solidify(document.buildings.at(0)));
 }
 
 void segment_only(benchmark::State& state) {
-  const SampleFile file(static_cast<int>(state.range(0)));
+  const SampleFile file = house(state);
   const Document document = file.document();
   const auto solid = solidify(document.buildings.at(0));
   SegmentOptions options;
