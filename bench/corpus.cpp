@@ -1,13 +1,12 @@
 /// Segments every building of some files in both orders and prints one row an order: how many
 /// solids and cells, how long a building takes, and why leaves that are not convex stayed whole.
 /// `bench_corpus NAME LOD INPUT…`, LOD `-` for the highest; bench/corpus.sh runs it.
+#include "bench/timing.h"
 #include "kernel/io/reader.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <string>
@@ -51,20 +50,6 @@ Corpus read_corpus(const std::string& lod, int count, char** paths) {
   return corpus;
 }
 
-/// Milliseconds of the call in the middle, and what it returned.
-std::pair<double, Segmentation> timed(const Sample& sample, const SegmentOptions& options) {
-  std::array<double, kCalls> times{};
-  Segmentation result;
-  for (double& time : times) {
-    const auto start = std::chrono::steady_clock::now();
-    result = segment(sample.building, sample.solid, options);
-    const auto end = std::chrono::steady_clock::now();
-    time = std::chrono::duration<double, std::milli>(end - start).count();
-  }
-  std::ranges::sort(times);
-  return {times[kCalls / 2], std::move(result)};
-}
-
 /// The smallest of the sorted values that a share of them does not exceed.
 double quantile(const std::vector<double>& sorted, double share) {
   const double rank = std::ceil(share * static_cast<double>(sorted.size()));
@@ -78,8 +63,9 @@ void report(const std::string& name, const Corpus& corpus, Order order) {
   std::size_t cells = 0;
   std::map<LeafFlag, int> leaves;
   for (const Sample& sample : corpus.samples) {
-    const auto [time, result] = timed(sample, options);
-    times.push_back(time);
+    Segmentation result;
+    times.push_back(bench::cpu_ms_of(
+        kCalls, [&] { result = segment(sample.building, sample.solid, options); }));
     cells += result.cells.size();
     for (const Cell& cell : result.cells) ++leaves[cell.flag];
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Segments the real buildings of ../shared (or $ORIEL_SHARED) one by one, in both orders: solids of buildings read, cells,
-# milliseconds that a building takes (median, 99th percentile, longest; each the median of three calls, mesh in memory to
+# milliseconds of processor time that a building takes (median, 99th percentile, longest; each the median of three calls, mesh in memory to
 # tree, cells and features, one thread), and leaves that are not convex by their flag (docs/segmentation.md).
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,5 +1,6 @@
 /// The straight line on one core: read, solidify, segment, describe, interpret, write; each stage
-/// by itself, and reading beside a peer that only parses the same file. `bench/run.sh line` runs it.
+/// by itself, and reading beside a peer that only parses the same file. `bench/run.sh line` runs
+/// it.
 #include "bench/sample_file.h"
 #include "interpret/annotate.h"
 #include "interpret/interpret.h"

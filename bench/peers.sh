@@ -1,18 +1,25 @@
 #!/usr/bin/env bash
-# Segmentation side by side with the peers of ../shared/peers (or $ORIEL_SHARED/peers) on the same buildings in one run:
-# CGAL PMP split plane by plane (one level of the recursion), CGAL Nef convex decomposition, and the prototype of the
-# project's design. Prints milliseconds and ratios; oriel's are of solidify + segment, paper's order.
+# Segmentation beside the peers of ../shared/peers (or $ORIEL_SHARED/peers), same buildings, one run, one thread. First the
+# milliseconds of processor time, then the ratios to `segment` alone (solid in memory to tree, cells and features) and to
+# solidify + segment (polygons in memory to the same). The peers start from a mesh of their own in memory:
+#   pmp-split  CGAL Polygon Mesh Processing, split at every plane: one level of the recursion, no tree
+#   nef-halves CGAL Nef, body and complement cut by the half-space of every plane: one level, no tree
+#   nef-convex CGAL Nef, convex decomposition: all pieces, no tree; left out for 2000 windows, where it takes minutes
+#   prototype  the throw-away kernel of the project's design, in doubles: the whole tree
+# The two of one level are measured at some 10 (pmp) and 3 (nef) planes and scaled to all. Takes one to three minutes.
+#   bench/peers.sh [natural|paper]   the order of cuts; paper, as the peers know no other
 set -euo pipefail
 cd "$(dirname "$0")/.."
+order=${1:-paper}
 peers=${ORIEL_SHARED:-../shared}/peers/segmentation
 [ -d "$peers" ] || { echo "skipped: no peers at $peers"; exit 0; }
 examples/install_packages.sh
-cmake --preset release >/dev/null
-cmake --build --preset release --target oriel >&2
+cmake --preset release -DORIEL_BENCH=ON >/dev/null
+cmake --build --preset release --target bench_timed_calls >&2
 work=build/peers
 mkdir -p "$work"
 for peer in gen prototype pmp nef; do
-  [ -x "$work/$peer" ] || g++ -O3 -DNDEBUG -std=c++20 "$peers/$peer.cpp" -o "$work/$peer" -lgmp -lmpfr
+  [ "$work/$peer" -nt "$peers/$peer.cpp" ] || g++ -O3 -DNDEBUG -std=c++20 "$peers/$peer.cpp" -o "$work/$peer" -lgmp -lmpfr
 done
 
 # to_metres MM.off M.off: the peers work in millimetres.
@@ -20,37 +27,55 @@ to_metres() {
   awk 'NR <= 2 { print; if (NR == 2) n = $1; next }
        NR <= 2 + n { printf "%.3f %.3f %.3f\n", $1 / 1000, $2 / 1000, $3 / 1000; next } { print }' "$1" >"$2"
 }
-stage() { grep -o "\"$1_ms\":[0-9.]*" "$work/timings.json" | cut -d: -f2; }
+# Each prints milliseconds, or nothing where it failed.
+pmp_split() {
+  "$work/pmp" "$1" 10 2>&1 | sed -n 's/.* done=[0-9]*\/\([0-9]*\) .* split=\([0-9.]*\)(fail .*/\1 \2/p' |
+    awk '{ print 1000 * $1 * $2 }'
+}
+nef_halves() {
+  "$work/nef" planes "$1" 3 2>&1 |
+    sed -n 's/.* done=[0-9]*\/\([0-9]*\) prot_mean=\([0-9.]*\) hole_mean=\([0-9.]*\) .*/\1 \2 \3/p' |
+    awk '{ print 1000 * $1 * ($2 + $3) }'
+}
+nef_convex() { "$work/nef" conv "$1" 2>&1 | sed -n 's/.* convex_decomp .* cpu=\([0-9.]*\) .*/\1/p' | awk '{ print 1000 * $1 }'; }
+prototype() { "$work/prototype" "$1" "$2" | sed -n 's/.* median=\([0-9.]*\)ms .*/\1/p'; }
 
-printf '%-14s %9s %9s %9s | %9s %6s | %9s %6s | %9s %6s\n' \
-  building solidify segment both prototype ratio pmp-level ratio nef-conv ratio
-# Name, windows in x and y, floors, jitter, runs, peers that take minutes.
-while read -r name nx ny floors jitter runs slow; do
+# Name, windows in x and y, floors, jitter, runs of oriel and prototype, whether nef-convex runs.
+while read -r name nx ny floors jitter runs convex; do
   "$work/gen" "$nx" "$ny" "$floors" "$jitter" 0 0 "$work/$name.mm.off" >/dev/null 2>&1
   to_metres "$work/$name.mm.off" "$work/$name.off"
-  build/release/cli/oriel segment "$work/$name.off" --order paper --repeat "$runs" --timings "$work/timings.json" >/dev/null 2>&1
-  solidify=$(stage solidify)
-  segment=$(stage segment)
-  both=$(awk "BEGIN { print $solidify + $segment }")
-  prototype=$("$work/prototype" "$work/$name.mm.off" "$runs" | grep -o 'median=[0-9.]*' | cut -d= -f2)
-  pmp=- nef=- pmp_ratio=- nef_ratio=-
-  if [ "$slow" = yes ]; then
-    pmp=$("$work/pmp" "$work/$name.mm.off" 25 2>&1 | grep -o 'split=[0-9.]* diff=[0-9.]* lumps' | cut -d= -f2 | cut -d' ' -f1)
-    pmp=$(awk "BEGIN { print 1000 * $pmp }")
-    pmp_ratio=$(awk "BEGIN { printf \"%.0f\", $pmp / $both }")
-    nef=$("$work/nef" conv "$work/$name.mm.off" 2>&1 | grep -o 'convex_decomp wall=[0-9.]*' | cut -d= -f2)
-    nef=$(awk "BEGIN { print 1000 * $nef }")
-    nef_ratio=$(awk "BEGIN { printf \"%.0f\", $nef / $both }")
-  fi
-  printf '%-14s %9.2f %9.2f %9.2f | %9.2f %6.2f | %9s %6s | %9s %6s\n' "$name" "$solidify" "$segment" "$both" \
-    "$prototype" "$(awk "BEGIN { print $prototype / $both }")" "$pmp" "$pmp_ratio" "$nef" "$nef_ratio"
-done <<'BUILDINGS'
+  read -r solidify segment <<<"$(build/release/bench/bench_timed_calls "$work/$name.off" "$order" "$runs")"
+  pieces=-
+  [ "$convex" = no ] || pieces=$(nef_convex "$work/$name.mm.off")
+  echo "$name $solidify $segment $(pmp_split "$work/$name.mm.off") $(nef_halves "$work/$name.mm.off") ${pieces:--} \
+    $(prototype "$work/$name.mm.off" "$runs")"
+done <<'BUILDINGS' | awk -v order="$order" '
+  BEGIN {
+    print "milliseconds of processor time, order " order
+    row = "%-14s %10s %10s %10s | %10s %10s %10s %10s\n"
+    printf row, "building", "solidify", "segment", "both", "pmp-split", "nef-halves", "nef-convex", "prototype"
+  }
+  function ratio(peer, own) { return peer == "-" ? "-" : sprintf(peer < 10 * own ? "%.2f" : "%.0f", peer / own) }
+  {
+    both = $2 + $3
+    printf row, $1, sprintf("%.2f", $2), sprintf("%.2f", $3), sprintf("%.2f", both), sprintf("%.0f", $4),
+           sprintf("%.0f", $5), $6 == "-" ? "-" : sprintf("%.0f", $6), sprintf("%.2f", $7)
+    fflush()
+    alone = alone sprintf(row, $1, "", "", "", ratio($4, $3), ratio($5, $3), ratio($6, $3), ratio($7, $3))
+    whole = whole sprintf(row, $1, "", "", "", ratio($4, both), ratio($5, both), ratio($6, both), ratio($7, both))
+  }
+  END {
+    print "\npeer / segment: how many times as long a peer takes"
+    printf "%s", alone
+    print "\npeer / (solidify + segment)"
+    printf "%s", whole
+  }'
 regular-20 3 2 2 0 25 yes
 regular-100 5 5 5 0 25 yes
-regular-500 13 8 12 0 9 no
+regular-500 13 8 12 0 9 yes
 regular-2000 40 10 20 0 5 no
 jittered-20 3 2 2 1 25 yes
 jittered-100 5 5 5 1 25 yes
-jittered-500 13 8 12 1 5 no
+jittered-500 13 8 12 1 5 yes
 jittered-2000 40 10 20 1 3 no
 BUILDINGS
