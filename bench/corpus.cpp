@@ -70,11 +70,11 @@ void report(const std::string& name, const Corpus& corpus, Order order) {
     for (const Cell& cell : result.cells) ++leaves[cell.flag];
   }
   std::ranges::sort(times);
-  fmt::print(
-      "{:<16} {:<8} {:>4} of {:>4} {:>7} | {:>9.3f} {:>9.2f} {:>9.2f} | {:>5} {:>12} {:>6} {:>6}\n",
-      name, to_string(order), corpus.samples.size(), corpus.read, cells, quantile(times, 0.5),
-      quantile(times, 0.99), times.back(), leaves[LeafFlag::own], leaves[LeafFlag::no_candidate],
-      leaves[LeafFlag::cycle], leaves[LeafFlag::budget]);
+  const std::string solids = fmt::format("{} of {}", corpus.samples.size(), corpus.read);
+  fmt::print("{:<18}{:<8}  {:>12}{:>9} | {:>10.2f}{:>10.2f}{:>10.2f} | {:>6}{:>14}{:>7}{:>8}\n",
+             name, to_string(order), solids, cells, quantile(times, 0.5), quantile(times, 0.99),
+             times.back(), leaves[LeafFlag::own], leaves[LeafFlag::no_candidate],
+             leaves[LeafFlag::cycle], leaves[LeafFlag::budget]);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ data=${ORIEL_SHARED:-../shared}/data
 examples/install_packages.sh
 cmake --preset release -DORIEL_BENCH=ON >/dev/null
 cmake --build --preset release --target bench_corpus >&2
-printf '%-16s %-8s %12s %7s | %9s %9s %9s | %5s %12s %6s %6s\n' \
+printf '%-18s%-8s  %12s%9s | %10s%10s%10s | %6s%14s%7s%8s\n' \
   data order solids cells median p99 longest own no-candidate cycle budget
 while read -r name lod files; do
   # shellcheck disable=SC2086

@@ -21,7 +21,7 @@ count() {
     build/release/bench/bench_counted_call "$2" "$1" "${@:3}" 2>&1 >/dev/null | awk '$2 == "Collected" { print $4 }'
 }
 
-printf '%-20s %-9s %9s %9s %9s %9s %7s\n' call windows 20 100 500 2000 growth
+printf '%-17s%-10s%11s%11s%11s%11s%9s\n' call windows 20 100 500 2000 growth
 for call in 'segment natural' 'segment paper' solidify; do
   for shape in 'regular 0' 'jittered 0.3'; do
     read -r name jitter <<<"$shape"
@@ -35,7 +35,7 @@ for call in 'segment natural' 'segment paper' solidify; do
     done
     printf '%s\n' "${counts[@]}" | awk -v call="$call" -v name="$name" '
       { n[NR] = $1 }
-      END { printf "%-20s %-9s %9.2f %9.2f %9.1f %9.1f %7.2f\n", call, name, n[1] / 1e6, n[2] / 1e6, n[3] / 1e6, n[4] / 1e6,
+      END { printf "%-17s%-10s%11.2f%11.2f%11.1f%11.1f%9.2f\n", call, name, n[1] / 1e6, n[2] / 1e6, n[3] / 1e6, n[4] / 1e6,
                    log(n[4] / n[2]) / log(20) }'
   done
 done

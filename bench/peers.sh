@@ -2,7 +2,7 @@
 # Segmentation beside the peers of ../shared/peers (or $ORIEL_SHARED/peers), same buildings, one run, one thread. First the
 # milliseconds of processor time, then the ratios to `segment` alone (solid in memory to tree, cells and features) and to
 # solidify + segment (polygons in memory to the same). The peers start from a mesh of their own in memory:
-#   pmp-split  CGAL Polygon Mesh Processing, split at every plane: one level of the recursion, no tree
+#   pmp-split, pmp-clip  CGAL Polygon Mesh Processing, split or clip at every plane: one level of the recursion, no tree
 #   nef-halves CGAL Nef, body and complement cut by the half-space of every plane: one level, no tree
 #   nef-convex CGAL Nef, convex decomposition: all pieces, no tree; left out for 2000 windows, where it takes minutes
 #   prototype  the throw-away kernel of the project's design, in doubles: the whole tree
@@ -28,9 +28,11 @@ to_metres() {
        NR <= 2 + n { printf "%.3f %.3f %.3f\n", $1 / 1000, $2 / 1000, $3 / 1000; next } { print }' "$1" >"$2"
 }
 # Each prints milliseconds, or nothing where it failed.
-pmp_split() {
-  "$work/pmp" "$1" 10 2>&1 | sed -n 's/.* done=[0-9]*\/\([0-9]*\) .* split=\([0-9.]*\)(fail .*/\1 \2/p' |
-    awk '{ print 1000 * $1 * $2 }'
+# Split, then clip.
+pmp() {
+  "$work/pmp" "$1" 10 2>&1 |
+    sed -n 's/.* done=[0-9]*\/\([0-9]*\) clip=\([0-9.]*\)(fail [0-9]*) split=\([0-9.]*\)(fail .*/\1 \2 \3/p' |
+    awk '{ print 1000 * $1 * $3, 1000 * $1 * $2 }'
 }
 nef_halves() {
   "$work/nef" planes "$1" 3 2>&1 |
@@ -47,28 +49,30 @@ while read -r name nx ny floors jitter runs convex; do
   read -r solidify segment <<<"$(build/release/bench/bench_timed_calls "$work/$name.off" "$order" "$runs")"
   pieces=-
   [ "$convex" = no ] || pieces=$(nef_convex "$work/$name.mm.off")
-  echo "$name $solidify $segment $(pmp_split "$work/$name.mm.off") $(nef_halves "$work/$name.mm.off") ${pieces:--} \
+  echo "$name $solidify $segment $(pmp "$work/$name.mm.off") $(nef_halves "$work/$name.mm.off") ${pieces:--} \
     $(prototype "$work/$name.mm.off" "$runs")"
 done <<'BUILDINGS' | awk -v order="$order" '
   BEGIN {
     print "milliseconds of processor time, order " order
-    row = "%-14s %10s %10s %10s | %10s %10s %10s %10s\n"
-    printf row, "building", "solidify", "segment", "both", "pmp-split", "nef-halves", "nef-convex", "prototype"
+    peers = sprintf(" | %12s%12s%12s%12s%12s\n", "pmp-split", "pmp-clip", "nef-halves", "nef-convex", "prototype")
+    printf "%-16s%12s%12s%12s%s", "building", "solidify", "segment", "both", peers
   }
+  function ms(value, digits) { return value == "-" ? "-" : sprintf("%." digits "f", value) }
   function ratio(peer, own) { return peer == "-" ? "-" : sprintf(peer < 10 * own ? "%.2f" : "%.0f", peer / own) }
+  function ratios(own) {
+    return sprintf("%-16s | %12s%12s%12s%12s%12s\n", $1, ratio($4, own), ratio($5, own), ratio($6, own), ratio($7, own),
+                   ratio($8, own))
+  }
   {
-    both = $2 + $3
-    printf row, $1, sprintf("%.2f", $2), sprintf("%.2f", $3), sprintf("%.2f", both), sprintf("%.0f", $4),
-           sprintf("%.0f", $5), $6 == "-" ? "-" : sprintf("%.0f", $6), sprintf("%.2f", $7)
+    printf "%-16s%12s%12s%12s | %12s%12s%12s%12s%12s\n", $1, ms($2, 2), ms($3, 2), ms($2 + $3, 2), ms($4, 0), ms($5, 0),
+           ms($6, 0), ms($7, 0), ms($8, 2)
     fflush()
-    alone = alone sprintf(row, $1, "", "", "", ratio($4, $3), ratio($5, $3), ratio($6, $3), ratio($7, $3))
-    whole = whole sprintf(row, $1, "", "", "", ratio($4, both), ratio($5, both), ratio($6, both), ratio($7, both))
+    alone = alone ratios($3)
+    whole = whole ratios($2 + $3)
   }
   END {
-    print "\npeer / segment: how many times as long a peer takes"
-    printf "%s", alone
-    print "\npeer / (solidify + segment)"
-    printf "%s", whole
+    printf "\npeer / segment: how many times as long a peer takes\n%-16s%s%s", "building", peers, alone
+    printf "\npeer / (solidify + segment)\n%-16s%s%s", "building", peers, whole
   }'
 regular-20 3 2 2 0 25 yes
 regular-100 5 5 5 0 25 yes
