@@ -15,8 +15,8 @@ namespace oriel::cuts {
 namespace {
 
 constexpr int kColumns = 4, kText = 56, kMargin = 8;
-/// Samples by which a line may be smoothed: a little more than their steps.
-constexpr double kTolerance = 1.1;
+/// Samples by which a line may be smoothed: somewhat more than their steps.
+constexpr double kTolerance = 1.5;
 
 using Colour = std::array<double, 3>;
 constexpr Colour kRest{246, 240, 228}, kProtrusion{250, 146, 66}, kHole{104, 178, 240};
