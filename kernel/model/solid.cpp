@@ -1,7 +1,8 @@
 #include "kernel/model/solid.h"
 
-#include <algorithm>
-#include <utility>
+#include "kernel/model/detail/counting_sort.h"
+
+#include <cstddef>
 
 namespace oriel {
 
@@ -46,16 +47,21 @@ Box box_of(const Solid& solid) {
 }
 
 bool is_closed(const Solid& solid) {
-  std::vector<std::pair<int, int>> edges;
+  std::vector<int> from, to;
   for (const Facet& facet : solid.facets)
     for (const Loop& loop : facet.loops)
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        edges.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
-  std::ranges::sort(edges);
-  auto opposite = edges;
-  for (auto& [from, to] : opposite) std::swap(from, to);
-  std::ranges::sort(opposite);
-  return !edges.empty() && edges == opposite;
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        from.push_back(loop[i]);
+        to.push_back(loop[i + 1 < loop.size() ? i + 1 : 0]);
+      }
+  const auto edges = detail::sort_edges(from, to, solid.vertices.size());
+  int balance = 0;  // of the edges with the same ends: those that run up less those that run down
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i > 0 && !edges[i].has_ends_of(edges[i - 1]) && balance != 0) return false;
+    const auto place = static_cast<std::size_t>(edges[i].place);
+    balance += (from[place] < to[place]) - (from[place] > to[place]);
+  }
+  return !edges.empty() && balance == 0;
 }
 
 }  // namespace oriel

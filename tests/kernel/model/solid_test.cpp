@@ -1,5 +1,8 @@
 #include "kernel/model/solid.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 namespace oriel {
@@ -35,6 +38,30 @@ TEST_SUITE("kernel/model") {
     CHECK(is_closed(solid));
     solid.facets.pop_back();
     CHECK_FALSE(is_closed(solid));
+  }
+
+  TEST_CASE("a solid with a facet turned round is not closed, and neither is one of no facets") {
+    Solid solid = tetrahedron();
+    std::ranges::reverse(solid.facets[3].loops[0]);
+    CHECK_FALSE(is_closed(solid));
+    CHECK_FALSE(is_closed(Solid{}));
+  }
+
+  TEST_CASE("where two bodies touch in an edge, both of its pairs count as closed") {
+    Solid solid = tetrahedron();
+    // A second one over the same edge 0 – 3, on the other side.
+    solid.vertices.push_back({{-1, 0, 0}, false});
+    solid.vertices.push_back({{0, -1, 0}, false});
+    solid.planes.push_back({{1, 0, 0}, 0, {1, 0, 0}, 0});
+    solid.planes.push_back({{0, 1, 0}, 0, {0, 1, 0}, 0});
+    const double s = 1 / std::sqrt(3.0);
+    solid.planes.push_back({{-1, -1, 1}, 1, {-s, -s, s}, s});
+    solid.facets.push_back({PlaneId{4}, {{0, 3, 5}}, {}});
+    solid.facets.push_back({PlaneId{5}, {{0, 4, 3}}, {}});
+    solid.facets.push_back({PlaneId{2}, {{0, 5, 4}}, {}});
+    CHECK_FALSE(is_closed(solid));
+    solid.facets.push_back({PlaneId{6}, {{3, 4, 5}}, {}});
+    CHECK(is_closed(solid));
   }
 }
 

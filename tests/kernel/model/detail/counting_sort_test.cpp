@@ -1,0 +1,50 @@
+#include "kernel/model/detail/counting_sort.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+namespace oriel::detail {
+namespace {
+
+TEST_SUITE("kernel/model") {
+  TEST_CASE("buckets hold every item once, by its key and in the order of the items") {
+    CHECK(rc::check([] {
+      const auto keys = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 7));
+      const Buckets buckets = sort_into_buckets(keys, 7);
+      std::vector<int> all;
+      for (std::size_t k = 0; k < 7; ++k) {
+        RC_ASSERT(std::ranges::is_sorted(buckets[k]));
+        for (const int item : buckets[k]) {
+          RC_ASSERT(keys.at(static_cast<std::size_t>(item)) == static_cast<int>(k));
+          all.push_back(item);
+        }
+      }
+      std::ranges::sort(all);
+      RC_ASSERT(all.size() == keys.size());
+      for (std::size_t i = 0; i < all.size(); ++i) RC_ASSERT(all[i] == static_cast<int>(i));
+    }));
+  }
+
+  TEST_CASE("edges come in the order of their smaller end, larger end and place") {
+    CHECK(rc::check([] {
+      const auto from = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 5));
+      const auto to = *rc::gen::container<std::vector<int>>(from.size(), rc::gen::inRange(0, 5));
+      const auto edges = sort_edges(from, to, 5);
+      RC_ASSERT(edges.size() == from.size());
+      const auto key = [](const SortedEdge& e) { return std::tuple(e.low, e.high, e.place); };
+      RC_ASSERT(std::ranges::is_sorted(edges, {}, key));
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto place = static_cast<std::size_t>(edges[i].place);
+        RC_ASSERT(i == 0 || key(edges[i - 1]) != key(edges[i]));
+        RC_ASSERT(edges[i].low == std::min(from.at(place), to.at(place)));
+        RC_ASSERT(edges[i].high == std::max(from.at(place), to.at(place)));
+      }
+    }));
+  }
+}
+
+}  // namespace
+}  // namespace oriel::detail
