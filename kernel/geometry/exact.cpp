@@ -1,6 +1,8 @@
 #include "kernel/geometry/exact.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -13,6 +15,8 @@ using Int256 = boost::multiprecision::int256_t;
 
 Int128 absolute(Int128 value) { return value < 0 ? -value : value; }
 
+std::int64_t gcd(std::int64_t p, std::int64_t q) { return std::gcd(p, q); }
+
 Int128 gcd(Int128 p, Int128 q) {
   p = absolute(p);
   q = absolute(q);
@@ -24,14 +28,62 @@ Int128 gcd(Int128 p, Int128 q) {
   return p;
 }
 
+bool fits_in_64_bits(Int128 value) { return value == static_cast<std::int64_t>(value); }
+
 int sign_of(Int128 value) { return (value > 0) - (value < 0); }
 
 /// numerator / denominator to about one bit: the integer part and the fraction are divided apart.
-double divide(Int128 numerator, Int128 denominator) {
-  const Int128 whole = numerator / denominator;
-  const Int128 rest = numerator % denominator;
+/// `Int` is the type to divide in; the result does not depend on it.
+template <class Int>
+double divide_as(Int numerator, Int denominator) {
+  const Int whole = numerator / denominator;
+  const Int rest = numerator % denominator;
   return static_cast<double>(whole) + static_cast<double>(static_cast<long double>(rest) /
                                                           static_cast<long double>(denominator));
+}
+
+double divide(Int128 numerator, Int128 denominator) {
+  if (!fits_in_64_bits(numerator) || !fits_in_64_bits(denominator))
+    return divide_as<Int128>(numerator, denominator);
+  if (denominator == 1) return static_cast<double>(static_cast<std::int64_t>(numerator));
+  return divide_as<std::int64_t>(static_cast<std::int64_t>(numerator),
+                                 static_cast<std::int64_t>(denominator));
+}
+
+/// `vector` without its common divisor, in the integers `Int`; nothing for the zero vector.
+template <class Int>
+std::optional<std::array<Int, 3>> reduced(const Vector128& vector) {
+  std::array<Int, 3> out{static_cast<Int>(vector[0]), static_cast<Int>(vector[1]),
+                         static_cast<Int>(vector[2])};
+  Int divisor = 0;
+  for (const Int component : out)
+    if (component != 0) divisor = divisor == 0 ? component : gcd(divisor, component);
+  if (divisor == 0) return std::nullopt;
+  if (divisor < 0) divisor = -divisor;
+  if (divisor != 1)
+    for (Int& component : out) component /= divisor;
+  return out;
+}
+
+/// A vector without common divisor as a normal: itself if it fits in kMaxNormal, else rounded to 28
+/// bits.
+template <class Int>
+std::array<std::int64_t, 3> as_normal(const std::array<Int, 3>& vector) {
+  std::array<std::int64_t, 3> normal{};
+  const auto absolute_of = [](Int value) { return value < 0 ? -value : value; };
+  const Int largest =
+      std::max({absolute_of(vector[0]), absolute_of(vector[1]), absolute_of(vector[2])});
+  if (largest <= kMaxNormal) {
+    for (std::size_t i = 0; i < 3; ++i) normal[i] = static_cast<std::int64_t>(vector[i]);
+    return normal;
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    normal[i] =
+        std::llround(static_cast<long double>(vector[i]) / static_cast<long double>(largest) *
+                     static_cast<long double>(kMaxNormal));
+  const std::int64_t common = std::gcd(std::gcd(normal[0], normal[1]), normal[2]);
+  for (auto& component : normal) component /= common;
+  return normal;
 }
 
 }  // namespace
@@ -58,20 +110,15 @@ Vec3 to_metres(const Rational& point, double grid_m) {
 }
 
 std::optional<std::array<std::int64_t, 3>> direction(const Vector128& vector) {
-  const Int128 divisor = gcd(gcd(vector[0], vector[1]), vector[2]);
-  if (divisor == 0) return std::nullopt;
-  Vector128 reduced{vector[0] / divisor, vector[1] / divisor, vector[2] / divisor};
-  const Int128 largest =
-      std::max({absolute(reduced[0]), absolute(reduced[1]), absolute(reduced[2])});
-  std::array<std::int64_t, 3> normal{};
-  for (std::size_t i = 0; i < 3; ++i)
-    normal[i] = largest <= kMaxNormal ? static_cast<std::int64_t>(reduced[i])
-                                      : std::llround(static_cast<long double>(reduced[i]) /
-                                                     static_cast<long double>(largest) *
-                                                     static_cast<long double>(kMaxNormal));
-  const std::int64_t common = std::gcd(std::gcd(normal[0], normal[1]), normal[2]);
-  for (auto& component : normal) component /= common;
-  return normal;
+  // Dividing 128 bits is slow, and all but the largest polygons fit in 64.
+  constexpr Int128 kLimit = std::numeric_limits<std::int64_t>::max();
+  const bool is_small =
+      std::ranges::all_of(vector, [](Int128 c) { return c >= -kLimit && c <= kLimit; });
+  if (is_small) {
+    const auto small = reduced<std::int64_t>(vector);
+    return small ? std::optional(as_normal(*small)) : std::nullopt;
+  }
+  return as_normal(*reduced<Int128>(vector));
 }
 
 Int128 dot(const std::array<std::int64_t, 3>& normal, const GridPoint& point) {

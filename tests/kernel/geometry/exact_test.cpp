@@ -74,6 +74,22 @@ TEST_SUITE("kernel/geometry") {
     CHECK(length(n - normalised({1, 1, -1.0 / 3})) < 1e-8);
   }
 
+  TEST_CASE("numbers that need more than 64 bits give the same direction and the same metres") {
+    CHECK(rc::check([] {
+      constexpr std::int64_t kMost = std::int64_t{1} << 60;
+      constexpr Int128 kScale = Int128{1} << 50;
+      Vector128 small{}, large{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        small[i] = *number(kMost);
+        large[i] = small[i] * kScale;
+      }
+      RC_ASSERT(direction(small) == direction(large));
+      const Int128 w = *rc::gen::inRange<std::int64_t>(1, kMost);
+      RC_ASSERT(to_metres(Rational{small[0], small[1], small[2], w}, kGrid_m) ==
+                to_metres(Rational{large[0], large[1], large[2], w * kScale}, kGrid_m));
+    }));
+  }
+
   TEST_CASE("a plane carries its doubles") {
     const Plane p = plane({0, 3, 4}, 5 * 1024);
     CHECK(length(p.normal - Vec3{0, 0.6, 0.8}) < 1e-15);
