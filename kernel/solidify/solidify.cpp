@@ -39,45 +39,43 @@ void check_size(const Building& building, const Tolerances& tolerances,
                                        reach, limit, tolerances.weld_m)));
 }
 
-/// Every edge has two sides, or the open loops are counted and named.
-void check_closed(const Building& building, const Soup& soup, const ShellMesh& shell,
+/// Every edge has two half-edges, or the open loops are counted and named.
+void check_closed(const Building& building, const Soup& soup, const ShellMesh& mesh,
                   std::vector<Issue>& issues) {
-  const auto& mesh = shell.mesh;
-  std::vector<char> is_seen(mesh.n_halfedges(), 0);
-  int edges = 0, loops = 0, place = -1;
-  for (const auto start : mesh.halfedges()) {
-    if (!start.is_boundary() || is_seen[static_cast<std::size_t>(start.idx())]) continue;
+  const auto first = std::ranges::find(mesh.twin, -1);
+  if (first == mesh.twin.end()) return;
+  std::vector<char> is_seen(mesh.half_edge_count(), 0);
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  int edges = 0, loops = 0;
+  for (int start = 0; start < std::ssize(mesh.twin); ++start) {
+    if (mesh.twin[at(start)] >= 0 || is_seen[at(start)]) continue;
     ++loops;
-    if (place < 0)
-      place = shell.point_of[static_cast<std::size_t>(mesh.from_vertex_handle(start).idx())];
-    for (OpenMesh::HalfedgeHandle h = start; !is_seen[static_cast<std::size_t>(h.idx())];
-         h = mesh.next_halfedge_handle(h)) {
-      is_seen[static_cast<std::size_t>(h.idx())] = 1;
+    for (int h = start; !is_seen[at(h)];) {
+      is_seen[at(h)] = 1;
       ++edges;
+      h = mesh.next[at(h)];
+      while (mesh.twin[at(h)] >= 0) h = mesh.next[at(mesh.twin[at(h)])];
     }
   }
-  if (edges > 0)
-    issues.push_back(
-        error(building, "E302",
-              fmt::format("not closed: {} open edges in {} loops, the first at {} (val3dity 302)",
-                          edges, loops, detail::place_text(soup, place))));
+  const int end = mesh.next[static_cast<std::size_t>(first - mesh.twin.begin())];
+  issues.push_back(
+      error(building, "E302",
+            fmt::format("not closed: {} open edges in {} loops, the first at {} (val3dity 302)",
+                        edges, loops, detail::place_text(soup, soup.corners[at(end)]))));
 }
 
-/// What the input says of every component.
+/// What the input says of every component: of its last facet, of the facet's first polygon.
 std::vector<detail::ComponentHint> hints_of(const Building& building, const Soup& soup,
                                             const detail::FacetDraft& draft) {
-  std::vector<int> polygon_of(building.polygons.size(), -1);  // by source
-  for (int p = 0; p < std::ssize(soup.polygons); ++p) {
-    const auto source = static_cast<std::size_t>(soup.polygons[static_cast<std::size_t>(p)].source);
-    if (source < polygon_of.size()) polygon_of[source] = p;
+  std::vector<const detail::SoupPolygon*> first_of(draft.facet_count(), nullptr);
+  for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
+    auto& first = first_of[static_cast<std::size_t>(draft.facet_of[p])];
+    if (first == nullptr || soup.polygons[p].source <= first->source) first = &soup.polygons[p];
   }
   std::vector<detail::ComponentHint> hints(static_cast<std::size_t>(draft.components));
-  for (std::size_t f = 0; f < draft.facets.size(); ++f) {
-    const int p = polygon_of[static_cast<std::size_t>(draft.facets[f].polygons.front())];
-    const auto& polygon = soup.polygons[static_cast<std::size_t>(p)];
-    hints[static_cast<std::size_t>(draft.component[f])] = {polygon.body,
-                                                           building.is_solid ? polygon.shell : -1};
-  }
+  for (std::size_t f = 0; f < first_of.size(); ++f)
+    hints[static_cast<std::size_t>(draft.component[f])] = {
+        first_of[f]->body, building.is_solid ? first_of[f]->shell : -1};
   return hints;
 }
 
@@ -96,17 +94,18 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
         fmt::format("{} polygons cannot enclose a volume (val3dity 301)", soup.polygons.size())));
   if (is_set_aside()) return out;
 
-  const ShellMesh shell = detail::build_shell_mesh(soup, building.id, out.issues);
+  const ShellMesh mesh = detail::build_shell_mesh(soup, building.id, out.issues);
   if (is_set_aside()) return out;
-  check_closed(building, soup, shell, out.issues);
+  check_closed(building, soup, mesh, out.issues);
   if (is_set_aside()) return out;
 
   const detail::PlaneClusters clusters = detail::cluster_planes(soup, tolerances);
-  detail::FacetDraft draft = detail::draft_facets(soup, clusters, shell);
+  detail::FacetDraft draft = detail::draft_facets(soup, clusters, mesh);
   const auto hints = hints_of(building, soup, draft);
-  int swallowed = 0;
-  Solid solid = detail::snap_vertices(soup, clusters, shell, draft, tolerances, swallowed);
-  swallowed += clusters.standing;
+  detail::SnappedSolid snapped =
+      detail::snap_vertices(soup, clusters, mesh, std::move(draft), tolerances);
+  Solid& solid = snapped.solid;
+  const int swallowed = snapped.swallowed + clusters.standing;
   if (swallowed > 0)
     out.issues.push_back(building_issue(
         Severity::warning, "E309", building.id,
@@ -115,7 +114,7 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
   if (solid.facets.empty())
     out.issues.push_back(error(building, "E310", "nothing is left that encloses a volume"));
   if (is_set_aside()) return out;
-  detail::arrange_shells(solid, draft.component, hints, building.id, out.issues);
+  detail::arrange_shells(solid, snapped.component, hints, building.id, out.issues);
   if (!is_set_aside() && !is_closed(solid))
     out.issues.push_back(error(
         building, "E302", "not closed after its vertices were put on their planes (val3dity 302)"));

@@ -1,7 +1,9 @@
 #include "kernel/solidify/detail/facets.h"
 
+#include "kernel/model/detail/counting_sort.h"
+#include "kernel/solidify/detail/disjoint_sets.h"
+
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace oriel::detail {
@@ -10,147 +12,161 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Disjoint sets of polygons; `number` gives every set a number, counted in the order of first
-/// members.
-class Groups {
- public:
-  explicit Groups(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
-    return i;
-  }
-  void unite(int i, int j) {
-    i = find(i);
-    j = find(j);
-    parent_[at(std::max(i, j))] = std::min(i, j);
-  }
-  std::vector<int> number(int& count) {
-    std::vector<int> of_root(parent_.size(), -1), out(parent_.size());
-    count = 0;
-    for (int i = 0; i < std::ssize(parent_); ++i) {
-      int& n = of_root[at(find(i))];
-      if (n < 0) n = count++;
-      out[at(i)] = n;
-    }
-    return out;
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 class Drafter {
  public:
-  Drafter(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& shell)
-      : soup_(soup), clusters_(clusters), shell_(shell) {}
+  Drafter(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh)
+      : soup_(soup), clusters_(clusters), mesh_(mesh) {}
 
   FacetDraft run() {
-    group_polygons();
+    grow_facets();
+    number_components();
     find_loops();
     choose_vertices();
-    FacetDraft draft;
-    draft.facets.resize(at(facet_count_));
-    draft.component.resize(at(facet_count_));
-    draft.components = component_count_;
-    for (int p = 0; p < std::ssize(soup_.polygons); ++p) {
-      const std::size_t f = at(facet_of_[at(p)]);
-      draft.facets[f].plane = PlaneId{clusters_.plane_of[at(p)]};
-      draft.facets[f].polygons.push_back(soup_.polygons[at(p)].source);
-      draft.component[f] = component_of_[at(p)];
-    }
-    for (Facet& facet : draft.facets) std::ranges::sort(facet.polygons);
-    for (const auto& [facet, loop] : loops_) {
-      Loop kept;
-      for (const int v : loop)
-        if (is_kept_[at(v)]) kept.push_back(v);
-      draft.facets[at(facet)].loops.push_back(std::move(kept));
-    }
-    return draft;
+    collect_loops();
+    return std::move(draft_);
   }
 
  private:
-  using Mesh = ShellMesh::Mesh;
-  using Halfedge = OpenMesh::HalfedgeHandle;
+  [[nodiscard]] int facet_of(int h) const { return draft_.facet_of[at(mesh_.polygon_of[at(h)])]; }
 
-  [[nodiscard]] int polygon_of(Halfedge h) const {
-    return shell_.polygon_of[at(shell_.mesh.face_handle(h).idx())];
-  }
-  [[nodiscard]] int facet_of(Halfedge h) const { return facet_of_[at(polygon_of(h))]; }
-  [[nodiscard]] Halfedge twin(Halfedge h) const { return shell_.mesh.opposite_halfedge_handle(h); }
-  /// Two facets meet here.
-  [[nodiscard]] bool is_rim(Halfedge h) const { return facet_of(h) != facet_of(twin(h)); }
-
-  void group_polygons() {
-    Groups facets(soup_.polygons.size()), components(soup_.polygons.size());
-    for (const auto e : shell_.mesh.edges()) {
-      const Halfedge h = shell_.mesh.halfedge_handle(e, 0);
-      const int p = polygon_of(h), q = polygon_of(twin(h));
-      components.unite(p, q);
-      if (clusters_.plane_of[at(p)] == clusters_.plane_of[at(q)]) facets.unite(p, q);
+  void grow_facets() {
+    draft_.facet_of.assign(soup_.polygons.size(), -1);
+    std::vector<int> patch;
+    for (int start = 0; start < soup_.polygon_count(); ++start) {
+      if (draft_.facet_of[at(start)] >= 0) continue;
+      const int facet = static_cast<int>(draft_.plane.size());
+      const int plane = clusters_.plane_of[at(start)];
+      draft_.plane.push_back(plane);
+      draft_.facet_of[at(start)] = facet;
+      patch.assign(1, start);
+      while (!patch.empty()) {
+        const int p = patch.back();
+        patch.pop_back();
+        for_each_half_edge(p, [&](int h) {
+          const int q = mesh_.polygon_of[at(mesh_.twin[at(h)])];
+          if (draft_.facet_of[at(q)] >= 0 || clusters_.plane_of[at(q)] != plane) return;
+          draft_.facet_of[at(q)] = facet;
+          patch.push_back(q);
+        });
+      }
     }
-    facet_of_ = facets.number(facet_count_);
-    component_of_ = components.number(component_count_);
+    // A rim half-edge has another facet on its other side.
+    is_rim_.resize(mesh_.half_edge_count());
+    for (int h = 0; h < std::ssize(is_rim_); ++h)
+      is_rim_[at(h)] = facet_of(h) != facet_of(mesh_.twin[at(h)]);
   }
 
+  template <class Visit>
+  void for_each_half_edge(int polygon, Visit visit) const {
+    const int begin = soup_.first_corner[at(soup_.first_ring[at(polygon)])];
+    const int end = soup_.first_corner[at(soup_.first_ring[at(polygon) + 1])];
+    for (int h = begin; h < end; ++h) visit(h);
+  }
+
+  void number_components() {
+    DisjointSets sets(draft_.facet_count());
+    for (int h = 0; h < std::ssize(is_rim_); ++h)
+      if (is_rim_[at(h)] && h < mesh_.twin[at(h)])
+        sets.unite(facet_of(h), facet_of(mesh_.twin[at(h)]));
+    draft_.component.resize(draft_.facet_count());
+    for (int f = 0; f < std::ssize(draft_.component); ++f) {
+      const int smallest = sets.find(f);
+      draft_.component[at(f)] =
+          smallest == f ? draft_.components++ : draft_.component[at(smallest)];
+    }
+  }
+
+  /// All loops with all their vertices, in the order of the edges that they start with.
   void find_loops() {
-    std::vector<char> is_seen(shell_.mesh.n_halfedges(), 0);
-    for (const auto start : shell_.mesh.halfedges()) {
-      if (is_seen[at(start.idx())] || !is_rim(start)) continue;
-      Loop loop;
-      Halfedge h = start;
-      do {
-        is_seen[at(h.idx())] = 1;
-        loop.push_back(shell_.mesh.from_vertex_handle(h).idx());
-        h = shell_.mesh.next_halfedge_handle(h);
-        while (!is_rim(h)) h = shell_.mesh.next_halfedge_handle(twin(h));
-      } while (h != Halfedge(start));
-      loops_.emplace_back(facet_of(start), std::move(loop));
+    std::vector<char> is_seen(mesh_.half_edge_count(), 0);
+    first_vertex_.push_back(0);
+    for (int h = 0; h < std::ssize(is_seen); ++h) {
+      const int twin = mesh_.twin[at(h)];
+      if (!is_rim_[at(h)] || twin < h) continue;
+      for (const int start : {h, twin})
+        if (!is_seen[at(start)]) walk_loop(start, is_seen);
     }
+  }
+
+  void walk_loop(int start, std::vector<char>& is_seen) {
+    facet_of_loop_.push_back(facet_of(start));
+    int h = start;
+    do {
+      is_seen[at(h)] = 1;
+      vertices_.push_back(mesh_.vertex_of[at(h)]);
+      h = mesh_.next[at(h)];
+      while (!is_rim_[at(h)]) h = mesh_.next[at(mesh_.twin[at(h)])];
+    } while (h != start);
+    first_vertex_.push_back(static_cast<int>(vertices_.size()));
+  }
+
+  [[nodiscard]] std::size_t loop_count() const { return facet_of_loop_.size(); }
+  [[nodiscard]] std::span<const int> loop(std::size_t l) const {
+    return {vertices_.data() + first_vertex_[l], vertices_.data() + first_vertex_[l + 1]};
   }
 
   /// A vertex is kept if three facets or more meet at it. A loop that would keep fewer than three
   /// keeps all, and so may its neighbours then. Where two edges would run from the same vertex to
   /// the same other one, all between them is kept: an edge is known by its ends.
   void choose_vertices() {
-    std::vector<int> degree(shell_.mesh.n_vertices(), 0);
-    for (const auto h : shell_.mesh.halfedges())
-      if (is_rim(h)) ++degree[at(shell_.mesh.from_vertex_handle(h).idx())];
+    std::vector<int> degree(mesh_.vertex_count(), 0);
+    for (const int v : vertices_) ++degree[at(v)];
     is_kept_.resize(degree.size());
     for (std::size_t v = 0; v < degree.size(); ++v) is_kept_[v] = degree[v] > 2;
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
-      for (const auto& [facet, loop] : loops_) {
-        const auto kept = std::ranges::count_if(loop, [&](int v) { return is_kept_[at(v)] != 0; });
-        if (kept >= 3 || kept == std::ssize(loop)) continue;
-        for (const int v : loop) is_kept_[at(v)] = 1;
+      for (std::size_t l = 0; l < loop_count(); ++l) {
+        const auto kept =
+            std::ranges::count_if(loop(l), [&](int v) { return is_kept_[at(v)] != 0; });
+        if (kept >= 3 || kept == std::ssize(loop(l))) continue;
+        for (const int v : loop(l)) is_kept_[at(v)] = 1;
         has_changed = true;
       }
       has_changed |= keep_between_equal_ends();
     }
   }
 
+  /// An edge of a loop between kept vertices.
+  struct Edge {
+    int from, to;
+    std::size_t loop;
+    std::size_t start;  ///< the place of `from` in the loop
+    bool is_long;       ///< it runs past vertices that are left out
+  };
+
+  /// Of a loop with kept vertices.
+  void append_edges(std::size_t l, std::vector<Edge>& edges) const {
+    const auto vertices = loop(l);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (!is_kept_[at(vertices[i])]) continue;
+      std::size_t next = i + 1;
+      while (!is_kept_[at(vertices[next % vertices.size()])]) ++next;
+      edges.push_back({vertices[i], vertices[next % vertices.size()], l, i, next > i + 1});
+    }
+  }
+
+  /// The edges that may have the same ends as another one. The mesh has no two edges with the same
+  /// ends, so of two such edges here at least one is long.
+  [[nodiscard]] std::vector<Edge> doubtful_edges() const {
+    if (std::ranges::all_of(vertices_, [&](int v) { return is_kept_[at(v)] != 0; })) return {};
+    std::vector<Edge> edges;
+    for (std::size_t l = 0; l < loop_count(); ++l) append_edges(l, edges);
+    std::vector<char> starts_long(is_kept_.size(), 0);
+    for (const Edge& edge : edges)
+      if (edge.is_long) starts_long[at(edge.from)] = 1;
+    std::erase_if(edges, [&](const Edge& edge) { return !starts_long[at(edge.from)]; });
+    return edges;
+  }
+
   /// Of edges with the same ends keeps the vertices between; true if there were any.
   bool keep_between_equal_ends() {
-    struct Edge {
-      int from, to;
-      const Loop* loop;
-      std::size_t start;  ///< the place of `from` in the loop
-    };
-    std::vector<Edge> edges;
-    for (const auto& [facet, loop] : loops_)
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        if (!is_kept_[at(loop[i])]) continue;
-        std::size_t next = i + 1;
-        while (!is_kept_[at(loop[next % loop.size()])]) ++next;
-        edges.push_back({loop[i], loop[next % loop.size()], &loop, i});
-      }
+    std::vector<Edge> edges = doubtful_edges();
     std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.from, e.to); });
     bool has_changed = false;
     const auto keep_between = [&](const Edge& edge) {
+      const auto vertices = loop(edge.loop);
       for (std::size_t i = edge.start + 1;; ++i) {
-        const int v = (*edge.loop)[i % edge.loop->size()];
+        const int v = vertices[i % vertices.size()];
         if (v == edge.to) return;
         is_kept_[at(v)] = 1;
         has_changed = true;
@@ -165,19 +181,34 @@ class Drafter {
     return has_changed;
   }
 
+  /// The loops by facet, with the vertices that are kept.
+  void collect_loops() {
+    Buckets loops_of_facet = sort_into_buckets(facet_of_loop_, draft_.facet_count());
+    draft_.vertices.reserve(vertices_.size());
+    draft_.first_vertex.reserve(loop_count() + 1);
+    draft_.first_vertex.push_back(0);
+    for (const int l : loops_of_facet.items) {
+      for (const int v : loop(at(l)))
+        if (is_kept_[at(v)]) draft_.vertices.push_back(v);
+      draft_.first_vertex.push_back(static_cast<int>(draft_.vertices.size()));
+    }
+    draft_.first_loop = std::move(loops_of_facet.first);
+  }
+
   const Soup& soup_;
   const PlaneClusters& clusters_;
-  const ShellMesh& shell_;
-  std::vector<int> facet_of_, component_of_;
-  int facet_count_ = 0, component_count_ = 0;
-  std::vector<std::pair<int, Loop>> loops_;
+  const ShellMesh& mesh_;
+  FacetDraft draft_;
+  std::vector<char> is_rim_;
+  // The loops as found: of each its facet, its first vertex (one entry more), all vertices.
+  std::vector<int> facet_of_loop_, first_vertex_, vertices_;
   std::vector<char> is_kept_;
 };
 
 }  // namespace
 
-FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& shell) {
-  return Drafter(soup, clusters, shell).run();
+FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh) {
+  return Drafter(soup, clusters, mesh).run();
 }
 
 }  // namespace oriel::detail

@@ -1,11 +1,11 @@
 #include "kernel/solidify/detail/shell_mesh.h"
 
+#include "kernel/solidify/detail/edge_groups.h"
+
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,213 +15,138 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// One side of an edge: the `i`-th edge of a ring of a polygon.
-struct Side {
-  int from = -1, to = -1;
-  int polygon = -1;
-  int next = -1;  ///< the side after it on its ring
-};
-
-/// All sides, ring after ring.
-std::vector<Side> sides_of(const Soup& soup) {
-  std::vector<Side> sides;
-  for (int p = 0; p < std::ssize(soup.polygons); ++p)
-    for (const auto& ring : soup.polygons[at(p)].rings) {
-      const int first = static_cast<int>(sides.size());
-      for (std::size_t i = 0; i < ring.size(); ++i)
-        sides.push_back({ring[i], ring[(i + 1) % ring.size()], p,
-                         first + static_cast<int>((i + 1) % ring.size())});
-    }
-  return sides;
-}
-
-/// The sides grouped by body and undirected edge.
-std::vector<std::vector<int>> group_by_edge(const Soup& soup, const std::vector<Side>& sides) {
-  const auto key = [&](int s) {
-    const auto [low, high] = std::minmax(sides[at(s)].from, sides[at(s)].to);
-    return std::tuple(soup.polygons[at(sides[at(s)].polygon)].body, low, high);
-  };
-  std::vector<int> order(sides.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order,
-                    [&](int s, int t) { return std::tuple(key(s), s) < std::tuple(key(t), t); });
-  std::vector<std::vector<int>> groups;
-  for (const int s : order) {
-    if (groups.empty() || key(groups.back().front()) != key(s)) groups.emplace_back();
-    groups.back().push_back(s);
-  }
-  return groups;
-}
-
-/// Which polygons must be turned round so that the two sides of every edge with two sides run
-/// against each other. Nothing if there is no such choice. Each connected patch keeps the
-/// orientation of most of its polygons.
-std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const std::vector<Side>& sides,
-                                                  const std::vector<std::vector<int>>& groups) {
-  struct Neighbour {
-    int polygon;
-    bool is_against;  ///< they disagree as they are
-  };
-  std::vector<std::vector<Neighbour>> neighbours(soup.polygons.size());
-  for (const auto& group : groups) {
-    if (group.size() != 2) continue;
-    const Side &s = sides[at(group[0])], &t = sides[at(group[1])];
-    const bool is_against = s.from == t.from;
-    neighbours[at(s.polygon)].push_back({t.polygon, is_against});
-    neighbours[at(t.polygon)].push_back({s.polygon, is_against});
-  }
-  std::vector<char> turned(soup.polygons.size(), 2);  // 2: not seen yet
-  for (int start = 0; start < std::ssize(soup.polygons); ++start) {
-    if (turned[at(start)] != 2) continue;
-    turned[at(start)] = 0;
-    std::vector<int> patch{start};
-    std::ptrdiff_t turns = 0;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const int p = patch[i];
-      turns += turned[at(p)];
-      for (const auto [q, is_against] : neighbours[at(p)]) {
-        const char wanted = static_cast<char>(turned[at(p)] ^ static_cast<char>(is_against));
-        if (turned[at(q)] == 2) {
-          turned[at(q)] = wanted;
-          patch.push_back(q);
-        } else if (turned[at(q)] != wanted) {
-          return std::nullopt;
-        }
+/// Fills `previous`, `next` and `polygon_of`.
+void link_rings(const Soup& soup, ShellMesh& mesh) {
+  mesh.previous.resize(soup.corners.size());
+  mesh.next.resize(soup.corners.size());
+  mesh.polygon_of.resize(soup.corners.size());
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    for (const int r : soup.rings_of(p)) {
+      const int begin = soup.first_corner[at(r)], end = soup.first_corner[at(r) + 1];
+      for (int h = begin; h < end; ++h) {
+        mesh.previous[at(h)] = h - 1;
+        mesh.next[at(h)] = h + 1;
+        mesh.polygon_of[at(h)] = p;
       }
+      mesh.previous[at(begin)] = end - 1;
+      mesh.next[at(end) - 1] = begin;
     }
-    if (2 * turns > std::ssize(patch))
-      for (const int p : patch) turned[at(p)] ^= 1;
-  }
-  return turned;
 }
 
-void turn_round(SoupPolygon& polygon) {
-  for (auto& ring : polygon.rings) std::reverse(ring.begin() + 1, ring.end());
+void turn_round(Soup& soup, const std::vector<char>& turned) {
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    if (turned[at(p)] == 1)
+      for (const int r : soup.rings_of(p)) {
+        const auto ring = soup.ring(r);
+        std::reverse(ring.begin() + 1, ring.end());
+      }
 }
 
-Vec3 difference(const Soup& soup, int to, int from) {
-  const auto &p = soup.points[at(to)], &q = soup.points[at(from)];
-  return {static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]),
-          static_cast<double>(p[2] - q[2])};
-}
-
-Vec3 area_vector(const Soup& soup, const SoupPolygon& polygon) {
-  Vec3 sum;
-  const int base = polygon.rings[0][0];
-  for (const auto& ring : polygon.rings)
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      sum = sum + cross(difference(soup, ring[i], base),
-                        difference(soup, ring[(i + 1) % ring.size()], base));
-  return sum;
-}
-
-/// Pairs the sides of one edge so that each pair encloses material: going round the edge, material
-/// begins at a side that runs down it and ends at the next one, which runs up. False if they do not
-/// alternate.
-bool pair_around(const Soup& soup, const std::vector<Side>& sides, const std::vector<int>& group,
-                 std::vector<int>& twin) {
-  const auto [low, high] = std::minmax(sides[at(group[0])].from, sides[at(group[0])].to);
-  const Vec3 axis = normalised(difference(soup, high, low));
-  struct Ray {
-    double angle;
-    bool runs_up;
-    int side;
-  };
-  std::vector<Ray> rays;
-  Vec3 u, v;
-  for (const int s : group) {
-    const bool runs_up = sides[at(s)].from == low;
-    const Vec3 normal = normalised(area_vector(soup, soup.polygons[at(sides[at(s)].polygon)]));
-    const Vec3 inward = cross(normal, runs_up ? axis : -axis);
-    if (rays.empty()) {
-      u = normalised(inward - dot(inward, axis) * axis);
-      v = cross(axis, u);
+/// Fills `twin`. Returns the groups with more than two half-edges.
+std::vector<EdgeGroup> pair_half_edges(const Soup& soup, const EdgeGroups& groups,
+                                       const std::string& building, ShellMesh& mesh,
+                                       std::vector<Issue>& issues) {
+  mesh.twin.assign(soup.corners.size(), -1);
+  std::vector<EdgeGroup> crowded;
+  EdgeGroup unpaired;  // the first one by body
+  groups.for_each([&](EdgeGroup group) {
+    if (group.size() == 1) return;
+    const std::size_t g = at(group[0].place), h = at(group[1].place);
+    if (group.size() == 2 && soup.corners[g] != soup.corners[h]) {
+      mesh.twin[g] = group[1].place;
+      mesh.twin[h] = group[0].place;
+      return;
     }
-    rays.push_back({std::atan2(dot(inward, v), dot(inward, u)), runs_up, s});
+    crowded.push_back(group);
+    if (pair_around(soup, group, mesh)) return;
+    if (unpaired.empty() || groups.body_of(group[0]) < groups.body_of(unpaired[0]))
+      unpaired = group;
+  });
+  if (!unpaired.empty()) {
+    const std::size_t h = at(unpaired[0].place);
+    issues.push_back(building_issue(
+        Severity::error, "E303", building,
+        fmt::format("{} polygons meet at the edge {} – {} and do not pair up (val3dity 303)",
+                    unpaired.size(), place_text(soup, soup.corners[h]),
+                    place_text(soup, soup.corners[at(mesh.next[h])]))));
   }
-  std::ranges::sort(rays, {}, [](const Ray& r) { return std::tuple(r.angle, r.side); });
-  const auto start = std::ranges::find(rays, false, &Ray::runs_up) - rays.begin();
-  if (start == std::ssize(rays)) return false;
-  std::ranges::rotate(rays, rays.begin() + start);
-  for (std::size_t i = 0; i + 1 < rays.size(); i += 2) {
-    if (rays[i].runs_up || !rays[i + 1].runs_up) return false;
-    twin[at(rays[i].side)] = rays[i + 1].side;
-    twin[at(rays[i + 1].side)] = rays[i].side;
-  }
-  return rays.size() % 2 == 0;
+  return crowded;
 }
 
-/// The twin of every side, -1 where an edge stays open.
-std::vector<int> pair_sides(const Soup& soup, const std::vector<Side>& sides,
-                            const std::vector<std::vector<int>>& groups,
-                            const std::string& building, std::vector<Issue>& issues) {
-  std::vector<int> twin(sides.size(), -1);
-  for (const auto& group : groups) {
-    if (group.size() == 1) continue;
-    if (group.size() == 2 && sides[at(group[0])].from != sides[at(group[1])].from) {
-      twin[at(group[0])] = group[1];
-      twin[at(group[1])] = group[0];
-    } else if (!pair_around(soup, sides, group, twin)) {
-      const Side& s = sides[at(group[0])];
-      issues.push_back(building_issue(
-          Severity::error, "E303", building,
-          fmt::format("{} polygons meet at the edge {} – {} and do not pair up (val3dity 303)",
-                      group.size(), place_text(soup, s.from), place_text(soup, s.to))));
-      return twin;
+/// Fills `vertex_of` and `point_of`: the half-edges that leave a point are one vertex as far as
+/// they follow each other round it. Vertices are numbered by their first half-edge.
+void tell_vertices_apart(const Soup& soup, ShellMesh& mesh) {
+  mesh.vertex_of.assign(mesh.half_edge_count(), -1);
+  mesh.point_of.clear();
+  mesh.point_of.reserve(soup.points.size());
+  for (int start = 0; start < soup.corner_count(); ++start) {
+    if (mesh.vertex_of[at(start)] >= 0) continue;
+    const int vertex = static_cast<int>(mesh.point_of.size());
+    mesh.point_of.push_back(soup.corners[at(start)]);
+    for (int h = start; mesh.vertex_of[at(h)] < 0;) {
+      mesh.vertex_of[at(h)] = vertex;
+      const int twin = mesh.twin[at(h)];
+      if (twin < 0) break;
+      h = mesh.next[at(twin)];
+    }
+    // At an open edge the fan ends; what is left of it lies the other way round.
+    for (int h = start; (h = mesh.twin[at(mesh.previous[at(h)])]) >= 0;) {
+      if (mesh.vertex_of[at(h)] >= 0) break;
+      mesh.vertex_of[at(h)] = vertex;
     }
   }
-  return twin;
 }
 
-/// For every side the sheet (set of sides around one point that touch) of its start: sheets count
-/// from 0.
-std::vector<int> sheets_of(const std::vector<Side>& sides, const std::vector<int>& twin,
-                           int& count) {
-  std::vector<int> sheet(sides.size());
-  std::iota(sheet.begin(), sheet.end(), 0);
-  const auto find = [&](int s) {
-    while (sheet[at(s)] != s) s = sheet[at(s)] = sheet[at(sheet[at(s)])];
-    return s;
-  };
-  for (int s = 0; s < std::ssize(sides); ++s) {
-    if (twin[at(s)] < 0) continue;
-    const int i = find(s), j = find(sides[at(twin[at(s)])].next);
-    sheet[at(std::max(i, j))] = std::min(i, j);
-  }
-  std::vector<int> number(sides.size(), -1);
-  std::vector<int> out(sides.size());
-  count = 0;
-  for (int s = 0; s < std::ssize(sides); ++s) {
-    int& n = number[at(find(s))];
-    if (n < 0) n = count++;
-    out[at(s)] = n;
-  }
-  return out;
-}
-
-/// Two edges between the same two sheets, each with its own pair of polygons: a half-edge mesh has
-/// no two edges between the same two vertices, so all but the first get a point in their middle.
-/// False if there are none.
-bool part_double_edges(Soup& soup, const std::vector<Side>& sides, const std::vector<int>& twin,
-                       const std::vector<int>& sheet) {
+/// Two edges between the same two vertices, each with its own pair of polygons: an edge is known by
+/// its ends, so all but the first get a point in their middle. False if there are none.
+bool part_double_edges(Soup& soup, const ShellMesh& mesh, const std::vector<EdgeGroup>& crowded) {
+  std::vector<int> paired;
+  for (const EdgeGroup& group : crowded)
+    for (const SortedEdge& edge : group)
+      if (edge.place < mesh.twin[at(edge.place)]) paired.push_back(edge.place);
+  std::ranges::sort(paired);
   std::set<std::pair<int, int>> seen;
-  std::map<int, int> middle_of;  // by side: the point to come after its start
-  for (int s = 0; s < std::ssize(sides); ++s) {
-    const int t = twin[at(s)];
-    if (t < s || seen.insert(std::minmax({sheet[at(s)], sheet[at(t)]})).second) continue;
-    const auto &p = soup.points[at(sides[at(s)].from)], &q = soup.points[at(sides[at(s)].to)];
-    middle_of[s] = middle_of[t] = static_cast<int>(soup.points.size());
+  std::map<int, int> middle_of;  // by half-edge: the point to come after its start
+  for (const int h : paired) {
+    const int twin = mesh.twin[at(h)];
+    if (seen.insert(std::minmax({mesh.vertex_of[at(h)], mesh.vertex_of[at(twin)]})).second)
+      continue;
+    const auto &p = soup.points[at(soup.corners[at(h)])],
+               &q = soup.points[at(soup.corners[at(twin)])];
+    middle_of[h] = middle_of[twin] = static_cast<int>(soup.points.size());
     soup.points.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
   }
-  int side = static_cast<int>(sides.size());
-  for (int p = static_cast<int>(soup.polygons.size()); p-- > 0;)
-    for (std::size_t r = soup.polygons[at(p)].rings.size(); r-- > 0;) {
-      auto& ring = soup.polygons[at(p)].rings[r];
-      for (std::size_t i = ring.size(); i-- > 0;)
-        if (const auto found = middle_of.find(--side); found != middle_of.end())
-          ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, found->second);
+  std::vector<int> corners, first_corner{0};
+  for (int r = 0; r < soup.ring_count(); ++r) {
+    for (int h = soup.first_corner[at(r)]; h < soup.first_corner[at(r) + 1]; ++h) {
+      corners.push_back(soup.corners[at(h)]);
+      if (const auto middle = middle_of.find(h); middle != middle_of.end())
+        corners.push_back(middle->second);
     }
+    first_corner.push_back(static_cast<int>(corners.size()));
+  }
+  soup.corners = std::move(corners);
+  soup.first_corner = std::move(first_corner);
   return !middle_of.empty();
+}
+
+/// A second half-edge from one vertex to the same other one is an error.
+void refuse_double_edges(const Soup& soup, const ShellMesh& mesh, const std::string& building,
+                         std::vector<Issue>& issues) {
+  std::set<std::pair<int, int>> seen;
+  for (int r = 0; r < soup.ring_count(); ++r) {
+    std::vector<std::pair<int, int>> edges;
+    for (int h = soup.first_corner[at(r)]; h < soup.first_corner[at(r) + 1]; ++h)
+      edges.emplace_back(mesh.vertex_of[at(h)], mesh.vertex_of[at(mesh.next[at(h)])]);
+    if (std::ranges::none_of(edges, [&](const auto& edge) { return seen.contains(edge); })) {
+      seen.insert(edges.begin(), edges.end());
+      continue;
+    }
+    issues.push_back(building_issue(
+        Severity::error, "E303", building,
+        fmt::format("the ring that starts at {} does not fit its neighbours (val3dity 303)",
+                    place_text(soup, soup.ring(r).front()))));
+  }
 }
 
 }  // namespace
@@ -232,58 +157,37 @@ std::string place_text(const Soup& soup, int point) {
 }
 
 ShellMesh build_shell_mesh(Soup& soup, const std::string& building, std::vector<Issue>& issues) {
-  ShellMesh shell;
-  std::vector<Side> sides = sides_of(soup);
-  auto groups = group_by_edge(soup, sides);
-  const auto turned = polygons_to_turn(soup, sides, groups);
+  ShellMesh mesh;
+  link_rings(soup, mesh);
+  EdgeGroups groups(soup, mesh);
+  const auto turned = polygons_to_turn(soup, mesh, groups);
   if (!turned) {
     issues.push_back(building_issue(Severity::error, "E307", building,
                                     "the polygons cannot be oriented alike (val3dity 307)"));
-    return shell;
+    return mesh;
   }
   if (const auto turns = std::ranges::count(*turned, 1); turns > 0) {
-    for (int p = 0; p < std::ssize(soup.polygons); ++p)
-      if ((*turned)[at(p)] == 1) turn_round(soup.polygons[at(p)]);
+    turn_round(soup, *turned);
     issues.push_back(building_issue(
         Severity::warning, "E308", building,
         fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
                     turns)));
-    sides = sides_of(soup);
-    groups = group_by_edge(soup, sides);
+    groups = EdgeGroups(soup, mesh);
   }
-  std::vector<int> twin = pair_sides(soup, sides, groups, building, issues);
-  if (has_errors(issues)) return shell;
+  auto crowded = pair_half_edges(soup, groups, building, mesh, issues);
+  if (has_errors(issues)) return mesh;
+  tell_vertices_apart(soup, mesh);
+  if (crowded.empty()) return mesh;
 
-  int sheets = 0;
-  std::vector<int> sheet = sheets_of(sides, twin, sheets);
-  if (std::ranges::find(twin, -1) == twin.end() && part_double_edges(soup, sides, twin, sheet)) {
-    sides = sides_of(soup);
-    twin = pair_sides(soup, sides, group_by_edge(soup, sides), building, issues);
-    sheet = sheets_of(sides, twin, sheets);
+  const bool is_open = std::ranges::find(mesh.twin, -1) != mesh.twin.end();
+  if (!is_open && part_double_edges(soup, mesh, crowded)) {
+    link_rings(soup, mesh);
+    groups = EdgeGroups(soup, mesh);
+    pair_half_edges(soup, groups, building, mesh, issues);
+    tell_vertices_apart(soup, mesh);
   }
-  shell.point_of.resize(at(sheets));
-  for (int s = 0; s < std::ssize(sides); ++s) shell.point_of[at(sheet[at(s)])] = sides[at(s)].from;
-  omerr().disable();  // what it cannot take is told as E303
-  shell.mesh.reserve(at(sheets), sides.size() / 2, soup.polygons.size());
-  for (const int point : shell.point_of) {
-    const Vec3 p = exact::to_metres(soup.points[at(point)], soup.grid_m);
-    shell.mesh.add_vertex({p.x, p.y, p.z});
-  }
-  int side = 0;
-  std::vector<OpenMesh::VertexHandle> ring_vertices;
-  for (int p = 0; p < std::ssize(soup.polygons); ++p)
-    for (const auto& ring : soup.polygons[at(p)].rings) {
-      ring_vertices.clear();
-      for (std::size_t i = 0; i < ring.size(); ++i, ++side)
-        ring_vertices.emplace_back(sheet[at(side)]);
-      if (!shell.mesh.add_face(ring_vertices).is_valid())
-        issues.push_back(building_issue(
-            Severity::error, "E303", building,
-            fmt::format("the ring that starts at {} does not fit its neighbours (val3dity 303)",
-                        place_text(soup, ring[0]))));
-      shell.polygon_of.push_back(p);
-    }
-  return shell;
+  refuse_double_edges(soup, mesh, building, issues);
+  return mesh;
 }
 
 }  // namespace oriel::detail

@@ -3,34 +3,33 @@
 #include "kernel/model/issue.h"
 #include "kernel/solidify/detail/soup.h"
 
+#include <string>
 #include <vector>
-
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
 namespace oriel::detail {
 
-struct ShellTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  VertexAttributes(OpenMesh::Attributes::None);
-  HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge);
-};
-
-/// The half-edge mesh of a soup with one OpenMesh face per ring (OpenMesh's faces have no holes):
-/// an inner ring runs clockwise, so it meets its neighbours just as an outer one does. A point at
-/// which several sheets meet is one mesh vertex per sheet, because OpenMesh refuses what is not
-/// manifold.
+/// The half-edges of a soup: half-edge `h` runs along its ring from corner `h` of the soup to the
+/// next one. Rings are faces: an inner ring runs clockwise, so it meets its neighbours just as an
+/// outer one does. A point at which several sheets (fans of polygons) meet is one vertex per sheet.
 struct ShellMesh {
-  using Mesh = OpenMesh::PolyMesh_ArrayKernelT<ShellTraits>;
-  Mesh mesh;
-  /// The polygon of each face, the point of each vertex: indices into Soup.
+  /// The half-edges before and after each on its ring.
+  std::vector<int> previous, next;
+  /// The opposite half-edge, -1 where an edge is open.
+  std::vector<int> twin;
+  /// The polygon of the soup that each half-edge bounds.
   std::vector<int> polygon_of;
+  /// The vertex at which each half-edge starts.
+  std::vector<int> vertex_of;
+  /// The point of the soup of each vertex.
   std::vector<int> point_of;
+
+  [[nodiscard]] std::size_t half_edge_count() const { return next.size(); }
+  [[nodiscard]] std::size_t vertex_count() const { return point_of.size(); }
 };
 
-/// Turns polygons round until neighbours agree (E308 with their number), pairs the edges, and
-/// builds the mesh. Where more than two polygons meet at an edge they are paired around it so that
-/// every pair encloses material. The soup's rings are turned round along. Edges that stay single
-/// become boundary edges of the mesh.
+/// Turns polygons round until neighbours agree (E308 with their number), pairs the half-edges, and
+/// tells vertices apart. Where more than two polygons meet at an edge they are paired around it so
+/// that every pair encloses material. The soup's rings are turned round along.
 ///
 /// Errors: E303 an edge whose polygons do not pair up, E307 polygons that cannot be oriented alike.
 /// The mesh is then not to be used.

@@ -1,8 +1,12 @@
 #include "kernel/solidify/detail/snap.h"
 
+#include "kernel/model/detail/counting_sort.h"
+#include "kernel/solidify/detail/disjoint_sets.h"
+
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <unordered_map>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -39,48 +43,69 @@ Vec3 least_squares(const std::vector<Plane>& planes, Vec3 start) {
   return start + shift;
 }
 
+/// The same plane in space, whichever way round.
+bool is_same_unoriented(const Plane& p, const Plane& q) {
+  if (p.coefficients == q.coefficients) return p.offset == q.offset;
+  return p.offset == -q.offset && p.coefficients[0] == -q.coefficients[0] &&
+         p.coefficients[1] == -q.coefficients[1] && p.coefficients[2] == -q.coefficients[2];
+}
+
 class Snapper {
  public:
-  Snapper(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& shell,
-          FacetDraft& draft, const Tolerances& tolerances)
-      : soup_(soup), clusters_(clusters), shell_(shell), draft_(draft), tolerances_(tolerances) {}
+  Snapper(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh, FacetDraft draft,
+          const Tolerances& tolerances)
+      : soup_(soup),
+        clusters_(clusters),
+        mesh_(mesh),
+        draft_(std::move(draft)),
+        tolerances_(tolerances),
+        merged_(mesh.vertex_count()) {}
 
-  Solid run(int& swallowed) {
+  SnappedSolid run() {
     collect_planes();
-    std::iota(merged_.begin(), merged_.end(), 0);
-    for (int v = 0; v < std::ssize(planes_of_); ++v) place(v);
+    place_of_.resize(mesh_.vertex_count());
+    for (int v = 0; v < std::ssize(place_of_); ++v) place(v);
     while (unite_close_neighbours()) {
     }
-    swallowed = drop_degenerate();
+    find_vanished();
     return assemble();
   }
 
  private:
+  /// The planes of every vertex, each once whichever way round.
   void collect_planes() {
-    planes_of_.resize(shell_.point_of.size());
-    place_of_.resize(shell_.point_of.size());
-    merged_.resize(shell_.point_of.size());
-    for (const Facet& facet : draft_.facets)
-      for (const Loop& loop : facet.loops)
-        for (const int v : loop)
-          planes_of_[at(v)].push_back(unoriented(clusters_.planes[facet.plane.index()]));
-    for (auto& planes : planes_of_) make_unique(planes);
+    first_plane_.assign(mesh_.vertex_count() + 1, 0);
+    for (const int v : draft_.vertices) ++first_plane_[at(v) + 1];
+    std::partial_sum(first_plane_.begin(), first_plane_.end(), first_plane_.begin());
+    plane_count_.assign(mesh_.vertex_count(), 0);
+    planes_.resize(draft_.vertices.size());
+    for (std::size_t f = 0; f < draft_.facet_count(); ++f)
+      for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l)
+        for (const int v : draft_.loop(at(l))) {
+          const auto known = planes_of(v);
+          if (std::ranges::none_of(known, [&](int p) { return is_same(p, draft_.plane[f]); }))
+            planes_[at(first_plane_[at(v)] + plane_count_[at(v)]++)] = draft_.plane[f];
+        }
   }
 
-  static void make_unique(std::vector<Plane>& planes) {
-    const auto key = [](const Plane& p) { return std::tuple(p.coefficients, p.offset); };
-    std::ranges::sort(planes, {}, key);
-    planes.erase(std::unique(planes.begin(), planes.end(),
-                             [&](const Plane& p, const Plane& q) { return key(p) == key(q); }),
-                 planes.end());
+  [[nodiscard]] bool is_same(int p, int q) const {
+    return p == q || is_same_unoriented(clusters_.planes[at(p)], clusters_.planes[at(q)]);
+  }
+
+  [[nodiscard]] std::span<const int> planes_of(int v) const {
+    const auto merged = planes_of_merged_.find(v);
+    if (merged != planes_of_merged_.end()) return merged->second;
+    return {planes_.data() + first_plane_[at(v)], at(plane_count_[at(v)])};
   }
 
   void place(int v) {
-    const auto& planes = planes_of_[at(v)];
+    const auto planes = planes_of(v);
     if (planes.empty()) return;
-    const Vec3 start = exact::to_metres(soup_.points[at(shell_.point_of[at(v)])], soup_.grid_m);
+    const Vec3 start = exact::to_metres(soup_.points[at(mesh_.point_of[at(v)])], soup_.grid_m);
     if (planes.size() == 3) {
-      const auto meeting = exact::meet(planes[0], planes[1], planes[2]);
+      const auto meeting =
+          exact::meet(clusters_.planes[at(planes[0])], clusters_.planes[at(planes[1])],
+                      clusters_.planes[at(planes[2])]);
       if (meeting) {
         const Vec3 point = exact::to_metres(*meeting, soup_.grid_m);
         if (length(point - start) <= 4 * tolerances_.plane_offset_m) {
@@ -89,143 +114,178 @@ class Snapper {
         }
       }
     }
-    const Vec3 best = least_squares(planes, start);
+    const Vec3 best = least_squares(sorted_planes(planes), start);
     place_of_[at(v)] = {exact::to_metres(exact::round_to_grid(best, soup_.grid_m), soup_.grid_m),
                         false};
   }
 
-  int find(int v) {
-    while (merged_[at(v)] != v) v = merged_[at(v)] = merged_[at(merged_[at(v)])];
-    return v;
+  /// In an order that their numbers have no part in.
+  [[nodiscard]] std::vector<Plane> sorted_planes(std::span<const int> planes) const {
+    std::vector<Plane> out;
+    for (const int p : planes) out.push_back(unoriented(clusters_.planes[at(p)]));
+    std::ranges::sort(out, {}, [](const Plane& p) { return std::tuple(p.coefficients, p.offset); });
+    return out;
   }
 
   /// One pass over all edges; true if a pair was united. The united vertex is placed anew, by all
   /// its planes.
   bool unite_close_neighbours() {
     bool has_changed = false;
-    for (const Facet& facet : draft_.facets)
-      for (const Loop& loop : facet.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-          const int v = find(loop[i]), w = find(loop[(i + 1) % loop.size()]);
-          if (v == w ||
-              length(place_of_[at(v)].point - place_of_[at(w)].point) >= tolerances_.weld_m)
-            continue;
-          const auto [first, second] = std::minmax(v, w);
-          merged_[at(second)] = first;
-          auto& planes = planes_of_[at(first)];
-          planes.insert(planes.end(), planes_of_[at(second)].begin(), planes_of_[at(second)].end());
-          make_unique(planes);
-          place(first);
-          has_changed = true;
-        }
+    for (std::size_t l = 0; l < draft_.loop_count(); ++l) {
+      const auto loop = draft_.loop(l);
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const int v = merged_.find(loop[i]);
+        const int w = merged_.find(loop[i + 1 < loop.size() ? i + 1 : 0]);
+        if (v == w || length(place_of_[at(v)].point - place_of_[at(w)].point) >= tolerances_.weld_m)
+          continue;
+        unite(std::min(v, w), std::max(v, w));
+        has_changed = true;
+      }
+    }
     return has_changed;
   }
 
-  /// The same vertices the other way round, from the same start.
-  static Loop reversed(Loop loop) {
-    std::reverse(loop.begin() + 1, loop.end());
-    return loop;
+  void unite(int first, int second) {
+    merged_.unite(first, second);
+    const auto mine = planes_of(first), theirs = planes_of(second);
+    std::vector<int> planes(mine.begin(), mine.end());
+    for (const int p : theirs)
+      if (std::ranges::none_of(mine, [&](int q) { return is_same(p, q); })) planes.push_back(p);
+    planes_of_merged_[first] = std::move(planes);
+    place(first);
   }
 
   /// Facets without a loop vanish, and so do pairs that lie back to back: the two sides of a fin
   /// that is thinner than the tolerances.
-  int drop_degenerate() {
-    int dropped = 0;
-    std::map<Loop, std::size_t> place_of_loop;  // of facets with one loop, among those kept
-    std::vector<char> is_folded;
-    std::vector<int> component;
-    std::vector<Facet> facets;
-    for (std::size_t f = 0; f < draft_.facets.size(); ++f) {
-      Facet& facet = draft_.facets[f];
-      for (Loop& loop : facet.loops) clean(loop);
-      std::erase_if(facet.loops, [](const Loop& loop) { return loop.size() < 3; });
-      if (facet.loops.empty()) {
-        ++dropped;
-        continue;
+  void find_vanished() {
+    has_vanished_.assign(draft_.facet_count(), 0);
+    loop_of_.assign(draft_.facet_count(), -1);
+    loop_size_.resize(draft_.loop_count());
+    // Facets with one loop by its first vertex: the newest, and before each the one before.
+    std::vector<int> newest(mesh_.vertex_count(), -1), before(draft_.facet_count(), -1);
+    for (int f = 0; f < std::ssize(has_vanished_); ++f) {
+      int loops = 0, loop = -1;
+      for (int l = draft_.first_loop[at(f)]; l < draft_.first_loop[at(f) + 1]; ++l) {
+        loop_size_[at(l)] = clean(draft_.loop(at(l)));
+        if (loop_size_[at(l)] < 3) continue;
+        ++loops;
+        loop = l;
       }
-      is_folded.push_back(0);
-      if (facet.loops.size() == 1) {
-        place_of_loop[facet.loops[0]] = facets.size();
-        const auto other = place_of_loop.find(reversed(facet.loops[0]));
-        if (other != place_of_loop.end()) is_folded.back() = is_folded[other->second] = 1;
-      }
-      facets.push_back(std::move(facet));
-      component.push_back(draft_.component[f]);
+      if (loops == 0) has_vanished_[at(f)] = 1;
+      if (loops != 1) continue;
+      loop_of_[at(f)] = loop;
+      int& head = newest[at(cleaned(loop)[0])];
+      before[at(f)] = head;
+      head = f;
+      for (int g = before[at(f)]; g >= 0; g = before[at(g)])
+        if (is_reversed(cleaned(loop), cleaned(loop_of_[at(g)]))) {
+          has_vanished_[at(f)] = has_vanished_[at(g)] = 1;
+          break;
+        }
     }
-    dropped += static_cast<int>(std::ranges::count(is_folded, 1));
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-      if (is_folded[f]) continue;
-      if (kept != f) {
-        facets[kept] = std::move(facets[f]);
-        component[kept] = component[f];
-      }
-      ++kept;
-    }
-    facets.resize(kept);
-    component.resize(kept);
-    draft_.facets = std::move(facets);
-    draft_.component = std::move(component);
-    return dropped;
   }
 
-  /// United vertices become one entry; a there-and-back (a, b, a) leaves a.
-  void clean(Loop& loop) {
-    Loop out;
+  /// The loop after clean(); fewer than three vertices are none.
+  [[nodiscard]] std::span<const int> cleaned(int loop) const {
+    return std::as_const(draft_).loop(at(loop)).first(loop_size_[at(loop)]);
+  }
+
+  /// The same vertices the other way round, from the same start.
+  static bool is_reversed(std::span<const int> loop, std::span<const int> other) {
+    return loop.size() == other.size() && loop[0] == other[0] && loop[1] == other.back() &&
+           std::equal(loop.begin() + 1, loop.end(), other.rbegin());
+  }
+
+  /// United vertices become one entry; a there-and-back (a, b, a) leaves a. What is left starts at
+  /// its smallest vertex. Returns its size.
+  std::size_t clean(std::span<int> loop) {
+    std::size_t size = 0;
     for (const int v : loop) {
-      const int w = find(v);
-      if (!out.empty() && out.back() == w) continue;
-      if (out.size() > 1 && out[out.size() - 2] == w)
-        out.pop_back();
+      const int w = merged_.find(v);
+      if (size > 0 && loop[size - 1] == w) continue;
+      if (size > 1 && loop[size - 2] == w)
+        --size;
       else
-        out.push_back(w);
+        loop[size++] = w;
     }
-    while (out.size() > 1 && out.front() == out.back()) out.pop_back();
-    while (out.size() > 2 && out[1] == out.back()) {
-      out.erase(out.begin());
-      out.pop_back();
+    std::size_t start = 0;
+    while (size - start > 1 && loop[start] == loop[size - 1]) --size;
+    while (size - start > 2 && loop[start + 1] == loop[size - 1]) {
+      ++start;
+      --size;
     }
-    if (!out.empty()) std::ranges::rotate(out, std::ranges::min_element(out));
-    loop = std::move(out);
+    const auto rest = loop.subspan(start, size - start);
+    std::ranges::rotate(rest, std::ranges::min_element(rest));
+    if (start > 0) std::ranges::copy(rest, loop.begin());
+    return rest.size();
   }
 
   /// Numbers the vertices in use in the order of the soup's points.
-  Solid assemble() {
-    Solid solid;
+  SnappedSolid assemble() {
+    SnappedSolid out;
+    Solid& solid = out.solid;
     solid.grid_m = soup_.grid_m;
     solid.planes = clusters_.planes;
-    std::vector<int> used;
-    for (const Facet& facet : draft_.facets)
-      for (const Loop& loop : facet.loops) used.insert(used.end(), loop.begin(), loop.end());
-    std::ranges::sort(used, {}, [&](int v) { return std::tuple(shell_.point_of[at(v)], v); });
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::vector<int> number(planes_of_.size(), -1);
-    for (const int v : used) {
+    const std::vector<int> number = number_vertices(solid);
+    const Buckets polygons = sort_into_buckets(draft_.facet_of, draft_.facet_count());
+    for (std::size_t f = 0; f < draft_.facet_count(); ++f) {
+      if (has_vanished_[f]) {
+        ++out.swallowed;
+        continue;
+      }
+      out.component.push_back(draft_.component[f]);
+      Facet& facet = solid.facets.emplace_back();
+      facet.plane = PlaneId{draft_.plane[f]};
+      for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l) {
+        if (loop_size_[at(l)] < 3) continue;
+        const auto vertices = cleaned(l);
+        Loop& loop = facet.loops.emplace_back(vertices.begin(), vertices.end());
+        for (int& v : loop) v = number[at(v)];
+      }
+      facet.polygons.reserve(polygons[f].size());
+      for (const int p : polygons[f]) facet.polygons.push_back(soup_.polygons[at(p)].source);
+      std::ranges::sort(facet.polygons);
+    }
+    return out;
+  }
+
+  /// Appends the vertices in use to the solid; returns their numbers there.
+  [[nodiscard]] std::vector<int> number_vertices(Solid& solid) const {
+    std::vector<int> number(mesh_.vertex_count(), -1);
+    for (std::size_t f = 0; f < draft_.facet_count(); ++f) {
+      if (has_vanished_[f]) continue;
+      for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l)
+        if (loop_size_[at(l)] >= 3)
+          for (const int v : cleaned(l)) number[at(v)] = 0;
+    }
+    for (const int v : sort_into_buckets(mesh_.point_of, soup_.points.size()).items) {
+      if (number[at(v)] < 0) continue;
       number[at(v)] = static_cast<int>(solid.vertices.size());
       solid.vertices.push_back(place_of_[at(v)]);
     }
-    solid.facets = std::move(draft_.facets);
-    for (Facet& facet : solid.facets)
-      for (Loop& loop : facet.loops)
-        for (int& v : loop) v = number[at(v)];
-    return solid;
+    return number;
   }
 
   const Soup& soup_;
   const PlaneClusters& clusters_;
-  const ShellMesh& shell_;
-  FacetDraft& draft_;
+  const ShellMesh& mesh_;
+  FacetDraft draft_;
   const Tolerances& tolerances_;
-  std::vector<std::vector<Plane>> planes_of_;
+  // The planes of vertex v: plane_count_[v] entries of planes_ from first_plane_[v] on.
+  std::vector<int> first_plane_, plane_count_, planes_;
+  std::unordered_map<int, std::vector<int>> planes_of_merged_;
   std::vector<Vertex> place_of_;
-  std::vector<int> merged_;
+  DisjointSets merged_;
+  std::vector<std::size_t> loop_size_;  ///< of each loop after clean()
+  std::vector<int> loop_of_;            ///< of a facet with one loop
+  std::vector<char> has_vanished_;
 };
 
 }  // namespace
 
-Solid snap_vertices(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& shell,
-                    FacetDraft& draft, const Tolerances& tolerances, int& swallowed) {
-  return Snapper(soup, clusters, shell, draft, tolerances).run(swallowed);
+SnappedSolid snap_vertices(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
+                           FacetDraft draft, const Tolerances& tolerances) {
+  return Snapper(soup, clusters, mesh, std::move(draft), tolerances).run();
 }
 
 }  // namespace oriel::detail

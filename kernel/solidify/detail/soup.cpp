@@ -1,11 +1,12 @@
 #include "kernel/solidify/detail/soup.h"
 
+#include "kernel/model/detail/counting_sort.h"
+#include "kernel/solidify/detail/near_points.h"
+
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <compare>
 #include <numeric>
-#include <tuple>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -13,116 +14,181 @@ namespace oriel::detail {
 
 namespace {
 
-/// Disjoint sets whose representative is the smallest member.
-class SmallestFirst {
- public:
-  explicit SmallestFirst(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  int find(int i) {
-    while (parent_[index(i)] != i) i = parent_[index(i)] = parent_[index(parent_[index(i)])];
-    return i;
+/// One number for a point, ordered as its coordinates: |coordinate| ≤ 2^32, so 34 bits hold each.
+exact::Int128 sort_key(const exact::GridPoint& point) {
+  exact::Int128 key = 0;
+  for (const std::int64_t c : point) key = (key << 34) | (c + (std::int64_t{1} << 33));
+  return key;
+}
+
+/// Fills Soup::points with the rounded vertices, sorted; returns the point of every vertex, united
+/// with those within reach.
+std::vector<int> weld_points(const Building& building, double reach, Soup& soup) {
+  struct Rounded {
+    exact::Int128 key;
+    int vertex;
+  };
+  std::vector<exact::GridPoint> grid_points;
+  std::vector<Rounded> rounded;
+  grid_points.reserve(building.vertices.size());
+  rounded.reserve(building.vertices.size());
+  for (const Vec3 p : building.vertices) {
+    grid_points.push_back(exact::round_to_grid(p, soup.grid_m));
+    rounded.push_back({sort_key(grid_points.back()), static_cast<int>(rounded.size())});
   }
-  void unite(int i, int j) {
-    i = find(i);
-    j = find(j);
-    parent_[index(std::max(i, j))] = std::min(i, j);
+  std::ranges::sort(rounded, {}, &Rounded::key);
+
+  std::vector<int> point_of(building.vertices.size());
+  soup.points.reserve(building.vertices.size());
+  for (std::size_t i = 0; i < rounded.size(); ++i) {
+    if (i == 0 || rounded[i].key != rounded[i - 1].key)
+      soup.points.push_back(grid_points[at(rounded[i].vertex)]);
+    point_of[at(rounded[i].vertex)] = static_cast<int>(soup.points.size()) - 1;
+  }
+  const std::vector<int> first = group_near_points(soup.points, reach);
+  for (int& point : point_of) point = first[at(point)];
+  return point_of;
+}
+
+/// Cuts rings into the simple rings they consist of and appends these to a soup.
+class RingCutter {
+ public:
+  explicit RingCutter(Soup& soup) : soup_(soup), place_in_path_(soup.points.size(), -1) {}
+
+  /// Where the ring comes back to a point (it touches itself, or a bridge ties a hole to its outer
+  /// ring) it is cut in two, and what has fewer than three vertices goes.
+  void append(std::span<const int> ring, std::span<const int> point_of) {
+    for (const int vertex : ring) {
+      const int v = point_of[at(vertex)];
+      if (place_in_path_[at(v)] >= 0) close_at(at(place_in_path_[at(v)]));
+      place_in_path_[at(v)] = static_cast<int>(path_.size());
+      path_.push_back(v);
+    }
+    close_at(0);
   }
 
  private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  std::vector<int> parent_;
-};
-
-struct Bucket {
-  std::int64_t x, y, z;
-  friend bool operator==(const Bucket&, const Bucket&) = default;
-};
-
-struct BucketHash {
-  std::size_t operator()(const Bucket& b) const noexcept {
-    std::uint64_t h = static_cast<std::uint64_t>(b.x) * 0x9E3779B97F4A7C15ULL;
-    h = (h ^ (h >> 31)) + static_cast<std::uint64_t>(b.y) * 0xBF58476D1CE4E5B9ULL;
-    h = (h ^ (h >> 29)) + static_cast<std::uint64_t>(b.z) * 0x94D049BB133111EBULL;
-    return h ^ (h >> 32);
-  }
-};
-
-double distance2(const exact::GridPoint& p, const exact::GridPoint& q) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto d = static_cast<double>(p[i] - q[i]);
-    sum += d * d;
-  }
-  return sum;
-}
-
-/// For every point of the sorted list the first point of its group; groups are united pairs closer
-/// than `reach`.
-std::vector<int> group_points(const std::vector<exact::GridPoint>& points, double reach) {
-  const auto edge = static_cast<std::int64_t>(std::ceil(reach));
-  const auto floor_div = [edge](std::int64_t c) {
-    return c >= 0 ? c / edge : -((-c + edge - 1) / edge);
-  };
-  std::unordered_map<Bucket, std::vector<int>, BucketHash> buckets;
-  SmallestFirst groups(points.size());
-  for (int i = 0; i < std::ssize(points); ++i) {
-    const auto& p = points[static_cast<std::size_t>(i)];
-    const Bucket home{floor_div(p[0]), floor_div(p[1]), floor_div(p[2])};
-    for (std::int64_t n = 0; n < 27; ++n) {
-      const auto found =
-          buckets.find({home.x + n % 3 - 1, home.y + n / 3 % 3 - 1, home.z + n / 9 - 1});
-      if (found == buckets.end()) continue;
-      for (const int j : found->second)
-        if (distance2(p, points[static_cast<std::size_t>(j)]) < reach * reach) groups.unite(i, j);
+  /// Appends the end of the path from place `start` as a ring, from its smallest vertex, and takes
+  /// it off the path.
+  void close_at(std::size_t start) {
+    const auto begin = path_.begin() + static_cast<std::ptrdiff_t>(start);
+    if (path_.end() - begin >= 3) {
+      const auto smallest = std::min_element(begin, path_.end());
+      soup_.corners.insert(soup_.corners.end(), smallest, path_.end());
+      soup_.corners.insert(soup_.corners.end(), begin, smallest);
+      soup_.first_corner.push_back(soup_.corner_count());
     }
-    buckets[home].push_back(i);
+    for (auto v = begin; v != path_.end(); ++v) place_in_path_[at(*v)] = -1;
+    path_.erase(begin, path_.end());
   }
-  std::vector<int> first(points.size());
-  for (int i = 0; i < std::ssize(points); ++i) first[static_cast<std::size_t>(i)] = groups.find(i);
-  return first;
+
+  Soup& soup_;
+  std::vector<int> path_;
+  std::vector<int> place_in_path_;  ///< of each point, -1 off the path
+};
+
+std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
+  const auto p = soup.ring(r), q = soup.ring(s);
+  return std::lexicographical_compare_three_way(p.begin(), p.end(), q.begin(), q.end());
 }
 
-/// The simple rings that a ring consists of: where it comes back to a vertex (it touches itself, or
-/// a bridge ties a hole to its outer ring) it is cut in two, and what has fewer than three vertices
-/// goes. Each starts at its smallest vertex.
-std::vector<std::vector<int>> simple_rings(const std::vector<int>& ring) {
-  std::vector<std::vector<int>> rings;
-  const auto keep = [&](std::vector<int> simple) {
-    if (simple.size() < 3) return;
-    std::ranges::rotate(simple, std::ranges::min_element(simple));
-    rings.push_back(std::move(simple));
-  };
-  std::vector<int> path;
-  for (const int v : ring) {
-    const auto seen = std::ranges::find(path, v);
-    if (seen != path.end()) {
-      keep({seen, path.end()});
-      path.erase(seen, path.end());
+/// Sorts the rings from `first` on.
+void sort_rings(Soup& soup, int first) {
+  std::vector<int> order(at(soup.ring_count() - first));
+  std::iota(order.begin(), order.end(), first);
+  const auto comes_first = [&](int r, int s) { return compare_rings(soup, r, s) < 0; };
+  if (std::ranges::is_sorted(order, comes_first)) return;
+  std::ranges::sort(order, comes_first);
+  std::vector<int> corners, first_corner;
+  const int begin = soup.first_corner[at(first)];
+  for (const int r : order) {
+    first_corner.push_back(begin + static_cast<int>(corners.size()));
+    corners.insert(corners.end(), soup.ring(r).begin(), soup.ring(r).end());
+  }
+  std::ranges::copy(corners, soup.corners.begin() + begin);
+  std::ranges::copy(first_corner, soup.first_corner.begin() + first);
+}
+
+/// Appends the building's polygons in its order. Returns how many have nothing left of their outer
+/// ring and were dropped.
+int append_polygons(const Building& building, std::span<const int> point_of, Soup& soup) {
+  int dropped = 0;
+  RingCutter cutter(soup);
+  for (const Polygon& polygon : building.polygons) {
+    const int first = soup.ring_count();
+    for (const auto& ring : polygon.rings) {
+      cutter.append(ring, point_of);
+      if (soup.ring_count() == first) break;
     }
-    path.push_back(v);
+    if (soup.ring_count() == first) {
+      ++dropped;
+      continue;
+    }
+    if (soup.ring_count() > first + 1) sort_rings(soup, first);
+    soup.polygons.push_back({polygon.source, polygon.body, polygon.shell});
+    soup.first_ring.push_back(soup.ring_count());
   }
-  keep(std::move(path));
-  return rings;
+  return dropped;
 }
 
-/// Replaces every entry by its place among the entries in use, which stay in order.
+/// Leaves only the points in use, in their order.
 void drop_unused_points(Soup& soup) {
   std::vector<int> place(soup.points.size(), -1);
-  for (const SoupPolygon& polygon : soup.polygons)
-    for (const auto& ring : polygon.rings)
-      for (const int v : ring) place[static_cast<std::size_t>(v)] = 0;
-  std::vector<exact::GridPoint> used;
+  for (const int v : soup.corners) place[at(v)] = 0;
+  int used = 0;
   for (std::size_t v = 0; v < place.size(); ++v) {
     if (place[v] < 0) continue;
-    place[v] = static_cast<int>(used.size());
-    used.push_back(soup.points[v]);
+    soup.points[at(used)] = soup.points[v];
+    place[v] = used++;
   }
-  soup.points = std::move(used);
-  for (SoupPolygon& polygon : soup.polygons)
-    for (auto& ring : polygon.rings)
-      for (int& v : ring) v = place[static_cast<std::size_t>(v)];
+  soup.points.resize(at(used));
+  for (int& v : soup.corners) v = place[at(v)];
+}
+
+/// The polygons by body, then rings, then source.
+std::vector<int> canonical_order(const Soup& soup) {
+  std::vector<int> smallest_point;
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    smallest_point.push_back(soup.corners_of(p).front());
+  Buckets buckets = sort_into_buckets(smallest_point, soup.points.size());
+  const auto comes_first = [&](int p, int q) {
+    const auto rings = soup.rings_of(p), others = soup.rings_of(q);
+    const auto order = std::lexicographical_compare_three_way(
+        rings.begin(), rings.end(), others.begin(), others.end(),
+        [&](int r, int s) { return compare_rings(soup, r, s); });
+    return order != 0 ? order < 0 : soup.polygons[at(p)].source < soup.polygons[at(q)].source;
+  };
+  for (std::size_t v = 0; v < soup.points.size(); ++v)
+    std::sort(buckets.items.begin() + buckets.first[v],
+              buckets.items.begin() + buckets.first[v + 1], comes_first);
+  const auto body = [&](int p) { return soup.polygons[at(p)].body; };
+  if (!std::ranges::is_sorted(buckets.items, {}, body))
+    std::ranges::stable_sort(buckets.items, {}, body);
+  return std::move(buckets.items);
+}
+
+void arrange_polygons(Soup& soup, const std::vector<int>& order) {
+  std::vector<SoupPolygon> polygons;
+  std::vector<int> first_ring{0}, first_corner{0}, corners;
+  polygons.reserve(soup.polygons.size());
+  first_ring.reserve(soup.first_ring.size());
+  first_corner.reserve(soup.first_corner.size());
+  corners.reserve(soup.corners.size());
+  for (const int p : order) {
+    polygons.push_back(soup.polygons[at(p)]);
+    for (const int r : soup.rings_of(p)) {
+      const auto ring = soup.ring(r);
+      corners.insert(corners.end(), ring.begin(), ring.end());
+      first_corner.push_back(static_cast<int>(corners.size()));
+    }
+    first_ring.push_back(static_cast<int>(first_corner.size()) - 1);
+  }
+  soup.polygons = std::move(polygons);
+  soup.first_ring = std::move(first_ring);
+  soup.first_corner = std::move(first_corner);
+  soup.corners = std::move(corners);
 }
 
 }  // namespace
@@ -132,45 +198,15 @@ double grid_for(double weld_m) { return std::exp2(std::floor(std::log2(weld_m / 
 Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Issue>& issues) {
   Soup soup;
   soup.grid_m = grid_for(tolerances.weld_m);
-  std::vector<exact::GridPoint> rounded;
-  rounded.reserve(building.vertices.size());
-  for (const Vec3 p : building.vertices) rounded.push_back(exact::round_to_grid(p, soup.grid_m));
-
-  soup.points = rounded;
-  std::ranges::sort(soup.points);
-  soup.points.erase(std::unique(soup.points.begin(), soup.points.end()), soup.points.end());
-  const std::vector<int> first = group_points(soup.points, tolerances.weld_m / soup.grid_m);
-  const auto welded = [&](int v) {
-    const auto found = std::ranges::lower_bound(soup.points, rounded[static_cast<std::size_t>(v)]);
-    return first[static_cast<std::size_t>(found - soup.points.begin())];
-  };
-
-  int dropped = 0;
-  for (const Polygon& polygon : building.polygons) {
-    SoupPolygon out{{}, polygon.source, polygon.body, polygon.shell};
-    for (const auto& ring : polygon.rings) {
-      std::vector<int> points;
-      for (const int v : ring) points.push_back(welded(v));
-      auto simple = simple_rings(points);
-      if (simple.empty() && out.rings.empty()) break;
-      std::ranges::move(simple, std::back_inserter(out.rings));
-    }
-    if (out.rings.empty()) {
-      ++dropped;
-      continue;
-    }
-    std::ranges::sort(out.rings);
-    soup.polygons.push_back(std::move(out));
-  }
+  const std::vector<int> point_of = weld_points(building, tolerances.weld_m / soup.grid_m, soup);
+  const int dropped = append_polygons(building, point_of, soup);
   if (dropped > 0)
     issues.push_back(building_issue(
         Severity::note, "E304", building.id,
         fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
                     tolerances.weld_m)));
   drop_unused_points(soup);
-  std::ranges::sort(soup.polygons, [](const SoupPolygon& p, const SoupPolygon& q) {
-    return std::tie(p.body, p.rings, p.source) < std::tie(q.body, q.rings, q.source);
-  });
+  arrange_polygons(soup, canonical_order(soup));
   return soup;
 }
 

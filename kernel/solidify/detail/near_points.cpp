@@ -1,0 +1,112 @@
+#include "kernel/solidify/detail/near_points.h"
+
+#include "kernel/solidify/detail/disjoint_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+namespace oriel::detail {
+
+namespace {
+
+using exact::GridPoint;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Finds the points that may have another one within reach. Cut wherever the next point along an
+/// axis is out of reach, a list falls into pieces that cannot reach each other; cut along all three
+/// axes, in most buildings into single points.
+class Candidates {
+ public:
+  Candidates(std::span<const GridPoint> points, double reach) : points_(points), reach_(reach) {}
+
+  /// Of sorted points.
+  std::vector<int> find() {
+    std::vector<int> all(points_.size());
+    std::iota(all.begin(), all.end(), 0);
+    cut(all, 0);
+    return std::move(found_);
+  }
+
+ private:
+  void cut(std::span<int> piece, std::size_t axis) {
+    if (piece.size() < 2) return;
+    if (axis == 3) {
+      found_.insert(found_.end(), piece.begin(), piece.end());
+      return;
+    }
+    const auto coordinate = [&](int i) { return points_[at(i)][axis]; };
+    if (!std::ranges::is_sorted(piece, {}, coordinate)) std::ranges::sort(piece, {}, coordinate);
+    std::size_t start = 0;
+    for (std::size_t i = 1; i <= piece.size(); ++i) {
+      if (i < piece.size() &&
+          static_cast<double>(coordinate(piece[i]) - coordinate(piece[i - 1])) < reach_)
+        continue;
+      cut(piece.subspan(start, i - start), axis + 1);
+      start = i;
+    }
+  }
+
+  std::span<const GridPoint> points_;
+  double reach_;
+  std::vector<int> found_;
+};
+
+struct Bucket {
+  std::int64_t x, y, z;
+  friend bool operator==(const Bucket&, const Bucket&) = default;
+};
+
+struct BucketHash {
+  std::size_t operator()(const Bucket& b) const noexcept {
+    std::uint64_t h = static_cast<std::uint64_t>(b.x) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ (h >> 31)) + static_cast<std::uint64_t>(b.y) * 0xBF58476D1CE4E5B9ULL;
+    h = (h ^ (h >> 29)) + static_cast<std::uint64_t>(b.z) * 0x94D049BB133111EBULL;
+    return h ^ (h >> 32);
+  }
+};
+
+double distance2(const GridPoint& p, const GridPoint& q) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto d = static_cast<double>(p[i] - q[i]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Unites the pairs among `members` that are closer than `reach`.
+void unite_near(std::span<const GridPoint> points, std::span<const int> members, double reach,
+                DisjointSets& groups) {
+  const auto edge = static_cast<std::int64_t>(std::ceil(reach));
+  const auto floor_div = [edge](std::int64_t c) {
+    return c >= 0 ? c / edge : -((-c + edge - 1) / edge);
+  };
+  std::unordered_map<Bucket, std::vector<int>, BucketHash> buckets;
+  for (const int i : members) {
+    const auto& p = points[at(i)];
+    const Bucket home{floor_div(p[0]), floor_div(p[1]), floor_div(p[2])};
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const auto found =
+          buckets.find({home.x + n % 3 - 1, home.y + n / 3 % 3 - 1, home.z + n / 9 - 1});
+      if (found == buckets.end()) continue;
+      for (const int j : found->second)
+        if (distance2(p, points[at(j)]) < reach * reach) groups.unite(i, j);
+    }
+    buckets[home].push_back(i);
+  }
+}
+
+}  // namespace
+
+std::vector<int> group_near_points(std::span<const GridPoint> points, double reach) {
+  DisjointSets groups(points.size());
+  unite_near(points, Candidates(points, reach).find(), reach, groups);
+  std::vector<int> first(points.size());
+  for (int i = 0; i < std::ssize(points); ++i) first[at(i)] = groups.find(i);
+  return first;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,86 @@
+#include "kernel/solidify/detail/polygon_shape.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace oriel::detail {
+
+namespace {
+
+using exact::GridPoint;
+using exact::Int128;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+GridPoint difference(const GridPoint& p, const GridPoint& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+
+void add_cross(const GridPoint& p, const GridPoint& q, exact::Vector128& sum) {
+  sum[0] += Int128{p[1]} * q[2] - Int128{p[2]} * q[1];
+  sum[1] += Int128{p[2]} * q[0] - Int128{p[0]} * q[2];
+  sum[2] += Int128{p[0]} * q[1] - Int128{p[1]} * q[0];
+}
+
+double to_double(Int128 value) {
+  const auto small = static_cast<std::int64_t>(value);
+  return small == value ? static_cast<double>(small) : static_cast<double>(value);
+}
+
+/// normal · point: below 2^62, as normals have 28 bits and coordinates 32.
+std::int64_t along(const Normal& normal, const GridPoint& point) {
+  return normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
+}
+
+}  // namespace
+
+Vec3 unit(const Normal& n) {
+  return normalised(
+      {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
+}
+
+double PolygonShape::uncertainty_rad(double offset) const {
+  return height > 2 * offset ? std::asin(2 * offset / height) : std::numbers::pi;
+}
+
+PolygonShape shape_of(const Soup& soup, int polygon) {
+  exact::Vector128 sum{};  // twice the area times the normal
+  double reach2 = 0;
+  const GridPoint& base = soup.points[at(soup.corners_of(polygon).front())];
+  for (const int r : soup.rings_of(polygon)) {
+    const auto ring = soup.ring(r);
+    GridPoint before = difference(soup.points[at(ring.back())], base);
+    for (const int v : ring) {
+      const GridPoint here = difference(soup.points[at(v)], base);
+      add_cross(before, here, sum);
+      const double x = static_cast<double>(here[0]), y = static_cast<double>(here[1]),
+                   z = static_cast<double>(here[2]);
+      reach2 = std::max(reach2, x * x + y * y + z * z);
+      before = here;
+    }
+  }
+  PolygonShape shape;
+  shape.normal = exact::direction(sum);
+  if (shape.normal) shape.unit = unit(*shape.normal);
+  shape.area = length({to_double(sum[0]), to_double(sum[1]), to_double(sum[2])}) / 2;
+  shape.height = reach2 > 0 ? shape.area / std::sqrt(reach2) : 0;
+  return shape;
+}
+
+Span span_along(const Soup& soup, int polygon, const Normal& normal) {
+  const auto corners = soup.corners_of(polygon);
+  Span span;
+  span.low = span.high = along(normal, soup.points[at(corners.front())]);
+  Int128 sum = 0;
+  for (const int v : corners) {
+    const std::int64_t d = along(normal, soup.points[at(v)]);
+    span.low = std::min(span.low, d);
+    span.high = std::max(span.high, d);
+    sum += d;
+  }
+  span.mean =
+      span.low == span.high ? span.low : static_cast<std::int64_t>(sum / std::ssize(corners));
+  return span;
+}
+
+}  // namespace oriel::detail

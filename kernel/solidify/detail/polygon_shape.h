@@ -1,0 +1,43 @@
+#pragma once
+
+#include "kernel/solidify/detail/soup.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace oriel::detail {
+
+/// An integer normal.
+using Normal = std::array<std::int64_t, 3>;
+
+Vec3 unit(const Normal& normal);
+
+/// What clustering needs to know of a polygon.
+struct PolygonShape {
+  std::optional<Normal> normal;  ///< of its own, missing for a polygon without area
+  Vec3 unit;                     ///< the unit vector of `normal`
+  double area = 0;               ///< grid units squared
+  double height = 0;             ///< area by longest reach, grid units
+
+  /// How far its own normal may be off if its vertices may be off by `offset` (grid units).
+  [[nodiscard]] double uncertainty_rad(double offset) const;
+};
+
+PolygonShape shape_of(const Soup& soup, int polygon);
+
+/// Where a polygon's vertices lie along a normal: normal · vertex.
+struct Span {
+  std::int64_t low = 0, high = 0, mean = 0;
+};
+
+Span span_along(const Soup& soup, int polygon, const Normal& normal);
+
+/// True if asin(sine) > limit; the arcsine is taken only where its bounds do not decide.
+inline bool is_arcsine_above(double sine, double limit) {
+  if (1.6 * sine <= limit) return false;   // asin(s) ≤ s · π / 2
+  if (sine > 1.0001 * limit) return true;  // asin(s) ≥ s
+  return std::asin(sine < 1 ? sine : 1.0) > limit;
+}
+
+}  // namespace oriel::detail
