@@ -54,11 +54,14 @@ bool is_closed(const Solid& solid) {
         from.push_back(loop[i]);
         to.push_back(loop[i + 1 < loop.size() ? i + 1 : 0]);
       }
-  const auto edges = detail::sort_edges(from, to, solid.vertices.size());
+  const auto ends_of = [&](int i) {
+    return detail::EdgeEnds(from[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(i)]);
+  };
+  const std::vector<int> edges = detail::sort_edges(from.size(), solid.vertices.size(), ends_of);
   int balance = 0;  // of the edges with the same ends: those that run up less those that run down
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (i > 0 && !edges[i].has_ends_of(edges[i - 1]) && balance != 0) return false;
-    const auto place = static_cast<std::size_t>(edges[i].place);
+    if (i > 0 && ends_of(edges[i]) != ends_of(edges[i - 1]) && balance != 0) return false;
+    const auto place = static_cast<std::size_t>(edges[i]);
     balance += (from[place] < to[place]) - (from[place] > to[place]);
   }
   return !edges.empty() && balance == 0;

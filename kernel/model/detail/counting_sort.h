@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -21,18 +22,36 @@ struct Buckets {
 /// Puts item `i` in bucket keys[i] < bucket_count; items of one bucket keep their order.
 Buckets sort_into_buckets(std::span<const int> keys, std::size_t bucket_count);
 
-/// A directed edge by its two ends and its place in the list it came from.
-struct SortedEdge {
-  int low = 0, high = 0, place = 0;
+/// Makes of the number of items in every bucket the place of its first item.
+void count_to_first(std::vector<int>& count);
 
-  [[nodiscard]] bool has_ends_of(const SortedEdge& other) const {
-    return low == other.low && high == other.high;
-  }
+/// The ends of an undirected edge, the smaller one first.
+struct EdgeEnds {
+  int low = 0, high = 0;
+  EdgeEnds(int from, int to) : low(from < to ? from : to), high(from < to ? to : from) {}
+  friend bool operator==(const EdgeEnds&, const EdgeEnds&) = default;
 };
 
-/// The edges from[i] → to[i] < vertex_count in the order of their smaller end, their larger end,
-/// their place: both directions of an edge come together.
-std::vector<SortedEdge> sort_edges(std::span<const int> from, std::span<const int> to,
-                                   std::size_t vertex_count);
+/// The edges 0…edge_count-1 in the order of their smaller end, their larger end, their number: both
+/// directions of an edge come together. `ends_of(i)` are the ends of edge `i`, vertices <
+/// vertex_count.
+template <class EndsOf>
+std::vector<int> sort_edges(std::size_t edge_count, std::size_t vertex_count, EndsOf ends_of) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  const int count = static_cast<int>(edge_count);
+  std::vector<int> of_low(vertex_count), of_high(vertex_count);
+  for (int i = 0; i < count; ++i) {
+    const EdgeEnds ends = ends_of(i);
+    ++of_low[at(ends.low)];
+    ++of_high[at(ends.high)];
+  }
+  count_to_first(of_low);
+  count_to_first(of_high);
+  // By the larger end, then stably by the smaller one.
+  std::vector<int> by_high(edge_count), sorted(edge_count);
+  for (int i = 0; i < count; ++i) by_high[at(of_high[at(ends_of(i).high)]++)] = i;
+  for (const int i : by_high) sorted[at(of_low[at(ends_of(i).low)]++)] = i;
+  return sorted;
+}
 
 }  // namespace oriel::detail

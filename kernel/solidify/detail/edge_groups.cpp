@@ -9,13 +9,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The point of every half-edge's end.
-std::vector<int> ends_of(const Soup& soup, const ShellMesh& mesh) {
-  std::vector<int> ends(soup.corners.size());
-  for (std::size_t h = 0; h < ends.size(); ++h) ends[h] = soup.corners[at(mesh.next[h])];
-  return ends;
-}
-
 Vec3 difference(const Soup& soup, int to, int from) {
   const auto &p = soup.points[at(to)], &q = soup.points[at(from)];
   return {static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]),
@@ -46,7 +39,7 @@ Neighbours neighbours_of(const Soup& soup, const ShellMesh& mesh, const EdgeGrou
   Neighbours neighbours(soup.polygons.size());
   groups.for_each([&](EdgeGroup group) {
     if (group.size() != 2) return;
-    const std::size_t g = at(group[0].place), h = at(group[1].place);
+    const std::size_t g = at(group[0]), h = at(group[1]);
     const bool is_against = soup.corners[g] == soup.corners[h];
     const int p = mesh.polygon_of[g], q = mesh.polygon_of[h];
     neighbours[at(p)].push_back({q, is_against});
@@ -85,17 +78,13 @@ bool turn_patch(const Neighbours& neighbours, int start, std::vector<char>& turn
 EdgeGroups::EdgeGroups(const Soup& soup, const ShellMesh& mesh)
     : soup_(&soup),
       mesh_(&mesh),
-      // By place last, and polygons are sorted by body: the bodies at an edge come one by one.
-      edges_(sort_edges(soup.corners, ends_of(soup, mesh), soup.points.size())) {}
+      has_bodies_(soup.polygons.front().body != soup.polygons.back().body),
+      // Of one edge they ascend, and polygons are sorted by body: the bodies come one by one.
+      half_edges_(sort_edges(soup.corners.size(), soup.points.size(),
+                             [this](int h) { return ends_of(h); })) {}
 
 std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const ShellMesh& mesh,
                                                   const EdgeGroups& groups) {
-  bool do_all_agree = true;
-  groups.for_each([&](EdgeGroup group) {
-    do_all_agree &=
-        group.size() != 2 || soup.corners[at(group[0].place)] != soup.corners[at(group[1].place)];
-  });
-  if (do_all_agree) return std::vector<char>{};
   const Neighbours neighbours = neighbours_of(soup, mesh, groups);
   std::vector<char> turned(soup.polygons.size(), kUnseen);
   for (int start = 0; start < soup.polygon_count(); ++start)
@@ -104,8 +93,9 @@ std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const ShellM
 }
 
 bool pair_around(const Soup& soup, const EdgeGroup& group, ShellMesh& mesh) {
-  const int low = group[0].low;
-  const Vec3 axis = normalised(difference(soup, group[0].high, low));
+  const std::size_t first = at(group[0]);
+  const auto [low, high] = EdgeEnds(soup.corners[first], soup.corners[at(mesh.next[first])]);
+  const Vec3 axis = normalised(difference(soup, high, low));
   struct Ray {
     double angle;
     bool runs_up;
@@ -113,15 +103,15 @@ bool pair_around(const Soup& soup, const EdgeGroup& group, ShellMesh& mesh) {
   };
   std::vector<Ray> rays;
   Vec3 u, v;
-  for (const SortedEdge& edge : group) {
-    const bool runs_up = soup.corners[at(edge.place)] == low;
-    const Vec3 normal = normalised(area_vector(soup, mesh.polygon_of[at(edge.place)]));
+  for (const int h : group) {
+    const bool runs_up = soup.corners[at(h)] == low;
+    const Vec3 normal = normalised(area_vector(soup, mesh.polygon_of[at(h)]));
     const Vec3 inward = cross(normal, runs_up ? axis : -axis);
     if (rays.empty()) {
       u = normalised(inward - dot(inward, axis) * axis);
       v = cross(axis, u);
     }
-    rays.push_back({std::atan2(dot(inward, v), dot(inward, u)), runs_up, edge.place});
+    rays.push_back({std::atan2(dot(inward, v), dot(inward, u)), runs_up, h});
   }
   std::ranges::sort(rays, {}, [](const Ray& r) { return std::tuple(r.angle, r.half_edge); });
   const auto start = std::ranges::find(rays, false, &Ray::runs_up) - rays.begin();

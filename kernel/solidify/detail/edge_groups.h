@@ -10,46 +10,50 @@
 
 namespace oriel::detail {
 
-/// The half-edges of one edge: places are half-edges.
-using EdgeGroup = std::span<const SortedEdge>;
+/// The half-edges of one edge, in ascending order.
+using EdgeGroup = std::span<const int>;
 
 /// The half-edges of a soup grouped by body and undirected edge.
 class EdgeGroups {
  public:
-  /// Needs the mesh's `next` and `polygon_of`.
+  /// Needs the mesh's `next` and `polygon_of`, and a soup that has polygons.
   EdgeGroups(const Soup& soup, const ShellMesh& mesh);
 
-  /// Visits every group, its half-edges in ascending order, sorted by their points, then by body.
+  /// Visits every group, sorted by their points, then by body.
   template <class Visit>
   void for_each(Visit visit) const {
-    const EdgeGroup edges = edges_;
-    for (std::size_t start = 0; start < edges.size();) {
+    const EdgeGroup all = half_edges_;
+    EdgeEnds ends = ends_of(all[0]), following = ends;
+    for (std::size_t start = 0; start < all.size(); ends = following) {
       std::size_t end = start + 1;
-      while (end < edges.size() && are_in_one_group(edges[start], edges[end])) ++end;
-      visit(edges.subspan(start, end - start));
+      while (end < all.size() && (following = ends_of(all[end])) == ends &&
+             (!has_bodies_ || body_of(all[end]) == body_of(all[start])))
+        ++end;
+      visit(all.subspan(start, end - start));
       start = end;
     }
   }
 
-  [[nodiscard]] int body_of(const SortedEdge& edge) const {
-    const auto polygon =
-        static_cast<std::size_t>(mesh_->polygon_of[static_cast<std::size_t>(edge.place)]);
-    return soup_->polygons[polygon].body;
+  /// The points of a half-edge.
+  [[nodiscard]] EdgeEnds ends_of(int half_edge) const {
+    const auto h = static_cast<std::size_t>(half_edge);
+    return {soup_->corners[h], soup_->corners[static_cast<std::size_t>(mesh_->next[h])]};
+  }
+  [[nodiscard]] int body_of(int half_edge) const {
+    const int polygon = mesh_->polygon_of[static_cast<std::size_t>(half_edge)];
+    return soup_->polygons[static_cast<std::size_t>(polygon)].body;
   }
 
  private:
-  [[nodiscard]] bool are_in_one_group(const SortedEdge& e, const SortedEdge& f) const {
-    return e.has_ends_of(f) && body_of(e) == body_of(f);
-  }
-
   const Soup* soup_;
   const ShellMesh* mesh_;
-  std::vector<SortedEdge> edges_;
+  bool has_bodies_;  ///< more than one
+  std::vector<int> half_edges_;
 };
 
 /// Which polygons must be turned round so that the two half-edges of every edge with two run
-/// against each other; empty if none need be. Nothing if there is no such choice. Each connected
-/// patch keeps the orientation of most of its polygons.
+/// against each other. Nothing if there is no such choice. Each connected patch keeps the
+/// orientation of most of its polygons.
 std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const ShellMesh& mesh,
                                                   const EdgeGroups& groups);
 

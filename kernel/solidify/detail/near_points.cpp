@@ -31,22 +31,29 @@ class Candidates {
   }
 
  private:
+  /// `piece` is sorted by the axis.
   void cut(std::span<int> piece, std::size_t axis) {
-    if (piece.size() < 2) return;
-    if (axis == 3) {
+    std::size_t start = 0;
+    for (std::size_t i = 1; i <= piece.size(); ++i) {
+      if (i < piece.size() && is_within_reach(piece[i - 1], piece[i], axis)) continue;
+      if (i - start > 1) keep(piece.subspan(start, i - start), axis);
+      start = i;
+    }
+  }
+
+  [[nodiscard]] bool is_within_reach(int i, int j, std::size_t axis) const {
+    return static_cast<double>(points_[at(j)][axis] - points_[at(i)][axis]) < reach_;
+  }
+
+  /// What was not cut along `axis` is cut along the next one.
+  void keep(std::span<int> piece, std::size_t axis) {
+    if (axis == 2) {
       found_.insert(found_.end(), piece.begin(), piece.end());
       return;
     }
-    const auto coordinate = [&](int i) { return points_[at(i)][axis]; };
+    const auto coordinate = [&](int i) { return points_[at(i)][axis + 1]; };
     if (!std::ranges::is_sorted(piece, {}, coordinate)) std::ranges::sort(piece, {}, coordinate);
-    std::size_t start = 0;
-    for (std::size_t i = 1; i <= piece.size(); ++i) {
-      if (i < piece.size() &&
-          static_cast<double>(coordinate(piece[i]) - coordinate(piece[i - 1])) < reach_)
-        continue;
-      cut(piece.subspan(start, i - start), axis + 1);
-      start = i;
-    }
+    cut(piece, axis + 1);
   }
 
   std::span<const GridPoint> points_;
@@ -102,10 +109,13 @@ void unite_near(std::span<const GridPoint> points, std::span<const int> members,
 }  // namespace
 
 std::vector<int> group_near_points(std::span<const GridPoint> points, double reach) {
-  DisjointSets groups(points.size());
-  unite_near(points, Candidates(points, reach).find(), reach, groups);
   std::vector<int> first(points.size());
-  for (int i = 0; i < std::ssize(points); ++i) first[at(i)] = groups.find(i);
+  std::iota(first.begin(), first.end(), 0);
+  const std::vector<int> candidates = Candidates(points, reach).find();
+  if (candidates.empty()) return first;
+  DisjointSets groups(points.size());
+  unite_near(points, candidates, reach, groups);
+  for (const int i : candidates) first[at(i)] = groups.find(i);
   return first;
 }
 

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/plane_clusters.h"
 
+#include "kernel/model/detail/counting_sort.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 
 #include <algorithm>
@@ -21,10 +22,14 @@ Normal unoriented(const Normal& normal) {
   return normal < Normal{0, 0, 0} ? Normal{-normal[0], -normal[1], -normal[2]} : normal;
 }
 
+/// A cell of the grid in which unit normals lie.
+using Cell = std::array<int, 3>;
+
 /// Planes of one direction.
 struct NormalClass {
   Normal normal{};
   Vec3 unit;
+  Cell cell{};
   double size = 0;
   std::map<std::int64_t, int> offsets;  ///< normal · point, and the number of the place
 };
@@ -53,24 +58,21 @@ struct CellHash {
 /// The places met at every point, each once, in the order in which they came.
 class PlacesAtPoints {
  public:
-  explicit PlacesAtPoints(const Soup& soup) : first_(soup.points.size() + 1, 0) {
-    for (const int v : soup.corners) ++first_[index(v) + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    count_.resize(soup.points.size());
+  explicit PlacesAtPoints(const Soup& soup) : end_(soup.points.size() + 1, 0) {
+    for (const int v : soup.corners) ++end_[index(v)];
+    count_to_first(end_);
+    first_ = end_;
     places_.resize(soup.corners.size());
   }
 
   [[nodiscard]] std::span<const int> at(int point) const {
-    return {places_.data() + first_[index(point)], index(count_[index(point)])};
+    return {places_.data() + first_[index(point)], places_.data() + end_[index(point)]};
   }
-  void add(int point, int place) {
-    if (std::ranges::find(at(point), place) == at(point).end())
-      places_[index(first_[index(point)] + count_[index(point)]++)] = place;
-  }
+  void add(int point, int place) { places_[index(end_[index(point)]++)] = place; }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  std::vector<int> first_, count_, places_;
+  std::vector<int> first_, end_, places_;
 };
 
 class Clusterer {
@@ -101,7 +103,6 @@ class Clusterer {
     int normal_class = -1;
     std::int64_t offset = 0;
   };
-  using Cell = std::array<int, 3>;
   using ExactPlane = std::array<std::int64_t, 4>;  ///< normal and offset
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -138,9 +139,9 @@ class Clusterer {
     const PolygonShape& shape = shapes_[at(polygon)];
     if (!shape.normal) return -1;
     const Normal normal = unoriented(*shape.normal);
-    const Span span = span_along(soup_, polygon, normal);
-    if (span.low != span.high) return -1;
-    const auto found = exact_places_.find({normal[0], normal[1], normal[2], span.low});
+    const auto offset = offset_if_flat(soup_, polygon, normal);
+    if (!offset) return -1;
+    const auto found = exact_places_.find({normal[0], normal[1], normal[2], *offset});
     return found != exact_places_.end() ? found->second : -1;
   }
 
@@ -158,9 +159,19 @@ class Clusterer {
     return entry->second;
   }
 
+  static bool is_next_to(const Cell& a, const Cell& b) {
+    return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1 && std::abs(a[2] - b[2]) <= 1;
+  }
+
   /// Classes whose normal may be within the tolerance of ±`u`.
   [[nodiscard]] std::vector<int> near_classes(Vec3 u) const {
     std::vector<int> found;
+    if (classes_.size() < 27) {  // fewer than there are cells to look into
+      for (std::size_t k = 0; k < classes_.size(); ++k)
+        if (is_next_to(cell_of(u), classes_[k].cell) || is_next_to(cell_of(-u), classes_[k].cell))
+          found.push_back(static_cast<int>(k));
+      return found;
+    }
     for (const Vec3 v : {u, -u}) {
       const auto [x, y, z] = cell_of(v);
       if (x < -1) continue;  // the normals of classes have x ≥ 0
@@ -233,7 +244,8 @@ class Clusterer {
     c.size = length({static_cast<double>(c.normal[0]), static_cast<double>(c.normal[1]),
                      static_cast<double>(c.normal[2])});
     const int k = static_cast<int>(classes_.size());
-    cells_[cell_of(c.unit)].push_back(k);
+    c.cell = cell_of(c.unit);
+    cells_[c.cell].push_back(k);
     classes_.push_back(std::move(c));
     return number_of(k, span_along(soup_, polygon, classes_.back().normal).mean);
   }
@@ -252,9 +264,17 @@ class Clusterer {
         place_of_[at(i)] = is_same_normal ? rival : place_in_own_class(i);
         has_changed = true;
       }
-      for (const int v : soup_.corners_of(i)) of_larger.add(v, place_of_[at(i)]);
+      const int mine = place_of_[at(i)];
+      for (const int v : soup_.corners_of(i))
+        if (!contains(of_larger.at(v), mine)) of_larger.add(v, mine);
     }
     return has_changed;
+  }
+
+  static bool contains(std::span<const int> places, int place) {
+    for (const int p : places)
+      if (p == place) return true;
+    return false;
   }
 
   [[nodiscard]] bool own_class_exists(int polygon, int k) const {
@@ -266,10 +286,10 @@ class Clusterer {
   /// The place of a larger polygon at a vertex of `polygon`, on another plane of its class; or -1.
   [[nodiscard]] int rival_of(int polygon, const PlacesAtPoints& of_larger) const {
     const int mine = place_of_[at(polygon)];
+    const int my_class = places_[at(mine)].normal_class;
     for (const int v : soup_.corners_of(polygon))
       for (const int theirs : of_larger.at(v))
-        if (theirs != mine && places_[at(theirs)].normal_class == places_[at(mine)].normal_class)
-          return theirs;
+        if (theirs != mine && places_[at(theirs)].normal_class == my_class) return theirs;
     return -1;
   }
 

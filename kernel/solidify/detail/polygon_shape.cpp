@@ -16,6 +16,12 @@ GridPoint difference(const GridPoint& p, const GridPoint& q) {
   return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
 }
 
+double length2(const GridPoint& p) {
+  const double x = static_cast<double>(p[0]), y = static_cast<double>(p[1]),
+               z = static_cast<double>(p[2]);
+  return x * x + y * y + z * z;
+}
+
 void add_cross(const GridPoint& p, const GridPoint& q, exact::Vector128& sum) {
   sum[0] += Int128{p[1]} * q[2] - Int128{p[2]} * q[1];
   sum[1] += Int128{p[2]} * q[0] - Int128{p[0]} * q[2];
@@ -46,18 +52,20 @@ double PolygonShape::uncertainty_rad(double offset) const {
 PolygonShape shape_of(const Soup& soup, int polygon) {
   exact::Vector128 sum{};  // twice the area times the normal
   double reach2 = 0;
-  const GridPoint& base = soup.points[at(soup.corners_of(polygon).front())];
+  const GridPoint base = soup.points[at(soup.corners_of(polygon).front())];
+  bool is_outer = true;
   for (const int r : soup.rings_of(polygon)) {
     const auto ring = soup.ring(r);
-    GridPoint before = difference(soup.points[at(ring.back())], base);
-    for (const int v : ring) {
+    // The outer ring starts at the base: its first and last edge span nothing with it.
+    GridPoint before = difference(soup.points[at(is_outer ? ring[1] : ring.back())], base);
+    if (is_outer) reach2 = length2(before);
+    for (const int v : ring.subspan(is_outer ? 2 : 0)) {
       const GridPoint here = difference(soup.points[at(v)], base);
       add_cross(before, here, sum);
-      const double x = static_cast<double>(here[0]), y = static_cast<double>(here[1]),
-                   z = static_cast<double>(here[2]);
-      reach2 = std::max(reach2, x * x + y * y + z * z);
+      reach2 = std::max(reach2, length2(here));
       before = here;
     }
+    is_outer = false;
   }
   PolygonShape shape;
   shape.normal = exact::direction(sum);
@@ -65,6 +73,14 @@ PolygonShape shape_of(const Soup& soup, int polygon) {
   shape.area = length({to_double(sum[0]), to_double(sum[1]), to_double(sum[2])}) / 2;
   shape.height = reach2 > 0 ? shape.area / std::sqrt(reach2) : 0;
   return shape;
+}
+
+std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon, const Normal& normal) {
+  const auto corners = soup.corners_of(polygon);
+  const std::int64_t offset = along(normal, soup.points[at(corners.front())]);
+  for (const int v : corners.subspan(1))
+    if (along(normal, soup.points[at(v)]) != offset) return std::nullopt;
+  return offset;
 }
 
 Span span_along(const Soup& soup, int polygon, const Normal& normal) {

@@ -33,6 +33,9 @@ struct Span {
 
 Span span_along(const Soup& soup, int polygon, const Normal& normal);
 
+/// normal · vertex if it is the same for all vertices.
+std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon, const Normal& normal);
+
 /// True if asin(sine) > limit; the arcsine is taken only where its bounds do not decide.
 inline bool is_arcsine_above(double sine, double limit) {
   if (1.6 * sine <= limit) return false;   // asin(s) ≤ s · π / 2

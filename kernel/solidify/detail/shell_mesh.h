@@ -12,8 +12,8 @@ namespace oriel::detail {
 /// next one. Rings are faces: an inner ring runs clockwise, so it meets its neighbours just as an
 /// outer one does. A point at which several sheets (fans of polygons) meet is one vertex per sheet.
 struct ShellMesh {
-  /// The half-edges before and after each on its ring.
-  std::vector<int> previous, next;
+  /// The half-edge after each on its ring.
+  std::vector<int> next;
   /// The opposite half-edge, -1 where an edge is open.
   std::vector<int> twin;
   /// The polygon of the soup that each half-edge bounds.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <compare>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,16 +53,47 @@ std::vector<int> weld_points(const Building& building, double reach, Soup& soup)
   return point_of;
 }
 
-/// Cuts rings into the simple rings they consist of and appends these to a soup.
+/// Appends the simple rings that rings consist of to a soup, each from its smallest vertex.
 class RingCutter {
  public:
-  explicit RingCutter(Soup& soup) : soup_(soup), place_in_path_(soup.points.size(), -1) {}
+  /// `corner_count`: of all rings to come.
+  RingCutter(Soup& soup, std::size_t corner_count)
+      : soup_(soup), last_ring_(soup.points.size(), 0), place_in_path_(soup.points.size(), -1) {
+    soup.corners.resize(corner_count);  // finish() takes back what is left over
+  }
 
   /// Where the ring comes back to a point (it touches itself, or a bridge ties a hole to its outer
   /// ring) it is cut in two, and what has fewer than three vertices goes.
   void append(std::span<const int> ring, std::span<const int> point_of) {
+    ++ring_;
+    bool is_simple = true;
+    int* points = soup_.corners.data() + end_;
     for (const int vertex : ring) {
       const int v = point_of[at(vertex)];
+      is_simple &= last_ring_[at(v)] != ring_;
+      last_ring_[at(v)] = ring_;
+      *points++ = v;
+    }
+    if (is_simple)
+      keep(ring.size());
+    else
+      cut({points - ring.size(), points});
+  }
+
+  void finish() { soup_.corners.resize(end_); }
+
+ private:
+  /// Makes the points that stand after the last ring a ring.
+  void keep(std::size_t size) {
+    if (size < 3) return;
+    int* const begin = soup_.corners.data() + end_;
+    std::rotate(begin, std::min_element(begin, begin + size), begin + size);
+    end_ += size;
+    soup_.first_corner.push_back(static_cast<int>(end_));
+  }
+
+  void cut(std::vector<int> ring) {
+    for (const int v : ring) {
       if (place_in_path_[at(v)] >= 0) close_at(at(place_in_path_[at(v)]));
       place_in_path_[at(v)] = static_cast<int>(path_.size());
       path_.push_back(v);
@@ -69,24 +101,21 @@ class RingCutter {
     close_at(0);
   }
 
- private:
-  /// Appends the end of the path from place `start` as a ring, from its smallest vertex, and takes
-  /// it off the path.
+  /// Makes the end of the path from place `start` a ring and takes it off the path.
   void close_at(std::size_t start) {
-    const auto begin = path_.begin() + static_cast<std::ptrdiff_t>(start);
-    if (path_.end() - begin >= 3) {
-      const auto smallest = std::min_element(begin, path_.end());
-      soup_.corners.insert(soup_.corners.end(), smallest, path_.end());
-      soup_.corners.insert(soup_.corners.end(), begin, smallest);
-      soup_.first_corner.push_back(soup_.corner_count());
-    }
-    for (auto v = begin; v != path_.end(); ++v) place_in_path_[at(*v)] = -1;
-    path_.erase(begin, path_.end());
+    const auto ring = std::span(path_).subspan(start);
+    std::ranges::copy(ring, soup_.corners.data() + end_);
+    keep(ring.size());
+    for (const int v : ring) place_in_path_[at(v)] = -1;
+    path_.resize(start);
   }
 
   Soup& soup_;
+  std::size_t end_ = 0;  ///< of the corners so far
+  int ring_ = 0;
+  std::vector<int> last_ring_;  ///< that came to each point
   std::vector<int> path_;
-  std::vector<int> place_in_path_;  ///< of each point, -1 off the path
+  std::vector<int> place_in_path_;  ///< by point, -1 off the path
 };
 
 std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
@@ -115,7 +144,13 @@ void sort_rings(Soup& soup, int first) {
 /// ring and were dropped.
 int append_polygons(const Building& building, std::span<const int> point_of, Soup& soup) {
   int dropped = 0;
-  RingCutter cutter(soup);
+  std::size_t corner_count = 0;
+  for (const Polygon& polygon : building.polygons)
+    for (const auto& ring : polygon.rings) corner_count += ring.size();
+  RingCutter cutter(soup, corner_count);
+  soup.polygons.reserve(building.polygons.size());
+  soup.first_ring.reserve(building.polygons.size() + 1);
+  soup.first_corner.reserve(building.polygons.size() + 1);
   for (const Polygon& polygon : building.polygons) {
     const int first = soup.ring_count();
     for (const auto& ring : polygon.rings) {
@@ -130,16 +165,19 @@ int append_polygons(const Building& building, std::span<const int> point_of, Sou
     soup.polygons.push_back({polygon.source, polygon.body, polygon.shell});
     soup.first_ring.push_back(soup.ring_count());
   }
+  cutter.finish();
   return dropped;
 }
 
 /// Leaves only the points in use, in their order.
 void drop_unused_points(Soup& soup) {
+  std::vector<char> is_used(soup.points.size(), 0);
+  for (const int v : soup.corners) is_used[at(v)] = 1;
+  if (std::ranges::find(is_used, 0) == is_used.end()) return;
   std::vector<int> place(soup.points.size(), -1);
-  for (const int v : soup.corners) place[at(v)] = 0;
   int used = 0;
   for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] < 0) continue;
+    if (!is_used[v]) continue;
     soup.points[at(used)] = soup.points[v];
     place[v] = used++;
   }
@@ -149,46 +187,59 @@ void drop_unused_points(Soup& soup) {
 
 /// The polygons by body, then rings, then source.
 std::vector<int> canonical_order(const Soup& soup) {
-  std::vector<int> smallest_point;
+  // By the second corner, then stably by the first: that leaves few to be compared.
+  const auto first_corner = [&](int p) { return soup.first_corner[at(soup.first_ring[at(p)])]; };
+  std::vector<int> corner(soup.polygons.size());
   for (int p = 0; p < soup.polygon_count(); ++p)
-    smallest_point.push_back(soup.corners_of(p).front());
-  Buckets buckets = sort_into_buckets(smallest_point, soup.points.size());
+    corner[at(p)] = soup.corners[at(first_corner(p)) + 1];
+  const std::vector<int> by_second = sort_into_buckets(corner, soup.points.size()).items;
+  for (std::size_t i = 0; i < corner.size(); ++i)
+    corner[i] = soup.corners[at(first_corner(by_second[i]))];
+  std::vector<int> order = sort_into_buckets(corner, soup.points.size()).items;
+  for (int& p : order) p = by_second[at(p)];
+
+  const auto starts_alike = [&](int p, int q) {
+    const std::size_t mine = at(first_corner(p)), theirs = at(first_corner(q));
+    return soup.corners[mine] == soup.corners[theirs] &&
+           soup.corners[mine + 1] == soup.corners[theirs + 1];
+  };
   const auto comes_first = [&](int p, int q) {
     const auto rings = soup.rings_of(p), others = soup.rings_of(q);
-    const auto order = std::lexicographical_compare_three_way(
+    const auto compared = std::lexicographical_compare_three_way(
         rings.begin(), rings.end(), others.begin(), others.end(),
         [&](int r, int s) { return compare_rings(soup, r, s); });
-    return order != 0 ? order < 0 : soup.polygons[at(p)].source < soup.polygons[at(q)].source;
+    return compared != 0 ? compared < 0 : soup.polygons[at(p)].source < soup.polygons[at(q)].source;
   };
-  for (std::size_t v = 0; v < soup.points.size(); ++v)
-    std::sort(buckets.items.begin() + buckets.first[v],
-              buckets.items.begin() + buckets.first[v + 1], comes_first);
+  std::size_t start = 0;
+  for (std::size_t i = 1; i <= order.size(); ++i) {
+    if (i < order.size() && starts_alike(order[start], order[i])) continue;
+    if (i - start > 1) std::ranges::sort(std::span(order).subspan(start, i - start), comes_first);
+    start = i;
+  }
   const auto body = [&](int p) { return soup.polygons[at(p)].body; };
-  if (!std::ranges::is_sorted(buckets.items, {}, body))
-    std::ranges::stable_sort(buckets.items, {}, body);
-  return std::move(buckets.items);
+  if (!std::ranges::is_sorted(order, {}, body)) std::ranges::stable_sort(order, {}, body);
+  return order;
 }
 
-void arrange_polygons(Soup& soup, const std::vector<int>& order) {
-  std::vector<SoupPolygon> polygons;
-  std::vector<int> first_ring{0}, first_corner{0}, corners;
-  polygons.reserve(soup.polygons.size());
-  first_ring.reserve(soup.first_ring.size());
-  first_corner.reserve(soup.first_corner.size());
-  corners.reserve(soup.corners.size());
-  for (const int p : order) {
-    polygons.push_back(soup.polygons[at(p)]);
-    for (const int r : soup.rings_of(p)) {
-      const auto ring = soup.ring(r);
-      corners.insert(corners.end(), ring.begin(), ring.end());
-      first_corner.push_back(static_cast<int>(corners.size()));
+/// The soup with its polygons in that order.
+Soup arranged(Soup soup, const std::vector<int>& order) {
+  Soup out;
+  out.grid_m = soup.grid_m;
+  out.points = std::move(soup.points);
+  out.polygons.resize(soup.polygons.size());
+  out.first_ring.resize(soup.first_ring.size());
+  out.first_corner.resize(soup.first_corner.size());
+  out.corners.resize(soup.corners.size());
+  int ring = 0, corner = 0;
+  for (std::size_t p = 0; p < order.size(); ++p) {
+    out.polygons[p] = soup.polygons[at(order[p])];
+    for (const int r : soup.rings_of(order[p])) {
+      for (const int v : soup.ring(r)) out.corners[at(corner++)] = v;
+      out.first_corner[at(++ring)] = corner;
     }
-    first_ring.push_back(static_cast<int>(first_corner.size()) - 1);
+    out.first_ring[p + 1] = ring;
   }
-  soup.polygons = std::move(polygons);
-  soup.first_ring = std::move(first_ring);
-  soup.first_corner = std::move(first_corner);
-  soup.corners = std::move(corners);
+  return out;
 }
 
 }  // namespace
@@ -206,8 +257,8 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
         fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
                     tolerances.weld_m)));
   drop_unused_points(soup);
-  arrange_polygons(soup, canonical_order(soup));
-  return soup;
+  const std::vector<int> order = canonical_order(soup);
+  return arranged(std::move(soup), order);
 }
 
 }  // namespace oriel::detail
