@@ -110,6 +110,10 @@ Vec3 to_metres(const Rational& point, double grid_m) {
 }
 
 std::optional<std::array<std::int64_t, 3>> direction(const Vector128& vector) {
+  // Most vectors of a building are along an axis.
+  const auto sign = [&](std::size_t i) { return static_cast<std::int64_t>(sign_of(vector[i])); };
+  if ((vector[0] != 0) + (vector[1] != 0) + (vector[2] != 0) == 1)
+    return std::array{sign(0), sign(1), sign(2)};
   // Dividing 128 bits is slow, and all but the largest polygons fit in 64.
   constexpr Int128 kLimit = std::numeric_limits<std::int64_t>::max();
   const bool is_small =
@@ -140,19 +144,20 @@ Plane opposite(const Plane& plane) {
 }
 
 std::optional<Rational> meet(const Plane& p, const Plane& q, const Plane& r) {
-  const auto minor = [](const Plane& s, const Plane& t, int i, int j) {
-    return Int128{s.coefficients[i]} * t.coefficients[j] -
-           Int128{s.coefficients[j]} * t.coefficients[i];
+  // A minor is below 2^57 and so is its offset's product below 2^120.
+  const auto minor = [](const Plane& s, const Plane& t, std::size_t i, std::size_t j) {
+    return s.coefficients[i] * t.coefficients[j] - s.coefficients[j] * t.coefficients[i];
   };
   const auto crossed = [&](const Plane& s, const Plane& t) {
-    return Vector128{minor(s, t, 1, 2), minor(s, t, 2, 0), minor(s, t, 0, 1)};
+    return std::array<std::int64_t, 3>{minor(s, t, 1, 2), minor(s, t, 2, 0), minor(s, t, 0, 1)};
   };
-  const Vector128 qr = crossed(q, r), rp = crossed(r, p), pq = crossed(p, q);
-  Int128 w = qr[0] * p.coefficients[0] + qr[1] * p.coefficients[1] + qr[2] * p.coefficients[2];
+  const auto qr = crossed(q, r), rp = crossed(r, p), pq = crossed(p, q);
+  Int128 w = Int128{qr[0]} * p.coefficients[0] + Int128{qr[1]} * p.coefficients[1] +
+             Int128{qr[2]} * p.coefficients[2];
   if (w == 0) return std::nullopt;
   Vector128 point{};
   for (std::size_t i = 0; i < 3; ++i)
-    point[i] = qr[i] * p.offset + rp[i] * q.offset + pq[i] * r.offset;
+    point[i] = Int128{qr[i]} * p.offset + Int128{rp[i]} * q.offset + Int128{pq[i]} * r.offset;
   if (w < 0) {
     w = -w;
     for (auto& component : point) component = -component;

@@ -115,7 +115,8 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
     out.issues.push_back(error(building, "E310", "nothing is left that encloses a volume"));
   if (is_set_aside()) return out;
   detail::arrange_shells(solid, snapped.component, hints, building.id, out.issues);
-  if (!is_set_aside() && !is_closed(solid))
+  const bool may_be_open = snapped.has_united || snapped.swallowed > 0;
+  if (!is_set_aside() && may_be_open && !is_closed(solid))
     out.issues.push_back(error(
         building, "E302", "not closed after its vertices were put on their planes (val3dity 302)"));
   if (!is_set_aside()) out.value = std::move(solid);

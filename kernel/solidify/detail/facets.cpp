@@ -31,36 +31,34 @@ class Drafter {
 
   void grow_facets() {
     draft_.facet_of.assign(soup_.polygons.size(), -1);
+    is_rim_.resize(mesh_.half_edge_count());
     std::vector<int> patch;
     for (int start = 0; start < soup_.polygon_count(); ++start) {
       if (draft_.facet_of[at(start)] >= 0) continue;
       const int facet = static_cast<int>(draft_.plane.size());
-      const int plane = clusters_.plane_of[at(start)];
-      draft_.plane.push_back(plane);
+      draft_.plane.push_back(clusters_.plane_of[at(start)]);
       draft_.facet_of[at(start)] = facet;
-      patch.assign(1, start);
-      while (!patch.empty()) {
+      for (patch.assign(1, start); !patch.empty();) {
         const int p = patch.back();
         patch.pop_back();
-        for_each_half_edge(p, [&](int h) {
-          const int q = mesh_.polygon_of[at(mesh_.twin[at(h)])];
-          if (draft_.facet_of[at(q)] >= 0 || clusters_.plane_of[at(q)] != plane) return;
-          draft_.facet_of[at(q)] = facet;
-          patch.push_back(q);
-        });
+        grow_over(p, facet, patch);
       }
     }
-    // A rim half-edge has another facet on its other side.
-    is_rim_.resize(mesh_.half_edge_count());
-    for (int h = 0; h < std::ssize(is_rim_); ++h)
-      is_rim_[at(h)] = facet_of(h) != facet_of(mesh_.twin[at(h)]);
   }
 
-  template <class Visit>
-  void for_each_half_edge(int polygon, Visit visit) const {
+  /// Takes the neighbours of a polygon that lie on its plane into the facet; the other half-edges
+  /// are its rim.
+  void grow_over(int polygon, int facet, std::vector<int>& patch) {
+    const int plane = clusters_.plane_of[at(polygon)];
     const int begin = soup_.first_corner[at(soup_.first_ring[at(polygon)])];
     const int end = soup_.first_corner[at(soup_.first_ring[at(polygon) + 1])];
-    for (int h = begin; h < end; ++h) visit(h);
+    for (int h = begin; h < end; ++h) {
+      const int q = mesh_.polygon_of[at(mesh_.twin[at(h)])];
+      is_rim_[at(h)] = clusters_.plane_of[at(q)] != plane;
+      if (is_rim_[at(h)] || draft_.facet_of[at(q)] >= 0) continue;
+      draft_.facet_of[at(q)] = facet;
+      patch.push_back(q);
+    }
   }
 
   void number_components() {
@@ -79,6 +77,7 @@ class Drafter {
   /// All loops with all their vertices, in the order of the edges that they start with.
   void find_loops() {
     std::vector<char> is_seen(mesh_.half_edge_count(), 0);
+    vertices_.reserve(mesh_.half_edge_count());
     first_vertex_.push_back(0);
     for (int h = 0; h < std::ssize(is_seen); ++h) {
       const int twin = mesh_.twin[at(h)];
@@ -113,7 +112,7 @@ class Drafter {
     for (const int v : vertices_) ++degree[at(v)];
     is_kept_.resize(degree.size());
     for (std::size_t v = 0; v < degree.size(); ++v) is_kept_[v] = degree[v] > 2;
-    for (bool has_changed = true; has_changed;) {
+    for (bool has_changed = true; has_changed && !are_all_kept();) {
       has_changed = false;
       for (std::size_t l = 0; l < loop_count(); ++l) {
         const auto kept =
@@ -124,6 +123,10 @@ class Drafter {
       }
       has_changed |= keep_between_equal_ends();
     }
+  }
+
+  [[nodiscard]] bool are_all_kept() const {
+    return std::ranges::all_of(vertices_, [&](int v) { return is_kept_[at(v)] != 0; });
   }
 
   /// An edge of a loop between kept vertices.
@@ -148,7 +151,6 @@ class Drafter {
   /// The edges that may have the same ends as another one. The mesh has no two edges with the same
   /// ends, so of two such edges here at least one is long.
   [[nodiscard]] std::vector<Edge> doubtful_edges() const {
-    if (std::ranges::all_of(vertices_, [&](int v) { return is_kept_[at(v)] != 0; })) return {};
     std::vector<Edge> edges;
     for (std::size_t l = 0; l < loop_count(); ++l) append_edges(l, edges);
     std::vector<char> starts_long(is_kept_.size(), 0);
@@ -199,7 +201,7 @@ class Drafter {
   const PlaneClusters& clusters_;
   const ShellMesh& mesh_;
   FacetDraft draft_;
-  std::vector<char> is_rim_;
+  std::vector<char> is_rim_;  ///< by half-edge: another facet lies on its other side
   // The loops as found: of each its facet, its first vertex (one entry more), all vertices.
   std::vector<int> facet_of_loop_, first_vertex_, vertices_;
   std::vector<char> is_kept_;

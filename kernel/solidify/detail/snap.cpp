@@ -43,12 +43,22 @@ Vec3 least_squares(const std::vector<Plane>& planes, Vec3 start) {
   return start + shift;
 }
 
-/// The same plane in space, whichever way round.
-bool is_same_unoriented(const Plane& p, const Plane& q) {
-  if (p.coefficients == q.coefficients) return p.offset == q.offset;
-  return p.offset == -q.offset && p.coefficients[0] == -q.coefficients[0] &&
-         p.coefficients[1] == -q.coefficients[1] && p.coefficients[2] == -q.coefficients[2];
-}
+struct PlaneHash {
+  std::size_t operator()(const Plane& plane) const noexcept {
+    std::uint64_t h = static_cast<std::uint64_t>(plane.offset);
+    for (const std::int64_t c : plane.coefficients) {
+      h = (h ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
+      h ^= h >> 32;
+    }
+    return h;
+  }
+};
+
+struct IsSamePlane {
+  bool operator()(const Plane& p, const Plane& q) const {
+    return p.offset == q.offset && p.coefficients == q.coefficients;
+  }
+};
 
 class Snapper {
  public:
@@ -62,6 +72,7 @@ class Snapper {
         merged_(mesh.vertex_count()) {}
 
   SnappedSolid run() {
+    number_planes();
     collect_planes();
     place_of_.resize(mesh_.vertex_count());
     for (int v = 0; v < std::ssize(place_of_); ++v) place(v);
@@ -72,30 +83,42 @@ class Snapper {
   }
 
  private:
-  /// The planes of every vertex, each once whichever way round.
-  void collect_planes() {
-    first_plane_.assign(mesh_.vertex_count() + 1, 0);
-    for (const int v : draft_.vertices) ++first_plane_[at(v) + 1];
-    std::partial_sum(first_plane_.begin(), first_plane_.end(), first_plane_.begin());
-    plane_count_.assign(mesh_.vertex_count(), 0);
-    planes_.resize(draft_.vertices.size());
-    for (std::size_t f = 0; f < draft_.facet_count(); ++f)
-      for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l)
-        for (const int v : draft_.loop(at(l))) {
-          const auto known = planes_of(v);
-          if (std::ranges::none_of(known, [&](int p) { return is_same(p, draft_.plane[f]); }))
-            planes_[at(first_plane_[at(v)] + plane_count_[at(v)]++)] = draft_.plane[f];
-        }
+  /// Numbers the planes so that both ways round of one have the same number.
+  void number_planes() {
+    std::unordered_map<Plane, int, PlaneHash, IsSamePlane> numbers;
+    for (const Plane& plane : clusters_.planes) {
+      const Plane turned = unoriented(plane);
+      const int next = static_cast<int>(planes_.size());
+      const auto [entry, is_new] = numbers.try_emplace(turned, next);
+      if (is_new) planes_.push_back(turned);
+      number_of_.push_back(entry->second);
+    }
   }
 
-  [[nodiscard]] bool is_same(int p, int q) const {
-    return p == q || is_same_unoriented(clusters_.planes[at(p)], clusters_.planes[at(q)]);
+  /// The planes of every vertex, each once.
+  void collect_planes() {
+    plane_end_.assign(mesh_.vertex_count(), 0);
+    for (const int v : draft_.vertices) ++plane_end_[at(v)];
+    count_to_first(plane_end_);
+    plane_begin_ = plane_end_;
+    planes_at_.resize(draft_.vertices.size());
+    for (std::size_t f = 0; f < draft_.facet_count(); ++f) {
+      const int plane = number_of_[at(draft_.plane[f])];
+      const auto begin = draft_.vertices.begin() + draft_.first_vertex[at(draft_.first_loop[f])];
+      const auto end = draft_.vertices.begin() + draft_.first_vertex[at(draft_.first_loop[f + 1])];
+      for (auto v = begin; v != end; ++v)
+        if (!contains(planes_of(*v), plane)) planes_at_[at(plane_end_[at(*v)]++)] = plane;
+    }
+  }
+
+  static bool contains(std::span<const int> planes, int plane) {
+    for (const int p : planes)
+      if (p == plane) return true;
+    return false;
   }
 
   [[nodiscard]] std::span<const int> planes_of(int v) const {
-    const auto merged = planes_of_merged_.find(v);
-    if (merged != planes_of_merged_.end()) return merged->second;
-    return {planes_.data() + first_plane_[at(v)], at(plane_count_[at(v)])};
+    return {planes_at_.data() + plane_begin_[at(v)], planes_at_.data() + plane_end_[at(v)]};
   }
 
   void place(int v) {
@@ -104,8 +127,7 @@ class Snapper {
     const Vec3 start = exact::to_metres(soup_.points[at(mesh_.point_of[at(v)])], soup_.grid_m);
     if (planes.size() == 3) {
       const auto meeting =
-          exact::meet(clusters_.planes[at(planes[0])], clusters_.planes[at(planes[1])],
-                      clusters_.planes[at(planes[2])]);
+          exact::meet(planes_[at(planes[0])], planes_[at(planes[1])], planes_[at(planes[2])]);
       if (meeting) {
         const Vec3 point = exact::to_metres(*meeting, soup_.grid_m);
         if (length(point - start) <= 4 * tolerances_.plane_offset_m) {
@@ -122,7 +144,7 @@ class Snapper {
   /// In an order that their numbers have no part in.
   [[nodiscard]] std::vector<Plane> sorted_planes(std::span<const int> planes) const {
     std::vector<Plane> out;
-    for (const int p : planes) out.push_back(unoriented(clusters_.planes[at(p)]));
+    for (const int p : planes) out.push_back(planes_[at(p)]);
     std::ranges::sort(out, {}, [](const Plane& p) { return std::tuple(p.coefficients, p.offset); });
     return out;
   }
@@ -142,16 +164,20 @@ class Snapper {
         has_changed = true;
       }
     }
+    has_united_ |= has_changed;
     return has_changed;
   }
 
+  /// The planes of the united vertex go to the end of the list.
   void unite(int first, int second) {
     merged_.unite(first, second);
     const auto mine = planes_of(first), theirs = planes_of(second);
     std::vector<int> planes(mine.begin(), mine.end());
     for (const int p : theirs)
-      if (std::ranges::none_of(mine, [&](int q) { return is_same(p, q); })) planes.push_back(p);
-    planes_of_merged_[first] = std::move(planes);
+      if (!contains(mine, p)) planes.push_back(p);
+    plane_begin_[at(first)] = static_cast<int>(planes_at_.size());
+    planes_at_.insert(planes_at_.end(), planes.begin(), planes.end());
+    plane_end_[at(first)] = static_cast<int>(planes_at_.size());
     place(first);
   }
 
@@ -199,6 +225,10 @@ class Snapper {
   /// United vertices become one entry; a there-and-back (a, b, a) leaves a. What is left starts at
   /// its smallest vertex. Returns its size.
   std::size_t clean(std::span<int> loop) {
+    if (!has_united_) {  // as drafted: no vertex twice in a row, no there-and-back
+      std::ranges::rotate(loop, std::ranges::min_element(loop));
+      return loop.size();
+    }
     std::size_t size = 0;
     for (const int v : loop) {
       const int w = merged_.find(v);
@@ -223,6 +253,7 @@ class Snapper {
   /// Numbers the vertices in use in the order of the soup's points.
   SnappedSolid assemble() {
     SnappedSolid out;
+    out.has_united = has_united_;
     Solid& solid = out.solid;
     solid.grid_m = soup_.grid_m;
     solid.planes = clusters_.planes;
@@ -239,8 +270,8 @@ class Snapper {
       for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l) {
         if (loop_size_[at(l)] < 3) continue;
         const auto vertices = cleaned(l);
-        Loop& loop = facet.loops.emplace_back(vertices.begin(), vertices.end());
-        for (int& v : loop) v = number[at(v)];
+        Loop& loop = facet.loops.emplace_back(vertices.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = number[at(vertices[i])];
       }
       facet.polygons.reserve(polygons[f].size());
       for (const int p : polygons[f]) facet.polygons.push_back(soup_.polygons[at(p)].source);
@@ -271,11 +302,13 @@ class Snapper {
   const ShellMesh& mesh_;
   FacetDraft draft_;
   const Tolerances& tolerances_;
-  // The planes of vertex v: plane_count_[v] entries of planes_ from first_plane_[v] on.
-  std::vector<int> first_plane_, plane_count_, planes_;
-  std::unordered_map<int, std::vector<int>> planes_of_merged_;
+  std::vector<Plane> planes_;   ///< each once, one way round
+  std::vector<int> number_of_;  ///< in planes_, by plane of the clusters
+  // The planes of vertex v: planes_at_[plane_begin_[v]] … planes_at_[plane_end_[v] - 1].
+  std::vector<int> plane_begin_, plane_end_, planes_at_;
   std::vector<Vertex> place_of_;
   DisjointSets merged_;
+  bool has_united_ = false;
   std::vector<std::size_t> loop_size_;  ///< of each loop after clean()
   std::vector<int> loop_of_;            ///< of a facet with one loop
   std::vector<char> has_vanished_;

@@ -15,6 +15,8 @@ struct SnappedSolid {
   std::vector<int> component;
   /// Facets of the draft that vanished.
   int swallowed = 0;
+  /// True if vertices were united: only then the loops are others than those of the closed draft.
+  bool has_united = false;
 };
 
 /// Puts the vertices of the drafted facets where their planes meet and makes the solid of them:
