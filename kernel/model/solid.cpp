@@ -57,7 +57,7 @@ bool is_closed(const Solid& solid) {
   const auto ends_of = [&](int i) {
     return detail::EdgeEnds(from[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(i)]);
   };
-  const std::vector<int> edges = detail::sort_edges(from.size(), solid.vertices.size(), ends_of);
+  const detail::Numbers edges = detail::sort_edges(from.size(), solid.vertices.size(), ends_of);
   int balance = 0;  // of the edges with the same ends: those that run up less those that run down
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i > 0 && ends_of(edges[i]) != ends_of(edges[i - 1]) && balance != 0) return false;

@@ -10,7 +10,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void count_to_first(std::vector<int>& count) {
+void count_to_first(Numbers& count) {
   int sum = 0;
   for (int& c : count) {
     const int here = c;

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "kernel/model/detail/numbers.h"
+
 #include <cstddef>
 #include <span>
-#include <vector>
 
 /// Sorting by small integers in linear time: what the kernel has to group is known by the numbers
 /// of its vertices, polygons or facets, so no comparisons are needed.
@@ -10,8 +11,8 @@ namespace oriel::detail {
 
 /// Items in buckets: bucket `k` is items[first[k]] … items[first[k + 1] - 1].
 struct Buckets {
-  std::vector<int> items;
-  std::vector<int> first;
+  Numbers items;
+  Numbers first;
 
   [[nodiscard]] std::span<const int> operator[](std::size_t bucket) const {
     const auto begin = static_cast<std::size_t>(first[bucket]);
@@ -23,7 +24,7 @@ struct Buckets {
 Buckets sort_into_buckets(std::span<const int> keys, std::size_t bucket_count);
 
 /// Makes of the number of items in every bucket the place of its first item.
-void count_to_first(std::vector<int>& count);
+void count_to_first(Numbers& count);
 
 /// The ends of an undirected edge, the smaller one first.
 struct EdgeEnds {
@@ -36,10 +37,10 @@ struct EdgeEnds {
 /// directions of an edge come together. `ends_of(i)` are the ends of edge `i`, vertices <
 /// vertex_count.
 template <class EndsOf>
-std::vector<int> sort_edges(std::size_t edge_count, std::size_t vertex_count, EndsOf ends_of) {
+Numbers sort_edges(std::size_t edge_count, std::size_t vertex_count, EndsOf ends_of) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const int count = static_cast<int>(edge_count);
-  std::vector<int> of_low(vertex_count), of_high(vertex_count);
+  Numbers of_low(vertex_count, 0), of_high(vertex_count, 0);
   for (int i = 0; i < count; ++i) {
     const EdgeEnds ends = ends_of(i);
     ++of_low[at(ends.low)];
@@ -48,7 +49,7 @@ std::vector<int> sort_edges(std::size_t edge_count, std::size_t vertex_count, En
   count_to_first(of_low);
   count_to_first(of_high);
   // By the larger end, then stably by the smaller one.
-  std::vector<int> by_high(edge_count), sorted(edge_count);
+  Numbers by_high(edge_count), sorted(edge_count);
   for (int i = 0; i < count; ++i) by_high[at(of_high[at(ends_of(i).high)]++)] = i;
   for (const int i : by_high) sorted[at(of_low[at(ends_of(i).low)]++)] = i;
   return sorted;

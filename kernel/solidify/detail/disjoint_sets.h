@@ -1,9 +1,10 @@
 #pragma once
 
+#include "kernel/model/detail/numbers.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
-#include <vector>
 
 namespace oriel::detail {
 
@@ -13,6 +14,9 @@ class DisjointSets {
   explicit DisjointSets(std::size_t size) : parent_(size) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
+
+  /// Adds a set of one.
+  void add() { parent_.push_back(static_cast<int>(parent_.size())); }
 
   int find(int i) {
     while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
@@ -26,7 +30,7 @@ class DisjointSets {
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  std::vector<int> parent_;
+  Numbers parent_;
 };
 
 }  // namespace oriel::detail

@@ -48,7 +48,7 @@ class EdgeGroups {
   const Soup* soup_;
   const ShellMesh* mesh_;
   bool has_bodies_;  ///< more than one
-  std::vector<int> half_edges_;
+  Numbers half_edges_;
 };
 
 /// Which polygons must be turned round so that the two half-edges of every edge with two run

@@ -31,12 +31,13 @@ class Drafter {
 
   void grow_facets() {
     draft_.facet_of.assign(soup_.polygons.size(), -1);
-    is_rim_.resize(mesh_.half_edge_count());
-    std::vector<int> patch;
+    side_.resize(mesh_.half_edge_count());
+    Numbers patch;
     for (int start = 0; start < soup_.polygon_count(); ++start) {
       if (draft_.facet_of[at(start)] >= 0) continue;
       const int facet = static_cast<int>(draft_.plane.size());
       draft_.plane.push_back(clusters_.plane_of[at(start)]);
+      connected_.add();
       draft_.facet_of[at(start)] = facet;
       for (patch.assign(1, start); !patch.empty();) {
         const int p = patch.back();
@@ -48,27 +49,26 @@ class Drafter {
 
   /// Takes the neighbours of a polygon that lie on its plane into the facet; the other half-edges
   /// are its rim.
-  void grow_over(int polygon, int facet, std::vector<int>& patch) {
+  void grow_over(int polygon, int facet, Numbers& patch) {
     const int plane = clusters_.plane_of[at(polygon)];
     const int begin = soup_.first_corner[at(soup_.first_ring[at(polygon)])];
     const int end = soup_.first_corner[at(soup_.first_ring[at(polygon) + 1])];
     for (int h = begin; h < end; ++h) {
       const int q = mesh_.polygon_of[at(mesh_.twin[at(h)])];
-      is_rim_[at(h)] = clusters_.plane_of[at(q)] != plane;
-      if (is_rim_[at(h)] || draft_.facet_of[at(q)] >= 0) continue;
-      draft_.facet_of[at(q)] = facet;
+      int& neighbour = draft_.facet_of[at(q)];
+      const bool is_rim = clusters_.plane_of[at(q)] != plane;
+      side_[at(h)] = is_rim ? Side::rim : Side::interior;
+      if (is_rim && neighbour >= 0) connected_.unite(facet, neighbour);
+      if (is_rim || neighbour >= 0) continue;
+      neighbour = facet;
       patch.push_back(q);
     }
   }
 
   void number_components() {
-    DisjointSets sets(draft_.facet_count());
-    for (int h = 0; h < std::ssize(is_rim_); ++h)
-      if (is_rim_[at(h)] && h < mesh_.twin[at(h)])
-        sets.unite(facet_of(h), facet_of(mesh_.twin[at(h)]));
     draft_.component.resize(draft_.facet_count());
     for (int f = 0; f < std::ssize(draft_.component); ++f) {
-      const int smallest = sets.find(f);
+      const int smallest = connected_.find(f);
       draft_.component[at(f)] =
           smallest == f ? draft_.components++ : draft_.component[at(smallest)];
     }
@@ -76,25 +76,24 @@ class Drafter {
 
   /// All loops with all their vertices, in the order of the edges that they start with.
   void find_loops() {
-    std::vector<char> is_seen(mesh_.half_edge_count(), 0);
     vertices_.reserve(mesh_.half_edge_count());
     first_vertex_.push_back(0);
-    for (int h = 0; h < std::ssize(is_seen); ++h) {
+    for (int h = 0; h < std::ssize(side_); ++h) {
       const int twin = mesh_.twin[at(h)];
-      if (!is_rim_[at(h)] || twin < h) continue;
-      for (const int start : {h, twin})
-        if (!is_seen[at(start)]) walk_loop(start, is_seen);
+      if (side_[at(h)] == Side::interior || twin < h) continue;
+      if (side_[at(h)] == Side::rim) walk_loop(h);
+      if (side_[at(twin)] == Side::rim) walk_loop(twin);
     }
   }
 
-  void walk_loop(int start, std::vector<char>& is_seen) {
+  void walk_loop(int start) {
     facet_of_loop_.push_back(facet_of(start));
     int h = start;
     do {
-      is_seen[at(h)] = 1;
+      side_[at(h)] = Side::walked;
       vertices_.push_back(mesh_.vertex_of[at(h)]);
       h = mesh_.next[at(h)];
-      while (!is_rim_[at(h)]) h = mesh_.next[at(mesh_.twin[at(h)])];
+      while (side_[at(h)] == Side::interior) h = mesh_.next[at(mesh_.twin[at(h)])];
     } while (h != start);
     first_vertex_.push_back(static_cast<int>(vertices_.size()));
   }
@@ -108,7 +107,7 @@ class Drafter {
   /// keeps all, and so may its neighbours then. Where two edges would run from the same vertex to
   /// the same other one, all between them is kept: an edge is known by its ends.
   void choose_vertices() {
-    std::vector<int> degree(mesh_.vertex_count(), 0);
+    Numbers degree(mesh_.vertex_count(), 0);
     for (const int v : vertices_) ++degree[at(v)];
     is_kept_.resize(degree.size());
     for (std::size_t v = 0; v < degree.size(); ++v) is_kept_[v] = degree[v] > 2;
@@ -201,9 +200,13 @@ class Drafter {
   const PlaneClusters& clusters_;
   const ShellMesh& mesh_;
   FacetDraft draft_;
-  std::vector<char> is_rim_;  ///< by half-edge: another facet lies on its other side
+  /// What lies on the other side of a half-edge: its own facet, or another one; whether a loop went
+  /// along it.
+  enum class Side : char { interior, rim, walked };
+  std::vector<Side> side_;
+  DisjointSets connected_{0};  ///< facets
   // The loops as found: of each its facet, its first vertex (one entry more), all vertices.
-  std::vector<int> facet_of_loop_, first_vertex_, vertices_;
+  Numbers facet_of_loop_, first_vertex_, vertices_;
   std::vector<char> is_kept_;
 };
 

@@ -12,16 +12,16 @@ namespace oriel::detail {
 /// mesh vertices. Facets count from 0 in the order of their first polygons.
 struct FacetDraft {
   /// The facet of every polygon of the soup.
-  std::vector<int> facet_of;
+  Numbers facet_of;
   /// Of every facet its plane and its connected component (shell); components count from 0.
-  std::vector<int> plane;
-  std::vector<int> component;
+  Numbers plane;
+  Numbers component;
   int components = 0;
   /// Of every facet its first loop, of every loop its first vertex; one entry more at the end.
-  std::vector<int> first_loop;
-  std::vector<int> first_vertex;
+  Numbers first_loop;
+  Numbers first_vertex;
   /// The vertices of all loops, loop after loop, facet after facet.
-  std::vector<int> vertices;
+  Numbers vertices;
 
   [[nodiscard]] std::size_t facet_count() const { return plane.size(); }
   [[nodiscard]] std::size_t loop_count() const { return first_vertex.size() - 1; }

@@ -23,8 +23,8 @@ class Candidates {
   Candidates(std::span<const GridPoint> points, double reach) : points_(points), reach_(reach) {}
 
   /// Of sorted points.
-  std::vector<int> find() {
-    std::vector<int> all(points_.size());
+  Numbers find() {
+    Numbers all(points_.size());
     std::iota(all.begin(), all.end(), 0);
     cut(all, 0);
     return std::move(found_);
@@ -58,7 +58,7 @@ class Candidates {
 
   std::span<const GridPoint> points_;
   double reach_;
-  std::vector<int> found_;
+  Numbers found_;
 };
 
 struct Bucket {
@@ -91,7 +91,7 @@ void unite_near(std::span<const GridPoint> points, std::span<const int> members,
   const auto floor_div = [edge](std::int64_t c) {
     return c >= 0 ? c / edge : -((-c + edge - 1) / edge);
   };
-  std::unordered_map<Bucket, std::vector<int>, BucketHash> buckets;
+  std::unordered_map<Bucket, Numbers, BucketHash> buckets;
   for (const int i : members) {
     const auto& p = points[at(i)];
     const Bucket home{floor_div(p[0]), floor_div(p[1]), floor_div(p[2])};
@@ -108,10 +108,10 @@ void unite_near(std::span<const GridPoint> points, std::span<const int> members,
 
 }  // namespace
 
-std::vector<int> group_near_points(std::span<const GridPoint> points, double reach) {
-  std::vector<int> first(points.size());
+Numbers group_near_points(std::span<const GridPoint> points, double reach) {
+  Numbers first(points.size());
   std::iota(first.begin(), first.end(), 0);
-  const std::vector<int> candidates = Candidates(points, reach).find();
+  const Numbers candidates = Candidates(points, reach).find();
   if (candidates.empty()) return first;
   DisjointSets groups(points.size());
   unite_near(points, candidates, reach, groups);

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "kernel/geometry/exact.h"
+#include "kernel/model/detail/numbers.h"
 
 #include <span>
-#include <vector>
 
 namespace oriel::detail {
 
 /// For every point of a sorted list without doubles the first point of its group: pairs closer than
 /// `reach` (grid units) are in one group, and so are those that such pairs link.
-std::vector<int> group_near_points(std::span<const exact::GridPoint> points, double reach);
+Numbers group_near_points(std::span<const exact::GridPoint> points, double reach);
 
 }  // namespace oriel::detail

@@ -72,7 +72,7 @@ class PlacesAtPoints {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  std::vector<int> first_, end_, places_;
+  Numbers first_, end_, places_;
 };
 
 class Clusterer {
@@ -256,26 +256,21 @@ class Clusterer {
   bool separate_parallels(const std::vector<int>& by_area) {
     PlacesAtPoints of_larger(soup_);
     bool has_changed = false;
+    std::vector<int> points;  // where the polygon's place is new
     for (const int i : by_area) {
-      const int rival = rival_of(i, of_larger);
+      const int rival = rival_of(i, of_larger, points);
       if (rival >= 0) {
-        const bool is_same_normal =
-            !shapes_[at(i)].normal || own_class_exists(i, places_[at(rival)].normal_class);
+        const bool is_same_normal = !shapes_[at(i)].normal || own_class_exists(i, class_of(rival));
         place_of_[at(i)] = is_same_normal ? rival : place_in_own_class(i);
         has_changed = true;
+        rival_of(i, of_larger, points);  // for the points at which the new place is new
       }
-      const int mine = place_of_[at(i)];
-      for (const int v : soup_.corners_of(i))
-        if (!contains(of_larger.at(v), mine)) of_larger.add(v, mine);
+      for (const int v : points) of_larger.add(v, place_of_[at(i)]);
     }
     return has_changed;
   }
 
-  static bool contains(std::span<const int> places, int place) {
-    for (const int p : places)
-      if (p == place) return true;
-    return false;
-  }
+  [[nodiscard]] int class_of(int place) const { return places_[at(place)].normal_class; }
 
   [[nodiscard]] bool own_class_exists(int polygon, int k) const {
     const Normal& own = *shapes_[at(polygon)].normal;
@@ -284,13 +279,22 @@ class Clusterer {
   }
 
   /// The place of a larger polygon at a vertex of `polygon`, on another plane of its class; or -1.
-  [[nodiscard]] int rival_of(int polygon, const PlacesAtPoints& of_larger) const {
-    const int mine = place_of_[at(polygon)];
-    const int my_class = places_[at(mine)].normal_class;
-    for (const int v : soup_.corners_of(polygon))
-      for (const int theirs : of_larger.at(v))
-        if (theirs != mine && places_[at(theirs)].normal_class == my_class) return theirs;
-    return -1;
+  /// `points`: its vertices at which no larger polygon has its place.
+  int rival_of(int polygon, const PlacesAtPoints& of_larger, std::vector<int>& points) const {
+    points.clear();
+    const int mine = place_of_[at(polygon)], my_class = class_of(mine);
+    int rival = -1;
+    for (const int v : soup_.corners_of(polygon)) {
+      bool is_new = true;
+      for (const int theirs : of_larger.at(v)) {
+        if (theirs == mine)
+          is_new = false;
+        else if (rival < 0 && class_of(theirs) == my_class)
+          rival = theirs;
+      }
+      if (is_new) points.push_back(v);
+    }
+    return rival;
   }
 
   /// The cosine between the normals of a polygon and of its plane's class; 1 for a polygon without

@@ -33,11 +33,6 @@ double to_double(Int128 value) {
   return small == value ? static_cast<double>(small) : static_cast<double>(value);
 }
 
-/// normal · point: below 2^62, as normals have 28 bits and coordinates 32.
-std::int64_t along(const Normal& normal, const GridPoint& point) {
-  return normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
-}
-
 }  // namespace
 
 Vec3 unit(const Normal& n) {
@@ -73,14 +68,6 @@ PolygonShape shape_of(const Soup& soup, int polygon) {
   shape.area = length({to_double(sum[0]), to_double(sum[1]), to_double(sum[2])}) / 2;
   shape.height = reach2 > 0 ? shape.area / std::sqrt(reach2) : 0;
   return shape;
-}
-
-std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon, const Normal& normal) {
-  const auto corners = soup.corners_of(polygon);
-  const std::int64_t offset = along(normal, soup.points[at(corners.front())]);
-  for (const int v : corners.subspan(1))
-    if (along(normal, soup.points[at(v)]) != offset) return std::nullopt;
-  return offset;
 }
 
 Span span_along(const Soup& soup, int polygon, const Normal& normal) {

@@ -33,8 +33,21 @@ struct Span {
 
 Span span_along(const Soup& soup, int polygon, const Normal& normal);
 
+/// normal · point: below 2^62, as normals have 28 bits and coordinates 32.
+inline std::int64_t along(const Normal& normal, const exact::GridPoint& point) {
+  return normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
+}
+
 /// normal · vertex if it is the same for all vertices.
-std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon, const Normal& normal);
+inline std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon,
+                                                  const Normal& normal) {
+  const auto corners = soup.corners_of(polygon);
+  const exact::GridPoint* const points = soup.points.data();
+  const std::int64_t offset = along(normal, points[corners.front()]);
+  for (const int v : corners)
+    if (along(normal, points[v]) != offset) return std::nullopt;
+  return offset;
+}
 
 /// True if asin(sine) > limit; the arcsine is taken only where its bounds do not decide.
 inline bool is_arcsine_above(double sine, double limit) {

@@ -41,7 +41,7 @@ bool pair_plain(const Soup& soup, ShellMesh& mesh) {
   // An open hash table, at most half full: of every edge its first half-edge.
   const std::size_t size = std::bit_ceil(soup.corners.size());
   const int shift = 64 - std::countr_zero(size);
-  std::vector<int> first(size, -1);
+  Numbers first(size, -1);
   mesh.twin.assign(soup.corners.size(), -1);
   for (int h = 0; h < soup.corner_count(); ++h) {
     const EdgeEnds ends = ends_of(h);
@@ -132,7 +132,7 @@ void tell_vertices_apart(const Soup& soup, ShellMesh& mesh) {
   mesh.vertex_of.assign(mesh.half_edge_count(), -1);
   mesh.point_of.clear();
   mesh.point_of.reserve(soup.points.size());
-  std::vector<int> previous;  // the half-edge before each, needed at open edges only
+  Numbers previous;  // the half-edge before each, needed at open edges only
   for (int start = 0; start < soup.corner_count(); ++start) {
     if (mesh.vertex_of[at(start)] >= 0) continue;
     const int vertex = static_cast<int>(mesh.point_of.size());
@@ -156,7 +156,7 @@ void tell_vertices_apart(const Soup& soup, ShellMesh& mesh) {
 /// Two edges between the same two vertices, each with its own pair of polygons: an edge is known by
 /// its ends, so all but the first get a point in their middle. False if there are none.
 bool part_double_edges(Soup& soup, const ShellMesh& mesh, const std::vector<EdgeGroup>& crowded) {
-  std::vector<int> paired;
+  Numbers paired;
   for (const EdgeGroup& group : crowded)
     for (const int h : group)
       if (h < mesh.twin[at(h)]) paired.push_back(h);
@@ -172,7 +172,7 @@ bool part_double_edges(Soup& soup, const ShellMesh& mesh, const std::vector<Edge
     middle_of[h] = middle_of[twin] = static_cast<int>(soup.points.size());
     soup.points.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
   }
-  std::vector<int> corners, first_corner{0};
+  Numbers corners, first_corner{0};
   for (int r = 0; r < soup.ring_count(); ++r) {
     for (int h = soup.first_corner[at(r)]; h < soup.first_corner[at(r) + 1]; ++h) {
       corners.push_back(soup.corners[at(h)]);

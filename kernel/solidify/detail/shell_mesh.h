@@ -13,15 +13,15 @@ namespace oriel::detail {
 /// outer one does. A point at which several sheets (fans of polygons) meet is one vertex per sheet.
 struct ShellMesh {
   /// The half-edge after each on its ring.
-  std::vector<int> next;
+  Numbers next;
   /// The opposite half-edge, -1 where an edge is open.
-  std::vector<int> twin;
+  Numbers twin;
   /// The polygon of the soup that each half-edge bounds.
-  std::vector<int> polygon_of;
+  Numbers polygon_of;
   /// The vertex at which each half-edge starts.
-  std::vector<int> vertex_of;
+  Numbers vertex_of;
   /// The point of the soup of each vertex.
-  std::vector<int> point_of;
+  Numbers point_of;
 
   [[nodiscard]] std::size_t half_edge_count() const { return next.size(); }
   [[nodiscard]] std::size_t vertex_count() const { return point_of.size(); }

@@ -80,8 +80,8 @@ void renumber_planes(Solid& solid) {
 
 void order_loops(Solid& solid) {
   for (Facet& facet : solid.facets) {
+    if (facet.loops.size() == 1) continue;
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
-    for (Loop& loop : facet.loops) std::ranges::rotate(loop, std::ranges::min_element(loop));
     std::ranges::sort(facet.loops);
     const auto outer = std::ranges::max_element(facet.loops, {}, [&](const Loop& loop) {
       return signed_area_m2(solid.vertices, loop, normal);

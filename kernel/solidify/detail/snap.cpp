@@ -172,7 +172,7 @@ class Snapper {
   void unite(int first, int second) {
     merged_.unite(first, second);
     const auto mine = planes_of(first), theirs = planes_of(second);
-    std::vector<int> planes(mine.begin(), mine.end());
+    Numbers planes(mine.begin(), mine.end());
     for (const int p : theirs)
       if (!contains(mine, p)) planes.push_back(p);
     plane_begin_[at(first)] = static_cast<int>(planes_at_.size());
@@ -188,7 +188,7 @@ class Snapper {
     loop_of_.assign(draft_.facet_count(), -1);
     loop_size_.resize(draft_.loop_count());
     // Facets with one loop by its first vertex: the newest, and before each the one before.
-    std::vector<int> newest(mesh_.vertex_count(), -1), before(draft_.facet_count(), -1);
+    Numbers newest(mesh_.vertex_count(), -1), before(draft_.facet_count(), -1);
     for (int f = 0; f < std::ssize(has_vanished_); ++f) {
       int loops = 0, loop = -1;
       for (int l = draft_.first_loop[at(f)]; l < draft_.first_loop[at(f) + 1]; ++l) {
@@ -257,8 +257,10 @@ class Snapper {
     Solid& solid = out.solid;
     solid.grid_m = soup_.grid_m;
     solid.planes = clusters_.planes;
-    const std::vector<int> number = number_vertices(solid);
+    const Numbers number = number_vertices(solid);
     const Buckets polygons = sort_into_buckets(draft_.facet_of, draft_.facet_count());
+    solid.facets.reserve(draft_.facet_count());
+    out.component.reserve(draft_.facet_count());
     for (std::size_t f = 0; f < draft_.facet_count(); ++f) {
       if (has_vanished_[f]) {
         ++out.swallowed;
@@ -267,6 +269,7 @@ class Snapper {
       out.component.push_back(draft_.component[f]);
       Facet& facet = solid.facets.emplace_back();
       facet.plane = PlaneId{draft_.plane[f]};
+      facet.loops.reserve(at(draft_.first_loop[f + 1] - draft_.first_loop[f]));
       for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l) {
         if (loop_size_[at(l)] < 3) continue;
         const auto vertices = cleaned(l);
@@ -275,20 +278,21 @@ class Snapper {
       }
       facet.polygons.reserve(polygons[f].size());
       for (const int p : polygons[f]) facet.polygons.push_back(soup_.polygons[at(p)].source);
-      std::ranges::sort(facet.polygons);
+      if (facet.polygons.size() > 1) std::ranges::sort(facet.polygons);
     }
     return out;
   }
 
   /// Appends the vertices in use to the solid; returns their numbers there.
-  [[nodiscard]] std::vector<int> number_vertices(Solid& solid) const {
-    std::vector<int> number(mesh_.vertex_count(), -1);
+  [[nodiscard]] Numbers number_vertices(Solid& solid) const {
+    Numbers number(mesh_.vertex_count(), -1);
     for (std::size_t f = 0; f < draft_.facet_count(); ++f) {
       if (has_vanished_[f]) continue;
       for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l)
         if (loop_size_[at(l)] >= 3)
           for (const int v : cleaned(l)) number[at(v)] = 0;
     }
+    solid.vertices.reserve(mesh_.vertex_count());
     for (const int v : sort_into_buckets(mesh_.point_of, soup_.points.size()).items) {
       if (number[at(v)] < 0) continue;
       number[at(v)] = static_cast<int>(solid.vertices.size());
@@ -302,15 +306,15 @@ class Snapper {
   const ShellMesh& mesh_;
   FacetDraft draft_;
   const Tolerances& tolerances_;
-  std::vector<Plane> planes_;   ///< each once, one way round
-  std::vector<int> number_of_;  ///< in planes_, by plane of the clusters
+  std::vector<Plane> planes_;  ///< each once, one way round
+  Numbers number_of_;          ///< in planes_, by plane of the clusters
   // The planes of vertex v: planes_at_[plane_begin_[v]] … planes_at_[plane_end_[v] - 1].
-  std::vector<int> plane_begin_, plane_end_, planes_at_;
+  Numbers plane_begin_, plane_end_, planes_at_;
   std::vector<Vertex> place_of_;
   DisjointSets merged_;
   bool has_united_ = false;
   std::vector<std::size_t> loop_size_;  ///< of each loop after clean()
-  std::vector<int> loop_of_;            ///< of a facet with one loop
+  Numbers loop_of_;                     ///< of a facet with one loop
   std::vector<char> has_vanished_;
 };
 

@@ -26,7 +26,7 @@ exact::Int128 sort_key(const exact::GridPoint& point) {
 
 /// Fills Soup::points with the rounded vertices, sorted; returns the point of every vertex, united
 /// with those within reach.
-std::vector<int> weld_points(const Building& building, double reach, Soup& soup) {
+Numbers weld_points(const Building& building, double reach, Soup& soup) {
   struct Rounded {
     exact::Int128 key;
     int vertex;
@@ -41,14 +41,14 @@ std::vector<int> weld_points(const Building& building, double reach, Soup& soup)
   }
   std::ranges::sort(rounded, {}, &Rounded::key);
 
-  std::vector<int> point_of(building.vertices.size());
+  Numbers point_of(building.vertices.size());
   soup.points.reserve(building.vertices.size());
   for (std::size_t i = 0; i < rounded.size(); ++i) {
     if (i == 0 || rounded[i].key != rounded[i - 1].key)
       soup.points.push_back(grid_points[at(rounded[i].vertex)]);
     point_of[at(rounded[i].vertex)] = static_cast<int>(soup.points.size()) - 1;
   }
-  const std::vector<int> first = group_near_points(soup.points, reach);
+  const Numbers first = group_near_points(soup.points, reach);
   for (int& point : point_of) point = first[at(point)];
   return point_of;
 }
@@ -65,34 +65,37 @@ class RingCutter {
   /// Where the ring comes back to a point (it touches itself, or a bridge ties a hole to its outer
   /// ring) it is cut in two, and what has fewer than three vertices goes.
   void append(std::span<const int> ring, std::span<const int> point_of) {
-    ++ring_;
+    const int number = ++ring_;
+    int* const points = soup_.corners.data() + end_;
+    int* const last_ring = last_ring_.data();
+    std::size_t smallest = 0;
     bool is_simple = true;
-    int* points = soup_.corners.data() + end_;
-    for (const int vertex : ring) {
-      const int v = point_of[at(vertex)];
-      is_simple &= last_ring_[at(v)] != ring_;
-      last_ring_[at(v)] = ring_;
-      *points++ = v;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int v = point_of[at(ring[i])];
+      is_simple &= last_ring[v] != number;
+      last_ring[v] = number;
+      points[i] = v;
+      if (v < points[smallest]) smallest = i;
     }
     if (is_simple)
-      keep(ring.size());
+      keep(ring.size(), smallest);
     else
-      cut({points - ring.size(), points});
+      cut({points, points + ring.size()});
   }
 
   void finish() { soup_.corners.resize(end_); }
 
  private:
   /// Makes the points that stand after the last ring a ring.
-  void keep(std::size_t size) {
+  void keep(std::size_t size, std::size_t smallest) {
     if (size < 3) return;
     int* const begin = soup_.corners.data() + end_;
-    std::rotate(begin, std::min_element(begin, begin + size), begin + size);
+    if (smallest > 0) std::rotate(begin, begin + smallest, begin + size);
     end_ += size;
     soup_.first_corner.push_back(static_cast<int>(end_));
   }
 
-  void cut(std::vector<int> ring) {
+  void cut(Numbers ring) {
     for (const int v : ring) {
       if (place_in_path_[at(v)] >= 0) close_at(at(place_in_path_[at(v)]));
       place_in_path_[at(v)] = static_cast<int>(path_.size());
@@ -105,7 +108,7 @@ class RingCutter {
   void close_at(std::size_t start) {
     const auto ring = std::span(path_).subspan(start);
     std::ranges::copy(ring, soup_.corners.data() + end_);
-    keep(ring.size());
+    keep(ring.size(), static_cast<std::size_t>(std::ranges::min_element(ring) - ring.begin()));
     for (const int v : ring) place_in_path_[at(v)] = -1;
     path_.resize(start);
   }
@@ -113,9 +116,9 @@ class RingCutter {
   Soup& soup_;
   std::size_t end_ = 0;  ///< of the corners so far
   int ring_ = 0;
-  std::vector<int> last_ring_;  ///< that came to each point
-  std::vector<int> path_;
-  std::vector<int> place_in_path_;  ///< by point, -1 off the path
+  Numbers last_ring_;  ///< that came to each point
+  Numbers path_;
+  Numbers place_in_path_;  ///< by point, -1 off the path
 };
 
 std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
@@ -125,12 +128,12 @@ std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
 
 /// Sorts the rings from `first` on.
 void sort_rings(Soup& soup, int first) {
-  std::vector<int> order(at(soup.ring_count() - first));
+  Numbers order(at(soup.ring_count() - first));
   std::iota(order.begin(), order.end(), first);
   const auto comes_first = [&](int r, int s) { return compare_rings(soup, r, s) < 0; };
   if (std::ranges::is_sorted(order, comes_first)) return;
   std::ranges::sort(order, comes_first);
-  std::vector<int> corners, first_corner;
+  Numbers corners, first_corner;
   const int begin = soup.first_corner[at(first)];
   for (const int r : order) {
     first_corner.push_back(begin + static_cast<int>(corners.size()));
@@ -174,7 +177,7 @@ void drop_unused_points(Soup& soup) {
   std::vector<char> is_used(soup.points.size(), 0);
   for (const int v : soup.corners) is_used[at(v)] = 1;
   if (std::ranges::find(is_used, 0) == is_used.end()) return;
-  std::vector<int> place(soup.points.size(), -1);
+  Numbers place(soup.points.size(), -1);
   int used = 0;
   for (std::size_t v = 0; v < place.size(); ++v) {
     if (!is_used[v]) continue;
@@ -186,16 +189,16 @@ void drop_unused_points(Soup& soup) {
 }
 
 /// The polygons by body, then rings, then source.
-std::vector<int> canonical_order(const Soup& soup) {
+Numbers canonical_order(const Soup& soup) {
   // By the second corner, then stably by the first: that leaves few to be compared.
   const auto first_corner = [&](int p) { return soup.first_corner[at(soup.first_ring[at(p)])]; };
-  std::vector<int> corner(soup.polygons.size());
+  Numbers corner(soup.polygons.size());
   for (int p = 0; p < soup.polygon_count(); ++p)
     corner[at(p)] = soup.corners[at(first_corner(p)) + 1];
-  const std::vector<int> by_second = sort_into_buckets(corner, soup.points.size()).items;
+  const Numbers by_second = sort_into_buckets(corner, soup.points.size()).items;
   for (std::size_t i = 0; i < corner.size(); ++i)
     corner[i] = soup.corners[at(first_corner(by_second[i]))];
-  std::vector<int> order = sort_into_buckets(corner, soup.points.size()).items;
+  Numbers order = sort_into_buckets(corner, soup.points.size()).items;
   for (int& p : order) p = by_second[at(p)];
 
   const auto starts_alike = [&](int p, int q) {
@@ -222,7 +225,7 @@ std::vector<int> canonical_order(const Soup& soup) {
 }
 
 /// The soup with its polygons in that order.
-Soup arranged(Soup soup, const std::vector<int>& order) {
+Soup arranged(Soup soup, const Numbers& order) {
   Soup out;
   out.grid_m = soup.grid_m;
   out.points = std::move(soup.points);
@@ -230,12 +233,14 @@ Soup arranged(Soup soup, const std::vector<int>& order) {
   out.first_ring.resize(soup.first_ring.size());
   out.first_corner.resize(soup.first_corner.size());
   out.corners.resize(soup.corners.size());
-  int ring = 0, corner = 0;
+  int ring = 0;
+  int* const corners = out.corners.data();
+  int* corner = corners;
   for (std::size_t p = 0; p < order.size(); ++p) {
     out.polygons[p] = soup.polygons[at(order[p])];
     for (const int r : soup.rings_of(order[p])) {
-      for (const int v : soup.ring(r)) out.corners[at(corner++)] = v;
-      out.first_corner[at(++ring)] = corner;
+      for (const int v : soup.ring(r)) *corner++ = v;
+      out.first_corner[at(++ring)] = static_cast<int>(corner - corners);
     }
     out.first_ring[p + 1] = ring;
   }
@@ -249,7 +254,7 @@ double grid_for(double weld_m) { return std::exp2(std::floor(std::log2(weld_m / 
 Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Issue>& issues) {
   Soup soup;
   soup.grid_m = grid_for(tolerances.weld_m);
-  const std::vector<int> point_of = weld_points(building, tolerances.weld_m / soup.grid_m, soup);
+  const Numbers point_of = weld_points(building, tolerances.weld_m / soup.grid_m, soup);
   const int dropped = append_polygons(building, point_of, soup);
   if (dropped > 0)
     issues.push_back(building_issue(
@@ -257,7 +262,7 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
         fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
                     tolerances.weld_m)));
   drop_unused_points(soup);
-  const std::vector<int> order = canonical_order(soup);
+  const Numbers order = canonical_order(soup);
   return arranged(std::move(soup), order);
 }
 

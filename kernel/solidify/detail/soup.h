@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/model/building.h"
+#include "kernel/model/detail/numbers.h"
 #include "kernel/model/issue.h"
 #include "kernel/model/tolerances.h"
 
@@ -29,10 +30,10 @@ struct Soup {
   std::vector<exact::GridPoint> points;
   std::vector<SoupPolygon> polygons;
   /// Of every polygon its first ring, of every ring its first corner; one entry more at the end.
-  std::vector<int> first_ring{0};
-  std::vector<int> first_corner{0};
+  Numbers first_ring{0};
+  Numbers first_corner{0};
   /// Indices into `points`.
-  std::vector<int> corners;
+  Numbers corners;
 
   [[nodiscard]] int polygon_count() const { return static_cast<int>(polygons.size()); }
   [[nodiscard]] int ring_count() const { return static_cast<int>(first_corner.size()) - 1; }
