@@ -80,6 +80,7 @@ void renumber_planes(Solid& solid) {
 
 void order_loops(Solid& solid) {
   for (Facet& facet : solid.facets) {
+    for (Loop& loop : facet.loops) std::ranges::rotate(loop, std::ranges::min_element(loop));
     if (facet.loops.size() == 1) continue;
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     std::ranges::sort(facet.loops);
