@@ -52,9 +52,8 @@ double divide(Int128 numerator, Int128 denominator) {
 
 /// `vector` without its common divisor, in the integers `Int`; nothing for the zero vector.
 template <class Int>
-std::optional<std::array<Int, 3>> reduced(const Vector128& vector) {
-  std::array<Int, 3> out{static_cast<Int>(vector[0]), static_cast<Int>(vector[1]),
-                         static_cast<Int>(vector[2])};
+std::optional<std::array<Int, 3>> reduced(const std::array<Int, 3>& vector) {
+  std::array<Int, 3> out = vector;
   Int divisor = 0;
   for (const Int component : out)
     if (component != 0) divisor = divisor == 0 ? component : gcd(divisor, component);
@@ -109,20 +108,22 @@ Vec3 to_metres(const Rational& point, double grid_m) {
           divide(point.z, point.w) * grid_m};
 }
 
-std::optional<std::array<std::int64_t, 3>> direction(const Vector128& vector) {
+std::optional<std::array<std::int64_t, 3>> direction(const std::array<std::int64_t, 3>& vector) {
   // Most vectors of a building are along an axis.
-  const auto sign = [&](std::size_t i) { return static_cast<std::int64_t>(sign_of(vector[i])); };
   if ((vector[0] != 0) + (vector[1] != 0) + (vector[2] != 0) == 1)
-    return std::array{sign(0), sign(1), sign(2)};
+    return std::array<std::int64_t, 3>{sign_of(vector[0]), sign_of(vector[1]), sign_of(vector[2])};
+  const auto without_divisor = reduced(vector);
+  return without_divisor ? std::optional(as_normal(*without_divisor)) : std::nullopt;
+}
+
+std::optional<std::array<std::int64_t, 3>> direction(const Vector128& vector) {
   // Dividing 128 bits is slow, and all but the largest polygons fit in 64.
   constexpr Int128 kLimit = std::numeric_limits<std::int64_t>::max();
-  const bool is_small =
-      std::ranges::all_of(vector, [](Int128 c) { return c >= -kLimit && c <= kLimit; });
-  if (is_small) {
-    const auto small = reduced<std::int64_t>(vector);
-    return small ? std::optional(as_normal(*small)) : std::nullopt;
-  }
-  return as_normal(*reduced<Int128>(vector));
+  if (std::ranges::all_of(vector, [](Int128 c) { return c >= -kLimit && c <= kLimit; }))
+    return direction(std::array{static_cast<std::int64_t>(vector[0]),
+                                static_cast<std::int64_t>(vector[1]),
+                                static_cast<std::int64_t>(vector[2])});
+  return as_normal(*reduced(vector));
 }
 
 Int128 dot(const std::array<std::int64_t, 3>& normal, const GridPoint& point) {

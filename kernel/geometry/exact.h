@@ -48,6 +48,7 @@ using Vector128 = std::array<Int128, 3>;
 /// The direction of `vector` as an integer normal without common divisor: exact if it fits in
 /// kMaxNormal, else rounded to 28 bits (2e-9 rad). Nothing for the zero vector.
 std::optional<std::array<std::int64_t, 3>> direction(const Vector128& vector);
+std::optional<std::array<std::int64_t, 3>> direction(const std::array<std::int64_t, 3>& vector);
 
 /// normal · point.
 Int128 dot(const std::array<std::int64_t, 3>& normal, const GridPoint& point);

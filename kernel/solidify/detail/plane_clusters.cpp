@@ -80,10 +80,8 @@ class Clusterer {
   Clusterer(const Soup& soup, const Tolerances& tolerances)
       : soup_(soup),
         offset_tolerance_(tolerances.plane_offset_m / soup.grid_m),
-        angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180) {
-    shapes_.reserve(soup.polygons.size());
-    for (int p = 0; p < soup.polygon_count(); ++p) shapes_.push_back(shape_of(soup, p));
-  }
+        angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
+        shapes_(shapes_of(soup)) {}
 
   PlaneClusters run() {
     const std::vector<int> by_area = largest_first();

@@ -22,30 +22,16 @@ double length2(const GridPoint& p) {
   return x * x + y * y + z * z;
 }
 
-void add_cross(const GridPoint& p, const GridPoint& q, exact::Vector128& sum) {
-  sum[0] += Int128{p[1]} * q[2] - Int128{p[2]} * q[1];
-  sum[1] += Int128{p[2]} * q[0] - Int128{p[0]} * q[2];
-  sum[2] += Int128{p[0]} * q[1] - Int128{p[1]} * q[0];
+template <class Int>
+void add_cross(const GridPoint& p, const GridPoint& q, std::array<Int, 3>& sum) {
+  sum[0] += Int{p[1]} * q[2] - Int{p[2]} * q[1];
+  sum[1] += Int{p[2]} * q[0] - Int{p[0]} * q[2];
+  sum[2] += Int{p[0]} * q[1] - Int{p[1]} * q[0];
 }
 
-double to_double(Int128 value) {
-  const auto small = static_cast<std::int64_t>(value);
-  return small == value ? static_cast<double>(small) : static_cast<double>(value);
-}
-
-}  // namespace
-
-Vec3 unit(const Normal& n) {
-  return normalised(
-      {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
-}
-
-double PolygonShape::uncertainty_rad(double offset) const {
-  return height > 2 * offset ? std::asin(2 * offset / height) : std::numbers::pi;
-}
-
-PolygonShape shape_of(const Soup& soup, int polygon) {
-  exact::Vector128 sum{};  // twice the area times the normal
+template <class Int>
+PolygonShape shape_in(const Soup& soup, int polygon) {
+  std::array<Int, 3> sum{};  // twice the area times the normal
   double reach2 = 0;
   const GridPoint base = soup.points[at(soup.corners_of(polygon).front())];
   bool is_outer = true;
@@ -65,9 +51,41 @@ PolygonShape shape_of(const Soup& soup, int polygon) {
   PolygonShape shape;
   shape.normal = exact::direction(sum);
   if (shape.normal) shape.unit = unit(*shape.normal);
-  shape.area = length({to_double(sum[0]), to_double(sum[1]), to_double(sum[2])}) / 2;
+  shape.area = length({static_cast<double>(sum[0]), static_cast<double>(sum[1]),
+                       static_cast<double>(sum[2])}) /
+               2;
   shape.height = reach2 > 0 ? shape.area / std::sqrt(reach2) : 0;
   return shape;
+}
+
+}  // namespace
+
+Vec3 unit(const Normal& n) {
+  return normalised(
+      {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
+}
+
+double PolygonShape::uncertainty_rad(double offset) const {
+  return height > 2 * offset ? std::asin(2 * offset / height) : std::numbers::pi;
+}
+
+std::vector<PolygonShape> shapes_of(const Soup& soup) {
+  GridPoint low = soup.points.front(), high = low;
+  for (const GridPoint& p : soup.points)
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  const GridPoint sides = difference(high, low);
+  const double side = static_cast<double>(std::max({sides[0], sides[1], sides[2]}));
+  std::vector<PolygonShape> shapes;
+  shapes.reserve(soup.polygons.size());
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    // Every corner adds two products at most: 64 bits do for all but the largest polygons.
+    const bool is_small = 2 * side * side * static_cast<double>(soup.corners_of(p).size()) < 4e18;
+    shapes.push_back(is_small ? shape_in<std::int64_t>(soup, p) : shape_in<Int128>(soup, p));
+  }
+  return shapes;
 }
 
 Span span_along(const Soup& soup, int polygon, const Normal& normal) {

@@ -24,7 +24,8 @@ struct PolygonShape {
   [[nodiscard]] double uncertainty_rad(double offset) const;
 };
 
-PolygonShape shape_of(const Soup& soup, int polygon);
+/// Of every polygon of a soup that has any.
+std::vector<PolygonShape> shapes_of(const Soup& soup);
 
 /// Where a polygon's vertices lie along a normal: normal · vertex.
 struct Span {

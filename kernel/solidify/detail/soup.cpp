@@ -59,8 +59,12 @@ class RingCutter {
   /// `corner_count`: of all rings to come.
   RingCutter(Soup& soup, std::size_t corner_count)
       : soup_(soup), last_ring_(soup.points.size(), 0), place_in_path_(soup.points.size(), -1) {
-    soup.corners.resize(corner_count);  // finish() takes back what is left over
+    // As much as there may be; finish() takes back what is left over.
+    soup.corners.resize(corner_count);
+    soup.first_corner.resize(corner_count / 3 + 1);
   }
+
+  [[nodiscard]] int ring_count() const { return ring_count_; }
 
   /// Where the ring comes back to a point (it touches itself, or a bridge ties a hole to its outer
   /// ring) it is cut in two, and what has fewer than three vertices goes.
@@ -83,7 +87,10 @@ class RingCutter {
       cut({points, points + ring.size()});
   }
 
-  void finish() { soup_.corners.resize(end_); }
+  void finish() {
+    soup_.corners.resize(end_);
+    soup_.first_corner.resize(at(ring_count_) + 1);
+  }
 
  private:
   /// Makes the points that stand after the last ring a ring.
@@ -92,7 +99,7 @@ class RingCutter {
     int* const begin = soup_.corners.data() + end_;
     if (smallest > 0) std::rotate(begin, begin + smallest, begin + size);
     end_ += size;
-    soup_.first_corner.push_back(static_cast<int>(end_));
+    soup_.first_corner[at(++ring_count_)] = static_cast<int>(end_);
   }
 
   void cut(Numbers ring) {
@@ -115,6 +122,7 @@ class RingCutter {
 
   Soup& soup_;
   std::size_t end_ = 0;  ///< of the corners so far
+  int ring_count_ = 0;
   int ring_ = 0;
   Numbers last_ring_;  ///< that came to each point
   Numbers path_;
@@ -126,9 +134,9 @@ std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
   return std::lexicographical_compare_three_way(p.begin(), p.end(), q.begin(), q.end());
 }
 
-/// Sorts the rings from `first` on.
-void sort_rings(Soup& soup, int first) {
-  Numbers order(at(soup.ring_count() - first));
+/// Sorts the rings from `first` to before `end`.
+void sort_rings(Soup& soup, int first, int end) {
+  Numbers order(at(end - first));
   std::iota(order.begin(), order.end(), first);
   const auto comes_first = [&](int r, int s) { return compare_rings(soup, r, s) < 0; };
   if (std::ranges::is_sorted(order, comes_first)) return;
@@ -146,29 +154,29 @@ void sort_rings(Soup& soup, int first) {
 /// Appends the building's polygons in its order. Returns how many have nothing left of their outer
 /// ring and were dropped.
 int append_polygons(const Building& building, std::span<const int> point_of, Soup& soup) {
-  int dropped = 0;
   std::size_t corner_count = 0;
   for (const Polygon& polygon : building.polygons)
     for (const auto& ring : polygon.rings) corner_count += ring.size();
   RingCutter cutter(soup, corner_count);
-  soup.polygons.reserve(building.polygons.size());
-  soup.first_ring.reserve(building.polygons.size() + 1);
-  soup.first_corner.reserve(building.polygons.size() + 1);
+  soup.polygons.resize(building.polygons.size());
+  soup.first_ring.resize(building.polygons.size() + 1);
+  std::size_t count = 0;
   for (const Polygon& polygon : building.polygons) {
-    const int first = soup.ring_count();
+    const int first = cutter.ring_count();
     for (const auto& ring : polygon.rings) {
       cutter.append(ring, point_of);
-      if (soup.ring_count() == first) break;
+      if (cutter.ring_count() == first) break;
     }
-    if (soup.ring_count() == first) {
-      ++dropped;
-      continue;
-    }
-    if (soup.ring_count() > first + 1) sort_rings(soup, first);
-    soup.polygons.push_back({polygon.source, polygon.body, polygon.shell});
-    soup.first_ring.push_back(soup.ring_count());
+    const int end = cutter.ring_count();
+    if (end == first) continue;
+    if (end > first + 1) sort_rings(soup, first, end);
+    soup.polygons[count] = {polygon.source, polygon.body, polygon.shell};
+    soup.first_ring[++count] = end;
   }
   cutter.finish();
+  const int dropped = static_cast<int>(soup.polygons.size() - count);
+  soup.polygons.resize(count);
+  soup.first_ring.resize(count + 1);
   return dropped;
 }
 

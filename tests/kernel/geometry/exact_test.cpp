@@ -52,13 +52,14 @@ TEST_SUITE("kernel/geometry") {
   }
 
   TEST_CASE("a direction has no common divisor and points where the vector does") {
-    CHECK(direction({6, -9, 3}) == Normal{2, -3, 1});
-    CHECK(direction({0, 0, -1000}) == Normal{0, 0, -1});
-    CHECK_FALSE(direction({0, 0, 0}));
+    CHECK(direction(Vector128{6, -9, 3}) == Normal{2, -3, 1});
+    CHECK(direction(Vector128{0, 0, -1000}) == Normal{0, 0, -1});
+    CHECK_FALSE(direction(Vector128{0, 0, 0}));
     CHECK(rc::check([] {
       const Normal normal = any_normal();
       const Int128 scale = *rc::gen::inRange<std::int64_t>(1, std::int64_t{1} << 40);
-      const auto found = direction({normal[0] * scale, normal[1] * scale, normal[2] * scale});
+      const auto found =
+          direction(Vector128{normal[0] * scale, normal[1] * scale, normal[2] * scale});
       RC_ASSERT(found.has_value());
       const std::int64_t divisor = std::gcd(std::gcd(normal[0], normal[1]), normal[2]);
       for (std::size_t i = 0; i < 3; ++i) RC_ASSERT((*found)[i] * divisor == normal[i]);
@@ -67,7 +68,7 @@ TEST_SUITE("kernel/geometry") {
 
   TEST_CASE("a direction beyond the range is rounded to 28 bits") {
     const Int128 large = Int128{1} << 60;
-    const auto found = direction({large, large + 1, -large / 3});
+    const auto found = direction(Vector128{large, large + 1, -large / 3});
     REQUIRE(found);
     for (const std::int64_t component : *found) CHECK(std::abs(component) <= kMaxNormal);
     const Vec3 n = plane(*found, 0).normal;

@@ -45,7 +45,7 @@ TEST_SUITE("kernel/solidify") {
       std::ranges::rotate(outer, outer.begin() + 1);
       std::ranges::rotate(hole, hole.begin() + 1);
       const Soup soup = soup_of(points, {outer, hole});
-      const PolygonShape shape = shape_of(soup, 0);
+      const PolygonShape shape = shapes_of(soup).front();
       REQUIRE(shape.normal);
       CHECK(*shape.normal == Normal{0, 0, 1});
       CHECK(shape.area == 77);
@@ -61,7 +61,7 @@ TEST_SUITE("kernel/solidify") {
     CHECK(span.low == 0);
     CHECK(span.high == 1);
     const Soup line = soup_of({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}, {{0, 1, 2}});
-    CHECK_FALSE(shape_of(line, 0).normal);
+    CHECK_FALSE(shapes_of(line).front().normal);
   }
 }
 
