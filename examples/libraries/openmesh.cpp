@@ -1,4 +1,4 @@
-// OpenMesh: a half-edge mesh with boundary and neighbours. The kernel keeps flat lists of its own instead (docs/solidify.md).
+// OpenMesh: a half-edge mesh. The kernel keeps flat lists of its own instead (docs/solidify.md).
 // Trap: its points are floats unless the traits say otherwise: 5403766.115 becomes 5403766.
 // Trap: it refuses a third face on an edge, and only the invalid handle says so.
 // Trap: after find_package(CGAL) it must be looked up as find_package(OpenMesh CONFIG).
