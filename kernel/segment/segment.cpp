@@ -164,7 +164,8 @@ class Segmenter {
     take_out_cavities(task);
     std::optional<detail::Chooser> chooser;
     std::set<std::pair<State, detail::CutKey>> seen;
-    std::set<detail::CutKey> banned;
+    std::set<detail::CutKey> banned;  // those that have led back, and those that failed
+    bool has_led_back = false;
     int bend = 0;
     while (true) {
       if (is_convex(task.body, bend)) return add_leaf(task, LeafFlag::convex);
@@ -172,21 +173,26 @@ class Segmenter {
       if (!chooser)
         chooser.emplace(task.body, options_, ground_, task.own_planes, out_.stats, work_);
       const auto choice = chooser->next(banned);
-      if (!choice) return add_leaf(task, flag_of_uncut(task, !banned.empty()));
+      if (!choice) return add_leaf(task, flag_of_uncut(task, has_led_back));
       // Natural cuts take edges away, so only others can lead back to where the body was. Then that
       // cut is not made again.
       const detail::CutKey key{choice->sides, choice->is_hole};
       if (!choice->is_natural && !seen.emplace(state_of(task.body), key).second) {
         banned.insert(key);
+        has_led_back = true;
         continue;
       }
-      if (choice->imprinted) task.body = *choice->imprinted;
-      auto changes = cut(task, *choice);
+      auto changes = try_cut(task, *choice);
+      if (!changes) {
+        banned.insert(key);
+        chooser.reset();
+        continue;
+      }
       if (choice->imprinted) {
         remove_seams(task.body);
         chooser.reset();
       } else {
-        chooser->changed(std::move(changes));
+        chooser->changed(std::move(*changes));
       }
       if (may_have_parted_) {
         may_have_parted_ = false;
@@ -195,8 +201,8 @@ class Segmenter {
     }
   }
 
-  static LeafFlag flag_of_uncut(const Task& task, bool has_banned) {
-    if (has_banned) return LeafFlag::cycle;
+  static LeafFlag flag_of_uncut(const Task& task, bool has_led_back) {
+    if (has_led_back) return LeafFlag::cycle;
     return task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own;
   }
 
@@ -257,6 +263,32 @@ class Segmenter {
     }
     parent_of_rest_ = task.node;
     task.node = rest;
+  }
+
+  /// Carries out a choice. Nothing, and all is as before, if its rim turns out to separate nothing,
+  /// as may be between vertices that lie on their planes by decree only (noisy input). Cuts along
+  /// edges do not fail in that way, so no copy is kept of their bodies.
+  std::optional<std::vector<detail::Change>> try_cut(Task& task, const Choice& choice) {
+    if (choice.is_natural && !choice.imprinted) return cut(task, choice);
+    Boundary body = task.body;
+    const NodeId id = task.node;
+    const auto [nodes, features, cells] = counts();
+    const std::size_t tasks = tasks_.size();
+    const auto points = world_.points.mark();
+    if (choice.imprinted) task.body = *choice.imprinted;
+    try {
+      return cut(task, choice);
+    } catch (const GeometryError&) {
+      task.body = std::move(body);
+      task.node = id;
+      node(id) = {};
+      out_.nodes.resize(static_cast<std::size_t>(nodes));
+      out_.features.resize(static_cast<std::size_t>(features));
+      tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(tasks), tasks_.end());
+      world_.points.forget_since(points);
+      may_have_parted_ = false;
+      return std::nullopt;
+    }
   }
 
   /// Carries out a choice: makes its node and the parts' tasks, and leaves the rest in the task.
