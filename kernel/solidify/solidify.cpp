@@ -99,7 +99,7 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
   check_closed(building, soup, mesh, out.issues);
   if (is_set_aside()) return out;
 
-  const detail::PlaneClusters clusters = detail::cluster_planes(soup, tolerances);
+  const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances);
   detail::FacetDraft draft = detail::draft_facets(soup, clusters, mesh);
   const auto hints = hints_of(building, soup, draft);
   detail::SnappedSolid snapped =

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/plane_clusters.h"
 
 #include "kernel/model/detail/counting_sort.h"
+#include "kernel/solidify/detail/coplanar_groups.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 
 #include <algorithm>
@@ -77,8 +78,10 @@ class PlacesAtPoints {
 
 class Clusterer {
  public:
-  Clusterer(const Soup& soup, const Tolerances& tolerances)
+  /// `is_united`: of each polygon whether it is several in one; none are if it is empty.
+  Clusterer(const Soup& soup, const Tolerances& tolerances, std::vector<char> is_united = {})
       : soup_(soup),
+        is_united_(std::move(is_united)),
         offset_tolerance_(tolerances.plane_offset_m / soup.grid_m),
         angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
         shapes_(shapes_of(soup)) {}
@@ -209,9 +212,17 @@ class Clusterer {
       const double residual = residual_of(o->first) / c.size;
       if (!best || residual < best->residual) best = Fit{k, true, o->first, residual};
     }
-    if (!best && residual_of(span.mean) <= reach)
-      best = Fit{k, false, span.mean, residual_of(span.mean) / c.size};
+    if (best) return best;
+    const std::int64_t middle = middle_along(polygon, c.normal, span);
+    if (residual_of(middle) <= reach) best = Fit{k, false, middle, residual_of(middle) / c.size};
     return best;
+  }
+
+  /// The offset of the polygon's own plane of that normal.
+  [[nodiscard]] std::int64_t middle_along(int polygon, const Normal& normal,
+                                          const Span& span) const {
+    return is_united_.empty() || !is_united_[at(polygon)] ? span.mean
+                                                          : median_along(soup_, polygon, normal);
   }
 
   /// Puts the polygon on the best place there is, or on a new one; returns its number.
@@ -245,7 +256,8 @@ class Clusterer {
     c.cell = cell_of(c.unit);
     cells_[c.cell].push_back(k);
     classes_.push_back(std::move(c));
-    return number_of(k, span_along(soup_, polygon, classes_.back().normal).mean);
+    const Normal& normal = classes_.back().normal;
+    return number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
   }
 
   /// Two parallel planes cannot share a vertex. Where polygons of one class but of two planes do,
@@ -393,6 +405,7 @@ class Clusterer {
   }
 
   const Soup& soup_;
+  std::vector<char> is_united_;
   double offset_tolerance_;  ///< grid units
   double angle_tolerance_;
   std::vector<PolygonShape> shapes_;
@@ -403,10 +416,39 @@ class Clusterer {
   std::vector<int> place_of_;  ///< by polygon
 };
 
+/// Members of groups that are at more than 45° to their group's plane: all there is to tell of a
+/// recess or a rise that went into its wall.
+int count_standing(const Soup& soup, const CoplanarGroups& groups, const PlaneClusters& of_groups) {
+  int standing = 0;
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    const auto group = static_cast<std::size_t>(groups.group_of[static_cast<std::size_t>(p)]);
+    const Plane& plane = of_groups.planes[static_cast<std::size_t>(of_groups.plane_of[group])];
+    const PolygonShape shape = shape_of(soup, p);
+    if (shape.normal && std::abs(dot(shape.unit, plane.normal)) < std::numbers::sqrt2 / 2)
+      ++standing;
+  }
+  return standing;
+}
+
 }  // namespace
 
-PlaneClusters cluster_planes(const Soup& soup, const Tolerances& tolerances) {
-  return Clusterer(soup, tolerances).run();
+PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
+                             const Tolerances& tolerances) {
+  const CoplanarGroups groups = group_coplanar(soup, mesh, tolerances);
+  if (groups.count == soup.polygon_count()) return Clusterer(soup, tolerances).run();
+  const Soup grouped = soup_of_groups(soup, groups);
+  std::vector<int> members(static_cast<std::size_t>(groups.count), 0);
+  for (const int g : groups.group_of) ++members[static_cast<std::size_t>(g)];
+  std::vector<char> is_united;
+  for (const int n : members) is_united.push_back(n > 1);
+  PlaneClusters clusters = Clusterer(grouped, tolerances, std::move(is_united)).run();
+  clusters.standing = count_standing(soup, groups, clusters);
+  std::vector<int> plane_of;
+  plane_of.reserve(groups.group_of.size());
+  for (const int g : groups.group_of)
+    plane_of.push_back(clusters.plane_of[static_cast<std::size_t>(g)]);
+  clusters.plane_of = std::move(plane_of);
+  return clusters;
 }
 
 }  // namespace oriel::detail

@@ -2,6 +2,7 @@
 
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/solidify/detail/shell_mesh.h"
 #include "kernel/solidify/detail/soup.h"
 
 #include <vector>
@@ -25,6 +26,6 @@ struct PlaneClusters {
 /// lies further off than plane_offset_m; a polygon so thin that its own normal is uncertain by more
 /// may be tilted by that much. One that stands across its plane is oriented as its neighbours
 /// there.
-PlaneClusters cluster_planes(const Soup& soup, const Tolerances& tolerances);
+PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh, const Tolerances& tolerances);
 
 }  // namespace oriel::detail

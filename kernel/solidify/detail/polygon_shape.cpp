@@ -104,4 +104,12 @@ Span span_along(const Soup& soup, int polygon, const Normal& normal) {
   return span;
 }
 
+std::int64_t median_along(const Soup& soup, int polygon, const Normal& normal) {
+  std::vector<std::int64_t> values;
+  for (const int v : soup.corners_of(polygon)) values.push_back(along(normal, soup.points[at(v)]));
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 }  // namespace oriel::detail

@@ -50,6 +50,10 @@ inline std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon,
   return offset;
 }
 
+/// The upper median of normal · vertex over all corners: of a wall with a recess thinner than the
+/// tolerance that of the wall, as at most half of the corners lie deeper.
+std::int64_t median_along(const Soup& soup, int polygon, const Normal& normal);
+
 /// True if asin(sine) > limit; the arcsine is taken only where its bounds do not decide.
 inline bool is_arcsine_above(double sine, double limit) {
   if (1.6 * sine <= limit) return false;   // asin(s) ≤ s · π / 2

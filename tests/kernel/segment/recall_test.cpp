@@ -1,4 +1,5 @@
 #include "kernel/io/truth.h"
+#include "tests/support/boxes.h"
 #include "tests/support/corpus.h"
 #include "tests/support/generated.h"
 #include "tests/support/segmented.h"
@@ -11,23 +12,10 @@
 namespace oriel {
 namespace {
 
-double volume_of(const Box& box) {
-  const Vec3 size = box.max - box.min;
-  return std::max(0.0, size.x) * std::max(0.0, size.y) * std::max(0.0, size.z);
-}
-
-double overlap_of(const Box& p, const Box& q) {
-  const Box both{
-      {std::max(p.min.x, q.min.x), std::max(p.min.y, q.min.y), std::max(p.min.z, q.min.z)},
-      {std::min(p.max.x, q.max.x), std::min(p.max.y, q.max.y), std::min(p.max.z, q.max.z)}};
-  const double shared = volume_of(both);
-  return shared / (volume_of(p) + volume_of(q) - shared);
-}
-
 /// Whether a feature has this box at IoU 0.8, the boxes as they are, in the input's coordinates.
 bool has_feature_in(const test::Segmented& s, const Box& box) {
   return std::ranges::any_of(s.segmentation.features, [&](const Feature& f) {
-    return overlap_of(f.box.moved(s.building.frame.origin_m), box) >= 0.8;
+    return test::iou_of(f.box.moved(s.building.frame.origin_m), box) >= 0.8;
   });
 }
 
