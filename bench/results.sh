@@ -9,12 +9,15 @@ shared=${ORIEL_SHARED:-../shared}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+# Options of label, beside the defaults.
+label_options=()
+
 # score NAME TRUTH INPUT…: set-aside buildings count as misses, so exit 3 is no failure here.
 score() {
   local name=$1 truth=$2
   shift 2
   echo "== $name"
-  "$oriel" label "$@" --features "$work/parts.jsonl" 2>"$work/messages" || [ $? -eq 3 ]
+  "$oriel" label "${label_options[@]}" "$@" --features "$work/parts.jsonl" 2>"$work/messages" || [ $? -eq 3 ]
   tail -n 1 "$work/messages"
   "$oriel" score "$work/parts.jsonl" --truth "$truth" | sed -n '/^class/,/^macro/p'
 }
@@ -32,7 +35,19 @@ done <<'SETS'
 plain
 jitter --jitter 0.3
 noisy --noise 0.5
+noisy-1 --noise 1
+noisy-1-triangulated --noise 1 --triangulate
 triangulated --triangulate
 turned --rotate 27 --origin 604000,5403766,370
 half-flush --flush 0.5
+SETS
+# The setting for noise of 5 mm (docs/solidify.md).
+label_options=(--plane-offset 0.008)
+while read -r name options; do
+  # shellcheck disable=SC2086
+  "$generate" --seed 77 --count 100 $options -o "$work/$name.city.jsonl" --truth "$work/$name.truth.jsonl"
+  score "generated: $name, ${label_options[*]}" "$work/$name.truth.jsonl" "$work/$name.city.jsonl"
+done <<'SETS'
+noisy-5 --noise 5
+noisy-5-triangulated --noise 5 --triangulate
 SETS
