@@ -21,17 +21,62 @@ struct RoughPlane {
   [[nodiscard]] double distance(Vec3 p) const { return std::abs(dot(normal, p - point)); }
 };
 
+/// Sums over points p relative to an origin, to fit a plane to them.
+struct PointSums {
+  double count = 0;
+  Vec3 p, squares, products;  ///< Σ p, Σ (xx, yy, zz), Σ (yz, zx, xy)
+
+  void add(Vec3 q) {
+    ++count;
+    p = p + q;
+    squares = squares + Vec3{q.x * q.x, q.y * q.y, q.z * q.z};
+    products = products + Vec3{q.y * q.z, q.z * q.x, q.x * q.y};
+  }
+  friend PointSums operator+(const PointSums& a, const PointSums& b) {
+    return {a.count + b.count, a.p + b.p, a.squares + b.squares, a.products + b.products};
+  }
+};
+
+/// The plane with the least squared distances along the coordinate axis that is nearest to
+/// `normal`, on the side of it; `normal` itself where the points lie on a line.
+RoughPlane least_squares(const PointSums& sums, Vec3 normal, Vec3 origin) {
+  const Vec3 mean = (1 / sums.count) * sums.p;
+  const double n[3] = {normal.x, normal.y, normal.z}, m[3] = {mean.x, mean.y, mean.z},
+               squares[3] = {sums.squares.x, sums.squares.y, sums.squares.z},
+               products[3] = {sums.products.x, sums.products.y, sums.products.z};
+  int w = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(n[i]) > std::abs(n[w])) w = i;
+  const int u = (w + 1) % 3, v = (w + 2) % 3;
+  const auto spread = [&](int i) { return squares[i] - sums.count * m[i] * m[i]; };
+  const auto joint = [&](int i, int j) { return products[3 - i - j] - sums.count * m[i] * m[j]; };
+  const double det = spread(u) * spread(v) - joint(u, v) * joint(u, v);
+  double fitted[3] = {n[0], n[1], n[2]};
+  if (det > 1e-9 * spread(u) * spread(v)) {
+    const double sign = n[w] < 0 ? -1 : 1;
+    fitted[u] = -sign * (joint(u, w) * spread(v) - joint(v, w) * joint(u, v)) / det;
+    fitted[v] = -sign * (joint(v, w) * spread(u) - joint(u, w) * joint(u, v)) / det;
+    fitted[w] = sign;
+  }
+  return {normalised({fitted[0], fitted[1], fitted[2]}), origin + mean};
+}
+
 /// What is known of a group, in grid units.
 struct Group {
   Vec3 area_vector;        ///< the normal times the area, summed over its polygons
   double area = 0;         ///< of its polygons, added up
   Vec3 moment;             ///< area times centre, added up
   double uncertainty = 0;  ///< how far its normal may be off, radians
+  PointSums sums;          ///< of its polygons' corners
+  RoughPlane plane;
+  bool is_fitted = false;  ///< its plane is the one of least squares, not of the area vector
   double residual = 0;     ///< no vertex lies further from its plane
   Box box;
   std::vector<int> points;
 
-  [[nodiscard]] RoughPlane plane() const { return {normalised(area_vector), (1 / area) * moment}; }
+  [[nodiscard]] RoughPlane plane_of_areas() const {
+    return {normalised(area_vector), (1 / area) * moment};
+  }
 };
 
 class Grouper {
@@ -41,31 +86,42 @@ class Grouper {
         mesh_(mesh),
         reach_(tolerances.plane_offset_m / soup.grid_m),
         angle_(tolerances.coplanar_deg * std::numbers::pi / 180),
-        sets_(soup.polygons.size()) {}
+        sets_(soup.polygons.size()),
+        origin_(soup.points.empty() ? Vec3{} : point(soup.points.front())) {}
 
   CoplanarGroups run() {
     for (int p = 0; p < soup_.polygon_count(); ++p) shapes_.push_back(shape_of(soup_, p));
     std::vector<Pair> pairs = likely_pairs();
     if (!pairs.empty()) {
       for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
-      // What two groups refuse may suit them when they have grown and their normals are surer.
-      while (std::erase_if(pairs, [&](const Pair& pair) { return unite(pair.first, pair.second); }))
-        ;
+      unite_all(pairs, Fitting::areas);
+      unite_all(pairs, Fitting::corners);
       take_in_slivers();
     }
     return numbered();
   }
 
  private:
+  /// What stands across a plane, at more than 45°, may be the side of a recess, so it is left alone
+  /// however thin it is.
+  static constexpr double kMost = std::numbers::pi / 4;
+  /// The plane of least squares goes through the middle of whatever it is given, so it is asked
+  /// only where the area vectors are nearly right.
+  static constexpr double kMostOfCorners = std::numbers::pi / 36;
+
+  /// What tells the plane of a group: the area vectors of its polygons, or, as a thin frame has
+  /// little area for its reach, the corners of all of them by least squares.
+  enum class Fitting { areas, corners };
+
   struct Pair {
     double smaller_area;
     int first, second;
   };
 
-  [[nodiscard]] Vec3 point(int v) const {
-    const exact::GridPoint& p = soup_.points[at(v)];
+  static Vec3 point(const exact::GridPoint& p) {
     return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
   }
+  [[nodiscard]] Vec3 point(int v) const { return point(soup_.points[at(v)]); }
 
   /// Neighbours with area whose normals may be those of one plane, the largest first.
   [[nodiscard]] std::vector<Pair> likely_pairs() const {
@@ -77,7 +133,7 @@ class Grouper {
       const PolygonShape &a = shapes_[at(p)], &b = shapes_[at(q)];
       if (p == q || !a.normal || !b.normal) continue;
       const double allowed = 2 * angle_ + a.uncertainty_rad(reach_) + b.uncertainty_rad(reach_);
-      if (is_angle_above(a.unit, b.unit, allowed)) continue;
+      if (is_angle_above(a.unit, b.unit, std::min(allowed, kMost))) continue;
       pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
     }
     std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
@@ -98,10 +154,13 @@ class Grouper {
     Vec3 sum;
     for (const int v : group.points) {
       sum = sum + point(v);
+      group.sums.add(point(v) - origin_);
       group.box.grow(point(v));
     }
     group.moment = (shape.area / static_cast<double>(group.points.size())) * sum;
-    if (shape.normal) group.residual = residual_of(group, group.plane());
+    if (!shape.normal) return group;
+    group.plane = group.plane_of_areas();
+    group.residual = residual_of(group, group.plane);
     return group;
   }
 
@@ -114,7 +173,7 @@ class Grouper {
   /// No smaller than the residual: that of the group's own plane, and how far the two planes are
   /// apart in its box.
   [[nodiscard]] static double residual_bound(const Group& group, const RoughPlane& plane) {
-    const RoughPlane own = group.plane();
+    const RoughPlane& own = group.plane;
     const Vec3 turn = plane.normal - own.normal, half = 0.5 * (group.box.max - group.box.min),
                middle = group.box.min + half;
     return group.residual +
@@ -122,43 +181,63 @@ class Grouper {
            std::abs(turn.x) * half.x + std::abs(turn.y) * half.y + std::abs(turn.z) * half.z;
   }
 
-  /// What stands across a plane, at more than 45°, may be the side of a recess, so it is left alone
-  /// however thin it is.
   [[nodiscard]] static bool is_angle_above(Vec3 p, Vec3 q, double limit) {
-    return dot(p, q) <= 0 ||
-           is_arcsine_above(length(cross(p, q)), std::min(limit, std::numbers::pi / 4));
+    return dot(p, q) <= 0 || is_arcsine_above(length(cross(p, q)), limit);
   }
 
-  [[nodiscard]] bool is_tilted_too_far(const Group& group, const RoughPlane& plane) const {
-    return is_angle_above(normalised(group.area_vector), plane.normal, angle_ + group.uncertainty);
+  [[nodiscard]] bool is_tilted_too_far(const Group& group, const Group& united) const {
+    const double most = united.is_fitted ? kMostOfCorners : kMost;
+    return is_angle_above(normalised(group.area_vector), united.plane.normal,
+                          std::min(angle_ + group.uncertainty, most));
+  }
+
+  /// True if both groups fit the plane of what they make together; sets its residual.
+  [[nodiscard]] bool fits(const Group& large, const Group& small, Group& united) const {
+    const RoughPlane& plane = united.plane;
+    if (is_tilted_too_far(large, united) || is_tilted_too_far(small, united)) return false;
+    const double of_small = residual_of(small, plane);
+    if (of_small > reach_) return false;
+    double of_large = residual_bound(large, plane);
+    if (of_large > reach_) of_large = residual_of(large, plane);
+    united.residual = std::max(of_small, of_large);
+    return of_large <= reach_;
+  }
+
+  /// Unites what goes together and drops those pairs. What two groups refuse may suit them when
+  /// they have grown and their normals are surer.
+  void unite_all(std::vector<Pair>& pairs, Fitting fitting) {
+    const auto is_united = [&](const Pair& pair) {
+      return unite(pair.first, pair.second, fitting);
+    };
+    while (std::erase_if(pairs, is_united) > 0) {
+    }
   }
 
   /// True if they are one group now, or were one before.
-  bool unite(int p, int q) {
+  bool unite(int p, int q, Fitting fitting) {
     const int first = sets_.find(p), second = sets_.find(q);
     if (first == second) return true;
     Group *large = &groups_[at(first)], *small = &groups_[at(second)];
     if (large->points.size() < small->points.size()) std::swap(large, small);
 
-    const Vec3 area_vector = large->area_vector + small->area_vector;
-    if (length(area_vector) <= 0) return false;
-    const double area = large->area + small->area;
-    const Vec3 moment = large->moment + small->moment;
-    const RoughPlane plane{normalised(area_vector), (1 / area) * moment};
-    if (is_tilted_too_far(*large, plane) || is_tilted_too_far(*small, plane)) return false;
-    const double residual_small = residual_of(*small, plane);
-    if (residual_small > reach_) return false;
-    double residual_large = residual_bound(*large, plane);
-    if (residual_large > reach_) residual_large = residual_of(*large, plane);
-    if (residual_large > reach_) return false;
-
-    large->points.insert(large->points.end(), small->points.begin(), small->points.end());
-    large->box.grow(small->box);
-    large->area_vector = area_vector;
-    large->area = area;
-    large->moment = moment;
-    large->residual = std::max(residual_small, residual_large);
-    large->uncertainty = std::min(large->uncertainty, small->uncertainty);
+    Group united;
+    united.area_vector = large->area_vector + small->area_vector;
+    if (length(united.area_vector) <= 0) return false;
+    united.area = large->area + small->area;
+    united.moment = large->moment + small->moment;
+    united.sums = large->sums + small->sums;
+    united.uncertainty = std::min(large->uncertainty, small->uncertainty);
+    united.plane = united.plane_of_areas();
+    if (fitting == Fitting::corners) {
+      united.plane = least_squares(united.sums, united.plane.normal, origin_);
+      united.is_fitted = true;
+    }
+    if (!fits(*large, *small, united)) return false;
+    united.box = large->box;
+    united.box.grow(small->box);
+    united.points = std::move(large->points);
+    united.points.insert(united.points.end(), small->points.begin(), small->points.end());
+    *large = std::move(united);
     if (large != &groups_[at(std::min(first, second))]) std::swap(*large, *small);
     sets_.unite(first, second);
     return true;
@@ -172,8 +251,8 @@ class Grouper {
     std::vector<int> slivers;
     for (int p = 0; p < soup_.polygon_count(); ++p)
       if (groups_[at(p)].uncertainty > std::numbers::pi / 2 && is_alone(p)) slivers.push_back(p);
-    while (std::erase_if(slivers, [&](int p) { return take_in(p); }))
-      ;
+    while (std::erase_if(slivers, [&](int p) { return take_in(p); }) > 0) {
+    }
   }
 
   [[nodiscard]] bool is_alone(int p) {
@@ -185,7 +264,7 @@ class Grouper {
     if (group < 0) return false;
     const Group& sliver = groups_[at(p)];
     Group grown = groups_[at(group)];
-    const double residual = residual_of(sliver, grown.plane());
+    const double residual = residual_of(sliver, grown.plane);
     if (residual > reach_) return false;
     grown.points.insert(grown.points.end(), sliver.points.begin(), sliver.points.end());
     grown.box.grow(sliver.box);
@@ -222,8 +301,14 @@ class Grouper {
     CoplanarGroups out;
     std::vector<int> number(soup_.polygons.size(), -1);
     for (int p = 0; p < soup_.polygon_count(); ++p) {
-      int& n = number[at(sets_.find(p))];
-      if (n < 0) n = out.count++;
+      const int set = sets_.find(p);
+      int& n = number[at(set)];
+      if (n < 0) {
+        n = out.count++;
+        out.fitted_normal.emplace_back();
+        if (!groups_.empty() && groups_[at(set)].is_fitted)
+          out.fitted_normal.back() = groups_[at(set)].plane.normal;
+      }
       out.group_of.push_back(n);
     }
     return out;
@@ -234,6 +319,7 @@ class Grouper {
   double reach_;  ///< grid units
   double angle_;
   DisjointSets sets_;
+  Vec3 origin_;  ///< of the sums over points: near them
   std::vector<PolygonShape> shapes_;
   std::vector<Group> groups_;  ///< by the set's smallest member
 };

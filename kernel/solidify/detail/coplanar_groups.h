@@ -4,6 +4,7 @@
 #include "kernel/solidify/detail/shell_mesh.h"
 #include "kernel/solidify/detail/soup.h"
 
+#include <optional>
 #include <vector>
 
 namespace oriel::detail {
@@ -13,11 +14,17 @@ struct CoplanarGroups {
   /// Of each polygon of the soup its group; groups count from 0 in the order of first members.
   std::vector<int> group_of;
   int count = 0;
+  /// Of each group the unit normal of the least-squares plane of its corners, where the area
+  /// vector's plane does not have all of them within the tolerance.
+  std::vector<std::optional<Vec3>> fitted_normal;
 };
 
-/// Unites neighbours, the largest first, as long as the plane of what they make together (the sum
-/// of their area vectors, through their centre of area) has all its vertices within plane_offset_m,
-/// and tilts neither by more than coplanar_deg, or by as much as its own normal is uncertain.
+/// Unites neighbours, the largest first, as long as a plane of what they make together has all its
+/// vertices within plane_offset_m and tilts neither by more than coplanar_deg and what its own
+/// normal is uncertain by. The plane is that of the sum of their area vectors through their centre
+/// of area, or else that of least squares. What is at more than 45° to its neighbour is left alone,
+/// but for slivers: polygons thinner than twice plane_offset_m that share more than half of their
+/// outline with a group and lie in its plane.
 ///
 /// With noise the normal of a triangle says little about the wall that it is a piece of; the area
 /// vectors of all pieces add up to the wall's own, however it was cut.

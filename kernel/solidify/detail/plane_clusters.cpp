@@ -86,6 +86,15 @@ class Clusterer {
         angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
         shapes_(shapes_of(soup)) {}
 
+  /// Another normal for a polygon than that of its area vector.
+  void set_normal(int polygon, Vec3 normal) {
+    PolygonShape& shape = shapes_[at(polygon)];
+    const double scale = static_cast<double>(exact::kMaxNormal) / 2;
+    const auto whole = [&](double c) { return exact::Int128{std::llround(scale * c)}; };
+    shape.normal = exact::direction({whole(normal.x), whole(normal.y), whole(normal.z)});
+    shape.unit = unit(*shape.normal);
+  }
+
   PlaneClusters run() {
     const std::vector<int> by_area = largest_first();
     place_of_.resize(soup_.polygons.size());
@@ -441,7 +450,11 @@ PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
   for (const int g : groups.group_of) ++members[static_cast<std::size_t>(g)];
   std::vector<char> is_united;
   for (const int n : members) is_united.push_back(n > 1);
-  PlaneClusters clusters = Clusterer(grouped, tolerances, std::move(is_united)).run();
+  Clusterer clusterer(grouped, tolerances, std::move(is_united));
+  for (int g = 0; g < groups.count; ++g)
+    if (const auto& normal = groups.fitted_normal[static_cast<std::size_t>(g)])
+      clusterer.set_normal(g, *normal);
+  PlaneClusters clusters = clusterer.run();
   clusters.standing = count_standing(soup, groups, clusters);
   std::vector<int> plane_of;
   plane_of.reserve(groups.group_of.size());
