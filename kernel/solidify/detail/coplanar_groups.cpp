@@ -1,7 +1,6 @@
 #include "kernel/solidify/detail/coplanar_groups.h"
 
 #include "kernel/solidify/detail/disjoint_sets.h"
-#include "kernel/solidify/detail/polygon_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,8 +80,10 @@ struct Group {
 
 class Grouper {
  public:
-  Grouper(const Soup& soup, const ShellMesh& mesh, const Tolerances& tolerances)
+  Grouper(const Soup& soup, const std::vector<PolygonShape>& shapes, const ShellMesh& mesh,
+          const Tolerances& tolerances)
       : soup_(soup),
+        shapes_(shapes),
         mesh_(mesh),
         reach_(tolerances.plane_offset_m / soup.grid_m),
         angle_(tolerances.coplanar_deg * std::numbers::pi / 180),
@@ -90,7 +91,6 @@ class Grouper {
         origin_(soup.points.empty() ? Vec3{} : point(soup.points.front())) {}
 
   CoplanarGroups run() {
-    for (int p = 0; p < soup_.polygon_count(); ++p) shapes_.push_back(shape_of(soup_, p));
     std::vector<Pair> pairs = likely_pairs();
     if (!pairs.empty()) {
       for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
@@ -315,20 +315,20 @@ class Grouper {
   }
 
   const Soup& soup_;
+  const std::vector<PolygonShape>& shapes_;
   const ShellMesh& mesh_;
   double reach_;  ///< grid units
   double angle_;
   DisjointSets sets_;
-  Vec3 origin_;  ///< of the sums over points: near them
-  std::vector<PolygonShape> shapes_;
+  Vec3 origin_;                ///< of the sums over points: near them
   std::vector<Group> groups_;  ///< by the set's smallest member
 };
 
 }  // namespace
 
-CoplanarGroups group_coplanar(const Soup& soup, const ShellMesh& mesh,
-                              const Tolerances& tolerances) {
-  return Grouper(soup, mesh, tolerances).run();
+CoplanarGroups group_coplanar(const Soup& soup, const std::vector<PolygonShape>& shapes,
+                              const ShellMesh& mesh, const Tolerances& tolerances) {
+  return Grouper(soup, shapes, mesh, tolerances).run();
 }
 
 Soup soup_of_groups(const Soup& soup, const CoplanarGroups& groups) {

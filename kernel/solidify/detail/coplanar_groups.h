@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/tolerances.h"
+#include "kernel/solidify/detail/polygon_shape.h"
 #include "kernel/solidify/detail/shell_mesh.h"
 #include "kernel/solidify/detail/soup.h"
 
@@ -26,10 +27,12 @@ struct CoplanarGroups {
 /// but for slivers: polygons thinner than twice plane_offset_m that share more than half of their
 /// outline with a group and lie in its plane.
 ///
+/// `shapes` are those of the soup's polygons.
+///
 /// With noise the normal of a triangle says little about the wall that it is a piece of; the area
 /// vectors of all pieces add up to the wall's own, however it was cut.
-CoplanarGroups group_coplanar(const Soup& soup, const ShellMesh& mesh,
-                              const Tolerances& tolerances);
+CoplanarGroups group_coplanar(const Soup& soup, const std::vector<PolygonShape>& shapes,
+                              const ShellMesh& mesh, const Tolerances& tolerances);
 
 /// The soup in which each group is one polygon with the rings of all its members. Neither sources
 /// nor order are kept.

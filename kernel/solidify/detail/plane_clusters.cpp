@@ -78,13 +78,15 @@ class PlacesAtPoints {
 
 class Clusterer {
  public:
-  /// `is_united`: of each polygon whether it is several in one; none are if it is empty.
-  Clusterer(const Soup& soup, const Tolerances& tolerances, std::vector<char> is_united = {})
+  /// `shapes` of the polygons; `is_united`: of each whether it is several in one; none are if it is
+  /// empty.
+  Clusterer(const Soup& soup, std::vector<PolygonShape> shapes, const Tolerances& tolerances,
+            std::vector<char> is_united = {})
       : soup_(soup),
         is_united_(std::move(is_united)),
         offset_tolerance_(tolerances.plane_offset_m / soup.grid_m),
         angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
-        shapes_(shapes_of(soup)) {}
+        shapes_(std::move(shapes)) {}
 
   /// Another normal for a polygon than that of its area vector.
   void set_normal(int polygon, Vec3 normal) {
@@ -427,12 +429,13 @@ class Clusterer {
 
 /// Members of groups that are at more than 45° to their group's plane: all there is to tell of a
 /// recess or a rise that went into its wall.
-int count_standing(const Soup& soup, const CoplanarGroups& groups, const PlaneClusters& of_groups) {
+int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups& groups,
+                   const PlaneClusters& of_groups) {
   int standing = 0;
-  for (int p = 0; p < soup.polygon_count(); ++p) {
-    const auto group = static_cast<std::size_t>(groups.group_of[static_cast<std::size_t>(p)]);
+  for (std::size_t p = 0; p < shapes.size(); ++p) {
+    const auto group = static_cast<std::size_t>(groups.group_of[p]);
     const Plane& plane = of_groups.planes[static_cast<std::size_t>(of_groups.plane_of[group])];
-    const PolygonShape shape = shape_of(soup, p);
+    const PolygonShape& shape = shapes[p];
     if (shape.normal && std::abs(dot(shape.unit, plane.normal)) < std::numbers::sqrt2 / 2)
       ++standing;
   }
@@ -443,19 +446,21 @@ int count_standing(const Soup& soup, const CoplanarGroups& groups, const PlaneCl
 
 PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
                              const Tolerances& tolerances) {
-  const CoplanarGroups groups = group_coplanar(soup, mesh, tolerances);
-  if (groups.count == soup.polygon_count()) return Clusterer(soup, tolerances).run();
+  std::vector<PolygonShape> shapes = shapes_of(soup);
+  const CoplanarGroups groups = group_coplanar(soup, shapes, mesh, tolerances);
+  if (groups.count == soup.polygon_count())
+    return Clusterer(soup, std::move(shapes), tolerances).run();
   const Soup grouped = soup_of_groups(soup, groups);
   std::vector<int> members(static_cast<std::size_t>(groups.count), 0);
   for (const int g : groups.group_of) ++members[static_cast<std::size_t>(g)];
   std::vector<char> is_united;
   for (const int n : members) is_united.push_back(n > 1);
-  Clusterer clusterer(grouped, tolerances, std::move(is_united));
+  Clusterer clusterer(grouped, shapes_of(grouped), tolerances, std::move(is_united));
   for (int g = 0; g < groups.count; ++g)
     if (const auto& normal = groups.fitted_normal[static_cast<std::size_t>(g)])
       clusterer.set_normal(g, *normal);
   PlaneClusters clusters = clusterer.run();
-  clusters.standing = count_standing(soup, groups, clusters);
+  clusters.standing = count_standing(shapes, groups, clusters);
   std::vector<int> plane_of;
   plane_of.reserve(groups.group_of.size());
   for (const int g : groups.group_of)
