@@ -105,6 +105,7 @@ class Grouper {
   /// What stands across a plane, at more than 45°, may be the side of a recess, so it is left alone
   /// however thin it is.
   static constexpr double kMost = std::numbers::pi / 4;
+  static constexpr double kCosineOfMost = std::numbers::sqrt2 / 2;
   /// The plane of least squares goes through the middle of whatever it is given, so it is asked
   /// only where the area vectors are nearly right.
   static constexpr double kMostOfCorners = std::numbers::pi / 36;
@@ -123,19 +124,24 @@ class Grouper {
   }
   [[nodiscard]] Vec3 point(int v) const { return point(soup_.points[at(v)]); }
 
-  /// Neighbours with area whose normals may be those of one plane, the largest first.
+  /// Neighbours with area whose normals may be those of one plane, the largest first. None if all
+  /// such normals are equal: then there is nothing to fit.
   [[nodiscard]] std::vector<Pair> likely_pairs() const {
     std::vector<Pair> pairs;
+    bool is_exact = true;
     for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
       const int twin = mesh_.twin[h];
       if (twin < static_cast<int>(h)) continue;
       const int p = mesh_.polygon_of[h], q = mesh_.polygon_of[at(twin)];
       const PolygonShape &a = shapes_[at(p)], &b = shapes_[at(q)];
       if (p == q || !a.normal || !b.normal) continue;
+      if (dot(a.unit, b.unit) < kCosineOfMost) continue;
       const double allowed = 2 * angle_ + a.uncertainty_rad(reach_) + b.uncertainty_rad(reach_);
-      if (is_angle_above(a.unit, b.unit, std::min(allowed, kMost))) continue;
+      if (*a.normal != *b.normal && is_angle_above(a.unit, b.unit, allowed)) continue;
       pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
+      is_exact &= *a.normal == *b.normal;
     }
+    if (is_exact) return {};
     std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
       return std::tuple(-x.smaller_area, x.first, x.second) <
              std::tuple(-y.smaller_area, y.first, y.second);

@@ -93,7 +93,8 @@ class Clusterer {
     PolygonShape& shape = shapes_[at(polygon)];
     const double scale = static_cast<double>(exact::kMaxNormal) / 2;
     const auto whole = [&](double c) { return exact::Int128{std::llround(scale * c)}; };
-    shape.normal = exact::direction({whole(normal.x), whole(normal.y), whole(normal.z)});
+    shape.normal =
+        exact::direction(exact::Vector128{whole(normal.x), whole(normal.y), whole(normal.z)});
     shape.unit = unit(*shape.normal);
   }
 
