@@ -131,8 +131,12 @@ void Annotator::find_owners() {
   const auto& features = segmentation_.features;
   std::vector<int> order(features.size());
   std::iota(order.begin(), order.end(), 0);
-  // Of equal volumes, such as imprints, the later feature is the inner one.
-  std::ranges::sort(order, {}, [&](int f) { return std::pair(features[index(f)].volume_m3, -f); });
+  // Of equal volumes, such as those of imprints, the one with fewer polygons is the inner one, then
+  // the later one.
+  std::ranges::sort(order, {}, [&](int f) {
+    const Feature& feature = features[index(f)];
+    return std::tuple(feature.volume_m3, feature.source_polygons.size(), -f);
+  });
   owners_.resize(polygons_.size());
   for (const int feature : order)
     for (const int polygon : features[index(feature)].source_polygons)

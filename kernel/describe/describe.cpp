@@ -60,22 +60,29 @@ void describe_cut(FeatureTable& table, const Subject& s) {
   if (f.value) table.set(s.id, "value", *f.value);
   if (f.quality) table.set(s.id, "quality", *f.quality);
   table.set(s.id, "new_area", f.new_area_m2);
-  table.set(s.id, "old_area", f.old_area_m2);
+  if (f.sense != Sense::imprint) table.set(s.id, "old_area", f.old_area_m2);
   table.set(s.id, "volume", f.volume_m3);
   table.set(s.id, "surface", f.surface_m2);
-  table.set(s.id, "split_order", static_cast<double>(f.planes.size()));
+  table.set(s.id, "split_order",
+            f.sense == Sense::imprint ? 0 : static_cast<double>(f.planes.size()));
+}
+
+/// What points of one plane are apart in doubles is nothing: an imprint has no depth.
+double without_dust(double extent_m) {
+  constexpr double kDust_m = 1e-9;
+  return extent_m < kDust_m ? 0 : extent_m;
 }
 
 void describe_size(FeatureTable& table, const Subject& s) {
   const auto [a, b, c] = s.box.edges();
   table.set(s.id, "a", a);
   table.set(s.id, "b", b);
-  table.set(s.id, "c", c);
+  table.set(s.id, "c", without_dust(c));
   table.set(s.id, "silhouette", a * b);
   table.set(s.id, "width", detail::extent_along(s.points, s.across).size());
   table.set(s.id, "height_of", s.box.height);
   if (!s.normal) return;
-  table.set(s.id, "depth", detail::extent_along(s.points, *s.normal).size());
+  table.set(s.id, "depth", without_dust(detail::extent_along(s.points, *s.normal).size()));
   const double inclination = detail::inclination_deg(*s.normal);
   table.set(s.id, "inclination", inclination);
   constexpr double kLevel_deg = 0.5;  // as coplanar_deg: a cap this level faces nowhere
@@ -107,7 +114,8 @@ Vec3 foot_of(const Subject& s) {
   constexpr double kInside_m = 0.01;  // off the wall's own plane, so that the facet below it is met
   const Extent out = detail::extent_along(s.points, *s.normal);
   // The cap is the inner end of a protrusion and the outer end of a hole.
-  const double cap = s.feature->sense == Sense::hole ? out.high : out.low;
+  double cap = s.feature->sense == Sense::hole ? out.high : out.low;
+  if (s.feature->sense == Sense::imprint) cap = dot(s.feature->cap_point, *s.normal);
   return middle + (cap - dot(middle, *s.normal) - kInside_m) * *s.normal;
 }
 
@@ -201,26 +209,29 @@ void name_features(FeatureTable& table, const Building& building,
 void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
                       const std::vector<int>& group_of, const char* name) {
   std::map<std::pair<int, Sense>, int> counts;
+  const auto kind = [&](std::size_t i) {
+    return std::pair(group_of[i], detail::kind_of(subjects[i].feature->sense));
+  };
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (group_of[i] >= 0) ++counts[{group_of[i], subjects[i].feature->sense}];
+    if (group_of[i] >= 0) ++counts[kind(i)];
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (group_of[i] >= 0)
-      table.set(subjects[i].id, name, counts[{group_of[i], subjects[i].feature->sense}]);
+    if (group_of[i] >= 0) table.set(subjects[i].id, name, counts[kind(i)]);
 }
 
 InFacade in_facade(const Subject& s, int facade) {
   const auto [a, b, c] = s.box.edges();
   return {facade,
-          s.feature->sense,
+          detail::kind_of(s.feature->sense),
           detail::extent_along(s.points, s.across),
           detail::extent_along(s.points, {0, 0, 1}),
           a,
           b};
 }
 
-/// A hole in a steep facet.
+/// A hole or an imprint in a steep facet.
 bool is_opening(const Subject& s) {
-  return s.feature->sense == Sense::hole && s.normal && std::abs(s.normal->z) < 0.5;
+  return detail::kind_of(s.feature->sense) == Sense::hole && s.normal &&
+         std::abs(s.normal->z) < 0.5;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ bool is_like(double p, double q) { return std::abs(p - q) <= kAlike * std::max(p
 bool is_alike(const InFacade& p, const InFacade& q) {
   const double distance =
       std::hypot(p.across.middle() - q.across.middle(), p.height.middle() - q.height.middle());
-  return p.sense == q.sense && is_like(p.a, q.a) && is_like(p.b, q.b) &&
+  return p.kind == q.kind && is_like(p.a, q.a) && is_like(p.b, q.b) &&
          distance <= kNeighbourhood_m;
 }
 
@@ -68,14 +68,18 @@ std::vector<Pair> contained(const Segmentation& segmentation) {
 }  // namespace
 
 std::vector<int> facades_of(const Segmentation& segmentation) {
-  std::map<std::pair<CellId, int>, int> numbers;
+  std::map<std::tuple<CellId, int, FeatureId>, int> numbers;
   std::vector<int> facades;
   for (const Feature& feature : segmentation.features) {
     if (!feature.host_facet) {
       facades.push_back(-1);
       continue;
     }
-    const auto key = std::pair(feature.host_facet->cell, feature.host_facet->facet);
+    const FeatureId host = feature.host;
+    const bool is_in_imprint =
+        host.is_valid() && segmentation.features[host.index()].sense == Sense::imprint;
+    const auto key = std::tuple(feature.host_facet->cell, feature.host_facet->facet,
+                                is_in_imprint ? host : FeatureId{});
     facades.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
   }
   return facades;
