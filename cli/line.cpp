@@ -30,9 +30,8 @@ OnLine run_line(const Building& building, const SegmentOptions& options, const R
     out.solid = std::move(solid.value);
     Segmentation segmentation =
         timings.measure(Stage::segment, [&] { return segment(building, *out.solid, options); });
-    timings.measure(Stage::segment, [&] {
-      add_imprints(building, *out.solid, segmentation, options.tolerances);
-    });
+    timings.measure(Stage::segment,
+                    [&] { add_imprints(building, *out.solid, segmentation, options.tolerances); });
     append(out.issues, segmentation.issues);
     out.description =
         timings.measure(Stage::describe, [&] { return describe(building, segmentation); });

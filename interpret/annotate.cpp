@@ -131,11 +131,22 @@ void Annotator::find_owners() {
   const auto& features = segmentation_.features;
   std::vector<int> order(features.size());
   std::iota(order.begin(), order.end(), 0);
-  // Of equal volumes, such as those of imprints, the one with fewer polygons is the inner one, then
-  // the later one.
+  // An imprint is as large as what it owns. Imprints stand behind the features of the tree, inner
+  // ones behind outer ones.
+  std::vector<double> size_m3(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) size_m3[f] = features[f].volume_m3;
+  const auto pass_on = [&](std::size_t f) {
+    const FeatureId host = features[f].host;
+    if (host.is_valid() && features[host.index()].sense == Sense::imprint)
+      size_m3[host.index()] += size_m3[f];
+  };
+  for (std::size_t f = 0; f < features.size(); ++f)
+    if (features[f].sense != Sense::imprint) pass_on(f);
+  for (std::size_t f = features.size(); f-- > 0;)
+    if (features[f].sense == Sense::imprint) pass_on(f);
+  // Of equal sizes the one with fewer polygons is the inner one, then the later one.
   std::ranges::sort(order, {}, [&](int f) {
-    const Feature& feature = features[index(f)];
-    return std::tuple(feature.volume_m3, feature.source_polygons.size(), -f);
+    return std::tuple(size_m3[index(f)], features[index(f)].source_polygons.size(), -f);
   });
   owners_.resize(polygons_.size());
   for (const int feature : order)

@@ -69,7 +69,8 @@ struct CellFacet {
   int facet = -1;
 };
 
-/// A part that a node of the tree splits off, at any level: paper 4.
+/// A part that a node of the tree splits off, at any level: paper 4. Or an imprint, which no node
+/// splits off: see add_imprints for what its members are.
 struct Feature {
   Sense sense = Sense::protrusion;
   /// The feature in whose subtree this one was found, or invalid: the body.
@@ -78,7 +79,7 @@ struct Feature {
   FeatureId host;
   /// That facet, all features on it taken away: of a wall, the facade. Missing for cavities.
   std::optional<CellFacet> host_facet;
-  /// The node of the feature's own subtree.
+  /// The node of the feature's own subtree; invalid for an imprint.
   NodeId node;
   /// See CsgNode.
   std::optional<double> value;
@@ -86,7 +87,7 @@ struct Feature {
   double new_area_m2 = 0;
   double old_area_m2 = 0;
   /// The split planes, the one with the largest cap first. They look out of the building: a
-  /// protrusion is in front of them, a hole behind them.
+  /// protrusion is in front of them, a hole behind them, an imprint in it.
   std::vector<PlaneId> planes;
   /// A point inside the largest cap.
   Vec3 cap_point;
@@ -101,6 +102,8 @@ struct Feature {
   /// Input polygons that lie in the feature with most of their area, also those of features within
   /// it; sorted.
   std::vector<int> source_polygons;
+  /// Of an imprint its outline, counter-clockwise seen from outside.
+  Loop outline{};
 };
 
 /// Counts of the work, all independent of the machine.
@@ -125,12 +128,14 @@ struct Segmentation {
   /// The oriented split planes, which are Solid::planes with the same ids, then planes that only
   /// caps of parts lie in.
   std::vector<Plane> planes;
-  /// The solid's vertices, same indices, then those that cuts made.
+  /// The solid's vertices, same indices, then those that cuts made, then those of the outlines of
+  /// imprints, which may lie on edges and in facets of the solid.
   std::vector<Vertex> vertices;
   std::vector<CsgNode> nodes;
   NodeId root;
   std::vector<Cell> cells;
-  /// In the order of the tree, parents before what they contain.
+  /// In the order of the tree, parents before what they contain; then imprints, outer before inner
+  /// ones.
   std::vector<Feature> features;
   SegmentationStats stats;
   std::vector<Issue> issues;

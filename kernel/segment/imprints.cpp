@@ -2,6 +2,8 @@
 
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/detail/insets.h"
+#include "kernel/segment/detail/loose.h"
+#include "kernel/segment/detail/reach.h"
 #include "kernel/segment/detail/sheets.h"
 
 #include <algorithm>
@@ -16,38 +18,9 @@ namespace {
 
 using detail::Inset;
 using detail::Outline;
+using detail::Reach;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// How far points reach along two directions in a plane.
-struct Reach {
-  double u0 = Box::kInfinity, u1 = -Box::kInfinity, v0 = Box::kInfinity, v1 = -Box::kInfinity;
-
-  [[nodiscard]] bool holds(const Reach& r, double slack) const {
-    return r.u0 >= u0 - slack && r.u1 <= u1 + slack && r.v0 >= v0 - slack && r.v1 <= v1 + slack;
-  }
-};
-
-struct Axes {
-  Vec3 u, v;
-
-  [[nodiscard]] Reach of(const std::vector<Vec3>& points) const {
-    Reach reach;
-    for (const Vec3 p : points) {
-      reach.u0 = std::min(reach.u0, dot(p, u));
-      reach.u1 = std::max(reach.u1, dot(p, u));
-      reach.v0 = std::min(reach.v0, dot(p, v));
-      reach.v1 = std::max(reach.v1, dot(p, v));
-    }
-    return reach;
-  }
-};
-
-Axes axes_in(Vec3 normal) {
-  const Vec3 any = std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-  const Vec3 u = normalised(cross(any, normal));
-  return {u, cross(normal, u)};
-}
 
 /// A feature of the tree whose largest cap lies in the plane of a sheet.
 struct Resident {
@@ -101,7 +74,8 @@ class ImprintWriter {
         if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
           cap.push_back(p);
       }
-      residents_[f.planes.front()].push_back({FeatureId{i}, axes_in(plane.normal).of(cap)});
+      residents_[f.planes.front()].push_back(
+          {FeatureId{i}, detail::axes_in(plane.normal).reach_of(cap)});
     }
     for (auto& [plane, residents] : residents_)
       std::ranges::stable_sort(residents, {}, [](const Resident& r) { return r.cap.u0; });
@@ -110,18 +84,18 @@ class ImprintWriter {
   /// The insets of one sheet, the largest first.
   void write_sheet(std::size_t first, std::size_t past) {
     const PlaneId plane = facet_of(insets_[first]).plane;
-    const Axes axes = axes_in(solid_.planes[plane.index()].normal);
+    const detail::PlaneAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
     for (std::size_t i = first; i < past; ++i) {
       Inset& inset = insets_[i];
       const auto home = home_of(inset);
       if (!home) continue;
-      if (!inset.whole.empty() && fills_whole(inset, *home, plane, axes)) {
+      if (!inset.whole.empty() && fills_whole(inset, plane, axes)) {
         inset.outline = std::move(inset.whole);
         inset.area_m2 = detail::signed_area(inset.outline, normal_of(plane));
       }
       if (inset.outline.empty()) continue;
-      const Reach reach = axes.of(inset.outline);
-      const std::vector<FeatureId> within = residents_within(inset.outline, *home, plane, reach);
+      const Reach reach = axes.reach_of(inset.outline);
+      const std::vector<FeatureId> within = residents_within(inset.outline, plane, reach);
       if (absorb(inset, within, reach, axes)) continue;
       const FeatureId id{static_cast<int>(out_.features.size())};
       out_.features.push_back(make(inset, *home, plane));
@@ -144,33 +118,35 @@ class ImprintWriter {
     return home;
   }
 
-  /// The features of the tree that lie within an inset and stand where it stands.
-  [[nodiscard]] std::vector<FeatureId> residents_within(const Outline& outline, CellFacet home,
-                                                        PlaneId plane, const Reach& reach) {
+  /// The features of the tree whose largest cap lies within an outline.
+  [[nodiscard]] std::vector<FeatureId> residents_within(const Outline& outline, PlaneId plane,
+                                                        const Reach& reach) {
     std::vector<FeatureId> within;
     const auto found = residents_.find(plane);
     if (found == residents_.end()) return within;
-    const FeatureId body = out_.cells[home.cell.index()].feature;
     const double slack = tolerances_.weld_m;
     auto r = std::ranges::lower_bound(found->second, reach.u0 - slack, {},
                                       [](const Resident& resident) { return resident.cap.u0; });
     for (; r != found->second.end() && r->cap.u0 <= reach.u1; ++r) {
       if (!reach.holds(r->cap, slack)) continue;
-      const Feature& f = feature(r->id);
-      const FeatureId base = is_imprint(f.host) ? feature(f.host).parent : f.host;
-      if (base == body && detail::contains({{outline}}, normal_of(plane), f.cap_point))
+      if (detail::contains({{outline}}, normal_of(plane), feature(r->id).cap_point))
         within.push_back(r->id);
     }
     std::ranges::sort(within);
+    // What stands in or on one of them stays there.
+    const std::vector<FeatureId> all = within;
+    std::erase_if(within, [&](FeatureId id) {
+      return std::ranges::binary_search(all, feature(id).parent) ||
+             std::ranges::binary_search(all, feature(id).host);
+    });
     return within;
   }
 
   /// Polygons and recesses together are what the host leaves free.
-  [[nodiscard]] bool fills_whole(const Inset& inset, CellFacet home, PlaneId plane,
-                                 const Axes& axes) {
+  [[nodiscard]] bool fills_whole(const Inset& inset, PlaneId plane, const detail::PlaneAxes& axes) {
     double filled_m2 = 0;
     for (const int p : inset.polygons) filled_m2 += sheets_.polygons[at(p)].area_m2;
-    for (const FeatureId id : residents_within(inset.whole, home, plane, axes.of(inset.whole))) {
+    for (const FeatureId id : residents_within(inset.whole, plane, axes.reach_of(inset.whole))) {
       if (feature(id).sense != Sense::hole) return false;
       filled_m2 += feature(id).new_area_m2;
     }
@@ -182,13 +158,13 @@ class ImprintWriter {
 
   /// True if the outline is that of a recess: then the recess has the polygons.
   bool absorb(const Inset& inset, const std::vector<FeatureId>& within, const Reach& reach,
-              const Axes& axes) {
+              const detail::PlaneAxes& axes) {
     for (const FeatureId id : within) {
       Feature& recess = feature(id);
       if (recess.sense != Sense::hole) continue;
       std::vector<Vec3> points;
       for (const int v : recess.vertices) points.push_back(out_.vertices[at(v)].point);
-      if (!axes.of(points).holds(reach, tolerances_.weld_m)) continue;
+      if (!axes.reach_of(points).holds(reach, tolerances_.weld_m)) continue;
       for (const int p : inset.polygons)
         recess.source_polygons.push_back(sheets_.polygons[at(p)].source);
       tidy(recess.source_polygons);
@@ -219,10 +195,11 @@ class ImprintWriter {
       f.surface_m2 += sheets_.polygons[at(p)].area_m2;
     }
     for (const Vec3 p : inset.outline) {
-      f.vertices.push_back(static_cast<int>(out_.vertices.size()));
+      f.outline.push_back(static_cast<int>(out_.vertices.size()));
       out_.vertices.push_back({p, false});
       f.box.grow(p);
     }
+    f.vertices = f.outline;
     return f;
   }
 
@@ -233,7 +210,6 @@ class ImprintWriter {
     const auto pass_on = [&](const Feature& inner, double surface_m2) {
       if (!is_imprint(inner.host)) return;
       Feature& outer = feature(inner.host);
-      outer.volume_m3 += inner.volume_m3;
       outer.surface_m2 += surface_m2;
       gained_m2[inner.host.index()] += surface_m2;
       outer.box.grow(inner.box);
@@ -272,6 +248,7 @@ class ImprintWriter {
 void add_imprints(const Building& building, const Solid& solid, Segmentation& segmentation,
                   const Tolerances& tolerances) {
   ImprintWriter(building, solid, segmentation, tolerances).run();
+  detail::join_loose_polygons(building, solid, segmentation, tolerances);
 }
 
 }  // namespace oriel

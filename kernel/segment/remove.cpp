@@ -34,6 +34,10 @@ class FeatureRemover {
   Remainder run(const std::vector<FeatureId>& asked) {
     wanted_.assign(segmentation_.features.size(), 0);
     for (const FeatureId id : asked) wanted_[id.index()] = 1;
+    lodgers_.resize(segmentation_.features.size());
+    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
+      if (const FeatureId host = feature(FeatureId{i}).host; host.is_valid())
+        lodgers_[host.index()].push_back(FeatureId{i});
     const std::vector<Boundary> untouched = bodies_;
     while (!try_all()) bodies_ = untouched;
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
@@ -120,6 +124,11 @@ class FeatureRemover {
   std::optional<std::string> remove(FeatureId id) {
     const Feature& f = feature(id);
     if (f.sense == Sense::cavity) return fill_cavity(f);
+    if (f.sense == Sense::imprint) {
+      // There is nothing to cut: its facet is that of its host. What it owns went before it.
+      if (has_lodger_that_stays(id)) return "what lies in it cannot go";
+      return std::nullopt;
+    }
     std::vector<Side> sides;
     for (const PlaneId plane : f.planes) {
       const auto side = world_.planes.find(segmentation_.planes[plane.index()]);
@@ -131,6 +140,13 @@ class FeatureRemover {
     const auto all_sides = sides_around(id);
     if (all_sides.size() > sides.size() && !remove_by_patch(f, all_sides)) return std::nullopt;
     return reason;
+  }
+
+  /// A feature that sits on this one, or on what does, is refused.
+  [[nodiscard]] bool has_lodger_that_stays(FeatureId id) const {
+    return std::ranges::any_of(lodgers_[id.index()], [&](FeatureId lodger) {
+      return !go_[lodger.index()] || has_lodger_that_stays(lodger);
+    });
   }
 
   /// The sides that part of a part meets the body in: its own cut, and those that its carriers were
@@ -302,8 +318,9 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
-  std::vector<char> wanted_;  ///< by feature: asked for and not refused
-  std::vector<char> go_;      ///< by feature: wanted, or sits on what is
+  std::vector<char> wanted_;                     ///< by feature: asked for and not refused
+  std::vector<char> go_;                         ///< by feature: wanted, or sits on what is
+  std::vector<std::vector<FeatureId>> lodgers_;  ///< by feature: what it is the host of
   Remainder out_;
 };
 

@@ -27,7 +27,8 @@ struct Remainder {
 };
 
 /// Takes features off the solid that was segmented: protrusions are cut, holes and cavities filled,
-/// each by its own planes, in the order in which the segmentation found them.
+/// each by its own planes, in the order in which the segmentation found them. An imprint leaves no
+/// trace in the solid: its input polygons are no longer named by the facet.
 ///
 /// What sits on a removed feature goes with it (a window with its dormer). A feature whose cut
 /// would take others along that are to stay is refused, as is one whose cut is not found any more;

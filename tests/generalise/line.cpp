@@ -5,6 +5,7 @@
 #include "interpret/plan.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
+#include "kernel/segment/imprints.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 
@@ -26,6 +27,7 @@ Line line_of(Document document) {
   REQUIRE(solid.value);
   line.solid = std::move(*solid.value);
   line.segmentation = segment(line.building(), line.solid);
+  add_imprints(line.building(), line.solid, line.segmentation);
   line.description = describe(line.building(), line.segmentation);
   line.interpretation = interpret(residential(), line.description.table, line.description.graph);
   line.labelled = annotate(line.building(), line.segmentation, line.description.table,

@@ -29,8 +29,7 @@ bool is_like(double p, double q) { return std::abs(p - q) <= kAlike * std::max(p
 bool is_alike(const InFacade& p, const InFacade& q) {
   const double distance =
       std::hypot(p.across.middle() - q.across.middle(), p.height.middle() - q.height.middle());
-  return p.kind == q.kind && is_like(p.a, q.a) && is_like(p.b, q.b) &&
-         distance <= kNeighbourhood_m;
+  return p.kind == q.kind && is_like(p.a, q.a) && is_like(p.b, q.b) && distance <= kNeighbourhood_m;
 }
 
 bool is_beside(const InFacade& p, const InFacade& q) {

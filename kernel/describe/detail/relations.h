@@ -13,7 +13,7 @@ inline Sense kind_of(Sense sense) { return sense == Sense::imprint ? Sense::hole
 
 /// A feature as seen in its facade: intervals along the facade's horizontal and in height.
 struct InFacade {
-  int facade = -1;  ///< -1: none
+  int facade = -1;                 ///< -1: none
   Sense kind = Sense::protrusion;  ///< see kind_of
   Extent across;
   Extent height;
@@ -25,8 +25,8 @@ struct InFacade {
 /// recess has the back of the recess.
 std::vector<int> facades_of(const Segmentation& segmentation);
 
-/// Storeys: openings (holes and imprints in steep facets) grouped by height, two of them together if their
-/// overlap is at least half of the taller; numbered from the lowest. -1: in no storey.
+/// Storeys: openings (holes and imprints in steep facets) grouped by height, two of them together
+/// if their overlap is at least half of the taller; numbered from the lowest. -1: in no storey.
 std::vector<int> storeys_of(const std::vector<InFacade>& features,
                             const std::vector<char>& is_opening);
 

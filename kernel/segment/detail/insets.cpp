@@ -126,9 +126,8 @@ class InsetFinder {
   /// As `may_host` of sheets.cpp, on the welded polygon.
   [[nodiscard]] bool may_host(int polygon) const {
     int right = 0;
-    for_each_edge({polygon}, [&](int e) {
-      right += turn_deg(e, edge(e).next) < -kStraight_deg ? 1 : 0;
-    });
+    for_each_edge({polygon},
+                  [&](int e) { right += turn_deg(e, edge(e).next) < -kStraight_deg ? 1 : 0; });
     return right >= 2;
   }
 

@@ -30,9 +30,9 @@ struct Inset {
 ///
 /// A host is one polygon or, where hints differ, the connected polygons of one hint. Polygons lie
 /// inset in it if they fill an inner ring of it, or if it runs along three sides of them, as a wall
-/// does around a door: a chain of its edges that turns inward only, by kInset_deg or more. Pieces of a triangulation, or of any division into convex
-/// pieces, share one side with each other and so are never inset. What is thinner than weld_m is no
-/// inset.
+/// does around a door: a chain of its edges that turns inward only, by kInset_deg or more. Pieces
+/// of a triangulation, or of any division into convex pieces, share one side with each other and so
+/// are never inset. What is thinner than weld_m is no inset.
 std::vector<Inset> find_insets(const Solid& solid, const Sheets& sheets,
                                const Tolerances& tolerances);
 

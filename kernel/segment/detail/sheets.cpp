@@ -37,8 +37,7 @@ bool may_host(const Building& building, const Polygon& polygon, Vec3 normal) {
   const auto point = [&](std::size_t i) { return building.vertices[at(ring[i % ring.size()])]; };
   int left = 0, right = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const double turn =
-        dot(cross(point(i + 1) - point(i), point(i + 2) - point(i + 1)), normal);
+    const double turn = dot(cross(point(i + 1) - point(i), point(i + 2) - point(i + 1)), normal);
     left += turn > 0 ? 1 : 0;
     right += turn < 0 ? 1 : 0;
   }
@@ -135,21 +134,24 @@ class SheetMaker {
 
   template <class PointOf>
   void add_polygon(const SoupPolygon& polygon, int sheet, Vec3 normal, PointOf point_of) {
-    SheetPolygon record{polygon.source, *hint_of_source_.at(polygon.source), sheet,
-                        static_cast<int>(out_.edges.size()), -1, 0};
+    SheetPolygon record{polygon.source,
+                        *hint_of_source_.at(polygon.source),
+                        sheet,
+                        static_cast<int>(out_.edges.size()),
+                        -1,
+                        0};
     for (const auto& ring : polygon.rings) {
       const int first = static_cast<int>(out_.edges.size());
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const int next = i + 1 < ring.size() ? first + static_cast<int>(i) + 1 : first;
-        out_.edges.push_back(
-            {point_of(ring[i]), static_cast<int>(out_.polygons.size()), next, -1});
+        out_.edges.push_back({point_of(ring[i]), static_cast<int>(out_.polygons.size()), next, -1});
       }
     }
     record.past_edge = static_cast<int>(out_.edges.size());
     for (int e = record.first_edge; e < record.past_edge; ++e) {
       const Vec3 base = out_.points[at(out_.edges[at(record.first_edge)].from)];
-      record.area_m2 += dot(cross(out_.points[at(out_.edges[at(e)].from)] - base, out_.vector(e)),
-                            normal) / 2;
+      record.area_m2 +=
+          dot(cross(out_.points[at(out_.edges[at(e)].from)] - base, out_.vector(e)), normal) / 2;
     }
     if (record.area_m2 < 0) turn_round(record);
     out_.polygons.push_back(record);
