@@ -93,7 +93,8 @@ class Generaliser {
     }
     if (!generalised.value) return std::nullopt;
     return redraw(building, outputs_.annotated(building, line), *line.segmentation, table,
-                  line.interpretation, std::move(*generalised.value));
+                  line.interpretation, std::move(*generalised.value),
+                  arguments_.segment_options().tolerances);
   }
 
   const Arguments& arguments_;

@@ -1,10 +1,13 @@
 #include "generalise/generalise.h"
+#include "kernel/segment/draw_imprints.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace oriel {
 
@@ -143,8 +146,16 @@ class Redrawer {
 
 Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
                const Segmentation& segmentation, const FeatureTable& table,
-               const Interpretation& interpretation, Generalised generalised) {
+               const Interpretation& interpretation, Generalised generalised,
+               const Tolerances& tolerances) {
   if (generalised.removed.empty() && building.is_solid) return {labelled, {}, {}};
+  std::vector<FeatureId> imprints;
+  for (int i = 0; i < std::ssize(segmentation.features); ++i)
+    if (segmentation.features[at(i)].sense == Sense::imprint &&
+        !std::ranges::binary_search(generalised.removed, FeatureId{i}))
+      imprints.push_back(FeatureId{i});
+  generalised.solid =
+      draw_imprints(std::move(generalised.solid), segmentation, imprints, tolerances);
   return Redrawer(building, labelled, std::move(generalised))
       .run(segmentation, table, interpretation);
 }

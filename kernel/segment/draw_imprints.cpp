@@ -1,0 +1,93 @@
+#include "kernel/segment/draw_imprints.h"
+
+#include "kernel/segment/detail/facet_splitter.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using detail::Outline;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+auto key_of(const Plane& plane) { return std::pair(plane.coefficients, plane.offset); }
+
+class ImprintDrawer {
+ public:
+  ImprintDrawer(Solid solid, const Segmentation& segmentation, double snap_m)
+      : segmentation_(segmentation), splitter_(std::move(solid), snap_m) {
+    for (int f = 0; f < std::ssize(facets()); ++f) enter(f);
+  }
+
+  Solid run(const std::vector<FeatureId>& imprints) {
+    for (const FeatureId id : imprints) draw(segmentation_.features[id.index()]);
+    return splitter_.take();
+  }
+
+ private:
+  [[nodiscard]] const std::vector<Facet>& facets() const { return splitter_.solid().facets; }
+
+  void enter(int f) {
+    const Plane& plane = splitter_.solid().planes[facets()[at(f)].plane.index()];
+    facets_in_[key_of(plane)].push_back(FacetId{f});
+  }
+
+  void draw(const Feature& imprint) {
+    Outline outline;
+    for (const int v : imprint.outline) outline.push_back(segmentation_.vertices[at(v)].point);
+    const Plane& plane = segmentation_.planes[imprint.planes.front().index()];
+    const auto home = home_of(imprint, plane);
+    if (!home) return;
+    const auto before = static_cast<int>(facets().size());
+    splitter_.split(*home, outline, imprint.source_polygons);
+    for (int f = before; f < std::ssize(facets()); ++f) enter(f);
+  }
+
+  /// The facet of its plane around the middle of an imprint.
+  [[nodiscard]] std::optional<FacetId> home_of(const Feature& imprint, const Plane& plane) const {
+    const auto found = facets_in_.find(key_of(plane));
+    if (found == facets_in_.end()) return std::nullopt;
+    for (const FacetId f : found->second) {
+      std::vector<Outline> outlines;
+      for (const Loop& loop : facets()[f.index()].loops) {
+        outlines.emplace_back();
+        for (const int v : loop) outlines.back().push_back(splitter_.solid().vertices[at(v)].point);
+      }
+      // The middle may lie in the recess that a sash makes: then the outer loop decides.
+      if (detail::contains({outlines.data(), 1}, plane.normal, imprint.cap_point) &&
+          has_polygon_of(imprint, facets()[f.index()]))
+        return f;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] static bool has_polygon_of(const Feature& imprint, const Facet& facet) {
+    std::vector<int> common;
+    std::ranges::set_intersection(imprint.source_polygons, facet.polygons,
+                                  std::back_inserter(common));
+    return !common.empty();
+  }
+
+  const Segmentation& segmentation_;
+  detail::FacetSplitter splitter_;
+  std::map<std::pair<std::array<std::int64_t, 3>, std::int64_t>, std::vector<FacetId>> facets_in_;
+};
+
+}  // namespace
+
+Solid draw_imprints(Solid solid, const Segmentation& segmentation,
+                    const std::vector<FeatureId>& imprints, const Tolerances& tolerances) {
+  if (imprints.empty()) return solid;
+  const double snap_m = tolerances.plane_offset_m + tolerances.weld_m;
+  return ImprintDrawer(std::move(solid), segmentation, snap_m).run(imprints);
+}
+
+}  // namespace oriel
