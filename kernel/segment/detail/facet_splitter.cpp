@@ -40,82 +40,79 @@ bool FacetSplitter::split(FacetId id, const Outline& outline, const std::vector<
   const Vec3 normal = solid_.planes[facet(f).plane.index()].normal;
   const auto ring = fitted(f, outline);
   if (!ring) return false;
+  std::vector<Loop> within{*ring};
+  const auto left = loops_left(f, *ring, normal, within);
+  if (!left) return false;
+  auto parts = parts_of(*left, normal);
+  if (!parts) return false;
 
+  const Facet old = facet(f);
+  std::vector<int> own, others;
+  std::ranges::set_intersection(old.polygons, inside, std::back_inserter(own));
+  std::ranges::set_difference(old.polygons, inside, std::back_inserter(others));
+  int place = f;  // the first new facet takes the place of the old one
+  for (std::vector<Loop>& part : *parts) {
+    put(place, f, {old.plane, std::move(part), others});
+    place = static_cast<int>(solid_.facets.size());
+  }
+  put(place, f, {old.plane, std::move(within), own.empty() ? inside : own});
+  return true;
+}
+
+/// The loops of what is left of a facet without the ring; the facet's holes inside the ring go to
+/// `within`. Nothing if the ring lies outside the facet somewhere.
+std::optional<std::vector<Loop>> FacetSplitter::loops_left(int f, const Loop& ring, Vec3 normal,
+                                                           std::vector<Loop>& within) {
   std::set<Edge> of_ring;
-  for (std::size_t i = 0; i < ring->size(); ++i) of_ring.insert({(*ring)[i], after(*ring, i)});
-  const std::set<int> corners(ring->begin(), ring->end());
-
-  // Loops that the outline meets are traced anew; of the others some lie inside it.
-  std::vector<Edge> edges;
-  std::vector<Loop> within{*ring}, beside;
-  std::set<Edge> shared;
+  for (std::size_t i = 0; i < ring.size(); ++i) of_ring.insert({ring[i], after(ring, i)});
+  const std::set<int> corners(ring.begin(), ring.end());
+  const Outline outline = outline_of(ring);
+  std::vector<Loop> untouched;
+  std::vector<Edge> edges;  // of the loops that the ring meets, to be traced anew
   for (const Loop& loop : facet(f).loops) {
-    const bool is_met = std::ranges::any_of(loop, [&](int v) { return corners.contains(v); });
-    if (!is_met) {
-      const bool is_inside = contains({{outline_of(*ring)}}, normal, point(loop[0]));
-      (is_inside ? within : beside).push_back(loop);
+    if (std::ranges::none_of(loop, [&](int v) { return corners.contains(v); })) {
+      (contains({{outline}}, normal, point(loop[0])) ? within : untouched).push_back(loop);
       continue;
     }
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Edge edge{loop[i], after(loop, i)};
-      if (of_ring.contains({edge.second, edge.first})) return false;  // it lies outside
-      if (of_ring.contains(edge))
-        shared.insert(edge);
-      else
-        edges.push_back(edge);
+      if (of_ring.contains({edge.second, edge.first})) return std::nullopt;
+      if (of_ring.erase(edge) == 0) edges.push_back(edge);
     }
   }
-  for (const Edge& edge : of_ring)
-    if (!shared.contains(edge)) edges.emplace_back(edge.second, edge.first);
-  const auto traced = trace(edges, normal);
-  if (!traced) return false;
+  for (const Edge& edge : of_ring) edges.emplace_back(edge.second, edge.first);
+  auto loops = trace(edges, normal);
+  if (loops) std::ranges::move(untouched, std::back_inserter(*loops));
+  return loops;
+}
 
-  // Loops that turn left are the outer loops of what is left of the facet.
+/// Outer loops, each with the holes in it. Nothing if a hole is in none.
+std::optional<std::vector<std::vector<Loop>>> FacetSplitter::parts_of(
+    const std::vector<Loop>& loops, Vec3 normal) const {
   std::vector<std::vector<Loop>> parts;
-  for (const Loop& loop : *traced)
-    if (signed_area(outline_of(loop), normal) > 0)
-      parts.push_back({loop});
-    else
-      beside.push_back(loop);
-  if (parts.empty()) {
-    // The outer loop was not met: it stands among those beside.
-    const auto outer = std::ranges::find_if(
-        beside, [&](const Loop& loop) { return signed_area(outline_of(loop), normal) > 0; });
-    if (outer == beside.end() && !beside.empty()) return false;
-    if (outer != beside.end()) {
-      parts.push_back({*outer});
-      beside.erase(outer);
-    }
-  }
-  for (const Loop& hole : beside) {
+  for (const Loop& loop : loops)
+    if (signed_area(outline_of(loop), normal) > 0) parts.push_back({loop});
+  for (const Loop& loop : loops) {
+    if (signed_area(outline_of(loop), normal) > 0) continue;
     const auto home = std::ranges::find_if(parts, [&](const std::vector<Loop>& part) {
-      return parts.size() == 1 || contains({{outline_of(part[0])}}, normal, point(hole[0]));
+      return parts.size() == 1 || contains({{outline_of(part[0])}}, normal, point(loop[0]));
     });
-    if (home == parts.end()) return false;
-    home->push_back(hole);
+    if (home == parts.end()) return std::nullopt;
+    home->push_back(loop);
   }
+  return parts;
+}
 
-  std::vector<int> outside;
-  Facet old = facet(f);
-  std::ranges::set_difference(old.polygons, inside, std::back_inserter(outside));
-  const auto put = [&](std::vector<Loop> loops, std::vector<int> polygons, bool is_first) {
-    Facet made{old.plane, std::move(loops), std::move(polygons)};
-    const int place = is_first ? f : static_cast<int>(solid_.facets.size());
-    if (is_first) {
-      facet(f) = std::move(made);
-    } else {
-      solid_.facets.push_back(std::move(made));
-      shell_of_.push_back(shell_of_[at(f)]);
-      if (shell_of_[at(f)] >= 0)
-        solid_.shells[at(shell_of_[at(f)])].facets.push_back(FacetId{place});
-    }
-    enter_edges(place);
-  };
-  for (std::size_t i = 0; i < parts.size(); ++i) put(std::move(parts[i]), outside, i == 0);
-  std::vector<int> own;
-  std::ranges::set_intersection(old.polygons, inside, std::back_inserter(own));
-  put(std::move(within), own.empty() ? inside : std::move(own), parts.empty());
-  return true;
+/// Puts a facet in its place, in the shell of facet `sibling`.
+void FacetSplitter::put(int place, int sibling, Facet made) {
+  if (place == std::ssize(solid_.facets)) {
+    solid_.facets.emplace_back();
+    shell_of_.push_back(shell_of_[at(sibling)]);
+    if (shell_of_[at(sibling)] >= 0)
+      solid_.shells[at(shell_of_[at(sibling)])].facets.push_back(FacetId{place});
+  }
+  facet(place) = std::move(made);
+  enter_edges(place);
 }
 
 int FacetSplitter::add_vertex(Vec3 p) {

@@ -3,11 +3,10 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/model/solid.h"
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
@@ -35,6 +34,11 @@ class FacetSplitter {
   Facet& facet(int f) { return solid_.facets[static_cast<std::size_t>(f)]; }
   [[nodiscard]] Outline outline_of(const Loop& loop) const;
   void enter_edges(int f);
+  void put(int place, int sibling, Facet made);
+  std::optional<std::vector<Loop>> loops_left(int f, const Loop& ring, Vec3 normal,
+                                              std::vector<Loop>& within);
+  [[nodiscard]] std::optional<std::vector<std::vector<Loop>>> parts_of(
+      const std::vector<Loop>& loops, Vec3 normal) const;
   int add_vertex(Vec3 p);
   std::optional<Loop> fitted(int f, const Outline& outline);
   std::optional<int> corner_at(int f, Vec3 p);
