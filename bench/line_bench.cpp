@@ -7,6 +7,7 @@
 #include "interpret/rule_base.h"
 #include "kernel/describe/describe.h"
 #include "kernel/io/writer.h"
+#include "kernel/segment/imprints.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 
@@ -42,7 +43,8 @@ void line(benchmark::State& state) {
     const Document document = file.document();
     const Building& building = document.buildings.at(0);
     const auto solid = solidify(building);
-    const Segmentation segmentation = segment(building, solid.value.value());
+    Segmentation segmentation = segment(building, solid.value.value());
+    add_imprints(building, *solid.value, segmentation);
     const Description description = describe(building, segmentation);
     const Interpretation verdicts = interpret(residential(), description.table, description.graph);
     const std::string text =

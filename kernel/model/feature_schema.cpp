@@ -27,7 +27,9 @@ const std::vector<Attribute>& feature_schema() {
       {"natural", yes_no, "the cut follows existing edges and splits no facet", "rules.md"},
       {"value", ratio, "the key the order of cuts sorted by", "rules.md"},
       {"quality", ratio, "new area / old area in the split planes", "4"},
-      {"new_area", square_metre, "area of the caps that the cut added to the rest", "4, 5.1"},
+      {"new_area", square_metre,
+       "area of the caps that the cut added to the rest, of an imprint within its outline",
+       "4, 5.1"},
       {"old_area", square_metre, "area of the facets that lay in the split planes before", "4"},
       {"volume", cubic_metre, "volume of the feature, of a hole the volume of its air", "5.1"},
       {"surface", square_metre, "area of the feature's boundary without the caps", "5.1"},
@@ -69,8 +71,8 @@ const std::vector<Attribute>& feature_schema() {
        "5.2"},
       {"storey", count,
        "number of its storey among the openings' storeys, from 0; missing where none", "5.2"},
-      {"per_facade", count, "features of the same sense on its facade, itself included", "5.2"},
-      {"per_storey", count, "features of the same sense in its storey, itself included", "5.2"},
+      {"per_facade", count, "features of its kind on its facade, itself included", "5.2"},
+      {"per_storey", count, "features of its kind in its storey, itself included", "5.2"},
   };
   return schema;
 }
@@ -82,7 +84,7 @@ const std::vector<RelationKind>& relation_schema() {
       {"same_facade", "features on the same facade"},
       {"same_storey", "openings in the same storey"},
       {"alike",
-       "features of like size in the neighbourhood: same facade and sense, a and b within 10 %, "
+       "features of like size in the neighbourhood: same facade and kind, a and b within 10 %, "
        "centres within 6 m"},
       {"beside", "features on the same facade at overlapping heights, no more than 1 m apart"},
       {"above",

@@ -39,6 +39,21 @@ TEST_SUITE("cli") {
     CHECK(json::parse(outcome.out)["classes"]["window"]["tp"] == 16);
   }
 
+  TEST_CASE("flush openings are found as recessed ones are") {
+    const Folder folder;
+    for (const std::string name : {"house", "house-flush"}) {
+      CAPTURE(name);
+      const Outcome outcome =
+          run({"score", records_of(name, folder), "--truth", truth_of(name), "--json"});
+      CHECK(outcome.exit == 0);
+      const json score = json::parse(outcome.out);
+      CHECK(score["classes"]["window"]["tp"] == 16);
+      CHECK(score["classes"]["door"]["tp"] == 2);
+      CHECK(score["macro_f1"] == 1);
+      CHECK(score["misses"].empty());
+    }
+  }
+
   TEST_CASE("records may be CSV or JSON or JSON lines") {
     const Folder folder;
     std::string text;

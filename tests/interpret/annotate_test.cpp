@@ -105,6 +105,42 @@ std::string text_of(const Members& members, const std::string& name) {
 }  // namespace
 
 TEST_SUITE("interpret") {
+  TEST_CASE("a flush frame that is a window takes the polygons of its sashes") {
+    House h = house();
+    const int frame = h.add({{2, 0, 1}, times(2, kX), kZ});
+    const auto left = add_recess(h, 2.1, 1), right = add_recess(h, 3.1, 1);
+    const FeatureId left_sash = h.add_feature("", Sense::hole, 0.05, left, {2});
+    const FeatureId right_sash = h.add_feature("", Sense::hole, 0.05, right, {2});
+    std::vector<int> all{frame};
+    all.insert(all.end(), left.begin(), left.end());
+    all.insert(all.end(), right.begin(), right.end());
+    const FeatureId window = h.add_feature("window", Sense::imprint, 0, all, {2});
+    const auto hosted_by_window = [&](FeatureId sash) {
+      h.segmentation.features[sash.index()].host = window;
+    };
+    hosted_by_window(left_sash);
+    hosted_by_window(right_sash);
+    const LabelledBuilding labelled = h.annotated();
+    for (const int polygon : all) {
+      CHECK(type_at(labelled, polygon) == "Window");
+      CHECK(labelled.surface_of_polygon[static_cast<std::size_t>(polygon)] ==
+            labelled.surface_of_polygon[static_cast<std::size_t>(frame)]);
+    }
+    CHECK(type_at(labelled, 2) == "WallSurface");
+  }
+
+  TEST_CASE("the sill of a sash in an unlabelled frame is a floor in a wall") {
+    House h = house();
+    const int frame = h.add({{2, 0, 1}, times(2, kX), kZ});
+    const auto sash = add_recess(h, 2.1, 1);
+    const FeatureId hole = h.add_feature("", Sense::hole, 0.05, sash, {2});
+    std::vector<int> all{frame};
+    all.insert(all.end(), sash.begin(), sash.end());
+    const FeatureId owner = h.add_feature("", Sense::imprint, 0, all, {2});
+    h.segmentation.features[hole.index()].host = owner;
+    CHECK(type_at(h.annotated(), sash[1]) == "OuterFloorSurface");
+  }
+
   TEST_CASE("every polygon is a surface named by where it looks") {
     House h = house();
     const int overhang = h.add({{10, 0, 3}, times(8, kY), kX});

@@ -90,6 +90,23 @@ TEST_SUITE("interpret") {
     CHECK(label_alone(flush) == "window");
   }
 
+  TEST_CASE("what lies in an opening is part of it and what lies in a wide recess is not") {
+    for (const double width : {1.4, 5.4, 5.8}) {
+      CAPTURE(width);
+      Scene scene;
+      const FeatureId around = scene.add(recess(width, 2.4, 0.4, 0.25));
+      const FeatureId pane = scene.add(recess(1.1, 1.4, 0.95));
+      scene.relate("host", pane, around);
+      const std::string label = labels(residential(), scene)[pane.index()];
+      CHECK(label == (width < 5.5 ? "-" : "window"));
+    }
+  }
+
+  TEST_CASE("what is too narrow for a door is a window") {
+    CHECK(label_alone(recess(0.67, 2.1, 0)) == "window");
+    CHECK(label_alone(recess(0.8, 2.1, 0)) == "door");
+  }
+
   TEST_CASE("recesses in roofs are windows") {
     Values roof_window = recess(0.8, 0.9, 6.5, 0.1);
     roof_window["host_inclination"] = roof_window["inclination"] = 40.0;
