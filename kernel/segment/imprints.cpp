@@ -4,7 +4,7 @@
 #include "kernel/segment/detail/insets.h"
 #include "kernel/segment/detail/loose.h"
 #include "kernel/segment/detail/reach.h"
-#include "kernel/segment/detail/sheets.h"
+#include "kernel/segment/detail/subdivisions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ using detail::Reach;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A feature of the tree whose largest cap lies in the plane of a sheet.
+/// A feature of the tree whose largest cap lies in the plane of a subdivision.
 struct Resident {
   FeatureId id;
   Reach cap;  ///< of its points in that plane
@@ -35,8 +35,8 @@ class ImprintWriter {
       : solid_(solid),
         out_(segmentation),
         tolerances_(tolerances),
-        sheets_(detail::sheets_of(building, solid, tolerances)),
-        insets_(find_insets(solid, sheets_, tolerances)),
+        subdivisions_(detail::subdivisions_of(building, solid, tolerances)),
+        insets_(find_insets(solid, subdivisions_, tolerances)),
         tree_features_(segmentation.features.size()) {}
 
   void run() {
@@ -44,8 +44,8 @@ class ImprintWriter {
     find_homes();
     for (std::size_t i = 0; i < insets_.size();) {
       std::size_t past = i;
-      while (past < insets_.size() && insets_[past].sheet == insets_[i].sheet) ++past;
-      write_sheet(i, past);
+      while (past < insets_.size() && insets_[past].subdivision == insets_[i].subdivision) ++past;
+      write_subdivision(i, past);
       i = past;
     }
     take_in();
@@ -54,7 +54,7 @@ class ImprintWriter {
  private:
   [[nodiscard]] Feature& feature(FeatureId id) { return out_.features[id.index()]; }
   [[nodiscard]] const Facet& facet_of(const Inset& inset) const {
-    return solid_.facets[sheets_.sheets[at(inset.sheet)].facet.index()];
+    return solid_.facets[subdivisions_.subdivisions[at(inset.subdivision)].facet.index()];
   }
 
   /// Which cell facet has an input polygon, and which features lie in which plane.
@@ -81,8 +81,8 @@ class ImprintWriter {
       std::ranges::stable_sort(residents, {}, [](const Resident& r) { return r.cap.u0; });
   }
 
-  /// The insets of one sheet, the largest first.
-  void write_sheet(std::size_t first, std::size_t past) {
+  /// The insets of one subdivision, the largest first.
+  void write_subdivision(std::size_t first, std::size_t past) {
     const PlaneId plane = facet_of(insets_[first]).plane;
     const detail::PlaneAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
     for (std::size_t i = first; i < past; ++i) {
@@ -109,7 +109,7 @@ class ImprintWriter {
     std::optional<CellFacet> home;
     double largest = -1;
     for (const int p : inset.polygons) {
-      const detail::SheetPolygon& polygon = sheets_.polygons[at(p)];
+      const detail::SubdivisionPolygon& polygon = subdivisions_.polygons[at(p)];
       const auto found = home_.find(polygon.source);
       if (found == home_.end() || polygon.area_m2 <= largest) continue;
       largest = polygon.area_m2;
@@ -124,7 +124,7 @@ class ImprintWriter {
     std::vector<FeatureId> within;
     const auto found = residents_.find(plane);
     if (found == residents_.end()) return within;
-    const double slack = tolerances_.weld_m;
+    const double slack = slack_m();
     auto r = std::ranges::lower_bound(found->second, reach.u0 - slack, {},
                                       [](const Resident& resident) { return resident.cap.u0; });
     for (; r != found->second.end() && r->cap.u0 <= reach.u1; ++r) {
@@ -145,7 +145,7 @@ class ImprintWriter {
   /// Polygons and recesses together are what the host leaves free.
   [[nodiscard]] bool fills_whole(const Inset& inset, PlaneId plane, const detail::PlaneAxes& axes) {
     double filled_m2 = 0;
-    for (const int p : inset.polygons) filled_m2 += sheets_.polygons[at(p)].area_m2;
+    for (const int p : inset.polygons) filled_m2 += subdivisions_.polygons[at(p)].area_m2;
     for (const FeatureId id : residents_within(inset.whole, plane, axes.reach_of(inset.whole))) {
       if (feature(id).sense != Sense::hole) return false;
       filled_m2 += feature(id).new_area_m2;
@@ -153,6 +153,9 @@ class ImprintWriter {
     constexpr double kFilled = 0.98;  // noise, and what a cut leaves at the rim
     return filled_m2 >= kFilled * detail::signed_area(inset.whole, normal_of(plane));
   }
+
+  /// How far the input's points and those that were snapped to planes may be apart.
+  [[nodiscard]] double slack_m() const { return tolerances_.weld_m + tolerances_.plane_offset_m; }
 
   [[nodiscard]] Vec3 normal_of(PlaneId plane) const { return solid_.planes[plane.index()].normal; }
 
@@ -164,9 +167,9 @@ class ImprintWriter {
       if (recess.sense != Sense::hole) continue;
       std::vector<Vec3> points;
       for (const int v : recess.vertices) points.push_back(out_.vertices[at(v)].point);
-      if (!axes.reach_of(points).holds(reach, tolerances_.weld_m)) continue;
+      if (!axes.reach_of(points).holds(reach, slack_m())) continue;
       for (const int p : inset.polygons)
-        recess.source_polygons.push_back(sheets_.polygons[at(p)].source);
+        recess.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
       tidy(recess.source_polygons);
       return true;
     }
@@ -191,8 +194,8 @@ class ImprintWriter {
         detail::interior_point({{inset.outline}}, normal_of(plane)).value_or(inset.outline[0]);
     f.is_natural = true;
     for (const int p : inset.polygons) {
-      f.source_polygons.push_back(sheets_.polygons[at(p)].source);
-      f.surface_m2 += sheets_.polygons[at(p)].area_m2;
+      f.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
+      f.surface_m2 += subdivisions_.polygons[at(p)].area_m2;
     }
     for (const Vec3 p : inset.outline) {
       f.outline.push_back(static_cast<int>(out_.vertices.size()));
@@ -235,12 +238,12 @@ class ImprintWriter {
   const Solid& solid_;
   Segmentation& out_;
   const Tolerances& tolerances_;
-  detail::Sheets sheets_;
+  detail::Subdivisions subdivisions_;
   std::vector<Inset> insets_;
   std::size_t tree_features_;
   std::map<int, CellFacet> home_;  ///< by Polygon::source
   std::map<PlaneId, std::vector<Resident>> residents_;
-  std::map<int, FeatureId> owner_;  ///< of sheet polygons: the smallest imprint so far
+  std::map<int, FeatureId> owner_;  ///< of subdivision polygons: the smallest imprint so far
 };
 
 }  // namespace

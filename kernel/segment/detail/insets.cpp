@@ -23,17 +23,22 @@ using EdgeLoop = std::vector<int>;
 
 class InsetFinder {
  public:
-  InsetFinder(const Solid& solid, const Sheets& sheets, const Tolerances& tolerances)
-      : solid_(solid), sheets_(sheets), tolerances_(tolerances), mark_(sheets.polygons.size(), 0) {}
+  InsetFinder(const Solid& solid, const Subdivisions& subdivisions, const Tolerances& tolerances)
+      : solid_(solid),
+        subdivisions_(subdivisions),
+        tolerances_(tolerances),
+        mark_(subdivisions.polygons.size(), 0) {}
 
   std::vector<Inset> run() {
-    for (sheet_ = 0; sheet_ < std::ssize(sheets_.sheets); ++sheet_) {
-      const Sheet& sheet = sheets_.sheets[at(sheet_)];
-      normal_ = solid_.planes[solid_.facets[sheet.facet.index()].plane.index()].normal;
-      for (int p = sheet.first_polygon; p < sheet.past_polygon; ++p) look_into({p});
-      if (sheet.has_hints) look_into_hints(sheet);
+    for (subdivision_ = 0; subdivision_ < std::ssize(subdivisions_.subdivisions); ++subdivision_) {
+      const Subdivision& subdivision = subdivisions_.subdivisions[at(subdivision_)];
+      normal_ = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()].normal;
+      for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) look_into({p});
+      if (subdivision.has_hints) look_into_hints(subdivision);
     }
-    const auto key = [](const Inset& i) { return std::tuple(i.sheet, -i.area_m2, i.polygons); };
+    const auto key = [](const Inset& i) {
+      return std::tuple(i.subdivision, -i.area_m2, i.polygons);
+    };
     std::ranges::sort(out_, {}, key);
     // A host of several polygons may show again what one of them has shown.
     std::set<std::vector<int>> seen;
@@ -43,27 +48,28 @@ class InsetFinder {
 
  private:
   /// Connected polygons of one hint may be a host.
-  void look_into_hints(const Sheet& sheet) {
-    std::vector<char> is_done(at(sheet.past_polygon - sheet.first_polygon), 0);
-    for (int p = sheet.first_polygon; p < sheet.past_polygon; ++p) {
-      if (is_done[at(p - sheet.first_polygon)]) continue;
-      const int hint = sheets_.polygons[at(p)].hint;
+  void look_into_hints(const Subdivision& subdivision) {
+    std::vector<char> is_done(at(subdivision.past_polygon - subdivision.first_polygon), 0);
+    for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) {
+      if (is_done[at(p - subdivision.first_polygon)]) continue;
+      const int hint = subdivisions_.polygons[at(p)].hint;
       std::vector<int> host =
-          flood({p}, [&](int other) { return sheets_.polygons[at(other)].hint == hint; });
-      for (const int member : host) is_done[at(member - sheet.first_polygon)] = 1;
+          flood({p}, [&](int other) { return subdivisions_.polygons[at(other)].hint == hint; });
+      for (const int member : host) is_done[at(member - subdivision.first_polygon)] = 1;
       if (host.size() > 1) look_into(host);
     }
   }
 
-  [[nodiscard]] const SheetEdge& edge(int e) const { return sheets_.edges[at(e)]; }
-  /// The polygon on the other side of an edge, in the sheet; or -1.
+  [[nodiscard]] const SubdivisionEdge& edge(int e) const { return subdivisions_.edges[at(e)]; }
+  /// The polygon on the other side of an edge, in the subdivision; or -1.
   [[nodiscard]] int across(int e) const {
     return edge(e).twin < 0 ? -1 : edge(edge(e).twin).polygon;
   }
   template <class Visit>
   void for_each_edge(const std::vector<int>& polygons, Visit visit) const {
     for (const int p : polygons)
-      for (int e = sheets_.polygons[at(p)].first_edge; e < sheets_.polygons[at(p)].past_edge; ++e)
+      for (int e = subdivisions_.polygons[at(p)].first_edge;
+           e < subdivisions_.polygons[at(p)].past_edge; ++e)
         visit(e);
   }
 
@@ -76,7 +82,7 @@ class InsetFinder {
     for (const int seed : seeds)
       if (std::exchange(mark_[at(seed)], mark) != mark) found.push_back(seed);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const SheetPolygon& polygon = sheets_.polygons[at(found[i])];
+      const SubdivisionPolygon& polygon = subdivisions_.polygons[at(found[i])];
       for (int e = polygon.first_edge; e < polygon.past_edge; ++e) {
         const int other = across(e);
         if (other < 0 || mark_[at(other)] == mark || !may_enter(other)) continue;
@@ -109,7 +115,7 @@ class InsetFinder {
 
   [[nodiscard]] Outline outline_of(const EdgeLoop& loop) const {
     Outline outline;
-    for (const int e : loop) outline.push_back(sheets_.points[at(edge(e).from)]);
+    for (const int e : loop) outline.push_back(subdivisions_.points[at(edge(e).from)]);
     return outline;
   }
 
@@ -123,7 +129,7 @@ class InsetFinder {
     }
   }
 
-  /// As `may_host` of sheets.cpp, on the welded polygon.
+  /// As `may_host` of subdivisions.cpp, on the welded polygon.
   [[nodiscard]] bool may_host(int polygon) const {
     int right = 0;
     for_each_edge({polygon},
@@ -131,8 +137,8 @@ class InsetFinder {
     return right >= 2;
   }
 
-  /// An inner ring of the host with polygons of the sheet behind it: behind all of it, behind three
-  /// sides (a door over the slab of its balcony), or between recesses that fill the rest.
+  /// An inner ring of the host with polygons of the subdivision behind it: behind all of it, behind
+  /// three sides (a door over the slab of its balcony), or between recesses that fill the rest.
   void look_into_ring(const std::vector<int>& host, const EdgeLoop& ring) {
     std::vector<int> seeds;
     for (const int e : ring)
@@ -152,12 +158,12 @@ class InsetFinder {
 
   /// How far the way turns to the left from one edge to the next.
   [[nodiscard]] double turn_deg(int e, int f) const {
-    const Vec3 p = sheets_.vector(e), q = sheets_.vector(f);
+    const Vec3 p = subdivisions_.vector(e), q = subdivisions_.vector(f);
     return std::atan2(dot(cross(p, q), normal_), dot(p, q)) * 180 / std::numbers::pi;
   }
 
-  /// Chains of the host's outline that turn inward, with polygons of the sheet behind all of them;
-  /// true if something is inset in one.
+  /// Chains of the host's outline that turn inward, with polygons of the subdivision behind all of
+  /// them; true if something is inset in one.
   bool look_along_outline(const std::vector<int>& host, const EdgeLoop& loop) {
     const std::size_t size = loop.size();
     const auto goes_on = [&](std::size_t i) {  // from edge i to the one after it
@@ -204,7 +210,7 @@ class InsetFinder {
   /// The chain and the straight line between its ends, seen from what it encloses.
   [[nodiscard]] Outline closed(const EdgeLoop& chain) const {
     Outline outline = outline_of(chain);
-    outline.push_back(sheets_.points[at(sheets_.to(chain.back()))]);
+    outline.push_back(subdivisions_.points[at(subdivisions_.to(chain.back()))]);
     std::ranges::reverse(outline);
     return outline;
   }
@@ -227,15 +233,15 @@ class InsetFinder {
     const Outline& larger = whole.empty() ? outline : whole;
     const double larger_area = whole.empty() ? area : whole_area;
     if (larger_area <= tolerances_.weld_m * perimeter(larger) / 2) return false;
-    out_.push_back({sheet_, host[0], std::move(polygons), std::move(outline),
+    out_.push_back({subdivision_, host[0], std::move(polygons), std::move(outline),
                     area > 0 ? area : whole_area, std::move(whole)});
     return true;
   }
 
   const Solid& solid_;
-  const Sheets& sheets_;
+  const Subdivisions& subdivisions_;
   const Tolerances& tolerances_;
-  int sheet_ = 0;
+  int subdivision_ = 0;
   Vec3 normal_;
   std::vector<int> mark_;  ///< by polygon, the number of the flood that reached it last
   int last_mark_ = 0;
@@ -244,9 +250,9 @@ class InsetFinder {
 
 }  // namespace
 
-std::vector<Inset> find_insets(const Solid& solid, const Sheets& sheets,
+std::vector<Inset> find_insets(const Solid& solid, const Subdivisions& subdivisions,
                                const Tolerances& tolerances) {
-  return InsetFinder(solid, sheets, tolerances).run();
+  return InsetFinder(solid, subdivisions, tolerances).run();
 }
 
 }  // namespace oriel::detail

@@ -2,18 +2,18 @@
 
 #include "kernel/geometry/planar.h"
 #include "kernel/model/tolerances.h"
-#include "kernel/segment/detail/sheets.h"
+#include "kernel/segment/detail/subdivisions.h"
 
 #include <vector>
 
 namespace oriel::detail {
 
-/// Polygons of a sheet that lie inset in another of its polygons, the host.
+/// Polygons of a subdivision that lie inset in another of its polygons, the host.
 struct Inset {
-  int sheet = -1;
+  int subdivision = -1;
   /// A polygon of the host.
   int host = -1;
-  /// Sheets::polygons, ascending.
+  /// Subdivisions::polygons, ascending.
   std::vector<int> polygons;
   /// Around the polygons, counter-clockwise seen from outside; recesses that they enclose are not
   /// left out. Empty if the polygons alone are nothing.
@@ -26,14 +26,14 @@ struct Inset {
   Outline whole;
 };
 
-/// Everything inset, sheet by sheet, the largest first.
+/// Everything inset, subdivision by subdivision, the largest first.
 ///
 /// A host is one polygon or, where hints differ, the connected polygons of one hint. Polygons lie
 /// inset in it if they fill an inner ring of it, or if it runs along three sides of them, as a wall
 /// does around a door: a chain of its edges that turns inward only, by kInset_deg or more. Pieces
 /// of a triangulation, or of any division into convex pieces, share one side with each other and so
 /// are never inset. What is thinner than weld_m is no inset.
-std::vector<Inset> find_insets(const Solid& solid, const Sheets& sheets,
+std::vector<Inset> find_insets(const Solid& solid, const Subdivisions& subdivisions,
                                const Tolerances& tolerances);
 
 }  // namespace oriel::detail

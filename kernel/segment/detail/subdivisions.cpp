@@ -1,4 +1,4 @@
-#include "kernel/segment/detail/sheets.h"
+#include "kernel/segment/detail/subdivisions.h"
 
 #include "kernel/geometry/exact.h"
 #include "kernel/solidify/detail/soup.h"
@@ -45,26 +45,26 @@ bool may_host(const Building& building, const Polygon& polygon, Vec3 normal) {
   return std::min(left, right) >= 2;
 }
 
-class SheetMaker {
+class SubdivisionMaker {
  public:
-  SheetMaker(const Building& building, const Solid& solid, const Tolerances& tolerances)
+  SubdivisionMaker(const Building& building, const Solid& solid, const Tolerances& tolerances)
       : building_(building), solid_(solid), tolerances_(tolerances) {}
 
-  Sheets run() {
+  Subdivisions run() {
     const BySource by_source = polygons_by_source(building_);
     choose_facets(by_source);
-    if (out_.sheets.empty()) return std::move(out_);
+    if (out_.subdivisions.empty()) return std::move(out_);
     const Building part = chosen_part(by_source);
     std::vector<Issue> of_solidify;  // it has told them
     const Soup soup = weld(part, tolerances_, of_solidify);
-    sort_into_sheets(soup);
+    sort_into_subdivisions(soup);
     pair_edges();
     return std::move(out_);
   }
 
  private:
   void choose_facets(const BySource& by_source) {
-    sheet_of_source_.assign(by_source.size(), -1);
+    subdivision_of_source_.assign(by_source.size(), -1);
     for (int f = 0; f < std::ssize(solid_.facets); ++f) {
       const Facet& facet = solid_.facets[at(f)];
       if (facet.polygons.size() < 2) continue;
@@ -77,17 +77,17 @@ class SheetMaker {
       }
       if (!has_host && !has_hints) continue;
       for (const int source : facet.polygons)
-        sheet_of_source_[at(source)] = static_cast<int>(out_.sheets.size());
-      out_.sheets.push_back({FacetId{f}, -1, -1, has_hints});
+        subdivision_of_source_[at(source)] = static_cast<int>(out_.subdivisions.size());
+      out_.subdivisions.push_back({FacetId{f}, -1, -1, has_hints});
     }
   }
 
-  /// The building with the polygons of the sheets only, and the vertices they use.
+  /// The building with the polygons of the subdivisions only, and the vertices they use.
   [[nodiscard]] Building chosen_part(const BySource& by_source) {
     Building part;
     std::vector<int> place(building_.vertices.size(), -1);
     for (const Polygon* polygon : by_source) {
-      if (polygon == nullptr || sheet_of_source_[at(polygon->source)] < 0) continue;
+      if (polygon == nullptr || subdivision_of_source_[at(polygon->source)] < 0) continue;
       Polygon copy = *polygon;
       for (auto& ring : copy.rings)
         for (int& v : ring) {
@@ -106,14 +106,14 @@ class SheetMaker {
     return part;
   }
 
-  void sort_into_sheets(const Soup& soup) {
-    std::vector<std::vector<const SoupPolygon*>> members(out_.sheets.size());
+  void sort_into_subdivisions(const Soup& soup) {
+    std::vector<std::vector<const SoupPolygon*>> members(out_.subdivisions.size());
     for (const SoupPolygon& polygon : soup.polygons)
-      members[at(sheet_of_source_[at(polygon.source)])].push_back(&polygon);
+      members[at(subdivision_of_source_[at(polygon.source)])].push_back(&polygon);
     std::vector<int> place(soup.points.size());
     for (std::size_t s = 0; s < members.size(); ++s) {
-      Sheet& sheet = out_.sheets[s];
-      const Plane& plane = solid_.planes[solid_.facets[sheet.facet.index()].plane.index()];
+      Subdivision& subdivision = out_.subdivisions[s];
+      const Plane& plane = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()];
       const int first_point = static_cast<int>(out_.points.size());
       const auto point_of = [&](int v) {
         if (place[at(v)] < first_point || place[at(v)] >= std::ssize(out_.points) ||
@@ -125,21 +125,21 @@ class SheetMaker {
         }
         return place[at(v)];
       };
-      sheet.first_polygon = static_cast<int>(out_.polygons.size());
+      subdivision.first_polygon = static_cast<int>(out_.polygons.size());
       for (const SoupPolygon* polygon : members[s])
         add_polygon(*polygon, static_cast<int>(s), plane.normal, point_of);
-      sheet.past_polygon = static_cast<int>(out_.polygons.size());
+      subdivision.past_polygon = static_cast<int>(out_.polygons.size());
     }
   }
 
   template <class PointOf>
-  void add_polygon(const SoupPolygon& polygon, int sheet, Vec3 normal, PointOf point_of) {
-    SheetPolygon record{polygon.source,
-                        *hint_of_source_.at(polygon.source),
-                        sheet,
-                        static_cast<int>(out_.edges.size()),
-                        -1,
-                        0};
+  void add_polygon(const SoupPolygon& polygon, int subdivision, Vec3 normal, PointOf point_of) {
+    SubdivisionPolygon record{polygon.source,
+                              *hint_of_source_.at(polygon.source),
+                              subdivision,
+                              static_cast<int>(out_.edges.size()),
+                              -1,
+                              0};
     for (const auto& ring : polygon.rings) {
       const int first = static_cast<int>(out_.edges.size());
       for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -158,8 +158,8 @@ class SheetMaker {
   }
 
   /// The input had the polygon the wrong way round.
-  void turn_round(SheetPolygon& record) {
-    std::vector<SheetEdge> turned;
+  void turn_round(SubdivisionPolygon& record) {
+    std::vector<SubdivisionEdge> turned;
     for (int e = record.first_edge; e < record.past_edge; ++e) {
       turned.push_back({out_.to(e), out_.edges[at(e)].polygon, -1, -1});
     }
@@ -186,17 +186,18 @@ class SheetMaker {
   const Building& building_;
   const Solid& solid_;
   const Tolerances& tolerances_;
-  std::vector<int> sheet_of_source_;
+  std::vector<int> subdivision_of_source_;
   std::map<std::string, int> hints_;
   std::unordered_map<int, const int*> hint_of_source_;
   std::vector<int> origin_;  ///< of each point, the soup's
-  Sheets out_;
+  Subdivisions out_;
 };
 
 }  // namespace
 
-Sheets sheets_of(const Building& building, const Solid& solid, const Tolerances& tolerances) {
-  return SheetMaker(building, solid, tolerances).run();
+Subdivisions subdivisions_of(const Building& building, const Solid& solid,
+                             const Tolerances& tolerances) {
+  return SubdivisionMaker(building, solid, tolerances).run();
 }
 
 }  // namespace oriel::detail
