@@ -99,9 +99,17 @@ class ImprintWriter {
       if (absorb(inset, within, reach, axes)) continue;
       const FeatureId id{static_cast<int>(out_.features.size())};
       out_.features.push_back(make(inset, *home, plane));
-      for (const FeatureId resident : within) feature(resident).host = id;
+      for (const FeatureId resident : within)
+        if (!carries(resident, id)) feature(resident).host = id;
       for (const int p : inset.polygons) owner_[p] = id;
     }
+  }
+
+  /// One feature stands on another, directly or over others.
+  [[nodiscard]] bool carries(FeatureId carrier, FeatureId id) const {
+    for (FeatureId host = id; host.is_valid(); host = out_.features[host.index()].host)
+      if (host == carrier) return true;
+    return false;
   }
 
   /// The cell facet that has the largest of the polygons.
