@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <unordered_map>
 
@@ -107,9 +108,9 @@ class SubdivisionMaker {
   }
 
   void sort_into_subdivisions(const Soup& soup) {
-    std::vector<std::vector<const SoupPolygon*>> members(out_.subdivisions.size());
-    for (const SoupPolygon& polygon : soup.polygons)
-      members[at(subdivision_of_source_[at(polygon.source)])].push_back(&polygon);
+    std::vector<std::vector<int>> members(out_.subdivisions.size());
+    for (int p = 0; p < soup.polygon_count(); ++p)
+      members[at(subdivision_of_source_[at(soup.polygons[at(p)].source)])].push_back(p);
     std::vector<int> place(soup.points.size());
     for (std::size_t s = 0; s < members.size(); ++s) {
       Subdivision& subdivision = out_.subdivisions[s];
@@ -126,21 +127,20 @@ class SubdivisionMaker {
         return place[at(v)];
       };
       subdivision.first_polygon = static_cast<int>(out_.polygons.size());
-      for (const SoupPolygon* polygon : members[s])
-        add_polygon(*polygon, static_cast<int>(s), plane.normal, point_of);
+      for (const int polygon : members[s])
+        add_polygon(soup, polygon, static_cast<int>(s), plane.normal, point_of);
       subdivision.past_polygon = static_cast<int>(out_.polygons.size());
     }
   }
 
   template <class PointOf>
-  void add_polygon(const SoupPolygon& polygon, int subdivision, Vec3 normal, PointOf point_of) {
-    SubdivisionPolygon record{polygon.source,
-                              *hint_of_source_.at(polygon.source),
-                              subdivision,
-                              static_cast<int>(out_.edges.size()),
-                              -1,
-                              0};
-    for (const auto& ring : polygon.rings) {
+  void add_polygon(const Soup& soup, int polygon, int subdivision, Vec3 normal, PointOf point_of) {
+    const int source = soup.polygons[at(polygon)].source;
+    SubdivisionPolygon record{source,      *hint_of_source_.at(source),
+                              subdivision, static_cast<int>(out_.edges.size()),
+                              -1,          0};
+    for (const int r : soup.rings_of(polygon)) {
+      const std::span<const int> ring = soup.ring(r);
       const int first = static_cast<int>(out_.edges.size());
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const int next = i + 1 < ring.size() ? first + static_cast<int>(i) + 1 : first;
