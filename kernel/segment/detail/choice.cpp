@@ -353,12 +353,12 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
 
 /// Floods from the candidate and gives it the key of its whole lump. False if it is no feature, or
 /// none of the pass.
-bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
+bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) {
   const Section& section = candidate.slot->section;
   const Region& region = section.regions[at(candidate.region)];
-  candidate.lump = finder.find(candidate.region);
-  candidate.is_checked = true;
-  const Lump& lump = candidate.lump;
+  candidate.lump = static_cast<int>(lumps_.size());
+  lumps_.push_back(finder.find(candidate.region));
+  const Lump& lump = lumps_.back();
   if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 ||
       (!region.is_material && !lump.has_bend))
     return false;
@@ -376,7 +376,7 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) const {
 
 /// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
 /// features are dropped.
-void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
+void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) {
   const double group = 1 + std::max(kSame, options_.tolerances.value_rel);
   while (!candidates.empty()) {
     double least = candidates[0].key;
@@ -386,7 +386,7 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
     const Slot* found_in = nullptr;
     std::optional<LumpFinder> finder;
     std::erase_if(candidates, [&](Candidate& c) {
-      if (c.is_checked || c.key > least * group) return false;
+      if (c.lump >= 0 || c.key > least * group) return false;
       is_settled = false;
       if (c.slot != found_in) finder.emplace(body_, c.slot->section);
       found_in = c.slot;
@@ -398,6 +398,7 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) const {
 
 std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch>& rivals) {
   std::vector<Candidate> candidates;
+  lumps_.clear();
   for (const std::size_t i : promising_) {
     Slot& slot = slots_[i];
     for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
@@ -405,7 +406,7 @@ std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch
       const double old = region.is_candidate ? slot.section.old_area(region) : 0;
       if (old <= 0 || is_banned(slot.section, region)) continue;
       if (const auto value = key(region, region.new_area, old, limit()))
-        candidates.push_back({&slot, r, *value, false, {}});
+        candidates.push_back({&slot, r, -1, *value});
     }
   }
   check_leaders(candidates, key);
@@ -438,18 +439,18 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
   choice.is_natural = true;
   choice.value = first.key;
   choice.old_area = section.old_area(region);
-  choice.quality = first.lump.new_area / choice.old_area;
+  choice.quality = lump_of(first).new_area / choice.old_area;
   choice.sides = {section.split_side(region)};
   choice.section = &section;
   for (const Candidate& c : candidates) {
-    if (c.slot != first.slot || !c.is_checked ||
+    if (c.slot != first.slot || c.lump < 0 ||
         c.key > first.key * (1 + std::max(kSame, options_.tolerances.value_rel)))
       continue;
     if (section.regions[at(c.region)].is_material != region.is_material) continue;
-    choice.lumps.push_back(c.lump);
+    choice.lumps.push_back(lump_of(c));
     choice.lumps.back().value = c.key;
-    choice.volume += c.lump.volume;
-    for (const int r : c.lump.regions) choice.is_natural &= section.regions[at(r)].is_natural;
+    choice.volume += lump_of(c).volume;
+    for (const int r : lump_of(c).regions) choice.is_natural &= section.regions[at(r)].is_natural;
   }
   return choice;
 }

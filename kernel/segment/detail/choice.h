@@ -98,10 +98,12 @@ class Chooser {
   struct Candidate {
     Slot* slot = nullptr;
     int region = -1;
+    int lump = -1;  ///< in lumps_ once the flood has found it
     double key = 0;
-    bool is_checked = false;
-    Lump lump;
   };
+  [[nodiscard]] const Lump& lump_of(const Candidate& candidate) const {
+    return lumps_[static_cast<std::size_t>(candidate.lump)];
+  }
   using Key = std::optional<double> (*)(const Region&, double new_area, double old_area,
                                         double limit);
 
@@ -122,8 +124,8 @@ class Chooser {
                                 const Box& part) const;
   [[nodiscard]] bool loses_loops_only(const Slot& slot, const Change& change,
                                       const Reach& reach) const;
-  void check_leaders(std::vector<Candidate>& candidates, Key key) const;
-  bool check(Candidate& candidate, Key key, LumpFinder& finder) const;
+  void check_leaders(std::vector<Candidate>& candidates, Key key);
+  bool check(Candidate& candidate, Key key, LumpFinder& finder);
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
   Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
@@ -154,6 +156,7 @@ class Chooser {
   std::vector<std::size_t> to_do_;   ///< slots to look at again
   std::set<std::size_t> promising_;  ///< slots with something to cut
   Section fresh_;                    ///< room for the section at hand
+  std::vector<Lump> lumps_;          ///< found in the pass at hand
 };
 
 }  // namespace oriel::detail

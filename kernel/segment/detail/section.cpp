@@ -304,28 +304,30 @@ class Sectioner {
                           !is_sliver(region.loops[0], region.new_area);
   }
 
-  /// False if a loop has living and dead edges, or a living one lies in a dead one.
+  /// False if a loop is dead in part only, or a living one lies in a dead one.
   bool drop_dead_loops() {
+    const auto is_dead = [&](const Crossing& c) { return !body_.is_alive_edge(c.edge); };
+    if (std::ranges::none_of(section_.crossings, is_dead)) return true;
     std::vector<Crossing> crossings;
     std::vector<SectionLoop> loops;
     std::vector<Region> regions;
     std::vector<int> new_loop(section_.loops.size(), -1);
+    crossings.reserve(section_.crossings.size());
     for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      std::size_t living = 0, all = 0;
+      std::size_t dead = 0;
+      const int first = static_cast<int>(crossings.size()), number = static_cast<int>(loops.size());
       for_each_crossing(l, [&](const Crossing& c) {
-        ++all;
-        living += body_.is_alive_edge(c.edge) ? 1 : 0;
+        dead += is_dead(c) ? 1 : 0;
+        crossings.push_back({c.edge, c.at, static_cast<int>(crossings.size()) + 1, number});
       });
-      if (living == 0) continue;
-      if (living < all) return false;
-      new_loop[at(l)] = static_cast<int>(loops.size());
-      const int first = static_cast<int>(crossings.size());
-      loops.push_back({first, section_.loops[at(l)].area});
-      for_each_crossing(l, [&](const Crossing& c) {
-        const int next = static_cast<int>(crossings.size()) + 1;
-        crossings.push_back({c.edge, c.at, next, new_loop[at(l)]});
-      });
+      if (dead > 0 && first + static_cast<int>(dead) < std::ssize(crossings)) return false;
+      if (dead > 0) {
+        crossings.resize(at(first));
+        continue;
+      }
       crossings.back().next = first;
+      loops.push_back({first, section_.loops[at(l)].area});
+      new_loop[at(l)] = number;
     }
     for (Region& region : section_.regions) {
       if (new_loop[at(region.loops[0])] < 0) {
