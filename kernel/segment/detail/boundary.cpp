@@ -27,6 +27,11 @@ double Boundary::area_on(Side side) const {
   return on == nullptr || on->living == 0 ? 0 : on->area;
 }
 
+bool Boundary::has_facets_on(Side side) const {
+  const OnSide* on = on_side(side);
+  return on != nullptr && on->living > 0;
+}
+
 std::vector<int> Boundary::facets_on(Side side) const {
   std::vector<int> living;
   if (const OnSide* on = on_side(side))

@@ -85,6 +85,7 @@ class Boundary {
   [[nodiscard]] double area(int f) const;
   /// The area of all facets of a side.
   [[nodiscard]] double area_on(Side side) const;
+  [[nodiscard]] bool has_facets_on(Side side) const;
   /// The living facets of a side, ascending.
   [[nodiscard]] std::vector<int> facets_on(Side side) const;
   [[nodiscard]] std::vector<int> living_facets() const;

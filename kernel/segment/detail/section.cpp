@@ -28,7 +28,7 @@ class Sectioner {
         section_(section) {}
 
   void run() {
-    section_.old_areas = {body_.area_on(looking_ ^ 1), body_.area_on(looking_)};
+    ask_for_facets();
     find_crossings();
     if (section_.crossings.empty()) return;
     if (!link_chords() || !close_loops()) {
@@ -39,17 +39,18 @@ class Sectioner {
   }
 
   bool prune() {
-    section_.old_areas = {body_.area_on(looking_ ^ 1), body_.area_on(looking_)};
+    ask_for_facets();
     if (!drop_dead_loops()) return false;
-    for (Region& region : section_.regions) {
-      region.covered.clear();
-      region.is_natural = region.has_natural_outline = region.is_candidate = false;
-      judge(region);
-    }
+    for (Region& region : section_.regions) judge(region);
     return true;
   }
 
  private:
+  void ask_for_facets() {
+    section_.old_areas = {body_.area_on(looking_ ^ 1), body_.area_on(looking_)};
+    has_facets_ = {body_.has_facets_on(looking_ ^ 1), body_.has_facets_on(looking_)};
+  }
+
   /// +1 on the side looked to, 0 on the plane, -1 on the other side.
   [[nodiscard]] int level(int point) const {
     const int difference = (ranks_[at(point)] - plane_rank_) * section_.direction;
@@ -292,16 +293,22 @@ class Sectioner {
     return middle && contains({&outer.points, 1}, axis_, *middle);
   }
 
+  /// Also of a region that was judged before: it is no sliver then if it was a candidate.
   void judge(Region& region) {
     const double old_area = section_.old_area(region);
+    const bool is_known = region.is_candidate;
+    region.covered.clear();
+    region.is_natural = region.has_natural_outline = region.is_candidate = false;
     region.new_area = region.area;
     if (old_area <= 0) return;
-    take_off_covered(region, section_.split_side(region) ^ 1);
+    const Side opposite = section_.split_side(region) ^ 1;
+    if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
     region.has_natural_outline = is_natural(region.loops[0]);
     region.is_natural = region.has_natural_outline &&
                         std::ranges::all_of(region.loops, [&](int l) { return is_natural(l); });
-    region.is_candidate = (region.is_natural || region.new_area < old_area) &&
-                          !is_sliver(region.loops[0], region.new_area);
+    region.is_candidate =
+        (region.is_natural || region.new_area < old_area) &&
+        ((is_known && region.covered.empty()) || !is_sliver(region.loops[0], region.new_area));
   }
 
   /// False if a loop is dead in part only, or a living one lies in a dead one.
@@ -397,6 +404,7 @@ class Sectioner {
   std::span<const int> ranks_;
   int plane_rank_;
   Section& section_;
+  std::array<bool, 2> has_facets_{};  ///< on the split side of air, of material
 };
 
 }  // namespace
