@@ -49,8 +49,10 @@ ExitCode work(const Arguments& arguments) {
     }
   };
   const ExitCode code = run.go(visitor);
-  if (explanations.size() != 1 && code != ExitCode::input) {
+  const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
+  if (explanations.size() != 1 && !has_said_why) {
     std::string which = explanations.empty() ? "there are" : "it may be";
+    if (ids.empty()) which += " none";
     const std::size_t shown =
         std::min<std::size_t>(8, explanations.empty() ? ids.size() : explanations.size());
     for (std::size_t i = 0; i < shown; ++i)

@@ -1,4 +1,5 @@
 #include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -69,5 +70,24 @@ TEST_SUITE("cli") {
     CHECK(outcome.exit == 5);
     CHECK(outcome.says("no.city.json: E101"));
     CHECK(!outcome.says("names 0 features"));
+  }
+
+  TEST_CASE("explain of a building that is set aside says why it is, not that it has no features") {
+    auto city = cubes({"open"});
+    city["CityObjects"]["open"]["geometry"][0]["boundaries"][0].erase(0);
+    const Folder folder;
+    const Outcome outcome = run({"explain", folder.write("open.city.json", city.dump()), "f1"});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("error: open: E302"));
+    CHECK(!outcome.says("names 0 features"));
+    CHECK(outcome.out.empty());
+  }
+
+  TEST_CASE("explain of a building without features says that there are none") {
+    const Folder folder;
+    const std::string cube = folder.write("cube.city.json", cubes({"cube"}).dump());
+    const Outcome outcome = run({"explain", cube, "f1"});
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.says("'f1' names 0 features; there are none"));
   }
 }
