@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -18,6 +20,15 @@ inline std::optional<std::filesystem::path> shared_dir() {
                                         : std::filesystem::path(ORIEL_SOURCE_DIR) / ".." / "shared";
   if (!std::filesystem::exists(dir / "data")) return std::nullopt;
   return dir;
+}
+
+/// All CityJSON files of the shared data, sorted.
+inline std::vector<std::string> city_files(const std::filesystem::path& shared) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared / "data"))
+    if (entry.path().string().ends_with(".city.json")) files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
 }
 
 }  // namespace oriel::test

@@ -74,15 +74,6 @@ std::vector<Building> buildings_of(const std::string& path, const std::string& l
   return buildings;
 }
 
-/// All CityJSON files of the shared data.
-std::vector<std::string> city_files(const std::filesystem::path& shared) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared / "data"))
-    if (entry.path().string().ends_with(".city.json")) files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  return files;
-}
-
 TEST_SUITE("kernel/io") {
   TEST_CASE("generated houses are the same from CityGML as from CityJSON") {
     const TemporaryFolder folder;

@@ -12,6 +12,7 @@ namespace oriel {
 namespace {
 
 using nlohmann::json;
+using test::city_files;
 using test::codes_of;
 
 /// Polygons of a geometry, counted in a parse of our own.
@@ -37,15 +38,6 @@ std::vector<LabelledBuilding> labels_for(const Document& document) {
     one.installations = {{building.id + "-i", {{"class", std::string("1000")}}, {0, 1}, {0, 0}}};
   }
   return labelled;
-}
-
-/// All CityJSON files of the shared data.
-std::vector<std::string> city_files(const std::filesystem::path& shared) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared / "data"))
-    if (entry.path().string().ends_with(".city.json")) files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  return files;
 }
 
 TEST_SUITE("kernel/io") {
