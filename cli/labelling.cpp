@@ -18,8 +18,7 @@ void add_label_arguments(CLI::App& command, LabelArguments& a) {
                      "File, - for stdout, or a folder (with a / at its end) for several inputs");
   command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
-  command.add_option("--features", a.features,
-                     "Write one record per feature: .csv, .json or .jsonl");
+  add_features_argument(command, a.features);
   command
       .add_option("--codelist", a.codelist,
                   "Code list of installations that the pack has codes for")

@@ -1,5 +1,7 @@
 #include "cli/options.h"
 
+#include "kernel/io/feature_records.h"
+
 #include <fmt/format.h>
 
 namespace oriel::cli {
@@ -74,6 +76,14 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
 void add_rules_argument(CLI::App& command, std::string& pack) {
   command.add_option("--rules", pack, "Rule pack: a file, or the name of a pack that is built in")
       ->capture_default_str();
+}
+
+void add_features_argument(CLI::App& command, std::string& file) {
+  command.add_option("--features", file, "Write one record per feature: .csv, .json or .jsonl")
+      ->check([](const std::string& name) {
+        return record_format_of(name) ? std::string()
+                                      : "'" + name + "' does not end in .csv, .json or .jsonl";
+      });
 }
 
 }  // namespace oriel::cli

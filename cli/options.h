@@ -36,4 +36,7 @@ void add_line_arguments(CLI::App& command, LineArguments& arguments, bool has_ma
 /// Adds `--rules PACK`.
 void add_rules_argument(CLI::App& command, std::string& pack);
 
+/// Adds `--features FILE`; a name without the ending of a format is wrong usage.
+void add_features_argument(CLI::App& command, std::string& file);
+
 }  // namespace oriel::cli

@@ -120,8 +120,7 @@ void add_segment(CLI::App& app, Action& action) {
                  "With --json: the faces between cells, and which cells touch")
       ->needs(json);
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
-  command->add_option("--features", arguments->features,
-                      "Write one record per feature: .csv, .json or .jsonl");
+  add_features_argument(*command, arguments->features);
   command->footer(
       "Example:\n  oriel segment house.city.json --json | jq .stats\n  oriel segment "
       "tile.city.jsonl --lod 2.2 --features parts.csv");

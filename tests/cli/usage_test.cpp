@@ -77,6 +77,13 @@ TEST_SUITE("cli") {
     CHECK(folder.names() == Names{"out.xyz"});
   }
 
+  TEST_CASE("feature records without a known extension are named") {
+    for (const std::string command : {"label", "segment"})
+      for (const std::string name : {"-", "parts", "parts.txt"})
+        check_usage({command, sample("hip"), "--features", name},
+                    "'" + name + "' does not end in .csv, .json or .jsonl");
+  }
+
   TEST_CASE("a stream is not written as one file") {
     const Folder folder;
     const std::string lines = folder.write("in.city.jsonl", cube_lines({"a"}));
