@@ -138,6 +138,22 @@ TEST_SUITE("kernel/segment") {
         CHECK(t.segmentation.features.size() == s.segmentation.features.size());
       }
   }
+
+  TEST_CASE("noise of a millimetre keeps counts and moves values by less than a tenth") {
+    SegmentOptions options;
+    options.tolerances.plane_offset_m = 0.005;
+    options.tolerances.weld_m = 0.004;
+    options.tolerances.value_rel = 0.05;
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(std::string(name));
+      const Building whole = test::in_whole_facets(make());
+      const Segmented s = segmented(whole, options);
+      for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        const Segmented t = segmented(test::with_noise(whole, 0.001, seed), options);
+        check_same(t.segmentation, s.segmentation, 0.1);
+      }
+    }
+  }
 }
 
 }  // namespace
