@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/model/issue.h"
+#include "kernel/segment/detail/number_map.h"
 
 #include <algorithm>
 #include <map>
@@ -70,15 +71,6 @@ class Copier {
   bool is_turned_;
 };
 
-/// A number for some half-edges.
-using EdgeMap = std::vector<std::pair<int, int>>;
-
-/// The number of e, or -1; the map is sorted.
-int find_in(const EdgeMap& map, int e) {
-  const auto found = std::ranges::lower_bound(map, e, {}, &std::pair<int, int>::first);
-  return found != map.end() && found->first == e ? found->second : -1;
-}
-
 class Remover {
  public:
   Remover(Boundary& body, const std::vector<Cap>& caps, bool is_hole)
@@ -105,7 +97,7 @@ class Remover {
   }
 
  private:
-  [[nodiscard]] bool is_rim(int e) const { return find_in(twin_of_rim_, e) >= 0; }
+  [[nodiscard]] bool is_rim(int e) const { return find_in(twin_of_rim_, e).has_value(); }
 
   /// The facets inside the rims, ascending.
   void find_lump() {
@@ -132,7 +124,7 @@ class Remover {
   /// Half-edges of a cap, linked loop by loop into a facet. Free edges wait in `free` for their
   /// other side; those of the rim are added to `of_rim`.
   static int add_cap(Boundary& boundary, const Cap& cap, Side side, bool is_backward,
-                     std::vector<Open>& free, EdgeMap& of_rim) {
+                     std::vector<Open>& free, NumberMap& of_rim) {
     const int f = boundary.add_facet(side);
     for (const CapLoop& loop : cap.loops) {
       int first = -1, last = -1;
@@ -169,7 +161,7 @@ class Remover {
   void close_lump() {
     Boundary& lump = copier_.boundary();
     std::vector<Open> free;
-    EdgeMap of_rim;
+    NumberMap of_rim;
     for (const Cap& cap : caps_) {
       const int f = add_cap(lump, cap, is_hole_ ? cap.side : cap.side ^ 1, !is_hole_, free, of_rim);
       for (const int g : cap.covered) {
@@ -188,15 +180,14 @@ class Remover {
 
   void close_rest(FeatureId mark) {
     std::vector<Open> free;
-    EdgeMap of_rim;
+    NumberMap of_rim;
     std::vector<int> facets;
     for (const Cap& cap : caps_)
       facets.push_back(add_cap(body_, cap, cap.side, false, free, of_rim));
     std::ranges::sort(of_rim);
     for (const auto& [rim, e] : of_rim) {
-      const int beyond = find_in(twin_of_rim_, rim);
-      const int also_rim = find_in(of_rim, beyond);
-      body_.pair(e, also_rim < 0 ? beyond : also_rim);
+      const int beyond = *find_in(twin_of_rim_, rim);
+      body_.pair(e, find_in(of_rim, beyond).value_or(beyond));
     }
     for (std::size_t i = 0; i < caps_.size(); ++i) {
       for (const int g : caps_[i].covered) body_.cover(facets[i], g);
@@ -218,7 +209,7 @@ class Remover {
   [[nodiscard]] int facet_beyond(const Cap& cap) const {
     for (const CapLoop& loop : cap.loops)
       for (const CapEdge& edge : loop.edges)
-        if (edge.rim >= 0) return body_.facet_of(find_in(twin_of_rim_, edge.rim));
+        if (edge.rim >= 0) return body_.facet_of(*find_in(twin_of_rim_, edge.rim));
     throw GeometryError("a cap without a rim");
   }
 
@@ -242,7 +233,7 @@ class Remover {
   const std::vector<Cap>& caps_;
   bool is_hole_;
   Copier copier_;
-  EdgeMap twin_of_rim_;      ///< as they were before the cut, sorted
+  NumberMap twin_of_rim_;    ///< as they were before the cut, sorted
   std::vector<int> facets_;  ///< of the lump
   std::vector<int> cap_facets_;
   Vec3 cap_point_;

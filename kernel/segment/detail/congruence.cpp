@@ -164,12 +164,6 @@ class Matcher {
 
 }  // namespace
 
-std::optional<int> find_in(const NumberMap& map, int i) {
-  const auto found = std::ranges::lower_bound(map, i, {}, &std::pair<int, int>::first);
-  if (found == map.end() || found->first != i) return std::nullopt;
-  return found->second;
-}
-
 std::optional<Congruence> find_congruence(const Boundary& model, const Boundary& other,
                                           Side ground) {
   return Matcher(model, other, ground).run();

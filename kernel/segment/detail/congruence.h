@@ -1,20 +1,13 @@
 #pragma once
 
 #include "kernel/segment/detail/boundary.h"
+#include "kernel/segment/detail/number_map.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
 
 namespace oriel::detail {
-
-/// A number for each of some numbers, sorted.
-using NumberMap = std::vector<std::pair<int, int>>;
-
-/// The number that `i` is mapped to; nothing if there is none.
-std::optional<int> find_in(const NumberMap& map, int i);
 
 /// How one body is another one, the model, moved by a whole number of grid units: so every answer
 /// about the one is that about the other.

@@ -121,14 +121,12 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
 }
 
 int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
-                          const std::vector<std::pair<int, int>>& planes) {
+                          const NumberMap& planes) {
   const Point& model = points_[index(p)];
   Point point;
   point.is_by_decree = model.is_by_decree;
-  for (const int plane : model.planes) {
-    const auto moved = std::ranges::lower_bound(planes, plane, {}, &std::pair<int, int>::first);
-    if (moved != planes.end() && moved->first == plane) point.planes.push_back(moved->second);
-  }
+  for (const int plane : model.planes)
+    if (const auto moved = find_in(planes, plane)) point.planes.push_back(*moved);
   std::ranges::sort(point.planes);
   exact::Rational where = model.rational;
   where.x += shift[0] * where.w;

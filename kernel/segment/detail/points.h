@@ -3,6 +3,7 @@
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/detail/few.h"
+#include "kernel/segment/detail/number_map.h"
 #include "kernel/segment/detail/planes.h"
 
 #include <array>
@@ -57,8 +58,7 @@ class PointTable {
   std::optional<int> meet(int p, int q, int r);
 
   /// Point `p` moved by a whole number of grid units, on the planes that those of p are mapped to.
-  int add_moved(int p, const std::array<std::int64_t, 3>& shift,
-                const std::vector<std::pair<int, int>>& planes);
+  int add_moved(int p, const std::array<std::int64_t, 3>& shift, const NumberMap& planes);
 
   /// What is there now, to come back to if what is tried next is not kept.
   struct Mark {
