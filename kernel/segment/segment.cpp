@@ -170,6 +170,11 @@ class Segmenter {
     while (true) {
       if (is_convex(task.body, bend)) return add_leaf(task, LeafFlag::convex);
       if (work_ > options_.budget) return add_leaf(task, LeafFlag::budget);
+      if (is_mostly_dead(task.body)) {
+        task.body = compacted(task.body);
+        chooser.reset();
+        bend = 0;
+      }
       if (!chooser)
         chooser.emplace(task.body, options_, ground_, task.own_planes, out_.stats, work_);
       const auto choice = chooser->next(banned);
@@ -199,6 +204,14 @@ class Segmenter {
         if (!is_connected(task.body)) return hang_rest(std::move(task));
       }
     }
+  }
+
+  /// What looks at a whole body costs what is dead in it, too.
+  static bool is_mostly_dead(const Boundary& body) {
+    constexpr int kTimes = 16;  // so often the body is copied no more than it has lost
+    constexpr int kFew = 64;    // half-edges that cost nothing
+    const int all = body.half_edge_count(), living = all - body.dead_edge_count();
+    return all > kFew && all > kTimes * living;
   }
 
   static LeafFlag flag_of_uncut(const Task& task, bool has_led_back) {

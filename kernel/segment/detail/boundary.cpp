@@ -184,7 +184,7 @@ void Boundary::remove(const std::vector<int>& facets) {
     std::vector<int> edges;
     for_each_edge(f, [&](int e) { edges.push_back(e); });
     kill_facet(f);
-    for (const int e : edges) half_edges_[index(e)].next = -1;
+    for (const int e : edges) kill_edge(e);
   }
 }
 
@@ -388,7 +388,7 @@ void Boundary::remove_seams(int f, const std::vector<int>& seams) {
     while (is_seam(after)) after = next(twin(after));
     link(e, after);
   }
-  for (const int e : seams) half_edges_[index(e)].next = -1;
+  for (const int e : seams) kill_edge(e);
   const int first_new = static_cast<int>(loops_.size());
   for (const int e : kept)
     if (edge(e).loop < first_new) attach(trace(e), f);

@@ -68,6 +68,8 @@ class Boundary {
 
   // -- Looking.
   [[nodiscard]] int half_edge_count() const { return static_cast<int>(half_edges_.size()); }
+  /// How many of them are dead.
+  [[nodiscard]] int dead_edge_count() const { return dead_edges_; }
   [[nodiscard]] int facet_count() const { return static_cast<int>(facets_.size()); }
   [[nodiscard]] const HalfEdge& edge(int e) const { return half_edges_[index(e)]; }
   [[nodiscard]] const LoopRecord& loop(int l) const { return loops_[index(l)]; }
@@ -161,6 +163,10 @@ class Boundary {
   [[nodiscard]] OnSide& on_side_of(int f) { return on_side_[index(facets_[index(f)].on_side)]; }
   int trace(int first);
   void split_at_corners(int f);
+  void kill_edge(int e) {
+    half_edges_[index(e)].next = -1;
+    ++dead_edges_;
+  }
   void attach(int l, int f);
   void detach(int l);
   void kill_facet(int f);
@@ -174,6 +180,7 @@ class Boundary {
 
   World* world_;
   std::vector<HalfEdge> half_edges_;
+  int dead_edges_ = 0;
   std::vector<LoopRecord> loops_;
   std::vector<FacetRecord> facets_;
   std::vector<OnSide> on_side_;                       ///< in the order in which sides came up

@@ -301,6 +301,8 @@ bool is_connected(const Boundary& body) {
   return true;
 }
 
+Boundary compacted(const Boundary& body) { return copy_facets(body, body.living_facets(), false); }
+
 std::vector<Boundary> part_into_lumps(const Boundary& body) {
   std::vector<Boundary> lumps;
   std::vector<std::vector<int>> outers, cavities;

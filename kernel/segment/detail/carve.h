@@ -62,6 +62,9 @@ Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, Feat
 /// True if all facets hang together: no cavity, and no cut has parted the body.
 bool is_connected(const Boundary& body);
 
+/// The body without its dead half-edges and facets, which are numbered anew, in their order.
+Boundary compacted(const Boundary& body);
+
 /// The connected pieces of a body, each with its cavities, in the order of their first facets.
 std::vector<Boundary> part_into_lumps(const Boundary& body);
 

@@ -60,15 +60,18 @@ Side CellWriter::side_of(PlaneId id) const {
   return id.index() < own ? world_.planes.side_of(id) : extra_sides_[id.index() - own];
 }
 
+Few<CellFacet, 2>& CellWriter::made_of(int source) {
+  if (std::ssize(made_of_) <= source) made_of_.resize(at(source) + 1);
+  return made_of_[at(source)];
+}
+
 void CellWriter::copy_sources(const NumberMap& sources, CellId first, CellId last, int copies) {
-  for (const auto& [source, copy] : sources) {
-    const auto made = made_of_.find(source);
-    if (made == made_of_.end()) continue;
-    const std::vector<CellFacet> all = made->second;
-    for (const CellFacet& here : all)
+  for (const auto& [source, copy] : sources)
+    for (std::size_t i = 0; i < made_of(source).size(); ++i) {
+      const CellFacet here = made_of(source)[i];
       if (here.cell.value >= first.value && here.cell.value < last.value)
-        made_of_[copy].push_back({CellId{here.cell.value - first.value + copies}, here.facet});
-  }
+        made_of(copy).push_back({CellId{here.cell.value - first.value + copies}, here.facet});
+    }
 }
 
 CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
@@ -81,7 +84,7 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
     const CellFacet here{id, static_cast<int>(cell.facets.size())};
     Facet facet{plane_id(record.side), {}, {}};
     facet.loops = all_corners.loops(f);
-    for (const int source : record.sources) made_of_[source].push_back(here);
+    for (const int source : record.sources) made_of(source).push_back(here);
     for (const CapMark& mark : record.marks) {
       Feature& marked = out_.features[mark.feature.index()];
       marked.host = feature;
@@ -99,10 +102,8 @@ void CellWriter::finish(const Building& building, const Solid& solid) {
   attribute_polygons(building, solid);
 }
 
-std::vector<CellWriter::Shape> CellWriter::shapes_of(
-    const std::vector<CellFacet>& cell_facets) const {
+std::vector<CellWriter::Shape> CellWriter::shapes_of(std::span<const CellFacet> cell_facets) const {
   std::vector<Shape> shapes(cell_facets.size());
-  if (shapes.size() == 1) return shapes;  // nobody asks for its outlines
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const CellFacet here = cell_facets[i];
     for (const Loop& loop : out_.cells[here.cell.index()].facets[at(here.facet)].loops) {
@@ -135,6 +136,31 @@ std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon
   return static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
 }
 
+std::vector<FeatureId> CellWriter::features_around(FeatureId innermost) const {
+  std::vector<FeatureId> around;
+  const auto add = [&](FeatureId id) {
+    if (id.is_valid() && std::ranges::find(around, id) == around.end()) around.push_back(id);
+  };
+  add(innermost);
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const Feature& feature = out_.features[around[i].index()];
+    add(feature.parent);
+    add(feature.host);
+  }
+  return around;
+}
+
+void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
+  if (polygons.empty()) return;
+  const auto add_to = [&](std::vector<int>& all) {
+    all.insert(all.end(), polygons.begin(), polygons.end());
+  };
+  Cell& cell = out_.cells[home.cell.index()];
+  add_to(cell.facets[at(home.facet)].polygons);
+  for (const FeatureId id : features_around(cell.feature))
+    add_to(out_.features[id.index()].source_polygons);
+}
+
 /// Every input polygon goes to the cell facet that holds most of it, and to the features that facet
 /// is in: those of its cell, what those lie in, and what hosts them.
 void CellWriter::attribute_polygons(const Building& building, const Solid& solid) {
@@ -144,27 +170,18 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
       polygon_of_source.resize(at(polygon.source) + 1);
     polygon_of_source[at(polygon.source)] = &polygon;
   }
-  for (const auto& [source, cell_facets] : made_of_) {
-    const Facet& facet = solid.facets[at(source)];
+  for (std::size_t source = 0; source < made_of_.size(); ++source) {
+    const std::span<const CellFacet> cell_facets{made_of_[source].data(), made_of_[source].size()};
+    const Facet& facet = solid.facets[source];
+    if (cell_facets.size() == 1) give(facet.polygons, cell_facets[0]);
+    if (cell_facets.size() <= 1) continue;
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     const std::vector<Shape> shapes = shapes_of(cell_facets);
-    for (const int polygon : facet.polygons) {
-      const std::size_t best =
-          shapes.size() == 1 ? 0
-                             : home_of(building, *polygon_of_source[at(polygon)], shapes, normal);
-      const CellFacet home = cell_facets[best];
-      out_.cells[home.cell.index()].facets[at(home.facet)].polygons.push_back(polygon);
-      std::vector<FeatureId> around{out_.cells[home.cell.index()].feature};
-      for (std::size_t i = 0; i < around.size(); ++i) {
-        const FeatureId id = around[i];
-        if (!id.is_valid()) continue;
-        Feature& feature = out_.features[id.index()];
-        if (!feature.source_polygons.empty() && feature.source_polygons.back() == polygon) continue;
-        feature.source_polygons.push_back(polygon);
-        around.push_back(feature.parent);
-        around.push_back(feature.host);
-      }
-    }
+    std::vector<std::vector<int>> polygons(cell_facets.size());
+    for (const int polygon : facet.polygons)
+      polygons[home_of(building, *polygon_of_source[at(polygon)], shapes, normal)].push_back(
+          polygon);
+    for (std::size_t i = 0; i < cell_facets.size(); ++i) give(polygons[i], cell_facets[i]);
   }
   for (Feature& feature : out_.features) {
     std::ranges::sort(feature.source_polygons);

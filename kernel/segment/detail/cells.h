@@ -4,9 +4,11 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/detail/boundary.h"
 #include "kernel/segment/detail/congruence.h"
+#include "kernel/segment/detail/few.h"
 
 #include <cstddef>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,8 +44,13 @@ class CellWriter {
     std::vector<Outline> outlines;
     Box box;
   };
+  Few<CellFacet, 2>& made_of(int source);
+  /// The features that polygons of a cell of `innermost` are in.
+  [[nodiscard]] std::vector<FeatureId> features_around(FeatureId innermost) const;
+  /// To a cell facet, and to the features it is in.
+  void give(const std::vector<int>& polygons, const CellFacet& home);
   void attribute_polygons(const Building& building, const Solid& solid);
-  [[nodiscard]] std::vector<Shape> shapes_of(const std::vector<CellFacet>& cell_facets) const;
+  [[nodiscard]] std::vector<Shape> shapes_of(std::span<const CellFacet> cell_facets) const;
   static std::size_t home_of(const Building& building, const Polygon& polygon,
                              const std::vector<Shape>& shapes, Vec3 normal);
 
@@ -51,8 +58,8 @@ class CellWriter {
   Segmentation& out_;
   std::map<Side, PlaneId> extra_planes_;
   std::vector<Side> extra_sides_;  ///< in the order of their ids
-  /// For each facet of the solid the cell facets made of it.
-  std::map<int, std::vector<CellFacet>> made_of_;
+  /// By facet of the solid, the cell facets made of it.
+  std::vector<Few<CellFacet, 2>> made_of_;
 };
 
 }  // namespace oriel::detail

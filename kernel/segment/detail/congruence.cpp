@@ -10,7 +10,10 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Meetings of planes that are moved alike differ by no more than rounding.
-constexpr double kSame_m = 1e-9;  // tolerance of doubles, planes are compared exactly
+bool is_same(Vec3 difference) {
+  constexpr double kSame_m = 1e-9;  // tolerance of doubles, planes are compared exactly
+  return dot(difference, difference) <= kSame_m * kSame_m;
+}
 
 /// The lowest corner of a body's box.
 Vec3 corner_of(const Boundary& body) {
@@ -104,9 +107,8 @@ class Matcher {
 
   bool match_marks(const std::vector<CapMark>& one, const std::vector<CapMark>& two) {
     return std::ranges::all_of(one, [&](const CapMark& mark) {
-      const auto same = std::ranges::find_if(two, [&](const CapMark& m) {
-        return length(m.point - mark.point - how_.shift_m) <= kSame_m;
-      });
+      const auto same = std::ranges::find_if(
+          two, [&](const CapMark& m) { return is_same(m.point - mark.point - how_.shift_m); });
       if (same == two.end()) return false;
       how_.marks.emplace_back(mark.feature.value, same->feature.value);
       return true;
@@ -127,8 +129,7 @@ class Matcher {
     const int first_e = e, first_d = d;
     const std::size_t points = how_.points.size();
     do {
-      const Vec3 difference = other_.at(d) - model_.at(e) - how_.shift_m;
-      if (length(difference) > kSame_m) {
+      if (!is_same(other_.at(d) - model_.at(e) - how_.shift_m)) {
         how_.points.resize(points);
         return false;
       }

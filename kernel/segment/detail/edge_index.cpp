@@ -36,21 +36,29 @@ std::size_t EdgeIndex::Class::first_from(int rank) const {
 }
 
 void EdgeIndex::update() {
+  struct Edge {
+    int half, from, to;
+  };
   const int count = body_.half_edge_count();
+  std::vector<Edge> edges;
+  edges.reserve(static_cast<std::size_t>(count - known_));
+  for (int e = known_; e < count; ++e) {
+    if (!body_.is_alive_edge(e)) continue;
+    const int twin = body_.twin(e);
+    // Of two new half-edges the first speaks for both.
+    if (twin >= known_ && twin < e) continue;
+    edges.push_back({e, body_.origin(e), body_.origin(twin)});
+  }
   for (const Class& c : classes_) {
     const auto rank = body_.world().points.ranks(c.number);
-    for (int e = known_; e < count; ++e) {
-      if (!body_.is_alive_edge(e)) continue;
-      const int twin = body_.twin(e);
-      // Of two new half-edges the first speaks for both.
-      if (twin >= known_ && twin < e) continue;
-      const int from = rank[static_cast<std::size_t>(body_.origin(e))];
-      const int to = rank[static_cast<std::size_t>(body_.origin(twin))];
+    for (const Edge& edge : edges) {
+      const int from = rank[static_cast<std::size_t>(edge.from)];
+      const int to = rank[static_cast<std::size_t>(edge.to)];
       if (from == to) continue;
       const int high = std::max(from, to);
       for (std::size_t i = c.first_from(std::min(from, to));
            i < c.ranks.size() && c.ranks[i] <= high; ++i)
-        edges_[c.entries[i]].push_back(e);
+        edges_[c.entries[i]].push_back(edge.half);
     }
   }
   known_ = count;
