@@ -153,21 +153,31 @@ bool LumpFinder::has_sound_pieces(int c) const {
   const int f = body_.facet_of(section_.crossings[at(c)].edge);
   const Vec3 normal = body_.world().planes.normal(body_.facet(f).side);
   const Vec3 start = section_.crossings[at(c)].at;
-  const auto is_sound = [&](auto visit_points) {
+  const auto area_of = [&](auto visit_points) {
     Vec3 sum, from;
     visit_points([&](Vec3 p) {
       const Vec3 to = p - start;
       sum = sum + cross(from, to);
       from = to;
     });
-    const double area = dot(sum, normal) / 2;
+    return dot(sum, normal) / 2;
+  };
+  const auto is_sound = [&](double area, auto visit_points) {
     if (area > 0) return true;
     Outline points;
     visit_points([&](Vec3 p) { points.push_back(p); });
     return area > -kThin_m * perimeter(points);
   };
-  return is_sound([&](auto visit) { visit_piece(c, visit); }) &&
-         is_sound([&](auto visit) { visit_lower_piece(c, visit); });
+  const auto upper = [&](auto visit) { visit_piece(c, visit); };
+  const auto lower = [&](auto visit) { visit_lower_piece(c, visit); };
+  const double upper_area = area_of(upper);
+  // In a facet with one loop and one chord the other piece is what is left.
+  const bool is_only_chord = scratch_.last_chord_in[at(f)] == c && next_in_facet_[at(c)] < 0;
+  if (is_only_chord && body_.facet(f).loops.size() == 1 && upper_area > 0 &&
+      body_.area(f) - upper_area >
+          -kThin_m * length(section_.crossings[at(section_.crossings[at(c)].next)].at - start))
+    return true;
+  return is_sound(upper_area, upper) && is_sound(area_of(lower), lower);
 }
 
 /// What a directed piece of a facet's outline adds to a third of offset × area.

@@ -304,8 +304,9 @@ class Sectioner {
     const Side opposite = section_.split_side(region) ^ 1;
     if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
     region.has_natural_outline = is_natural(region.loops[0]);
-    region.is_natural = region.has_natural_outline &&
-                        std::ranges::all_of(region.loops, [&](int l) { return is_natural(l); });
+    region.is_natural =
+        region.has_natural_outline && std::all_of(region.loops.begin() + 1, region.loops.end(),
+                                                  [&](int l) { return is_natural(l); });
     region.is_candidate =
         (region.is_natural || region.new_area < old_area) &&
         ((is_known && region.covered.empty()) || !is_sliver(region.loops[0], region.new_area));
