@@ -3,6 +3,7 @@
 #include "kernel/model/issue.h"
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/edge_index.h"
+#include "kernel/segment/detail/parting.h"
 #include "kernel/segment/detail/patch.h"
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/cells.h"
 #include "kernel/segment/detail/choice.h"
-#include "kernel/segment/detail/instance.h"
+#include "kernel/segment/detail/models.h"
+#include "kernel/segment/detail/parting.h"
 
 #include <algorithm>
 #include <array>
@@ -24,17 +25,7 @@ namespace {
 using detail::Boundary;
 using detail::Choice;
 using detail::Side;
-
-/// A body that waits to be segmented, and where it belongs.
-struct Task {
-  Boundary body;
-  NodeId node;
-  FeatureId feature;            ///< the body is in it; invalid: the solid itself
-  int sign = 1;                 ///< -1 for air
-  std::vector<int> own_planes;  ///< no split planes of this body
-  int model = -1;               ///< others wait for what becomes of it, or it waits itself
-  std::optional<detail::Congruence> copy_of_model = std::nullopt;
-};
+using detail::Task;
 
 class Segmenter {
  public:
@@ -43,7 +34,8 @@ class Segmenter {
         solid_(solid),
         options_(options),
         world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)},
-        cells_(world_, out_) {}
+        cells_(world_, out_),
+        models_(world_, cells_, out_) {}
 
   Segmentation run() {
     out_.order = options_.order;
@@ -52,9 +44,9 @@ class Segmenter {
     while (!tasks_.empty()) {
       Task task = std::move(tasks_.back());
       tasks_.pop_back();
-      close_models();
-      if (task.copy_of_model && copy(task)) continue;
-      if (task.model >= 0 && !task.copy_of_model) open_model(task);
+      models_.close(tasks_.size());
+      if (models_.copy(task)) continue;
+      models_.open(task, tasks_.size());
       split(std::move(task));
     }
     finish();
@@ -92,71 +84,6 @@ class Segmenter {
       node(id).rest.push_back(child);
       tasks_.push_back({std::move(body), child, feature, sign, own_planes});
     }
-  }
-
-  /// A body that others are congruent to. It is on top of them, so it is split before them.
-  struct Model {
-    detail::Subtree subtree;
-    std::size_t waiting = 0;  ///< tasks below it
-  };
-
-  /// Of the parts of one node, the tasks from `first`, those that are congruent to a later one wait
-  /// for what becomes of it.
-  void find_congruent(std::size_t first) {
-    for (std::size_t i = tasks_.size(); i-- > first;)
-      for (std::size_t j = tasks_.size(); --j > i;)
-        if (!tasks_[j].copy_of_model && become_copy(tasks_[i], tasks_[j])) break;
-  }
-
-  bool become_copy(Task& task, Task& model) {
-    const Feature &one = out_.features[model.feature.index()],
-                  &two = out_.features[task.feature.index()];
-    constexpr double kSame = 1e-9;  // tolerance of doubles; what is congruent is decided exactly
-    if (std::abs(one.volume_m3 - two.volume_m3) > kSame * one.volume_m3) return false;
-    auto how = find_congruence(model.body, task.body, ground_);
-    if (!how) return false;
-    // The planes of their cut are no split planes of either.
-    for (const int plane : model.own_planes)
-      if (detail::find_in(how->planes, plane).value_or(plane) != plane) return false;
-    if (model.model < 0) {
-      model.model = static_cast<int>(models_.size());
-      models_.emplace_back();
-    }
-    task.model = model.model;
-    task.copy_of_model = std::move(how);
-    return true;
-  }
-
-  void open_model(const Task& task) {
-    Model& model = models_[static_cast<std::size_t>(task.model)];
-    const auto [node, feature, cell] = counts();
-    model.subtree = {task.node, task.feature, node, node, feature, feature, cell, cell};
-    model.waiting = tasks_.size();
-    open_models_.push_back(task.model);
-  }
-
-  /// Models whose own tasks are all done have their whole subtree.
-  void close_models() {
-    while (!open_models_.empty()) {
-      Model& model = models_[static_cast<std::size_t>(open_models_.back())];
-      if (tasks_.size() >= model.waiting) return;
-      std::tie(model.subtree.last_node, model.subtree.last_feature, model.subtree.last_cell) =
-          counts();
-      open_models_.pop_back();
-    }
-  }
-
-  [[nodiscard]] std::tuple<int, int, CellId> counts() const {
-    return {static_cast<int>(out_.nodes.size()), static_cast<int>(out_.features.size()),
-            CellId{static_cast<int>(out_.cells.size())}};
-  }
-
-  bool copy(const Task& task) {
-    const detail::Subtree& model = models_[static_cast<std::size_t>(task.model)].subtree;
-    if (!copy_subtree(model, *task.copy_of_model, task.node, task.feature, world_, cells_, out_))
-      return false;
-    ++out_.stats.instanced;
-    return true;
   }
 
   /// Splits one body down to its leaf: each round is a node of the tree.
@@ -285,7 +212,7 @@ class Segmenter {
     if (choice.is_natural && !choice.imprinted) return cut(task, choice);
     Boundary body = task.body;
     const NodeId id = task.node;
-    const auto [nodes, features, cells] = counts();
+    const std::size_t nodes = out_.nodes.size(), features = out_.features.size();
     const std::size_t tasks = tasks_.size();
     const auto points = world_.points.mark();
     if (choice.imprinted) task.body = *choice.imprinted;
@@ -295,8 +222,8 @@ class Segmenter {
       task.body = std::move(body);
       task.node = id;
       node(id) = {};
-      out_.nodes.resize(static_cast<std::size_t>(nodes));
-      out_.features.resize(static_cast<std::size_t>(features));
+      out_.nodes.resize(nodes);
+      out_.features.resize(features);
       tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(tasks), tasks_.end());
       world_.points.forget_since(points);
       may_have_parted_ = false;
@@ -332,7 +259,7 @@ class Segmenter {
       changes.push_back(take_off_part(task, choice, patch.caps,
                                       {patch.new_area, patch.new_area / patch.old_area}, {}));
     }
-    find_congruent(first_part);
+    models_.find_congruent(tasks_, first_part, ground_);
     parent_of_rest_ = task.node;
     task.node = rest;
     return changes;
@@ -450,10 +377,9 @@ class Segmenter {
   Segmentation out_;
   detail::World world_;
   detail::CellWriter cells_;
+  detail::Models models_;
   Side ground_ = -1;
   std::vector<Task> tasks_;
-  std::vector<Model> models_;
-  std::vector<int> open_models_;  ///< those that are being split, the innermost last
   std::int64_t work_ = 0;
   bool may_have_parted_ = false;
   bool is_out_of_budget_ = false;
