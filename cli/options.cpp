@@ -2,6 +2,10 @@
 
 #include "kernel/io/feature_records.h"
 
+#include <algorithm>
+#include <string>
+#include <thread>
+
 #include <fmt/format.h>
 
 namespace oriel::cli {
@@ -69,6 +73,16 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
                      "Write the milliseconds of each stage to this file, as JSON");
   command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("-j,--jobs", a.jobs,
+                  "Buildings to work on at the same time; 0: one for each core. The output is the "
+                  "same")
+      ->check(CLI::Range(0, 1024))
+      ->transform([](const std::string& text) {
+        return text == "0" ? std::to_string(std::max(1U, std::thread::hardware_concurrency()))
+                           : text;
+      })
       ->capture_default_str();
   command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
 }

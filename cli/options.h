@@ -22,6 +22,8 @@ struct LineArguments {
   bool is_verbose = false;
   std::string timings_file;
   int repeat = 1;
+  /// Records on the line at the same time; results do not depend on it.
+  int jobs = 1;
 
   [[nodiscard]] ReadOptions read_options() const;
   [[nodiscard]] SegmentOptions segment_options() const;

@@ -1,11 +1,12 @@
 #include "cli/run.h"
 
-#include "cli/progress.h"
 #include "kernel/io/output_file.h"
-#include "kernel/io/reader.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,13 +21,12 @@ ExitCode Run::go(const Visitor& visitor) {
   if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
     throw CLI::ValidationError("input", "stdin can be read only once");
   for (run_ = 1; run_ <= arguments_.repeat; ++run_) {
-    timings_.begin_run();
+    timings_.emplace_back();
     buildings_ = set_aside_ = 0;
     labels_.clear();
-    for (std::size_t input = 0; input < arguments_.inputs.size(); ++input)
-      read_input(input, visitor);
+    run_inputs(visitor);
   }
-  if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, timings_.to_json());
+  if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, to_json(timings_));
   return code_;
 }
 
@@ -40,56 +40,88 @@ void Run::set_aside(const Issue& why) {
   tell({why});
 }
 
-void Run::read_input(std::size_t input, const Visitor& visitor) {
+void Run::run_inputs(const Visitor& visitor) {
   Progress progress(arguments_.inputs.size());
-  try {
-    Reader reader(arguments_.inputs[input], arguments_.read_options());
-    visitor.begin(input);
-    bool is_readable = true;
-    for (bool is_first = true;; is_first = false) {
-      auto record = timings_.measure(Stage::read, [&] { return reader.next(); });
-      if (!record) break;
-      tell(record->issues);
-      if (record->value) {
-        run_record(*record, visitor);
-        progress.show(input, buildings_);
-        continue;
-      }
-      // A line of a stream costs that line; a file as a whole, or a stream's header, costs the
-      // input.
-      if (reader.format() == Format::cityjson_seq && !is_first) {
-        ++set_aside_;
-        raise(ExitCode::set_aside);
-        continue;
-      }
-      raise(ExitCode::input);
-      is_readable = false;
+  Intake intake(arguments_);
+  if (arguments_.jobs == 1) {
+    while (const auto arrival = intake.next()) {
+      work_on(*arrival);
+      settle(*arrival, visitor, progress);
     }
-    if (is_readable) visitor.end(input);
-  } catch (const InputError& error) {
-    tell({error.issue()});
-    raise(ExitCode::input);
+    return;
+  }
+  // So many records are held in memory at most.
+  constexpr std::size_t kRecordsPerJob = 4;
+  using Item = std::shared_ptr<Arrival>;
+  const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(arguments_.jobs));
+  tbb::task_arena arena(arguments_.jobs);
+  const std::size_t records = kRecordsPerJob * static_cast<std::size_t>(arguments_.jobs);
+  const auto read = [&](tbb::flow_control& control) {
+    Item arrival = intake.next();
+    if (!arrival) control.stop();
+    return arrival;
+  };
+  const auto work = [&](Item arrival) {
+    work_on(*arrival);
+    return arrival;
+  };
+  const auto end = [&](const Item& arrival) { settle(*arrival, visitor, progress); };
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        records, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, read) &
+                     tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
+                     tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, end));
+  });
+}
+
+/// Touches nothing but the arrival.
+void Run::work_on(Arrival& arrival) const {
+  if (!arrival.record.value) return;
+  for (const Building& building : arrival.record.value->buildings)
+    arrival.lines.push_back(
+        run_line(building, arguments_.segment_options(), rules_, arrival.timings));
+}
+
+void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
+  timings().add(arrival.timings);
+  switch (arrival.kind) {
+    case Arrival::Kind::begin:
+      return visitor.begin(arrival.input);
+    case Arrival::Kind::record:
+      settle_record(arrival, visitor);
+      return progress.show(arrival.input, buildings_);
+    case Arrival::Kind::end:
+      if (arrival.is_whole) visitor.end(arrival.input);
+      return;
+    case Arrival::Kind::failure:
+      tell({*arrival.issue});
+      return raise(ExitCode::input);
   }
 }
 
-void Run::run_record(const Checked<Document>& record, const Visitor& visitor) {
+void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
+  const Checked<Document>& record = arrival.record;
+  tell(record.issues);
+  if (!record.value) {
+    if (arrival.is_one_of_many) ++set_aside_;
+    return raise(arrival.is_one_of_many ? ExitCode::set_aside : ExitCode::input);
+  }
   // Errors beside a document are buildings that could not be read.
   const auto unread = std::ranges::count(record.issues, Severity::error, &Issue::severity);
   buildings_ += static_cast<int>(unread);
   set_aside_ += static_cast<int>(unread);
   if (unread > 0) raise(ExitCode::set_aside);
-  std::vector<OnLine> lines;
-  for (const Building& building : record.value->buildings) {
+  for (const OnLine& line : arrival.lines) {
     ++buildings_;
-    lines.push_back(run_line(building, arguments_.segment_options(), rules_, timings_));
-    tell(lines.back().issues);
-    if (!lines.back().is_done()) {
+    tell(line.issues);
+    if (!line.is_done()) {
       ++set_aside_;
       raise(ExitCode::set_aside);
     }
-    for (const Verdict& verdict : lines.back().interpretation.verdicts) ++labels_[verdict.label];
+    for (const Verdict& verdict : line.interpretation.verdicts) ++labels_[verdict.label];
   }
-  visitor.record(*record.value, lines);
+  visitor.record(*record.value, arrival.lines);
 }
 
 void Run::tell_summary(const std::string& verb, const std::map<std::string, int>& counts,

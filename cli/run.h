@@ -1,20 +1,24 @@
 #pragma once
 
 #include "cli/exit_code.h"
+#include "cli/intake.h"
 #include "cli/line.h"
 #include "cli/options.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "kernel/io/document.h"
 
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace oriel::cli {
 
 /// A command at work on its inputs: reads them record by record, runs their buildings down the
 /// line, counts what came of them, and tells what was found. One input or building that fails does
-/// not stop the others.
+/// not stop the others. With --jobs several records are on the line at the same time; they are
+/// visited and told of in the order of the inputs all the same, one at a time.
 class Run {
  public:
   /// `rules` may be null: then nothing is interpreted.
@@ -40,7 +44,8 @@ class Run {
   /// A building was set aside by the command itself.
   void set_aside(const Issue& why);
 
-  [[nodiscard]] Timings& timings() { return timings_; }
+  /// Of the present run.
+  [[nodiscard]] Timings& timings() { return timings_.back(); }
   [[nodiscard]] int buildings() const { return buildings_; }
   [[nodiscard]] int buildings_set_aside() const { return set_aside_; }
   /// Features by label ("" = unknown) of the last run.
@@ -52,15 +57,17 @@ class Run {
                     const std::string& what_of_them = "") const;
 
  private:
-  void read_input(std::size_t input, const Visitor& visitor);
-  void run_record(const Checked<Document>& record, const Visitor& visitor);
+  void run_inputs(const Visitor& visitor);
+  void work_on(Arrival& arrival) const;
+  void settle(Arrival& arrival, const Visitor& visitor, Progress& progress);
+  void settle_record(Arrival& arrival, const Visitor& visitor);
   void tell(const std::vector<Issue>& issues);
   void raise(ExitCode code) { code_ = graver(code_, code); }
 
   const LineArguments& arguments_;
   const RuleBase* rules_;
   Report& report_;
-  Timings timings_;
+  std::vector<Timings> timings_;  ///< by run
   int run_ = 0;
   ExitCode code_ = ExitCode::clean;
   int buildings_ = 0;

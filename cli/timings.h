@@ -9,25 +9,21 @@ namespace oriel::cli {
 
 enum class Stage { read, solidify, segment, describe, interpret, generalise, write };
 
-/// How long the stages took: sums over all buildings of a run, medians over runs. Times never stand
-/// in data.
+/// How long the stages took: sums over what was done. Times never stand in data.
 class Timings {
  public:
-  /// Begins another run.
-  void begin_run() { runs_.emplace_back(); }
-
-  /// Calls `work()` and adds its time to a stage of the present run; returns what it returns.
+  /// Calls `work()` and adds its time to a stage; returns what it returns.
   template <class Work>
   auto measure(Stage stage, Work work) {
-    const Stopwatch watch(runs_.back()[static_cast<std::size_t>(stage)]);
+    const Stopwatch watch(ms_[static_cast<std::size_t>(stage)]);
     return work();
   }
 
-  /// {"read_ms":…,"solidify_ms":…,…,"runs":N} with a line end.
-  [[nodiscard]] std::string to_json() const;
+  void add(const Timings& more);
+
+  [[nodiscard]] double ms(Stage stage) const { return ms_[static_cast<std::size_t>(stage)]; }
 
  private:
-  static constexpr std::size_t kStages = 7;
   using Clock = std::chrono::steady_clock;
 
   class Stopwatch {
@@ -44,7 +40,11 @@ class Timings {
     Clock::time_point start_;
   };
 
-  std::vector<std::array<double, kStages>> runs_;
+  std::array<double, 7> ms_{};
 };
+
+/// The medians of the stages over several runs:
+/// {"read_ms":…,"solidify_ms":…,…,"runs":N} with a line end.
+std::string to_json(const std::vector<Timings>& runs);
 
 }  // namespace oriel::cli

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "cli/line.h"
+#include "cli/options.h"
+#include "kernel/io/document.h"
+#include "kernel/io/reader.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What the inputs bring, one after the other: for each input that it begins, its records, that it
+/// ends.
+struct Arrival {
+  enum class Kind { begin, record, end, failure };
+  Kind kind = Kind::begin;
+  std::size_t input = 0;
+  /// Of a record. Without a value it could not be read.
+  Checked<Document> record{};
+  /// A record without a value costs itself only, and not its input.
+  bool is_one_of_many = false;
+  /// Of an end: all its records could be read.
+  bool is_whole = true;
+  /// Of a failure: the input could not be opened, or reading failed half-way. Nothing more of it
+  /// comes.
+  std::optional<Issue> issue{};
+  /// The record's buildings on the line, in their order; filled by the one who runs them.
+  std::vector<OnLine> lines{};
+  /// What this record has taken so far.
+  Timings timings{};
+};
+
+/// Reads the inputs of a command, in their order.
+class Intake {
+ public:
+  explicit Intake(const LineArguments& arguments) : arguments_(arguments) {}
+
+  /// The next arrival, or null after the last.
+  std::shared_ptr<Arrival> next();
+
+ private:
+  std::shared_ptr<Arrival> open();
+  std::shared_ptr<Arrival> read();
+  std::shared_ptr<Arrival> finish(Arrival::Kind kind);
+
+  const LineArguments& arguments_;
+  std::size_t input_ = 0;
+  std::unique_ptr<Reader> reader_;
+  bool is_first_ = true;     ///< record of its input
+  bool is_readable_ = true;  ///< as a whole, so far
+};
+
+}  // namespace oriel::cli
