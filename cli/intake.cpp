@@ -17,38 +17,44 @@ std::shared_ptr<Arrival> Intake::next() {
   }
 }
 
+std::shared_ptr<Arrival> Intake::arrival(Arrival::Kind kind) const {
+  auto arrival = std::make_shared<Arrival>();
+  arrival->kind = kind;
+  arrival->input = input_;
+  arrival->input_name = arguments_.inputs[input_];
+  return arrival;
+}
+
 std::shared_ptr<Arrival> Intake::open() {
   reader_ = std::make_unique<Reader>(arguments_.inputs[input_], arguments_.read_options());
   is_first_ = is_readable_ = true;
-  auto begin = std::make_shared<Arrival>();
-  begin->input = input_;
-  return begin;
+  return arrival(Arrival::Kind::begin);
 }
 
 std::shared_ptr<Arrival> Intake::read() {
-  auto arrival = std::make_shared<Arrival>();
-  arrival->kind = Arrival::Kind::record;
-  arrival->input = input_;
-  auto record = arrival->timings.measure(Stage::read, [&] { return reader_->next(); });
+  auto here = arrival(Arrival::Kind::record);
+  auto record = here->timings.measure(Stage::read, [&] { return reader_->next(); });
   if (!record) {
     auto end = finish(Arrival::Kind::end);
     end->is_whole = is_readable_;
     return end;
   }
+  const bool is_stream = reader_->format() == Format::cityjson_seq;
+  if (is_stream) here->line = reader_->line();
   // A line of a stream costs that line; a file as a whole, or a stream's header, costs the input.
-  arrival->is_one_of_many = reader_->format() == Format::cityjson_seq && !is_first_;
-  if (!record->value && !arrival->is_one_of_many) is_readable_ = false;
+  here->is_one_of_many = is_stream && !is_first_;
+  if (!record->value && !here->is_one_of_many) is_readable_ = false;
+  if (!record->value && is_stream) here->refused = reader_->refused_line();
   is_first_ = false;
-  arrival->record = std::move(*record);
-  return arrival;
+  here->record = std::move(*record);
+  return here;
 }
 
 std::shared_ptr<Arrival> Intake::finish(Arrival::Kind kind) {
-  auto arrival = std::make_shared<Arrival>();
-  arrival->kind = kind;
-  arrival->input = input_++;
+  auto last = arrival(kind);
+  ++input_;
   reader_.reset();
-  return arrival;
+  return last;
 }
 
 }  // namespace oriel::cli

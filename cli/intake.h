@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oriel::cli {
@@ -17,8 +18,13 @@ struct Arrival {
   enum class Kind { begin, record, end, failure };
   Kind kind = Kind::begin;
   std::size_t input = 0;
+  std::string input_name{};
+  /// Of a record of a stream, where it stands, from 1; else 0.
+  int line = 0;
   /// Of a record. Without a value it could not be read.
   Checked<Document> record{};
+  /// The line of a CityJSONSeq that has no value.
+  std::string refused{};
   /// A record without a value costs itself only, and not its input.
   bool is_one_of_many = false;
   /// Of an end: all its records could be read.
@@ -44,6 +50,7 @@ class Intake {
   std::shared_ptr<Arrival> open();
   std::shared_ptr<Arrival> read();
   std::shared_ptr<Arrival> finish(Arrival::Kind kind);
+  [[nodiscard]] std::shared_ptr<Arrival> arrival(Arrival::Kind kind) const;
 
   const LineArguments& arguments_;
   std::size_t input_ = 0;

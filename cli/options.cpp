@@ -32,6 +32,12 @@ std::string LineArguments::configuration() const {
       tolerances.value_rel, budget);
 }
 
+bool LineArguments::allows(int set_aside, int buildings) const {
+  const double number = std::stod(allowed_bad);
+  if (allowed_bad.ends_with('%')) return set_aside * 100.0 <= number * buildings;
+  return set_aside <= number;
+}
+
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin";
   if (has_many) {
@@ -82,6 +88,24 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
       ->transform([](const std::string& text) {
         return text == "0" ? std::to_string(std::max(1U, std::thread::hardware_concurrency()))
                            : text;
+      })
+      ->capture_default_str();
+  command.add_option("--status", a.status_stem,
+                     "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
+                     "record with something set aside, and why)");
+  command
+      .add_option(
+          "--allow-bad", a.allowed_bad,
+          "Up to so many buildings (N), or of a hundred (P%), may be set aside: exit code 0")
+      ->check([](const std::string& text) {
+        const bool is_share = text.ends_with('%');
+        const std::string digits = text.substr(0, text.size() - (is_share ? 1 : 0));
+        const bool is_number = !digits.empty() && digits.size() <= 9 &&
+                               digits.find_first_not_of("0123456789.") == std::string::npos &&
+                               std::ranges::count(digits, '.') <= (is_share ? 1 : 0) &&
+                               digits != ".";
+        return is_number ? std::string()
+                         : "'" + text + "' is neither a number nor a share such as 1%";
       })
       ->capture_default_str();
   command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");

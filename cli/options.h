@@ -24,12 +24,18 @@ struct LineArguments {
   int repeat = 1;
   /// Records on the line at the same time; results do not depend on it.
   int jobs = 1;
+  /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
+  std::string status_stem;
+  /// So much may be set aside and all is well: a number of buildings, or a share of them.
+  std::string allowed_bad = "0";
 
   [[nodiscard]] ReadOptions read_options() const;
   [[nodiscard]] SegmentOptions segment_options() const;
   /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is
   /// made of.
   [[nodiscard]] std::string configuration() const;
+  /// True if no more of `buildings` was set aside than --allow-bad says.
+  [[nodiscard]] bool allows(int set_aside, int buildings) const;
 };
 
 /// Adds the arguments to a command. `has_many`: it takes more than one input.

@@ -1,6 +1,7 @@
 #include "cli/run.h"
 
 #include "kernel/io/output_file.h"
+#include "kernel/model/sha256.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -20,6 +21,7 @@ ExitCode Run::go(const Visitor& visitor) {
   const auto stdins = std::ranges::count(arguments_.inputs, "-");
   if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
     throw CLI::ValidationError("input", "stdin can be read only once");
+  if (!arguments_.status_stem.empty()) ledger_.emplace(arguments_.status_stem);
   for (run_ = 1; run_ <= arguments_.repeat; ++run_) {
     timings_.emplace_back();
     buildings_ = set_aside_ = 0;
@@ -27,7 +29,27 @@ ExitCode Run::go(const Visitor& visitor) {
     run_inputs(visitor);
   }
   if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, to_json(timings_));
+  if (code_ == ExitCode::set_aside && arguments_.allows(set_aside_, buildings_))
+    code_ = ExitCode::clean;
+  if (ledger_) close_books();
   return code_;
+}
+
+void Run::close_books() {
+  Account account;
+  account.inputs = arguments_.inputs;
+  if (rules_ != nullptr) account.rules_sha256 = rules_->sha256();
+  account.config_sha256 = sha256(arguments_.configuration());
+  account.buildings = buildings_;
+  account.set_aside = set_aside_;
+  account.labels = labels_;
+  account.exit_code = static_cast<int>(code_);
+  ledger_->commit(account);
+}
+
+void Run::keep_errors(const std::vector<Issue>& issues) {
+  for (const Issue& issue : issues)
+    if (issue.severity == Severity::error) errors_.push_back(issue);
 }
 
 void Run::tell(const std::vector<Issue>& issues) {
@@ -38,6 +60,7 @@ void Run::set_aside(const Issue& why) {
   ++set_aside_;
   raise(ExitCode::set_aside);
   tell({why});
+  errors_.push_back(why);
 }
 
 void Run::run_inputs(const Visitor& visitor) {
@@ -89,24 +112,35 @@ void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
     case Arrival::Kind::begin:
       return visitor.begin(arrival.input);
     case Arrival::Kind::record:
-      settle_record(arrival, visitor);
+      errors_.clear();
+      tell(arrival.record.issues);
+      keep_errors(arrival.record.issues);
+      if (arrival.record.value)
+        settle_record(arrival, visitor);
+      else
+        settle_refused(arrival);
+      if (ledger_ && is_last_run()) ledger_->add(arrival, errors_);
       return progress.show(arrival.input, buildings_);
     case Arrival::Kind::end:
       if (arrival.is_whole) visitor.end(arrival.input);
       return;
     case Arrival::Kind::failure:
       tell({*arrival.issue});
+      if (ledger_ && is_last_run()) ledger_->add_unread(arrival.input_name, *arrival.issue);
       return raise(ExitCode::input);
   }
 }
 
+/// A line that cannot be read counts as one building.
+void Run::settle_refused(const Arrival& arrival) {
+  raise(arrival.is_one_of_many ? ExitCode::set_aside : ExitCode::input);
+  if (!arrival.is_one_of_many) return;
+  ++buildings_;
+  ++set_aside_;
+}
+
 void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
   const Checked<Document>& record = arrival.record;
-  tell(record.issues);
-  if (!record.value) {
-    if (arrival.is_one_of_many) ++set_aside_;
-    return raise(arrival.is_one_of_many ? ExitCode::set_aside : ExitCode::input);
-  }
   // Errors beside a document are buildings that could not be read.
   const auto unread = std::ranges::count(record.issues, Severity::error, &Issue::severity);
   buildings_ += static_cast<int>(unread);
@@ -116,6 +150,7 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
     ++buildings_;
     tell(line.issues);
     if (!line.is_done()) {
+      keep_errors(line.issues);
       ++set_aside_;
       raise(ExitCode::set_aside);
     }

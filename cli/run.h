@@ -2,6 +2,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/intake.h"
+#include "cli/ledger.h"
 #include "cli/line.h"
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -10,6 +11,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,9 @@ class Run {
   void work_on(Arrival& arrival) const;
   void settle(Arrival& arrival, const Visitor& visitor, Progress& progress);
   void settle_record(Arrival& arrival, const Visitor& visitor);
+  void settle_refused(const Arrival& arrival);
+  void keep_errors(const std::vector<Issue>& issues);
+  void close_books();
   void tell(const std::vector<Issue>& issues);
   void raise(ExitCode code) { code_ = graver(code_, code); }
 
@@ -73,6 +78,8 @@ class Run {
   int buildings_ = 0;
   int set_aside_ = 0;
   std::map<std::string, int> labels_;
+  std::optional<Ledger> ledger_;
+  std::vector<Issue> errors_;  ///< of the record at hand
 };
 
 }  // namespace oriel::cli

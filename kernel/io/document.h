@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -28,5 +29,9 @@ struct Document {
   /// CityJSONSeq that it becomes; null for a Building that could not be read. Null for OBJ and OFF.
   std::shared_ptr<const detail::CityJsonSource> source;
 };
+
+/// The line of a CityJSONSeq that a document was read from, without its line end; empty for other
+/// formats.
+std::string_view line_of(const Document& document);
 
 }  // namespace oriel

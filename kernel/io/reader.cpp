@@ -63,6 +63,10 @@ Reader& Reader::operator=(Reader&&) noexcept = default;
 
 Format Reader::format() const { return state_->format; }
 
+int Reader::line() const { return state_->name.line; }
+
+const std::string& Reader::refused_line() const { return state_->cityjson.refused(); }
+
 std::optional<Checked<Document>> Reader::next() {
   if (state_->is_done) return std::nullopt;
   if (state_->format == Format::citygml) return state_->citygml.next();

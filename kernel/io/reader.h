@@ -47,6 +47,11 @@ class Reader {
 
   [[nodiscard]] Format format() const;
 
+  /// Of a CityJSONSeq: where the last record stands, counted from 1.
+  [[nodiscard]] int line() const;
+  /// The last line of a CityJSONSeq that came without a value, as it was read.
+  [[nodiscard]] const std::string& refused_line() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

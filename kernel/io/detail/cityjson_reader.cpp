@@ -109,6 +109,7 @@ struct CityJsonReader::State {
   dom::parser parser;
   std::optional<std::string> lod;
   SequenceHeader header;
+  std::string refused;
 
   std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
   void read_buildings(const Model& model, const TextName& name, Document& document,
@@ -120,6 +121,8 @@ CityJsonReader::CityJsonReader(std::optional<std::string> lod) : state_(std::mak
 }
 
 CityJsonReader::~CityJsonReader() = default;
+
+const std::string& CityJsonReader::refused() const { return state_->refused; }
 
 const SequenceHeader& CityJsonReader::header() const { return state_->header; }
 
@@ -173,11 +176,13 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
   Checked<Document> result;
   const auto refuse = [&](const Fault& fault) {
     result.issues.push_back(error_in(name, fault));
+    state_->refused = std::move(text);
     return std::move(result);
   };
   dom::object root;
   if (auto issue = state_->parse(text, name, root)) {
     result.issues.push_back(std::move(*issue));
+    state_->refused = std::move(text);
     return result;
   }
   if (const auto fault = check_type(root, header ? "CityJSONFeature" : "CityJSON"))

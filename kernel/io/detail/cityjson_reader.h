@@ -30,6 +30,9 @@ class CityJsonReader {
   Checked<Document> read(std::string text, const TextName& name,
                          const std::optional<SequenceHeader>& header);
 
+  /// The last text that came without a value.
+  [[nodiscard]] const std::string& refused() const;
+
   /// What the last CityJSON object that was read says to the lines that follow it.
   [[nodiscard]] const SequenceHeader& header() const;
 

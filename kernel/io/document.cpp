@@ -1,0 +1,12 @@
+#include "kernel/io/document.h"
+
+#include "kernel/io/detail/cityjson_source.h"
+
+namespace oriel {
+
+std::string_view line_of(const Document& document) {
+  if (document.format != Format::cityjson_seq || !document.source) return {};
+  return document.source->text;
+}
+
+}  // namespace oriel
