@@ -45,6 +45,7 @@ std::shared_ptr<Arrival> Intake::read() {
   here->is_one_of_many = is_stream && !is_first_;
   if (!record->value && !here->is_one_of_many) is_readable_ = false;
   if (!record->value && is_stream) here->refused = reader_->refused_line();
+  here->is_header = is_first_ && reader_->format() != Format::cityjson;
   is_first_ = false;
   here->record = std::move(*record);
   return here;

@@ -25,6 +25,8 @@ struct Arrival {
   Checked<Document> record{};
   /// The line of a CityJSONSeq that has no value.
   std::string refused{};
+  /// Of several records: what stands before the buildings.
+  bool is_header = false;
   /// A record without a value costs itself only, and not its input.
   bool is_one_of_many = false;
   /// Of an end: all its records could be read.

@@ -23,6 +23,9 @@ struct OnLine {
   Interpretation interpretation;  ///< empty without rules
   std::vector<Issue> issues;
 
+  /// It was not selected: nothing was done.
+  bool is_passed_over = false;
+
   /// It came to the end; if not, `issues` has an error that says why it was set aside.
   [[nodiscard]] bool is_done() const { return segmentation.has_value(); }
 };

@@ -38,6 +38,26 @@ bool LineArguments::allows(int set_aside, int buildings) const {
   return set_aside <= number;
 }
 
+namespace {
+
+void add_selection_arguments(CLI::App& command, Selection& selection) {
+  command.add_option("--id", selection.ids, "Only the building with this id; may be repeated")
+      ->allow_extra_args(false);
+  command
+      .add_option("--bbox", selection.bbox,
+                  "Only buildings with the middle of their box in XMIN,YMIN,XMAX,YMAX")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("XMIN,YMIN,XMAX,YMAX");
+  command.add_option("--random", selection.one_in, "Only one in N buildings, drawn by their ids")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  command.add_option("--seed", selection.seed, "Which ones --random draws")->capture_default_str();
+  command.add_flag("--exclude", selection.is_exclusion,
+                   "All buildings but those that --id, --bbox and --random name");
+}
+
+}  // namespace
+
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin";
   if (has_many) {
@@ -51,6 +71,7 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
                      "Level of detail to read, as written in the input (default: the highest)");
   command.add_option("--from", a.from, "Format of the input (default: by its name)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"}));
+  if (has_many) add_selection_arguments(command, a.selection);
   command
       .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
       ->check(CLI::IsMember({"natural", "paper"}))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/selection.h"
 #include "interpret/rule_base.h"
 #include "kernel/io/reader.h"
 #include "kernel/segment/segment.h"
@@ -24,6 +25,7 @@ struct LineArguments {
   int repeat = 1;
   /// Records on the line at the same time; results do not depend on it.
   int jobs = 1;
+  Selection selection;
   /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
   std::string status_stem;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.

@@ -101,9 +101,14 @@ void Run::run_inputs(const Visitor& visitor) {
 /// Touches nothing but the arrival.
 void Run::work_on(Arrival& arrival) const {
   if (!arrival.record.value) return;
-  for (const Building& building : arrival.record.value->buildings)
-    arrival.lines.push_back(
-        run_line(building, arguments_.segment_options(), rules_, arrival.timings));
+  for (const Building& building : arrival.record.value->buildings) {
+    if (arguments_.selection.takes(building))
+      arrival.lines.push_back(
+          run_line(building, arguments_.segment_options(), rules_, arrival.timings));
+    else
+      arrival.lines.emplace_back().is_passed_over = true;
+  }
+  drop_unselected(arrival);
 }
 
 void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
@@ -139,7 +144,30 @@ void Run::settle_refused(const Arrival& arrival) {
   ++set_aside_;
 }
 
+/// Of a file with many records those go on that have something selected; other files stay as they
+/// are.
+bool Run::is_passed_over(const Arrival& arrival) const {
+  return !arguments_.selection.is_all() && !arrival.is_header &&
+         arrival.record.value->format != Format::cityjson && arrival.record.issues.empty() &&
+         std::ranges::all_of(arrival.lines, &OnLine::is_passed_over);
+}
+
+/// What was found in buildings that are not asked for is not told.
+void Run::drop_unselected(Arrival& arrival) const {
+  const auto& lines = arrival.lines;
+  if (arguments_.selection.is_all() || !arrival.record.value) return;
+  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  std::erase_if(arrival.record.issues, [&](const Issue& issue) {
+    if (issue.place.building.empty()) return false;
+    const auto read = std::ranges::find(buildings, issue.place.building, &Building::id);
+    if (read != buildings.end())
+      return lines[static_cast<std::size_t>(read - buildings.begin())].is_passed_over;
+    return !arguments_.selection.takes(issue.place.building);
+  });
+}
+
 void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
+  if (is_passed_over(arrival)) return;
   const Checked<Document>& record = arrival.record;
   // Errors beside a document are buildings that could not be read.
   const auto unread = std::ranges::count(record.issues, Severity::error, &Issue::severity);
@@ -147,6 +175,7 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
   set_aside_ += static_cast<int>(unread);
   if (unread > 0) raise(ExitCode::set_aside);
   for (const OnLine& line : arrival.lines) {
+    if (line.is_passed_over) continue;
     ++buildings_;
     tell(line.issues);
     if (!line.is_done()) {

@@ -63,6 +63,8 @@ class Run {
   void work_on(Arrival& arrival) const;
   void settle(Arrival& arrival, const Visitor& visitor, Progress& progress);
   void settle_record(Arrival& arrival, const Visitor& visitor);
+  [[nodiscard]] bool is_passed_over(const Arrival& arrival) const;
+  void drop_unselected(Arrival& arrival) const;
   void settle_refused(const Arrival& arrival);
   void keep_errors(const std::vector<Issue>& issues);
   void close_books();

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernel/model/building.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Which buildings a command works on: those for which all that is asked for holds, or, excluding,
+/// the others. The words are cjseq's.
+struct Selection {
+  /// One of these ids; empty: any.
+  std::vector<std::string> ids;
+  /// xmin, ymin, xmax, ymax in the input's coordinates, around the middle of the building's box;
+  /// empty: anywhere.
+  std::vector<double> bbox;
+  /// One in so many, drawn by `seed` and the building's id, so that neither order nor shards
+  /// matter; 1: all.
+  std::uint64_t one_in = 1;
+  std::uint64_t seed = 0;
+  bool is_exclusion = false;
+
+  /// Nothing was asked for.
+  [[nodiscard]] bool is_all() const;
+  [[nodiscard]] bool takes(const Building& building) const;
+  /// Of a building of which only the id is known: with `bbox` it fits nowhere.
+  [[nodiscard]] bool takes(const std::string& id) const;
+
+ private:
+  [[nodiscard]] bool fits(const std::string& id) const;
+};
+
+}  // namespace oriel::cli

@@ -1,0 +1,105 @@
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names cube_names(int count) {
+  Names names;
+  for (int i = 0; i < count; ++i) names.push_back(fmt::format("cube-{}", i));
+  return names;
+}
+
+/// The ids of the buildings that a stream on stdout holds.
+Names labelled(const std::string& text, Names options) {
+  options.insert(options.begin(), {"label", "-", "--from", "cityjsonseq", "-o", "-"});
+  const Outcome outcome = run(options, {.in = text});
+  CHECK(outcome.exit == 0);
+  Names ids;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) {
+    const json record = json::parse(line);
+    if (record["type"] == "CityJSONFeature") ids.push_back(record["id"]);
+  }
+  return ids;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("of a stream the selected buildings are worked on and written") {
+    const std::string text = cube_lines({"a", "b", "c"});
+    CHECK(labelled(text, {}) == Names{"a", "b", "c"});
+    CHECK(labelled(text, {"--id", "b"}) == Names{"b"});
+    CHECK(labelled(text, {"--id", "c", "--id", "a"}) == Names{"a", "c"});
+    CHECK(labelled(text, {"--id", "b", "--exclude"}) == Names{"a", "c"});
+    CHECK(labelled(text, {"--id", "none"}).empty());
+  }
+
+  TEST_CASE("a box takes the buildings that have the middle of theirs in it") {
+    // Every cube of a line by itself stands at the origin: 4 m wide.
+    const std::string text = cube_lines({"a"});
+    CHECK(labelled(text, {"--bbox", "1,1,3,3"}) == Names{"a"});
+    CHECK(labelled(text, {"--bbox", "-9,-9,1,9"}).empty());
+    CHECK(labelled(text, {"--bbox", "-9,-9,1,9", "--exclude"}) == Names{"a"});
+  }
+
+  TEST_CASE("a random selection depends on seed and id alone") {
+    Names names = cube_names(200);
+    const Names taken = labelled(cube_lines(names), {"--random", "4", "--seed", "7"});
+    CHECK(taken.size() > 20);
+    CHECK(taken.size() < 90);
+    std::ranges::reverse(names);
+    Names again = labelled(cube_lines(names), {"--random", "4", "--seed", "7", "-j2"});
+    std::ranges::reverse(again);
+    CHECK(again == taken);
+    CHECK(labelled(cube_lines(names), {"--random", "4", "--seed", "8"}) != again);
+    const Names rest = labelled(cube_lines(names), {"--random", "4", "--seed", "7", "--exclude"});
+    std::set<std::string> all(taken.begin(), taken.end());
+    all.insert(rest.begin(), rest.end());
+    CHECK(all.size() == names.size());
+    CHECK(taken.size() + rest.size() == names.size());
+  }
+
+  TEST_CASE("buildings of a file that are not selected stay as they came") {
+    const auto city = cubes({"a", "b"});
+    const Outcome outcome =
+        run({"label", "-", "--from", "cityjson", "-o", "-", "--id", "b"}, {.in = city.dump()});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("labelled 1 of 1 buildings"));
+    const json out = json::parse(outcome.out);
+    CHECK(out["CityObjects"]["a"] == city["CityObjects"]["a"]);
+    CHECK(out["CityObjects"]["b"]["attributes"].contains("oriel_pack"));
+  }
+
+  TEST_CASE("faults of buildings that are not selected are neither told nor counted") {
+    auto city = cubes({"a", "b"});
+    city["CityObjects"]["a"]["geometry"][0]["boundaries"][0][0][0][0] = 999;
+    const Outcome all = run({"segment", "-", "--from", "cityjson"}, {.in = city.dump()});
+    CHECK(all.exit == 3);
+    const Outcome one =
+        run({"segment", "-", "--from", "cityjson", "--id", "b"}, {.in = city.dump()});
+    CHECK(one.exit == 0);
+    CHECK(one.says("segmented 1 of 1 buildings"));
+  }
+
+  TEST_CASE("a box of three numbers or a share of no building is wrong usage") {
+    CHECK(run({"label", sample("hip"), "--bbox", "1,2,3"}).exit == 2);
+    CHECK(run({"label", sample("hip"), "--bbox", "1,2,3,x"}).exit == 2);
+    CHECK(run({"label", sample("hip"), "--random", "0"}).exit == 2);
+  }
+}
