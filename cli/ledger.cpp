@@ -49,7 +49,7 @@ Ledger::Ledger(const std::string& stem)
 void Ledger::add(const Arrival& arrival, const std::vector<Issue>& errors) {
   if (errors.empty()) return;
   const std::string_view line =
-      arrival.record.value ? line_of(*arrival.record.value) : std::string_view(arrival.refused);
+      arrival.record.value ? source_line(*arrival.record.value) : std::string_view(arrival.refused);
   append(arrival.input_name, arrival.line, errors, line);
 }
 

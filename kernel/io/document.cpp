@@ -4,7 +4,7 @@
 
 namespace oriel {
 
-std::string_view line_of(const Document& document) {
+std::string_view source_line(const Document& document) {
   if (document.format != Format::cityjson_seq || !document.source) return {};
   return document.source->text;
 }

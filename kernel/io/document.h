@@ -32,6 +32,6 @@ struct Document {
 
 /// The line of a CityJSONSeq that a document was read from, without its line end; empty for other
 /// formats.
-std::string_view line_of(const Document& document);
+std::string_view source_line(const Document& document);
 
 }  // namespace oriel
