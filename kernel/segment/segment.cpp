@@ -307,7 +307,7 @@ class Segmenter {
 
   static detail::Change change_of(const detail::Carved& carved,
                                   const std::vector<detail::Cap>& caps) {
-    detail::Change change{carved.touched, {}, {}, false};
+    detail::Change change{carved.touched, {}, {}, false, {}, false};
     const Boundary& part = carved.lump;
     for (int e = 0; e < part.half_edge_count(); ++e)
       if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));
@@ -316,6 +316,12 @@ class Segmenter {
     if (is_simple)
       for (const detail::CapEdge& edge : caps[0].loops[0].edges)
         change.rim.emplace_back(edge.from, edge.to);
+    for (const detail::Cap& cap : caps) change.has_covered |= !cap.covered.empty() || cap.is_taken;
+    if (carved.has_rim_left)
+      for (const detail::Cap& cap : caps)
+        for (const detail::CapLoop& loop : cap.loops)
+          for (const detail::CapEdge& edge : loop.edges)
+            change.new_edges.emplace_back(edge.from, edge.to);
     return change;
   }
 

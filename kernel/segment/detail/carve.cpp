@@ -33,7 +33,7 @@ class Remover {
         for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
     body_.remove(facets_);
     close_rest(mark);
-    return {std::move(copier_.boundary()), cap_point_, std::move(touched)};
+    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_};
   }
 
  private:
@@ -143,6 +143,10 @@ class Remover {
       }
       if (body_.is_alive(f)) body_.heal(f);
     }
+    has_rim_left_ = caps_.size() > 1 || !free.empty() ||
+                    std::ranges::any_of(of_rim, [&](const std::pair<int, int>& rim) {
+                      return body_.is_alive_edge(rim.second);
+                    });
   }
 
   /// The facet beyond the rim of a cap.
@@ -177,6 +181,7 @@ class Remover {
   std::vector<int> facets_;  ///< of the lump
   std::vector<int> cap_facets_;
   Vec3 cap_point_;
+  bool has_rim_left_ = false;
 };
 
 }  // namespace

@@ -40,6 +40,9 @@ struct Carved {
   /// Points of everything that has changed: an edge without any of them between its ends is as it
   /// was.
   std::vector<int> touched;
+  /// Edges of the rest run along the caps' outlines: the caps are no mere pieces of the facets
+  /// around them.
+  bool has_rim_left = false;
 };
 
 /// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and

@@ -58,21 +58,23 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
 
 std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
   banned_ = &banned;
-  slots_.refresh();
   return options_.order == Order::natural ? natural_next() : paper_next();
 }
 
 std::optional<Choice> Chooser::natural_next() {
+  slots_.refresh(true);
   if (auto choice = best_section_cut(natural_key, {})) return choice;
   if (options_.max_order > 1)
     if (auto choice = first_of_least_order(patches(false))) return choice;
   if (auto choice = best_section_cut(wide_natural_key, {})) return choice;
+  slots_.refresh(false);
   if (options_.max_order == 1) return best_section_cut(strict_key, {});
   if (auto choice = best_section_cut(strict_key, patches(true))) return choice;
   return corner_cut({});
 }
 
 std::optional<Choice> Chooser::paper_next() {
+  slots_.refresh(false);
   if (auto choice = best_section_cut(strict_key, {})) return choice;
   if (options_.max_order == 1) return std::nullopt;
   return corner_cut(patches(true));

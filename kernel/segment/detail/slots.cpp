@@ -43,7 +43,8 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
       stats_(stats),
       work_(work),
       planes_(split_planes_of(body, own_planes)),
-      edges_(body, planes_) {
+      edges_(body, planes_),
+      chains_(body, planes_, free_side) {
   slots_.reserve(2 * planes_.size());
   for (std::size_t i = 0; i < planes_.size(); ++i)
     for (const int direction : {1, -1}) {
@@ -52,10 +53,9 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
       slots_.back().section.plane = planes_[i];
       slots_.back().section.direction = direction;
     }
-  sweep_classes();
 }
 
-/// Where a class has so many planes that sectioning at each would meet the body's edges many times
+/// Where a class has so many planes to section that this would meet the body's edges many times
 /// over, a sweep tells first at which of them there is nothing to cut.
 void Slots::sweep_classes() {
   constexpr std::size_t kManyTimes = 2;  // a sweep costs about as much per edge as two sections
@@ -63,8 +63,9 @@ void Slots::sweep_classes() {
     const int k = world_.planes.class_of(planes_[first]);
     std::size_t last = first, met = 0;
     for (; last < planes_.size() && world_.planes.class_of(planes_[last]) == k; ++last)
-      met += edges_.edges_at(last).size();
-    if (2 * met > kManyTimes * static_cast<std::size_t>(body_.half_edge_count()))
+      for (const std::size_t slot : {2 * last, 2 * last + 1})
+        if (slots_[slot].is_stale) met += edges_.edges_at(last).size();
+    if (met > kManyTimes * static_cast<std::size_t>(body_.half_edge_count()))
       sweep_class(k, first, last);
     first = last;
   }
@@ -85,6 +86,7 @@ void Slots::sweep_class(int normal_class, std::size_t first, std::size_t last) {
 /// The section is one region of material that is not natural. Nothing can be cut there if it is
 /// larger than the old area, whatever coplanar facets cover of it.
 void Slots::let_rest(Slot& slot, double area_m2) {
+  if (!slot.is_stale) return;
   const Side looking = slot.section.looking();
   const double old = body_.area_on(looking), covered = body_.area_on(looking ^ 1);
   const double margin = area_m2 - kSweptArea_m2 - covered - old;
@@ -105,6 +107,7 @@ void Slots::count_tests(const Slot& slot) {
 void Slots::changed(std::vector<Change> changes) {
   edges_.update();
   for (Change& change : changes) {
+    change.has_covered ? chains_.forget() : chains_.expect(change.new_edges);
     for (auto* points : {&change.points, &change.part}) {
       std::ranges::sort(*points);
       points->erase(std::unique(points->begin(), points->end()), points->end());
@@ -206,7 +209,16 @@ bool Slots::judge(Slot& slot, const Section& section) const {
   return !is_idle;
 }
 
-void Slots::refresh() {
+void Slots::refresh(bool natural_only) {
+  if (natural_only) {
+    find_natural();
+    put_off();
+  } else {
+    to_do_.insert(to_do_.end(), put_off_.begin(), put_off_.end());
+    put_off_.clear();
+    constexpr std::size_t kFew = 16;  // slots that no sweep is worth while for
+    if (to_do_.size() > kFew) sweep_classes();
+  }
   for (const std::size_t i : to_do_) {
     Slot& slot = slots_[i];
     if (slot.is_stale || !prune(slot)) refresh(slot);
@@ -217,6 +229,27 @@ void Slots::refresh() {
       promising_.insert(i);
   }
   to_do_.clear();
+}
+
+void Slots::find_natural() {
+  if (!chains_.refresh()) return;
+  work_ += body_.half_edge_count();
+  std::erase_if(put_off_, [&](std::size_t i) {
+    if (chains_.may_be_natural(i)) to_do_.push_back(i);
+    return chains_.may_be_natural(i);
+  });
+}
+
+void Slots::put_off() {
+  std::erase_if(to_do_, [&](std::size_t i) {
+    Slot& slot = slots_[i];
+    if (!slot.is_stale || chains_.may_be_natural(i)) return false;
+    slot.section.regions.clear();
+    slot.is_to_prune = false;
+    promising_.erase(i);
+    put_off_.push_back(i);
+    return true;
+  });
 }
 
 /// Takes the loops that have gone from a section. False if it is to be made anew.

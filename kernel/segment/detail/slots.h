@@ -2,6 +2,7 @@
 
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/detail/edge_index.h"
+#include "kernel/segment/detail/natural_chains.h"
 #include "kernel/segment/detail/section.h"
 #include "kernel/segment/segment.h"
 
@@ -25,6 +26,10 @@ struct Change {
   std::vector<std::pair<int, int>> rim;
   /// The cut follows existing edges: nothing was split.
   bool is_natural = false;
+  /// Edges that the body may have since.
+  std::vector<std::pair<int, int>> new_edges;
+  /// Facets were covered, so that more edges than those bound other facets since.
+  bool has_covered = false;
 };
 
 /// The sections of a body at all its split planes, looked at from both sides, as they are after
@@ -55,8 +60,9 @@ class Slots {
 
   /// Tells that the body has changed in this way and no other.
   void changed(std::vector<Change> changes);
-  /// Looks again at what has changed.
-  void refresh();
+  /// Looks again at what has changed. With `natural_only` slots in which no natural region can be
+  /// are put off: they hold nothing to cut until they are asked for without.
+  void refresh(bool natural_only);
 
   /// The slots with something to cut, ascending.
   [[nodiscard]] const std::set<std::size_t>& promising() const { return promising_; }
@@ -71,6 +77,8 @@ class Slots {
     int part_low, part_high;
   };
 
+  void find_natural();
+  void put_off();
   void sweep_classes();
   void sweep_class(int normal_class, std::size_t first, std::size_t last);
   void let_rest(Slot& slot, double area_m2);
@@ -92,8 +100,10 @@ class Slots {
   std::int64_t& work_;
   std::vector<int> planes_;  ///< the split planes, ascending
   EdgeIndex edges_;
-  std::vector<Slot> slots_;          ///< of each plane in front, then behind
-  std::vector<std::size_t> to_do_;   ///< slots to look at again
+  std::vector<Slot> slots_;           ///< of each plane in front, then behind
+  std::vector<std::size_t> to_do_;    ///< slots to look at again
+  std::vector<std::size_t> put_off_;  ///< those of them in which nothing natural can be
+  NaturalChains chains_;
   std::set<std::size_t> promising_;  ///< slots with something to cut
   Section fresh_;                    ///< room for the section at hand
 };

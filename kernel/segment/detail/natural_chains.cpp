@@ -1,0 +1,155 @@
+#include "kernel/segment/detail/natural_chains.h"
+
+#include <algorithm>
+
+namespace oriel::detail {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side)
+    : body_(body),
+      world_(body.world()),
+      planes_(planes),
+      free_side_(free_side),
+      answers_(2 * planes.size(), 0) {
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const int k = world_.planes.class_of(planes[i]);
+    if (classes_.empty() || classes_.back().number != k) classes_.push_back({k, i, i});
+    ++classes_.back().last;
+  }
+}
+
+void NaturalChains::expect(const std::vector<std::pair<int, int>>& new_edges) {
+  for (Class& c : classes_)
+    for (std::size_t i = 0; c.is_known && i < new_edges.size(); ++i) {
+      const int rank = world_.points.rank(new_edges[i].first, c.number);
+      c.is_known = (rank & 1) == 0 || world_.points.rank(new_edges[i].second, c.number) != rank;
+    }
+}
+
+void NaturalChains::forget() {
+  for (Class& c : classes_) c.is_known = false;
+}
+
+bool NaturalChains::refresh() {
+  if (std::ranges::all_of(classes_, &Class::is_known)) return false;
+  std::vector<int> edges;
+  edges.reserve(at(body_.half_edge_count() - body_.dead_edge_count()) / 2);
+  for (int e = 0; e < body_.half_edge_count(); ++e)
+    if (body_.is_alive_edge(e) && e < body_.twin(e)) edges.push_back(e);
+  for (Class& c : classes_) {
+    if (!c.is_known) look(c, edges);
+    c.is_known = true;
+  }
+  return true;
+}
+
+void NaturalChains::look(const Class& c, std::span<const int> edges) {
+  const auto ranks = world_.points.ranks(c.number);
+  steps_.clear();
+  leaving_.resize(ranks.size(), 0);
+  entering_.resize(ranks.size(), 0);
+  for (const int e : edges) {
+    const int rank = ranks[at(body_.origin(e))];
+    if ((rank & 1) == 0 || ranks[at(body_.target(e))] != rank) continue;
+    add_step(c, ranks, e);
+    add_step(c, ranks, body_.twin(e));
+  }
+  std::ranges::sort(steps_, {}, &Step::slot);
+  for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) answers_[slot] = 0;
+  for (std::size_t first = 0; first < steps_.size();) {
+    std::size_t last = first;
+    while (last < steps_.size() && steps_[last].slot == steps_[first].slot) ++last;
+    answers_[steps_[first].slot] = has_chain({steps_.data() + first, last - first}) ? 1 : 0;
+    first = last;
+  }
+}
+
+void NaturalChains::add_step(const Class& c, std::span<const int> ranks, int e) {
+  const int rank = ranks[at(body_.origin(e))];
+  const int plane = world_.planes.normal_class(c.number).planes[at(rank / 2)];
+  if (body_.side_of_edge(e) >> 1 == plane) return;
+  const auto begin = planes_.begin() + static_cast<std::ptrdiff_t>(c.first),
+             end = planes_.begin() + static_cast<std::ptrdiff_t>(c.last);
+  const auto entry = std::lower_bound(begin, end, plane);
+  if (entry == end || *entry != plane) return;
+  const int direction = direction_of(e, rank, ranks);
+  const Vec3 normal = world_.planes.normal_class(c.number).normal;
+  if (direction == 0 || hangs_below(e, direction * normal)) return;
+  const auto slot = 2 * static_cast<std::size_t>(entry - planes_.begin()) + (direction > 0 ? 0 : 1);
+  steps_.push_back({slot, body_.origin(e), body_.target(e)});
+}
+
+/// Where a plane of the class stands among the split planes: mostly none of them is missing.
+std::optional<std::size_t> NaturalChains::entry_of(const Class& c, int plane) const {
+  const auto guess = c.first + at(plane - planes_[c.first]);
+  if (plane >= planes_[c.first] && guess < c.last && planes_[guess] == plane) return guess;
+  const auto begin = planes_.begin() + static_cast<std::ptrdiff_t>(c.first),
+             end = planes_.begin() + static_cast<std::ptrdiff_t>(c.last);
+  const auto found = std::lower_bound(begin, end, plane);
+  if (found == end || *found != plane) return std::nullopt;
+  return static_cast<std::size_t>(found - planes_.begin());
+}
+
+/// +1 or -1 if the facet's outline comes to the plane of rank `rank` from that side, runs in it
+/// along `e` and goes back to the same side; 0 if it goes through the plane or lies in it.
+int NaturalChains::direction_of(int e, int rank, std::span<const int> ranks) const {
+  int before = body_.prev(e), after = body_.next(e);
+  while (before != e && ranks[at(body_.origin(before))] == rank) before = body_.prev(before);
+  if (before == e) return 0;
+  while (ranks[at(body_.target(after))] == rank) after = body_.next(after);
+  const bool is_from_above = ranks[at(body_.origin(before))] > rank,
+             is_to_above = ranks[at(body_.target(after))] > rank;
+  if (is_from_above != is_to_above) return 0;
+  return is_from_above ? 1 : -1;
+}
+
+/// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
+/// only of edges between points where their planes meet.
+bool NaturalChains::hangs_below(int e, Vec3 up) const {
+  const int from = body_.origin(e), to = body_.target(e);
+  if (!world_.points.is_meeting(from) || !world_.points.is_meeting(to)) return false;
+  const Vec3 along = world_.points.at(to) - world_.points.at(from);
+  const double inward = dot(cross(world_.planes.normal(body_.side_of_edge(e)), along), up);
+  constexpr double kFlat = 1e-9;  // tolerance of doubles
+  return inward < -kFlat * length(along);
+}
+
+bool NaturalChains::is_free(int point) const {
+  return free_side_ >= 0 && world_.points.side(point, free_side_ >> 1) == 0;
+}
+
+/// Takes away what comes from nowhere or leads to nowhere, again and again, and tells whether
+/// something is left. Gives up after some rounds: then there may be a chain.
+bool NaturalChains::has_chain(std::span<Step> steps) {
+  for (const Step& step : steps) {
+    ++leaving_[at(step.from)];
+    ++entering_[at(step.to)];
+  }
+  const auto is_loose = [&](const Step& step) {
+    const bool is = (entering_[at(step.from)] == 0 && !is_free(step.from)) ||
+                    (leaving_[at(step.to)] == 0 && !is_free(step.to));
+    if (is) {
+      --leaving_[at(step.from)];
+      --entering_[at(step.to)];
+    }
+    return is;
+  };
+  std::size_t left = steps.size();
+  constexpr int kRounds = 16;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto kept =
+        std::remove_if(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(left), is_loose);
+    const auto now = static_cast<std::size_t>(kept - steps.begin());
+    if (now == left) break;
+    left = now;
+  }
+  for (const Step& step : steps.first(left)) leaving_[at(step.from)] = entering_[at(step.to)] = 0;
+  return left > 0;
+}
+
+}  // namespace oriel::detail

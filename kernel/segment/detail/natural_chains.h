@@ -1,0 +1,66 @@
+#pragma once
+
+#include "kernel/segment/detail/boundary.h"
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// For the split planes of a body, seen from both sides: whether a natural region may be found
+/// there. The outline of such a region follows edges of the body, so where the edges that lie in a
+/// plane and bound facets of that side form no closed chain there is none, and no section has to be
+/// made to know it. Chains may be closed in the ground, where outlines are free.
+///
+/// Decided by ranks alone, for one class of normals at a time: a look at every edge.
+class NaturalChains {
+ public:
+  /// `planes`: ascending. `free_side`: the ground, -1: none.
+  NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side);
+
+  /// The body has these edges since. Chains over others have not become more.
+  void expect(const std::vector<std::pair<int, int>>& new_edges);
+  /// Nothing is known any more.
+  void forget();
+  /// Looks again at the classes in which chains may have become more. True if there were any.
+  bool refresh();
+
+  /// Slot 2·i is in front of the i-th plane, 2·i + 1 behind it. As of the last refresh(); where
+  /// edges have gone since there may be less.
+  [[nodiscard]] bool may_be_natural(std::size_t slot) const { return answers_[slot] != 0; }
+
+ private:
+  /// A half-edge in a plane, of a facet that is on one side of it there.
+  struct Step {
+    std::size_t slot;
+    int from, to;
+  };
+  /// The planes of one class: planes_[first…last).
+  struct Class {
+    int number;
+    std::size_t first, last;
+    bool is_known = false;
+  };
+
+  void look(const Class& c, std::span<const int> edges);
+  void add_step(const Class& c, std::span<const int> ranks, int e);
+  [[nodiscard]] std::optional<std::size_t> entry_of(const Class& c, int plane) const;
+  [[nodiscard]] int direction_of(int e, int rank, std::span<const int> ranks) const;
+  [[nodiscard]] bool hangs_below(int e, Vec3 up) const;
+  bool has_chain(std::span<Step> steps);
+  [[nodiscard]] bool is_free(int point) const;
+
+  const Boundary& body_;
+  World& world_;
+  const std::vector<int>& planes_;
+  Side free_side_;
+  std::vector<Class> classes_;
+  std::vector<char> answers_;  ///< by slot
+
+  std::vector<Step> steps_;
+  std::vector<int> leaving_, entering_;  ///< steps of the slot at hand, by point; else 0
+};
+
+}  // namespace oriel::detail
