@@ -19,6 +19,7 @@ void add_label(CLI::App& app, Action& action);
 void add_generalise(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_score(CLI::App& app, Action& action);
+void add_validate(CLI::App& app, Action& action);
 void add_rules(CLI::App& app, Action& action);
 
 }  // namespace oriel::cli

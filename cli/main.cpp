@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   add_generalise(app, action);
   add_explain(app, action);
   add_score(app, action);
+  add_validate(app, action);
   add_rules(app, action);
   try {
     app.parse(argc, argv);

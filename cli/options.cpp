@@ -58,7 +58,7 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
 
 }  // namespace
 
-void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
@@ -72,6 +72,10 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   command.add_option("--from", a.from, "Format of the input (default: by its name)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"}));
   if (has_many) add_selection_arguments(command, a.selection);
+}
+
+void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+  add_input_arguments(command, a, has_many);
   command
       .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
       ->check(CLI::IsMember({"natural", "paper"}))

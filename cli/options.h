@@ -40,6 +40,10 @@ struct LineArguments {
   [[nodiscard]] bool allows(int set_aside, int buildings) const;
 };
 
+/// Adds what says which buildings are read: inputs, `--lod`, `--from` and, if the command takes
+/// more than one input (`has_many`), the selection.
+void add_input_arguments(CLI::App& command, LineArguments& arguments, bool has_many);
+
 /// Adds the arguments to a command. `has_many`: it takes more than one input.
 void add_line_arguments(CLI::App& command, LineArguments& arguments, bool has_many);
 

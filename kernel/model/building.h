@@ -32,6 +32,14 @@ struct Polygon {
   std::string hint;
 };
 
+/// A vertex that stood once more in a row, in a ring (index) of a polygon (index); reading dropped
+/// the repetition.
+struct RepeatedVertex {
+  int polygon = 0;
+  int ring = 0;
+  int vertex = 0;
+};
+
 /// One building (or building part) as read: polygons of one geometry at one level of detail.
 struct Building {
   /// The CityObject's id, or the file's stem for formats without ids.
@@ -41,8 +49,12 @@ struct Building {
   Frame frame;
   /// True if the input states a solid (closed shells), false for loose surfaces.
   bool is_solid = true;
+  /// True if the parts of the geometry must hang together: CompositeSolid, CompositeSurface.
+  bool is_composite = false;
   std::vector<Vec3> vertices;
   std::vector<Polygon> polygons;
+  /// What reading dropped from the rings, one entry for each drop.
+  std::vector<RepeatedVertex> repeats;
 };
 
 /// The frame of points given in the input's coordinates: origin = their minimum floored to whole

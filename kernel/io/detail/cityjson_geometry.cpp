@@ -28,9 +28,11 @@ std::string_view found_kind(const std::optional<dom::element>& element) {
 }
 
 std::optional<GeometryKind> kind_of_geometry(std::string_view type) {
-  if (type == "MultiSurface" || type == "CompositeSurface") return GeometryKind{0, false};
-  if (type == "Solid") return GeometryKind{1, true};
-  if (type == "MultiSolid" || type == "CompositeSolid") return GeometryKind{2, true};
+  const bool is_composite = type.starts_with("Composite");
+  if (type == "MultiSurface" || type == "CompositeSurface")
+    return GeometryKind{0, false, is_composite};
+  if (type == "Solid") return GeometryKind{1, true, false};
+  if (type == "MultiSolid" || type == "CompositeSolid") return GeometryKind{2, true, is_composite};
   return std::nullopt;
 }
 
@@ -43,14 +45,17 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   used_.clear();
   warnings_.clear();
   fault_.reset();
-  has_repeats_ = false;
+  repeats_.clear();
   const auto boundaries = member(geometry, "boundaries");
-  if (!boundaries)
+  if (!boundaries) {
     fail("E201", "the geometry has no 'boundaries'");
-  else if (read_bodies(*boundaries, kind) && place_vertices(building))
+  } else if (read_bodies(*boundaries, kind) && place_vertices(building)) {
     building.is_solid = kind.is_solid;
+    building.is_composite = kind.is_composite;
+  }
   for (const std::size_t number : used_) local_of_[number] = -1;
   if (fault_) return fault_;
+  building.repeats = std::move(repeats_);
 
   const auto semantics = member(geometry, "semantics");
   if (const auto object = as_object(semantics))
@@ -59,7 +64,7 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
     warnings_.push_back({"E208", fmt::format("'semantics' is {}; expected an object, so none are "
                                              "read",
                                              found_kind(semantics))});
-  if (has_repeats_)
+  if (!building.repeats.empty())
     warnings_.push_back({"E312",
                          "a ring names a vertex twice in a row; it is read once (val3dity 102 "
                          "CONSECUTIVE_POINTS_SAME)"});
@@ -151,10 +156,9 @@ bool GeometryReader::read_ring(dom::element element) {
                                       polygon, index));
     ring.push_back(local_vertex(index));
   }
-  const std::size_t count = ring.size();
-  ring = without_repeats(std::move(ring));
-  has_repeats_ = has_repeats_ || ring.size() < count;
-  polygons_.back().rings.push_back(std::move(ring));
+  auto& rings = polygons_.back().rings;
+  rings.push_back(
+      without_repeats(ring, static_cast<int>(polygon), static_cast<int>(rings.size()), repeats_));
   return true;
 }
 

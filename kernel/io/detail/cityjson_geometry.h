@@ -17,6 +17,8 @@ struct GeometryKind {
   /// (solids, shells).
   int depth = 0;
   bool is_solid = false;
+  /// Its parts must hang together.
+  bool is_composite = false;
 };
 
 /// The kind of a type that is read: MultiSurface, CompositeSurface, Solid, MultiSolid,
@@ -59,7 +61,7 @@ class GeometryReader {
   std::vector<Polygon> polygons_;
   int body_ = 0;
   int shell_ = 0;
-  bool has_repeats_ = false;
+  std::vector<RepeatedVertex> repeats_;
   std::optional<Fault> fault_;
   std::vector<Fault> warnings_;
 };

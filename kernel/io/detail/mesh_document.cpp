@@ -110,13 +110,16 @@ Checked<Document> document_of(RawMesh mesh, const TextName& name, Format format)
   result.value->name = name.file;
   result.value->format = format;
   const std::string id = std::filesystem::path(name.file).stem().string();
-  for (auto& face : mesh.faces) face = without_repeats(std::move(face));
   drop_unused(mesh);
+  std::vector<RepeatedVertex> repeats;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    mesh.faces[f] = without_repeats(mesh.faces[f], static_cast<int>(f), 0, repeats);
   if (const auto fault = find_beyond_limits(mesh.points)) {
     result.issues.push_back(finding_of(name, Severity::error, id, *fault));
     return result;
   }
   Building building = building_of(std::move(mesh), id);
+  building.repeats = std::move(repeats);
   if (const auto fault = find_degenerate(building.polygons, building.vertices))
     result.issues.push_back(finding_of(name, Severity::warning, id, *fault));
   result.value->buildings.push_back(std::move(building));

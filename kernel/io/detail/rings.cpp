@@ -20,10 +20,19 @@ bool has_three_points(const std::vector<int>& ring, const std::vector<Vec3>& poi
 
 }  // namespace
 
-std::vector<int> without_repeats(std::vector<int> ring) {
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  return ring;
+std::vector<int> without_repeats(const std::vector<int>& ring, int polygon, int number,
+                                 std::vector<RepeatedVertex>& repeats) {
+  std::vector<int> kept;
+  kept.reserve(ring.size());
+  for (const int vertex : ring) {
+    if (!kept.empty() && kept.back() == vertex)
+      repeats.push_back({polygon, number, vertex});
+    else
+      kept.push_back(vertex);
+  }
+  for (; kept.size() > 1 && kept.front() == kept.back(); kept.pop_back())
+    repeats.push_back({polygon, number, kept.back()});
+  return kept;
 }
 
 std::optional<Fault> find_degenerate(const std::vector<Polygon>& polygons,

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "kernel/geometry/exact.h"
+
+#include <array>
+#include <cstddef>
+
+/// Exact answers about points with whole coordinates, |coordinate| ≤ 2^32: every determinant fits
+/// in 128 bits, and most signs are had from doubles with an error bound.
+namespace oriel::detail {
+
+using exact::GridPoint;
+using GridTriangle = std::array<GridPoint, 3>;
+
+/// A point of a plane seen along an axis.
+using FlatPoint = std::array<std::int64_t, 2>;
+
+/// +1 if a, b, c turn left, -1 right, 0 if they are on a line.
+int turn(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c);
+
+/// True if p is on the closed segment from a to b.
+bool is_on(const FlatPoint& p, const FlatPoint& a, const FlatPoint& b);
+
+/// How two closed segments meet.
+enum class Meeting {
+  none,
+  /// In one point, which is an end of at least one of them.
+  touch,
+  /// In one point inside both.
+  cross,
+  /// In more than one point.
+  overlap
+};
+Meeting meeting(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c, const FlatPoint& d);
+
+/// +1 if d is in front of the triangle a, b, c (where it is seen counter-clockwise), -1 behind, 0
+/// on its plane.
+int side_of(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d);
+
+/// True if a, b, c are on a line.
+bool are_collinear(const GridPoint& a, const GridPoint& b, const GridPoint& c);
+
+/// The axis along which the normal of the triangle is largest: 0, 1, 2. It must not be collinear.
+std::size_t main_axis(const GridTriangle& triangle);
+
+/// `point` seen along `axis`; orientation is kept if `is_positive`, else turned.
+FlatPoint flattened(const GridPoint& point, std::size_t axis, bool is_positive);
+
+/// True if the closed segment and the closed triangle, which must not be collinear, have a point in
+/// common.
+bool meets(const GridPoint& p, const GridPoint& q, const GridTriangle& triangle);
+
+/// True if the closed triangles have a point in common.
+bool meet(const GridTriangle& a, const GridTriangle& b);
+
+/// True if a segment inside both triangles, not in one plane, is where they meet: each then has
+/// parts on both sides of the other.
+bool pierce(const GridTriangle& a, const GridTriangle& b);
+
+}  // namespace oriel::detail
