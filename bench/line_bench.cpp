@@ -6,6 +6,7 @@
 #include "interpret/interpret.h"
 #include "interpret/rule_base.h"
 #include "kernel/describe/describe.h"
+#include "kernel/describe/surfaces.h"
 #include "kernel/io/writer.h"
 #include "kernel/segment/imprints.h"
 #include "kernel/segment/segment.h"
@@ -47,9 +48,11 @@ void line(benchmark::State& state) {
     add_imprints(building, *solid.value, segmentation);
     const Description description = describe(building, segmentation);
     const Interpretation verdicts = interpret(residential(), description.table, description.graph);
+    const SurfaceTable surfaces =
+        describe_surfaces(building, {}, {&*solid.value, &segmentation, &description.table});
     const std::string text =
         write_cityjson(document, {annotate(building, segmentation, description.table,
-                                           description.graph, verdicts, residential())});
+                                           description.graph, surfaces, verdicts, residential())});
     bytes += text.size();
     features = verdicts.verdicts.size();
   }

@@ -41,9 +41,9 @@ ExitCode work(const Arguments& arguments) {
     run.timings().measure(Stage::write, [&] {
       std::vector<LabelledBuilding> labelled;
       for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (!lines[i].is_done()) continue;
-        if (outputs.has_buildings())
+        if (outputs.has_buildings() && lines[i].has_surfaces())
           labelled.push_back(outputs.annotated(document.buildings[i], lines[i]));
+        if (!lines[i].is_done()) continue;
         outputs.add_features(document.buildings[i], lines[i]);
         if (!outputs.has_any() && run.is_last_run())
           outputs.print(listing(document.buildings[i], lines[i]));

@@ -31,6 +31,13 @@ std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {
   return loaded.value;
 }
 
+LabelledBuilding annotated(const Building& building, const OnLine& line, const RuleBase& rules,
+                           const AnnotateOptions& options) {
+  static const Segmentation none;
+  return annotate(building, line.segmentation ? *line.segmentation : none, line.description.table,
+                  line.description.graph, line.surfaces, line.interpretation, rules, options);
+}
+
 LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rules)
     : arguments_(arguments), rules_(rules) {
   const auto codelists = rules.codelists();
@@ -46,8 +53,7 @@ LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine&
   AnnotateOptions options;
   options.codelist = arguments_.codelist;
   options.attributes.emplace_back("oriel_config_sha256", sha256(arguments_.configuration()));
-  return annotate(building, *line.segmentation, line.description.table, line.description.graph,
-                  line.interpretation, rules_, options);
+  return cli::annotated(building, line, rules_, options);
 }
 
 void LabelOutputs::begin(std::size_t input, bool is_rehearsal) {

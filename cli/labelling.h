@@ -3,6 +3,7 @@
 #include "cli/destination.h"
 #include "cli/options.h"
 #include "cli/run.h"
+#include "interpret/annotate.h"
 #include "interpret/rule_base.h"
 #include "kernel/io/feature_records.h"
 
@@ -27,6 +28,11 @@ void add_label_arguments(CLI::App& command, LabelArguments& arguments);
 /// The pack, with its findings told; nothing if it cannot be used.
 std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
 
+/// What is to be written of a building that has surfaces; without features if it did not come to
+/// the end of the line.
+LabelledBuilding annotated(const Building& building, const OnLine& line, const RuleBase& rules,
+                           const AnnotateOptions& options = {});
+
 /// What those commands write: the buildings (-o) and the records of features (--features), each if
 /// asked for.
 class LabelOutputs {
@@ -37,7 +43,7 @@ class LabelOutputs {
   [[nodiscard]] bool has_buildings() const { return destination_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
-  /// What is to be written of a building that came to the end of the line.
+  /// The same with the options of the command.
   [[nodiscard]] LabelledBuilding annotated(const Building& building, const OnLine& line) const;
 
   /// `is_rehearsal`: what follows is not to be kept.

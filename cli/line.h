@@ -3,6 +3,7 @@
 #include "cli/timings.h"
 #include "interpret/rule_base.h"
 #include "kernel/describe/describe.h"
+#include "kernel/describe/surfaces.h"
 #include "kernel/model/building.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/issue.h"
@@ -21,6 +22,8 @@ struct OnLine {
   std::optional<Segmentation> segmentation;
   Description description;
   Interpretation interpretation;  ///< empty without rules
+  /// With rules, also of a building that was set aside; no rows if that failed.
+  SurfaceTable surfaces;
   std::vector<Issue> issues;
 
   /// It was not selected: nothing was done.
@@ -28,6 +31,8 @@ struct OnLine {
 
   /// It came to the end; if not, `issues` has an error that says why it was set aside.
   [[nodiscard]] bool is_done() const { return segmentation.has_value(); }
+  /// Its surfaces can be named, though it may have been set aside.
+  [[nodiscard]] bool has_surfaces() const { return surfaces.rows() > 0; }
 };
 
 /// Solidifies, segments, describes and, with `rules`, interprets a building. A fault of ours in one

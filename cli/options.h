@@ -20,6 +20,8 @@ struct LineArguments {
   std::string order = "natural";
   Tolerances tolerances;
   std::int64_t budget = SegmentOptions{}.budget;
+  /// What the input calls its polygons is not looked at.
+  bool ignores_semantics = false;
   bool is_verbose = false;
   std::string timings_file;
   int repeat = 1;

@@ -1,5 +1,6 @@
 #include "cli/run.h"
 
+#include "cli/line_surfaces.h"
 #include "kernel/io/output_file.h"
 #include "kernel/model/sha256.h"
 
@@ -13,6 +14,15 @@
 #include <fmt/ranges.h>
 
 namespace oriel::cli {
+
+namespace {
+
+Building without_hints(Building building) {
+  for (Polygon& polygon : building.polygons) polygon.hint.clear();
+  return building;
+}
+
+}  // namespace
 
 Run::Run(const LineArguments& arguments, const RuleBase* rules, Report& report)
     : arguments_(arguments), rules_(rules), report_(report) {}
@@ -98,13 +108,21 @@ void Run::run_inputs(const Visitor& visitor) {
   });
 }
 
+OnLine Run::on_line(const Building& building, Timings& timings) const {
+  const SegmentOptions options = arguments_.segment_options();
+  OnLine line = arguments_.ignores_semantics
+                    ? run_line(without_hints(building), options, rules_, timings)
+                    : run_line(building, options, rules_, timings);
+  if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
+  return line;
+}
+
 /// Touches nothing but the arrival.
 void Run::work_on(Arrival& arrival) const {
   if (!arrival.record.value) return;
   for (const Building& building : arrival.record.value->buildings) {
     if (arguments_.selection.takes(building))
-      arrival.lines.push_back(
-          run_line(building, arguments_.segment_options(), rules_, arrival.timings));
+      arrival.lines.push_back(on_line(building, arrival.timings));
     else
       arrival.lines.emplace_back().is_passed_over = true;
   }

@@ -1,6 +1,8 @@
 #include "cli/commands.h"
+#include "cli/labelling.h"
 #include "cli/report.h"
 #include "interpret/score.h"
+#include "interpret/surface_score.h"
 #include "kernel/io/feature_records.h"
 #include "kernel/io/truth.h"
 
@@ -19,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
-  std::vector<std::string> records;
+struct Arguments : LineArguments {
+  bool is_of_surfaces = false;
+  std::string rules = "residential";
   std::vector<std::string> truth;
   bool is_json = false;
-  bool is_verbose = false;
 };
 
 /// The truth files that are named, those of a folder by their names.
@@ -64,12 +66,12 @@ void append_truth(std::vector<ExpectedObject>& all, const Truth& truth) {
                    !o.faces.empty()});
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode score_features(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   ExitCode code = ExitCode::clean;
   std::vector<Prediction> predictions;
   std::vector<ExpectedObject> expected;
-  for (const std::string& path : arguments.records) {
+  for (const std::string& path : arguments.inputs) {
     const auto records = read_feature_records(path);
     report.tell(records.issues);
     if (has_errors(records.issues))
@@ -93,25 +95,53 @@ ExitCode work(const Arguments& arguments) {
   return code;
 }
 
+/// The models are labelled as if they had no semantics, and their semantics are the truth.
+ExitCode score_surfaces(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  Run run(arguments, &*rules, report);
+  SurfaceScore score;
+  Run::Visitor visitor;
+  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (lines[i].has_surfaces())
+        compare_surfaces(document.buildings[i], annotated(document.buildings[i], lines[i], *rules),
+                         lines[i].surfaces, OpeningPolicy::as_host, score);
+  };
+  const ExitCode code = run.go(visitor);
+  std::fputs((arguments.is_json ? to_json(score) + "\n" : to_text(score)).c_str(), stdout);
+  return code;
+}
+
+ExitCode work(const Arguments& arguments) {
+  if (arguments.is_of_surfaces) return score_surfaces(arguments);
+  if (arguments.truth.empty()) throw CLI::RequiredError("--truth");
+  return score_features(arguments);
+}
+
 }  // namespace
 
 void add_score(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "score", "Compare labels with the truth: precision, recall and F1 of every class");
+  arguments->ignores_semantics = true;
   command
-      ->add_option("records", arguments->records,
-                   "Records of features as label --features writes them")
+      ->add_option("records", arguments->inputs,
+                   "Records of features as label --features writes them; with --surfaces models")
       ->required();
-  command
-      ->add_option("--truth", arguments->truth,
-                   "*.truth.json and *.truth.jsonl files, or folders of them")
-      ->required();
+  command->add_option("--truth", arguments->truth,
+                      "*.truth.json and *.truth.jsonl files, or folders of them");
+  command->add_flag("--surfaces", arguments->is_of_surfaces,
+                    "Name the surfaces of models as if they had no semantics, compare with those");
+  command->add_option("--lod", arguments->lod, "With --surfaces: level of detail to read");
+  add_rules_argument(*command, arguments->rules);
   command->add_flag("--json", arguments->is_json, "As JSON, with all misses");
   command->add_flag("-v,--verbose", arguments->is_verbose, "List all misses, not the first 20");
   command->footer(
       "Example:\n  oriel label data/*.stripped.city.json --features parts.jsonl\n  oriel score "
-      "parts.jsonl --truth data/");
+      "parts.jsonl --truth data/\n  oriel score --surfaces data/*.labelled.city.json");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

@@ -1,15 +1,15 @@
 #include "interpret/annotate.h"
 
-#include "interpret/detail/evaluator.h"
 #include "interpret/detail/names.h"
 #include "interpret/detail/pack.h"
 #include "interpret/detail/polygon_shape.h"
+#include "interpret/surfaces.h"
+#include "kernel/model/polygon_owners.h"
 #include "kernel/model/version.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -20,7 +20,6 @@ namespace oriel {
 namespace {
 
 using rules::Emission;
-using rules::HostKind;
 
 std::size_t index(int id) { return static_cast<std::size_t>(id); }
 
@@ -52,11 +51,12 @@ double rounded(double score) { return std::round(score * 1e4) / 1e4; }
 class Annotator {
  public:
   Annotator(const Building& building, const Segmentation& segmentation, const FeatureTable& table,
-            const Interpretation& interpretation, const RuleBase& base,
-            const AnnotateOptions& options)
+            const SurfaceTable& surfaces, const Interpretation& interpretation,
+            const RuleBase& base, const AnnotateOptions& options)
       : building_(building),
         segmentation_(segmentation),
         table_(table),
+        surfaces_(surfaces),
         interpretation_(interpretation),
         base_(base),
         options_(options) {}
@@ -78,8 +78,6 @@ class Annotator {
   }
   /// The smallest feature that lists the polygon and has a role, or -1.
   [[nodiscard]] int find_labelled(const Polygon& polygon) const;
-  [[nodiscard]] std::string type_of(const Polygon& polygon) const;
-  [[nodiscard]] std::string type_of_top(const Polygon& polygon) const;
   [[nodiscard]] int surface_around(const Feature& opening) const;
   [[nodiscard]] int nearest_surface(const Box& box, Vec3 normal,
                                     const std::vector<int>& sources) const;
@@ -89,6 +87,7 @@ class Annotator {
   const Building& building_;
   const Segmentation& segmentation_;
   const FeatureTable& table_;
+  const SurfaceTable& surfaces_;
   const Interpretation& interpretation_;
   const RuleBase& base_;
   const AnnotateOptions& options_;
@@ -98,7 +97,6 @@ class Annotator {
   std::vector<std::vector<int>> owners_;
   /// The surface of every opening that has one.
   std::map<int, int> opening_surfaces_;
-  double lowest_m_ = 0;
   LabelledBuilding result_;
 };
 
@@ -127,32 +125,7 @@ void Annotator::find_polygons() {
   for (const Polygon& polygon : building_.polygons) polygons_[index(polygon.source)] = &polygon;
 }
 
-void Annotator::find_owners() {
-  const auto& features = segmentation_.features;
-  std::vector<int> order(features.size());
-  std::iota(order.begin(), order.end(), 0);
-  // An imprint is as large as what it owns. Imprints stand behind the features of the tree, inner
-  // ones behind outer ones.
-  std::vector<double> size_m3(features.size());
-  for (std::size_t f = 0; f < features.size(); ++f) size_m3[f] = features[f].volume_m3;
-  const auto pass_on = [&](std::size_t f) {
-    const FeatureId host = features[f].host;
-    if (host.is_valid() && features[host.index()].sense == Sense::imprint)
-      size_m3[host.index()] += size_m3[f];
-  };
-  for (std::size_t f = 0; f < features.size(); ++f)
-    if (features[f].sense != Sense::imprint) pass_on(f);
-  for (std::size_t f = features.size(); f-- > 0;)
-    if (features[f].sense == Sense::imprint) pass_on(f);
-  // Of equal sizes the one with fewer polygons is the inner one, then the later one.
-  std::ranges::sort(order, {}, [&](int f) {
-    return std::tuple(size_m3[index(f)], features[index(f)].source_polygons.size(), -f);
-  });
-  owners_.resize(polygons_.size());
-  for (const int feature : order)
-    for (const int polygon : features[index(feature)].source_polygons)
-      owners_[index(polygon)].push_back(feature);
-}
+void Annotator::find_owners() { owners_ = polygon_owners(segmentation_, polygons_.size()); }
 
 int Annotator::find_labelled(const Polygon& polygon) const {
   for (const int feature : features_of(polygon))
@@ -161,17 +134,17 @@ int Annotator::find_labelled(const Polygon& polygon) const {
 }
 
 void Annotator::add_surfaces() {
-  Box box;
-  for (const Polygon& polygon : building_.polygons) box.grow(rules::box_of(building_, polygon));
-  lowest_m_ = box.min.z;
+  const auto verdicts = interpret_surfaces(
+      base_, with_parts(surfaces_, building_, segmentation_, interpretation_, base_));
   result_.surface_of_polygon.assign(owners_.size(), -1);
-  for (const Polygon& polygon : building_.polygons) {
+  for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
+    const Polygon& polygon = building_.polygons[row];
     const auto next = static_cast<int>(result_.surfaces.size());
     int& surface = result_.surface_of_polygon[index(polygon.source)];
     const int feature = find_labelled(polygon);
     if (feature < 0 || !roles_[index(feature)].is_opening()) {
       surface = next;
-      result_.surfaces.push_back({type_of(polygon), -1, {}});
+      result_.surfaces.push_back({verdicts[row].type, -1, {}});
       continue;
     }
     const auto [found, is_new] = opening_surfaces_.try_emplace(feature, next);
@@ -179,34 +152,6 @@ void Annotator::add_surfaces() {
     if (is_new)
       result_.surfaces.push_back({roles_[index(feature)].emission->type, -1, members_of(feature)});
   }
-}
-
-std::string Annotator::type_of(const Polygon& polygon) const {
-  const rules::Hosts& hosts = base_.pack().hosts;
-  const double inclination = rules::inclination_deg(rules::area_vector(building_, polygon));
-  switch (rules::kind_of_facet(hosts, inclination)) {
-    case HostKind::roof:
-      return type_of_top(polygon);
-    case HostKind::ground: {
-      const double bottom = rules::box_of(building_, polygon).min.z;
-      const bool is_ground = bottom <= lowest_m_ + hosts.ground_reach_m;
-      return is_ground ? "GroundSurface" : "OuterCeilingSurface";
-    }
-    default:
-      return "WallSurface";
-  }
-}
-
-std::string Annotator::type_of_top(const Polygon& polygon) const {
-  const int labelled = find_labelled(polygon);
-  if (labelled >= 0) return roles_[index(labelled)].emission->top;
-  const auto& features = features_of(polygon);
-  if (features.empty()) return "RoofSurface";
-  const FeatureId innermost{features.front()};
-  const auto host = table_.number(innermost, "host_inclination");
-  const bool is_in_wall = host && rules::kind_of_facet(base_.pack().hosts, *host) == HostKind::wall;
-  const bool is_recess = segmentation_.features[innermost.index()].sense == Sense::hole;
-  return is_in_wall && is_recess ? "OuterFloorSurface" : "RoofSurface";
 }
 
 bool Annotator::is_host_surface(const Polygon& polygon) const {
@@ -302,9 +247,9 @@ void Annotator::add_attributes() {
 
 LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
                           const FeatureTable& table, const FeatureGraph& /*graph*/,
-                          const Interpretation& interpretation, const RuleBase& base,
-                          const AnnotateOptions& options) {
-  return Annotator(building, segmentation, table, interpretation, base, options).run();
+                          const SurfaceTable& surfaces, const Interpretation& interpretation,
+                          const RuleBase& base, const AnnotateOptions& options) {
+  return Annotator(building, segmentation, table, surfaces, interpretation, base, options).run();
 }
 
 }  // namespace oriel

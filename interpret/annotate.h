@@ -7,6 +7,7 @@
 #include "kernel/model/interpretation.h"
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/segmentation.h"
+#include "kernel/model/surface_table.h"
 
 #include <string>
 
@@ -27,18 +28,18 @@ struct AnnotateOptions {
 /// lists it; features without a label pass it on to the next larger one. All polygons of a feature
 /// whose class the pack emits as Window or Door make one surface, whose parent is the surface of
 /// the wall or roof polygon around it (-1 if there is none). Every other polygon is a surface by
-/// itself, named by its normal and the pack's `hosts:`: WallSurface; looking up RoofSurface, or
-/// OuterFloorSurface on a feature whose class says so and in unlabelled recesses of walls; looking
-/// down GroundSurface near the building's lowest point and OuterCeilingSurface above.
+/// itself, named by interpret_surfaces.
 ///
 /// Every feature whose class is emitted as BuildingInstallation and that has polygons becomes an
 /// Installation with all its polygons but those of installations inside it.
 ///
 /// `segmentation`, `table`, `graph` and `interpretation` are of `building`, with the same features;
-/// its polygons have different numbers (Polygon::source) of at least 0.
+/// without features (all four empty, as for a building that stays open) its surfaces are named all
+/// the same. `surfaces` has a row for every polygon. Polygons have different numbers
+/// (Polygon::source) of at least 0.
 LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
                           const FeatureTable& table, const FeatureGraph& graph,
-                          const Interpretation& interpretation, const RuleBase& base,
-                          const AnnotateOptions& options = {});
+                          const SurfaceTable& surfaces, const Interpretation& interpretation,
+                          const RuleBase& base, const AnnotateOptions& options = {});
 
 }  // namespace oriel

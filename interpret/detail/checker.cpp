@@ -11,6 +11,32 @@
 
 namespace oriel::rules {
 
+namespace {
+
+/// Kinds of expressions that need neither classes nor relations.
+bool is_known_of_surfaces(Syntax::Kind kind) {
+  using enum Syntax::Kind;
+  switch (kind) {
+    case number:
+    case parameter:
+    case name:
+    case call:
+    case negate:
+    case negation:
+    case binary:
+    case all_of:
+    case any_of:
+    case range_test:
+    case list_test:
+    case similarity:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
 std::string describe(const Expr& expr) {
   if (expr.type == Type::text) return "a text";
   return expr.type == Type::yes_no ? "yes or no" : describe(expr.dimension);
@@ -62,7 +88,13 @@ bool Checker::is_too_much(Span where) {
 }
 
 ExprId Checker::check(const Syntax& syntax) {
-  return is_too_much(syntax.span) ? kNoExpr : check_by_kind(syntax);
+  if (is_too_much(syntax.span)) return kNoExpr;
+  if (is_of_surfaces_ && !is_known_of_surfaces(syntax.kind))
+    return fail("R232", syntax.span,
+                fmt::format("'{}' speaks of features; of a surface only its own attributes are "
+                            "known (part = CLASS asks for the feature it belongs to)",
+                            text_of(syntax)));
+  return check_by_kind(syntax);
 }
 
 ExprId Checker::check_by_kind(const Syntax& syntax) {

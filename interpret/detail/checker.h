@@ -4,10 +4,12 @@
 #include "interpret/detail/names.h"
 #include "interpret/detail/pack.h"
 #include "interpret/detail/syntax.h"
+#include "kernel/model/feature_table.h"
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace oriel::rules {
 
@@ -29,6 +31,9 @@ class Checker {
   /// Inside `generalise:` lengths may be stated in mm@map.
   void allow_map_units(bool is_allowed) { is_map_allowed_ = is_allowed; }
 
+  /// Inside `surfaces:` names are those of surface_schema(), and there is nothing to relate.
+  void speak_of_surfaces() { is_of_surfaces_ = true; }
+
   /// A condition, or kNoExpr and an error.
   ExprId condition(const Syntax& syntax);
   /// A number or a condition, or kNoExpr and an error.
@@ -40,6 +45,9 @@ class Checker {
   ExprId check(const Syntax& syntax);
   ExprId check_by_kind(const Syntax& syntax);
   bool is_too_much(Span where);
+
+  [[nodiscard]] const std::vector<Attribute>& schema() const;
+  [[nodiscard]] std::vector<std::string> words_for(const std::string& attribute) const;
 
   // Names.
   ExprId check_number(const Syntax& syntax);
@@ -83,6 +91,7 @@ class Checker {
   Names* names_;
   Findings* findings_;
   bool is_map_allowed_ = false;
+  bool is_of_surfaces_ = false;
   int macro_depth_ = 0;
   int level_ = 0;
   /// Operands and operators looked at: of the expression at hand, and of the pack.

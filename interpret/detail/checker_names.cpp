@@ -1,6 +1,7 @@
 #include "interpret/detail/checker.h"
 #include "interpret/detail/parser.h"
 #include "interpret/detail/suggest.h"
+#include "kernel/model/surface_table.h"
 
 #include <algorithm>
 #include <string>
@@ -23,6 +24,15 @@ bool contains(const std::vector<std::string>& list, std::string_view name) {
 }
 
 }  // namespace
+
+const std::vector<Attribute>& Checker::schema() const {
+  return is_of_surfaces_ ? surface_schema() : feature_schema();
+}
+
+std::vector<std::string> Checker::words_for(const std::string& attribute) const {
+  if (is_of_surfaces_ && attribute == "part") return names_of(pack_->classes);
+  return words_of(attribute);
+}
 
 ExprId Checker::check_parameter(const Syntax& syntax) {
   const int index = index_of(pack_->params, syntax.name);
@@ -52,8 +62,8 @@ std::optional<int> Checker::level_of(const Syntax& syntax) {
 }
 
 ExprId Checker::check_name(const Syntax& syntax) {
-  if (const auto column = column_of(syntax.name))
-    return check_attribute(syntax, static_cast<int>(*column));
+  if (const int column = index_of(schema(), syntax.name); column >= 0)
+    return check_attribute(syntax, column);
   const int macro = index_of(names_->macros, syntax.name);
   if (macro >= 0 && syntax.scope == Syntax::Scope::here)
     return check_macro(syntax, names_->macros[static_cast<std::size_t>(macro)]);
@@ -63,7 +73,7 @@ ExprId Checker::check_name(const Syntax& syntax) {
 
 void Checker::report_unknown_name(const Syntax& syntax) {
   const auto macros = names_of(names_->macros);
-  std::vector<std::string> candidates = names_of(feature_schema());
+  std::vector<std::string> candidates = names_of(schema());
   candidates.insert(candidates.end(), macros.begin(), macros.end());
   const std::string near = nearest(syntax.name, candidates);
   const bool is_macro = contains(macros, near);
@@ -75,7 +85,7 @@ void Checker::report_unknown_name(const Syntax& syntax) {
 ExprId Checker::check_attribute(const Syntax& syntax, int column) {
   const auto level = level_of(syntax);
   if (!level) return kNoExpr;
-  const Unit unit = feature_schema()[static_cast<std::size_t>(column)].unit;
+  const Unit unit = schema()[static_cast<std::size_t>(column)].unit;
   Expr expr{.op = Op::attribute,
             .dimension = dimension_of(unit),
             .index = column,

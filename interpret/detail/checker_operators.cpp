@@ -215,8 +215,8 @@ ExprId Checker::check_word(const Syntax& syntax, ExprId text) {
         "R232", syntax.span,
         fmt::format("'{}' is {}; a word is needed here", text_of(syntax), describe(at(id))));
   }
-  const Attribute& attribute = feature_schema()[static_cast<std::size_t>(at(text).index)];
-  const auto& words = words_of(attribute.name);
+  const Attribute& attribute = schema()[static_cast<std::size_t>(at(text).index)];
+  const auto words = words_for(attribute.name);
   if (!words.empty() && std::ranges::find(words, syntax.name) == words.end()) {
     std::string advice = did_you_mean(syntax.name, words);
     if (advice.empty()) advice = fmt::format(" (it is one of {})", join(words));

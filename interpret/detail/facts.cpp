@@ -68,4 +68,22 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
     if (feature_schema()[i].unit != Unit::text) columns[i] = table.numbers(i);
 }
 
+Facts::Facts(const Pack& pack, const SurfaceTable& table)
+    : rows(table.rows()),
+      row_numbers(rows),
+      columns(surface_schema().size()),
+      coded_texts_(columns.size()) {
+  std::iota(row_numbers.begin(), row_numbers.end(), 0);
+  if (rows == 0) return;
+  std::unordered_map<std::string_view, double> codes;
+  for (std::size_t i = 0; i < pack.words.size(); ++i)
+    codes.emplace(pack.words[i], static_cast<double>(i));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (surface_schema()[i].unit == Unit::text)
+      columns[i] = coded_texts_[i] = code_texts(table.texts(i), codes);
+    else
+      columns[i] = table.numbers(i);
+  }
+}
+
 }  // namespace oriel::rules

@@ -4,6 +4,7 @@
 #include "interpret/detail/pack.h"
 #include "kernel/model/feature_graph.h"
 #include "kernel/model/feature_table.h"
+#include "kernel/model/surface_table.h"
 
 #include <span>
 #include <vector>
@@ -28,6 +29,8 @@ struct Links {
 /// the first rule is run. Refers to the table, which must outlive it.
 struct Facts {
   Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+  /// The same for surfaces, of which neither relations nor classes are known.
+  Facts(const Pack& pack, const SurfaceTable& table);
   Facts(const Facts&) = delete;
   Facts& operator=(const Facts&) = delete;
 

@@ -23,8 +23,9 @@ constexpr std::size_t kMostClasses = 256;
 constexpr std::size_t kMostNames = 1024;
 
 const std::vector<std::string>& top_keys() {
-  static const std::vector<std::string> keys = {"schema", "pack",  "params", "hosts", "classes",
-                                                "macros", "rules", "decide", "emit",  "generalise"};
+  static const std::vector<std::string> keys = {"schema",  "pack",     "params",    "hosts",
+                                                "classes", "macros",   "rules",     "decide",
+                                                "emit",    "surfaces", "generalise"};
   return keys;
 }
 
@@ -58,7 +59,7 @@ bool is_small_enough(const Section& top, Findings& findings) {
         std::string("'") + key + "' has no more than " + std::to_string(most) + " entries");
   };
   check("classes", kMostClasses);
-  for (const char* key : {"params", "macros", "rules", "emit", "generalise"})
+  for (const char* key : {"params", "macros", "rules", "emit", "surfaces", "generalise"})
     check(key, kMostNames);
   return is_small;
 }
@@ -75,6 +76,7 @@ void read_sections(Section& top, Loader& loader) {
   read(top.require("rules"), read_rules);
   read(top.find("decide"), read_decide);
   read(top.find("emit"), read_emit);
+  read(top.find("surfaces"), read_surfaces);
   read(top.find("generalise"), read_generalise);
 }
 

@@ -31,6 +31,7 @@ void read_hosts(const YamlNode& node, Loader& loader);
 void read_rules(const YamlNode& node, Loader& loader);
 void read_decide(const YamlNode& node, Loader& loader);
 void read_emit(const YamlNode& node, Loader& loader);
+void read_surfaces(const YamlNode& node, Loader& loader);
 void read_generalise(const YamlNode& node, Loader& loader);
 
 /// The class called by `node`, or kNoClass and R205.

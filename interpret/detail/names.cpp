@@ -18,8 +18,10 @@ const std::vector<std::string>& words_of(std::string_view attribute) {
                                                   to_string(Sense::hole), to_string(Sense::cavity),
                                                   to_string(Sense::imprint)};
   static const std::vector<std::string> ground_sources = {"facet", "wall", "body"};
+  static const std::vector<std::string> facings = {"solid", "input", "position"};
   static const std::vector<std::string> any;
   if (attribute == "sense") return senses;
+  if (attribute == "facing") return facings;
   return attribute == "ground_source" ? ground_sources : any;
 }
 

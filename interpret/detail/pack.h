@@ -4,6 +4,7 @@
 #include "interpret/detail/source.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -118,6 +119,8 @@ struct Entry {
   Span span;
 };
 
+struct SurfaceRules;
+
 /// A pack, checked: every name is looked up and every expression has a type.
 struct Pack {
   explicit Pack(Source text) : source(std::move(text)) {}
@@ -133,6 +136,8 @@ struct Pack {
   std::vector<Step> steps;
   Decide decide;
   std::vector<Entry> entries;
+  /// Null: the pack says nothing of surfaces but `hosts:`.
+  std::shared_ptr<const SurfaceRules> surfaces;
   Code code;
   /// The words that texts are compared with; the value of a text is the number of its word.
   std::vector<std::string> words;

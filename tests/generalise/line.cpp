@@ -3,6 +3,7 @@
 #include "interpret/annotate.h"
 #include "interpret/interpret.h"
 #include "interpret/plan.h"
+#include "kernel/describe/surfaces.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
 #include "kernel/segment/imprints.h"
@@ -30,8 +31,11 @@ Line line_of(Document document) {
   add_imprints(line.building(), line.solid, line.segmentation);
   line.description = describe(line.building(), line.segmentation);
   line.interpretation = interpret(residential(), line.description.table, line.description.graph);
-  line.labelled = annotate(line.building(), line.segmentation, line.description.table,
-                           line.description.graph, line.interpretation, residential());
+  line.labelled =
+      annotate(line.building(), line.segmentation, line.description.table, line.description.graph,
+               describe_surfaces(line.building(), {},
+                                 {&line.solid, &line.segmentation, &line.description.table}),
+               line.interpretation, residential());
   return line;
 }
 

@@ -5,6 +5,7 @@
 #include "interpret/interpret.h"
 #include "interpret/plan.h"
 #include "kernel/describe/describe.h"
+#include "kernel/describe/surfaces.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
 #include "kernel/model/version.h"
@@ -35,7 +36,10 @@ int main(int argc, char** argv) {
   const auto plan = oriel::plan(*pack.value, table, graph, found, 20000);
   const auto coarse = oriel::generalise(*solid.value, segmentation, table, found, plan);
   if (!coarse.value || !oriel::is_closed(coarse.value->solid)) return 1;
-  const auto labelled = oriel::annotate(building, segmentation, table, graph, found, *pack.value);
+  const auto surfaces =
+      oriel::describe_surfaces(building, {}, {&*solid.value, &segmentation, &table});
+  const auto labelled =
+      oriel::annotate(building, segmentation, table, graph, surfaces, found, *pack.value);
   const std::string text = oriel::write_cityjson(*record->value, {labelled});
 
   std::printf("oriel %s: %d windows, %zu facets of %zu left, %zu bytes\n", oriel::kVersion,

@@ -1,5 +1,6 @@
 #include "interpret/annotate.h"
 
+#include "kernel/describe/surfaces.h"
 #include "kernel/model/version.h"
 #include "tests/interpret/support.h"
 
@@ -55,11 +56,16 @@ class House {
     return id;
   }
 
+  [[nodiscard]] SurfaceTable surfaces() const {
+    const FeatureTable features = scene.table();
+    return describe_surfaces(building, {}, {nullptr, &segmentation, &features});
+  }
+
   [[nodiscard]] LabelledBuilding annotated(const AnnotateOptions& options = {}) const {
     const auto residential = load_pack_file("residential");
     REQUIRE(residential.value);
-    return annotate(building, segmentation, scene.table(), scene.graph(), interpretation,
-                    *residential.value, options);
+    return annotate(building, segmentation, scene.table(), scene.graph(), surfaces(),
+                    interpretation, *residential.value, options);
   }
 
   Building building;
@@ -282,8 +288,9 @@ TEST_SUITE("interpret") {
     House h = house();
     const std::vector<int> window = add_recess(h, 2, 2);
     h.add_feature("roof_window", Sense::hole, 0.1, window, {2});
-    const LabelledBuilding labelled = annotate(h.building, h.segmentation, h.scene.table(),
-                                               h.scene.graph(), h.interpretation, base);
+    const LabelledBuilding labelled =
+        annotate(h.building, h.segmentation, h.scene.table(), h.scene.graph(), h.surfaces(),
+                 h.interpretation, base);
     const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(window[0])];
     const SemanticSurface& pane = labelled.surfaces[static_cast<std::size_t>(surface)];
     CHECK(pane.type == "Window");

@@ -1,0 +1,193 @@
+#include "interpret/surfaces.h"
+
+#include "interpret/detail/evaluator.h"
+#include "interpret/detail/facts.h"
+#include "interpret/detail/names.h"
+#include "interpret/detail/surface_rules.h"
+#include "kernel/model/polygon_owners.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::Frame;
+using rules::HostKind;
+using rules::kBlock;
+using rules::Pack;
+using rules::SurfaceRule;
+using rules::SurfaceRules;
+using rules::Truth;
+
+/// What faces that look up are on a part of that label, or null if nothing is said.
+const std::string* top_of(const Pack& pack, const std::string& label) {
+  for (rules::ClassId id = rules::index_of(pack.classes, label); id != rules::kNoClass;
+       id = pack.classes[static_cast<std::size_t>(id)].parent)
+    if (const auto& emission = pack.classes[static_cast<std::size_t>(id)].emission)
+      return &emission->top;
+  return nullptr;
+}
+
+std::string top_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
+  if (const std::string* top = top_of(pack, table.text(row, "part"))) return *top;
+  const auto host = table.number(row, "host_inclination");
+  const bool is_in_wall = host && rules::kind_of_facet(pack.hosts, *host) == HostKind::wall;
+  return is_in_wall && table.text(row, "sense") == "hole" ? "OuterFloorSurface" : "RoofSurface";
+}
+
+std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
+  const auto inclination = table.number(row, "inclination");
+  if (!inclination) return "WallSurface";
+  switch (rules::kind_of_facet(pack.hosts, *inclination)) {
+    case HostKind::roof:
+      return top_by_default(pack, table, row);
+    case HostKind::ground:
+      return table.number(row, "height").value_or(0) <= pack.hosts.ground_reach_m
+                 ? "GroundSurface"
+                 : "OuterCeilingSurface";
+    default:
+      return "WallSurface";
+  }
+}
+
+/// For each row the first rule that holds, or -1.
+std::vector<int> deciding_rules(const SurfaceRules& surfaces, const SurfaceTable& table) {
+  const rules::Facts facts(surfaces.pack, table);
+  rules::Evaluator evaluator(surfaces.pack, facts);
+  std::vector<int> deciding(table.rows(), -1);
+  std::array<Truth, kBlock> open, holds, answer;
+  for (std::size_t begin = 0; begin < table.rows(); begin += kBlock) {
+    Frame frame;
+    frame.size = std::min(kBlock, table.rows() - begin);
+    frame.rows[0] = facts.row_numbers.data() + begin;
+    std::fill_n(open.begin(), frame.size, Truth::yes);
+    for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
+      holds = open;
+      frame.needed = holds.data();
+      for (const rules::ExprId id : surfaces.rules[r].when) {
+        evaluator.truths(id, frame, std::span(answer).first(frame.size));
+        for (std::size_t i = 0; i < frame.size; ++i) holds[i] = std::min(holds[i], answer[i]);
+      }
+      for (std::size_t i = 0; i < frame.size; ++i) {
+        if (open[i] != Truth::yes || holds[i] != Truth::yes) continue;
+        deciding[begin + i] = static_cast<int>(r);
+        open[i] = Truth::no;
+      }
+    }
+  }
+  return deciding;
+}
+
+std::string shown(const Attribute& attribute, double value) {
+  if (attribute.unit == Unit::yes_no) return value != 0 ? "yes" : "no";
+  const std::string_view suffix = suffix_of(attribute.unit);
+  return fmt::format("{:.2f}{}{}", value, suffix.empty() ? "" : " ", suffix);
+}
+
+std::string attribute_lines(const SurfaceTable& table, std::size_t row) {
+  std::string text;
+  for (const Attribute& attribute : surface_schema()) {
+    std::string value = "?";
+    if (attribute.unit == Unit::text) {
+      if (const auto& word = table.text(row, attribute.name); !word.empty()) value = word;
+    } else if (const auto number = table.number(row, attribute.name)) {
+      value = shown(attribute, *number);
+    }
+    text += fmt::format("  {:<17} {:>12}   {}\n", attribute.name, value, attribute.meaning);
+  }
+  return text;
+}
+
+/// The place of an expression as messages show it.
+std::string place_of(const Pack& pack, rules::Span span) {
+  const Place place = pack.source.place(span.begin);
+  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, std::size_t row,
+                       int last) {
+  const rules::Facts facts(surfaces.pack, table);
+  rules::Evaluator evaluator(surfaces.pack, facts);
+  const int number = static_cast<int>(row);
+  Frame frame;
+  frame.size = 1;
+  frame.rows[0] = &number;
+  std::string text;
+  for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
+    const SurfaceRule& rule = surfaces.rules[r];
+    text += fmt::format("  {} -> {}\n", rule.id, rule.type);
+    for (const rules::ExprId id : rule.when) {
+      Truth truth = Truth::unknown;
+      evaluator.truths(id, frame, std::span(&truth, 1));
+      const char* outcome = truth == Truth::yes  ? "holds"
+                            : truth == Truth::no ? "fails"
+                                                 : "unknown";
+      const rules::Span span = surfaces.pack.code[static_cast<std::size_t>(id)].span;
+      text += fmt::format("    {:<8} {}   {}\n", outcome, surfaces.pack.source.text_of(span),
+                          place_of(surfaces.pack, span));
+    }
+    if (static_cast<int>(r) == last) break;
+  }
+  return text;
+}
+
+}  // namespace
+
+SurfaceTable with_parts(SurfaceTable table, const Building& building,
+                        const Segmentation& segmentation, const Interpretation& interpretation,
+                        const RuleBase& base) {
+  if (interpretation.verdicts.empty()) return table;
+  std::size_t polygons = 0;
+  for (const Polygon& polygon : building.polygons)
+    polygons = std::max(polygons, static_cast<std::size_t>(polygon.source) + 1);
+  const auto owners = polygon_owners(segmentation, polygons);
+  for (std::size_t row = 0; row < building.polygons.size(); ++row) {
+    const std::string* part = nullptr;
+    for (const int f : owners[static_cast<std::size_t>(building.polygons[row].source)]) {
+      const std::string& label = interpretation.verdicts[static_cast<std::size_t>(f)].label;
+      const bool is_emitted = top_of(base.pack(), label) != nullptr;
+      if (!label.empty() && (part == nullptr || is_emitted)) part = &label;
+      if (is_emitted) break;
+    }
+    if (part != nullptr) table.set(row, "part", *part);
+  }
+  return table;
+}
+
+std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table) {
+  const Pack& pack = base.pack();
+  std::vector<int> deciding(table.rows(), -1);
+  if (pack.surfaces) deciding = deciding_rules(*pack.surfaces, table);
+  std::vector<SurfaceVerdict> verdicts;
+  verdicts.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (deciding[row] < 0) {
+      verdicts.push_back({type_by_default(pack, table, row), ""});
+      continue;
+    }
+    const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding[row])];
+    verdicts.push_back({rule.type, rule.id});
+  }
+  return verdicts;
+}
+
+std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
+  const Pack& pack = base.pack();
+  int deciding = -1;
+  if (pack.surfaces) deciding = deciding_rules(*pack.surfaces, table)[row];
+  std::string rule = "hosts", type = type_by_default(pack, table, row);
+  if (deciding >= 0) {
+    rule = pack.surfaces->rules[static_cast<std::size_t>(deciding)].id;
+    type = pack.surfaces->rules[static_cast<std::size_t>(deciding)].type;
+  }
+  std::string text = fmt::format("{} by {}\n", type, rule) + attribute_lines(table, row);
+  if (pack.surfaces) text += rule_lines(*pack.surfaces, table, row, deciding);
+  return text;
+}
+
+}  // namespace oriel

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "interpret/rule_base.h"
+#include "kernel/model/building.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/surface_table.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// What a surface is.
+struct SurfaceVerdict {
+  /// WallSurface, RoofSurface, GroundSurface, OuterCeilingSurface, OuterFloorSurface or
+  /// ClosureSurface.
+  std::string type;
+  /// The entry of `surfaces:` that said so; empty: `hosts:` and `emit:` did.
+  std::string rule;
+};
+
+/// The table with its column `part`: the label of the smallest feature that lists the polygon and
+/// has a label that `emit:` writes; if none has, the smallest that has a label.
+SurfaceTable with_parts(SurfaceTable table, const Building& building,
+                        const Segmentation& segmentation, const Interpretation& interpretation,
+                        const RuleBase& base);
+
+/// Names every surface of a table, in its order. The first entry of the pack's `surfaces:` whose
+/// conditions all hold decides; a condition on a missing value does not hold. Where none does, the
+/// inclination decides by `hosts:`: walls, and what has no inclination, are WallSurface; what looks
+/// up is the `top` of its part (emit:), OuterFloorSurface in a recess of a wall, else RoofSurface;
+/// what looks down is GroundSurface within `ground_reach` of the lowest point, else
+/// OuterCeilingSurface.
+std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table);
+
+/// Why a surface is what it is, for a reader at a terminal: its attributes, then every entry of
+/// `surfaces:` up to the one that decided with what came of its conditions and where they stand.
+std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row);
+
+}  // namespace oriel

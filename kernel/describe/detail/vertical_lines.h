@@ -1,0 +1,38 @@
+#pragma once
+
+#include "kernel/describe/detail/plan_figure.h"
+#include "kernel/describe/detail/surface_faces.h"
+
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Where a vertical line meets a face.
+struct Crossing {
+  double z = 0;
+  int face = -1;
+};
+
+/// What lies straight above and below points: the faces that are not steep, in a grid seen from
+/// above. Refers to the faces, which must outlive it.
+class VerticalLines {
+ public:
+  explicit VerticalLines(std::span<const SurfaceFace> faces);
+
+  /// All crossings of the vertical line through `point`, from below; of equal heights by number.
+  [[nodiscard]] std::vector<Crossing> at(Vec3 point) const;
+
+ private:
+  [[nodiscard]] int column_of(double x) const;
+  [[nodiscard]] int row_of(double y) const;
+
+  std::span<const SurfaceFace> faces_;
+  std::vector<PlanFigure> figures_;
+  Box box_;
+  int side_ = 1;
+  /// The faces whose box touches a cell, row by row.
+  std::vector<std::vector<int>> cells_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,261 @@
+#include "kernel/describe/surfaces.h"
+
+#include "kernel/describe/detail/shape.h"
+#include "kernel/describe/detail/surface_faces.h"
+#include "kernel/describe/detail/vertical_lines.h"
+#include "kernel/model/polygon_owners.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+using detail::Crossing;
+using detail::SurfaceFace;
+
+/// Within this of level a normal has no azimuth, as for features.
+constexpr double kLevel_deg = 0.5;
+/// How far beyond the outline, and above or below the surface, is looked for the building: more
+/// than the millimetres that polygons are out of plane, less than a wall is thick.
+constexpr double kProbe_m = 0.05;
+/// From this share of the area on, the polygons that agree speak for all.
+constexpr double kMajority = 0.75;
+
+/// Where on an edge is looked, as shares of it.
+constexpr std::array<double, 3> kProbes = {1.0 / 6, 0.5, 5.0 / 6};
+
+/// Which side of a face is the outer one, and what says so.
+struct Facing {
+  bool is_turned = false;
+  const char* source = "input";
+};
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Surveyor {
+ public:
+  Surveyor(const std::vector<SurfaceFace>& faces, const Tolerances& tolerances)
+      : faces_(faces),
+        tolerances_(tolerances),
+        lines_(faces),
+        facings_(faces.size()),
+        table_(faces.size()) {
+    for (const SurfaceFace& face : faces) box_.grow(face.box);
+  }
+
+  /// Sides that are known.
+  void set_facing(std::size_t row, Facing facing) { facings_[row] = facing; }
+  /// Judges those of the others.
+  void judge_facing(const std::vector<bool>& is_known);
+  SurfaceTable survey();
+
+ private:
+  [[nodiscard]] Vec3 outward(std::size_t row) const {
+    return facings_[row].is_turned ? -faces_[row].normal : faces_[row].normal;
+  }
+  [[nodiscard]] std::optional<bool> looks_up_by_position(const SurfaceFace& face) const;
+  void measure(std::size_t row);
+  void measure_gaps(std::size_t row);
+  void measure_surroundings(std::size_t row);
+  [[nodiscard]] bool is_in_building(Vec3 point) const;
+
+  const std::vector<SurfaceFace>& faces_;
+  const Tolerances& tolerances_;
+  detail::VerticalLines lines_;
+  std::vector<Facing> facings_;
+  Box box_;
+  SurfaceTable table_;
+};
+
+/// The topmost surface looks up and the lowest one down. Between them each surface that a line
+/// meets changes between air and material, if it meets an even number of them in all; else
+/// something is missing or overhangs, and the line says nothing.
+std::optional<bool> Surveyor::looks_up_by_position(const SurfaceFace& face) const {
+  std::ptrdiff_t above = 0, below = 0;
+  for (const Crossing& c : lines_.at(face.middle)) {
+    if (c.z > face.middle.z + tolerances_.weld_m) ++above;
+    if (c.z < face.middle.z - tolerances_.weld_m) ++below;
+  }
+  if (above == 0 && below == 0) return std::nullopt;
+  if (above == 0 || below == 0) return above == 0;
+  if ((above + below) % 2 == 0) return std::nullopt;
+  return above % 2 == 0;
+}
+
+void Surveyor::judge_facing(const std::vector<bool>& is_known) {
+  double agree_m2 = 0, all_m2 = 0;
+  std::vector<bool> is_told(faces_.size(), false), is_against(faces_.size(), false);
+  for (std::size_t row = 0; row < faces_.size(); ++row) {
+    const SurfaceFace& face = faces_[row];
+    if (is_known[row] || face.is_steep()) continue;
+    const auto looks_up = looks_up_by_position(face);
+    if (!looks_up) continue;
+    is_against[row] = *looks_up != (face.normal.z > 0);
+    is_told[row] = true;
+    all_m2 += face.area_m2;
+    if (!is_against[row]) agree_m2 += face.area_m2;
+  }
+  const bool is_as_given = agree_m2 >= kMajority * all_m2;
+  const bool is_all_turned = !is_as_given && agree_m2 <= (1 - kMajority) * all_m2;
+  for (std::size_t row = 0; row < faces_.size(); ++row) {
+    if (is_known[row]) continue;
+    if (is_as_given)
+      facings_[row] = {false, "input"};
+    else if (is_all_turned)
+      facings_[row] = {true, "position"};
+    else if (!is_told[row])
+      facings_[row] = {false, "input"};
+    else
+      facings_[row] = {is_against[row], "position"};
+  }
+}
+
+SurfaceTable Surveyor::survey() {
+  for (std::size_t row = 0; row < faces_.size(); ++row) measure(row);
+  return std::move(table_);
+}
+
+void Surveyor::measure(std::size_t row) {
+  const SurfaceFace& face = faces_[row];
+  table_.set(row, "area", face.area_m2);
+  table_.set(row, "facing", std::string(facings_[row].source));
+  if (!face.box.is_empty()) {
+    table_.set(row, "height", face.box.min.z - box_.min.z);
+    table_.set(row, "top", face.box.max.z - box_.min.z);
+    table_.set(row, "below_ridge", box_.max.z - face.box.max.z);
+  }
+  if (face.normal == Vec3{}) return;
+  const Vec3 normal = outward(row);
+  const double inclination = detail::inclination_deg(normal);
+  table_.set(row, "inclination", inclination);
+  if (std::min(inclination, 180 - inclination) > kLevel_deg) {
+    const double azimuth = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi;
+    table_.set(row, "azimuth", azimuth < 0 ? azimuth + 360 : azimuth);
+  }
+  const detail::Sides sides = detail::sides_of(face);
+  table_.set(row, "a", sides.a_m);
+  table_.set(row, "b", sides.b_m);
+  measure_gaps(row);
+  if (!face.is_steep()) measure_surroundings(row);
+}
+
+void Surveyor::measure_gaps(std::size_t row) {
+  const double z = faces_[row].middle.z;
+  for (const Crossing& c : lines_.at(faces_[row].middle)) {
+    if (c.z < z - tolerances_.weld_m) table_.set(row, "gap_below", z - c.z);
+    if (c.z <= z + tolerances_.weld_m) continue;
+    table_.set(row, "gap_above", c.z - z);
+    return;
+  }
+}
+
+/// Material lies there if one leaves it through a surface that looks up, and entered it through one
+/// that looks down: an overhang of one sheet makes no material of the air below it.
+bool Surveyor::is_in_building(Vec3 point) const {
+  const auto crossings = lines_.at(point);
+  const auto above =
+      std::ranges::find_if(crossings, [&](const Crossing& c) { return c.z > point.z; });
+  if (above == crossings.end() || above == crossings.begin()) return false;
+  return outward(at(above->face)).z > 0 && outward(at(std::prev(above)->face)).z < 0;
+}
+
+void Surveyor::measure_surroundings(std::size_t row) {
+  const SurfaceFace& face = faces_[row];
+  const detail::Outline& outline = face.outlines[0];
+  double all_m = 0, up_m = 0, down_m = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec3 from = outline[i], edge = outline[(i + 1) % outline.size()] - from;
+    Vec3 out = cross(edge, face.normal);
+    out.z = 0;
+    out = normalised(out);
+    const double share_m = length(edge) / static_cast<double>(kProbes.size());
+    for (const double t : kProbes) {
+      const Vec3 beyond = from + t * edge + kProbe_m * out;
+      all_m += share_m;
+      if (is_in_building(beyond + Vec3{0, 0, kProbe_m})) up_m += share_m;
+      if (is_in_building(beyond - Vec3{0, 0, kProbe_m})) down_m += share_m;
+    }
+  }
+  if (!(all_m > 0)) return;
+  table_.set(row, "wall_up", up_m / all_m);
+  table_.set(row, "wall_down", down_m / all_m);
+}
+
+/// The rows of polygons by their numbers.
+std::vector<int> rows_by_source(const Building& building) {
+  std::vector<int> rows;
+  for (std::size_t row = 0; row < building.polygons.size(); ++row) {
+    const int source = building.polygons[row].source;
+    if (source < 0) continue;
+    if (at(source) >= rows.size()) rows.resize(at(source) + 1, -1);
+    rows[at(source)] = static_cast<int>(row);
+  }
+  return rows;
+}
+
+/// A polygon looks where the solid's facet looks that it lies in.
+std::vector<bool> take_facing(const Solid& solid, const std::vector<SurfaceFace>& faces,
+                              const std::vector<int>& rows, Surveyor& surveyor) {
+  std::vector<bool> is_known(faces.size(), false);
+  for (const Facet& facet : solid.facets) {
+    const Vec3 normal = solid.planes[facet.plane.index()].normal;
+    for (const int source : facet.polygons) {
+      if (source < 0 || at(source) >= rows.size() || rows[at(source)] < 0) continue;
+      const std::size_t row = at(rows[at(source)]);
+      surveyor.set_facing(row, {dot(faces[row].normal, normal) < 0, "solid"});
+      is_known[row] = true;
+    }
+  }
+  return is_known;
+}
+
+/// The smallest feature that lists each polygon.
+void add_features(const SurfaceContext& context, const Building& building, std::size_t polygons,
+                  SurfaceTable& table) {
+  const auto owners = polygon_owners(*context.segmentation, polygons);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const int source = building.polygons[row].source;
+    if (source < 0 || owners[at(source)].empty()) continue;
+    const FeatureId innermost{owners[at(source)].front()};
+    table.set(row, "sense", to_string(context.segmentation->features[innermost.index()].sense));
+    if (const auto host = context.features->number(innermost, "host_inclination"))
+      table.set(row, "host_inclination", *host);
+  }
+}
+
+}  // namespace
+
+SurfaceTable describe_surfaces(const Building& building, const Tolerances& tolerances,
+                               const SurfaceContext& context) {
+  const auto faces = detail::faces_of(building);
+  const auto rows = rows_by_source(building);
+  Surveyor surveyor(faces, tolerances);
+  std::vector<bool> is_known(faces.size(), false);
+  if (context.solid != nullptr) is_known = take_facing(*context.solid, faces, rows, surveyor);
+  surveyor.judge_facing(is_known);
+  SurfaceTable table = surveyor.survey();
+  for (std::size_t row = 0; row < table.rows(); ++row) table.set(row, "synthetic", 0.0);
+  if (context.segmentation != nullptr && context.features != nullptr)
+    add_features(context, building, rows.size(), table);
+  return table;
+}
+
+SurfaceTable describe_facets(const Solid& solid, const Tolerances& tolerances) {
+  const auto faces = detail::faces_of(solid);
+  Surveyor surveyor(faces, tolerances);
+  for (std::size_t row = 0; row < faces.size(); ++row) surveyor.set_facing(row, {false, "solid"});
+  SurfaceTable table = surveyor.survey();
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    table.set(row, "synthetic", solid.facets[row].polygons.empty() ? 1.0 : 0.0);
+  return table;
+}
+
+}  // namespace oriel

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/surface_table.h"
+#include "kernel/model/tolerances.h"
+
+namespace oriel {
+
+/// What is known of a building besides its polygons; each may be null.
+struct SurfaceContext {
+  /// The solid that the polygons became: it says which side of a polygon is the outer one.
+  const Solid* solid = nullptr;
+  /// The features, both or none: which of them a polygon belongs to.
+  const Segmentation* segmentation = nullptr;
+  const FeatureTable* features = nullptr;
+};
+
+/// Fills every attribute of surface_schema() that can be told without rules (all but `part`) for
+/// every polygon of the building, whether it is closed or not: row = position in
+/// Building::polygons.
+///
+/// The outer side of a polygon is that of the solid's facet it lies in. Without one it is told from
+/// what lies straight above and below: the topmost surface looks up, the lowest one down, and
+/// between them air and material take turns. If the polygons of which that can be said lie as their
+/// corners say with three quarters of their area, all are taken as they are; if three quarters lie
+/// the other way round, all are turned; else each as it is said of it, the others as they are.
+/// docs/describe.md#surfaces says how the rest is measured.
+SurfaceTable describe_surfaces(const Building& building, const Tolerances& tolerances = {},
+                               const SurfaceContext& context = {});
+
+/// The same for the facets of a solid: row = FacetId. A facet without input polygons is synthetic.
+SurfaceTable describe_facets(const Solid& solid, const Tolerances& tolerances = {});
+
+}  // namespace oriel
