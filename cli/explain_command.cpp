@@ -1,7 +1,9 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "interpret/explain.h"
+#include "interpret/surfaces.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@ namespace {
 struct Arguments : LineArguments {
   std::string feature;
   std::string rules = "residential";
+  int surface = -1;
   bool is_json = false;
 };
 
@@ -25,7 +28,38 @@ std::vector<FeatureId> matches(const FeatureTable& table, const std::string& wan
   return found;
 }
 
+/// The surface of that number in every building that has one.
+ExitCode explain_surfaces(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  Run run(arguments, &*rules, report);
+  std::string text;
+  Run::Visitor visitor;
+  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Building& building = document.buildings[i];
+      const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
+      if (!lines[i].has_surfaces() || found == building.polygons.end()) continue;
+      const SurfaceTable table =
+          with_parts(lines[i].surfaces, building, lines[i].segmentation.value_or(Segmentation{}),
+                     lines[i].interpretation, *rules);
+      text += fmt::format("{}: polygon {} is ", building.id, arguments.surface) +
+              explain_surface(*rules, table,
+                              static_cast<std::size_t>(found - building.polygons.begin()));
+    }
+  };
+  const ExitCode code = run.go(visitor);
+  if (text.empty() && code != ExitCode::input)
+    throw CLI::ValidationError("--surface",
+                               fmt::format("there is no polygon {}", arguments.surface));
+  std::fputs(text.c_str(), stdout);
+  return code;
+}
+
 ExitCode work(const Arguments& arguments) {
+  if (arguments.surface >= 0) return explain_surfaces(arguments);
+  if (arguments.feature.empty()) throw CLI::RequiredError("feature");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -75,8 +109,13 @@ void add_explain(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "explain", "Say why a feature has its label: every condition with its value and its bound");
   add_line_arguments(*command, *arguments, false);
-  command->add_option("feature", arguments->feature, "Id of a feature, or the beginning of one")
-      ->required();
+  auto* feature = command->add_option("feature", arguments->feature,
+                                      "Id of a feature, or the beginning of one");
+  command
+      ->add_option("--surface", arguments->surface,
+                   "Instead: the number of a polygon, to say what surface it is and why")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(feature);
   add_rules_argument(*command, arguments->rules);
   command->add_flag("--json", arguments->is_json, "As JSON");
   command->footer(

@@ -1,5 +1,8 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
+#include "interpret/surface_score.h"
+
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -7,7 +10,17 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LabelArguments {};
+struct Arguments : LabelArguments {
+  std::string existing = "fill";
+  bool is_json = false;
+
+  [[nodiscard]] WriteOptions write_options() const {
+    WriteOptions options;
+    if (existing == "keep") options.existing = ExistingSemantics::keep;
+    if (existing == "replace") options.existing = ExistingSemantics::replace;
+    return options;
+  }
+};
 
 /// The labelled features of a building for a reader at a terminal.
 std::string listing(const Building& building, const OnLine& line) {
@@ -29,7 +42,40 @@ std::string listing(const Building& building, const OnLine& line) {
                      line.interpretation.verdicts.size(), table(rows));
 }
 
+/// OBJ has groups and materials, which are no semantics.
+bool has_semantics(Format format) {
+  return format == Format::cityjson || format == Format::cityjson_seq || format == Format::citygml;
+}
+
+/// Says where the input's semantics and the rules disagree; nothing is written.
+ExitCode audit(const Arguments& arguments) {
+  if (!arguments.out.empty() || !arguments.features.empty())
+    throw CLI::ValidationError("--existing",
+                               "audit changes nothing: it goes without -o and --features");
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  Run run(arguments, &*rules, report);
+  SurfaceScore score;
+  Run::Visitor visitor;
+  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    if (!run.is_last_run() || !has_semantics(document.format)) return;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (lines[i].has_surfaces())
+        compare_surfaces(document.buildings[i], annotated(document.buildings[i], lines[i], *rules),
+                         lines[i].surfaces, OpeningPolicy::compare, score);
+  };
+  const ExitCode code = run.go(visitor);
+  const std::string text =
+      arguments.is_json ? to_json(score, true) + "\n" : differences_text(score) + to_text(score);
+  std::fputs(text.c_str(), stdout);
+  run.tell_summary("audited", {});
+  return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
+}
+
 ExitCode work(const Arguments& arguments) {
+  if (arguments.existing == "audit") return audit(arguments);
+  if (arguments.is_json) throw CLI::ValidationError("--json", "goes with --existing audit only");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -48,7 +94,7 @@ ExitCode work(const Arguments& arguments) {
         if (!outputs.has_any() && run.is_last_run())
           outputs.print(listing(document.buildings[i], lines[i]));
       }
-      outputs.add(document, labelled, {});
+      outputs.add(document, labelled, arguments.write_options());
     });
   };
   visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
@@ -65,6 +111,16 @@ void add_label(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "label", "Name the parts of buildings by rules and write the buildings with their labels");
   add_label_arguments(*command, *arguments);
+  command
+      ->add_option(
+          "--existing", arguments->existing,
+          "Semantics that are there: fill what has none, keep them untouched, replace them, "
+          "or audit: only say where the rules disagree")
+      ->check(CLI::IsMember({"fill", "keep", "replace", "audit"}))
+      ->capture_default_str();
+  command->add_flag("--ignore-semantics", arguments->ignores_semantics,
+                    "Do not look at what the input calls its polygons");
+  command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
       "Without -o and --features the labels are listed. Polygons are written as they came, never "
       "moved.\n"

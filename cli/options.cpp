@@ -27,9 +27,10 @@ SegmentOptions LineArguments::segment_options() const {
 
 std::string LineArguments::configuration() const {
   return fmt::format(
-      "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={}", lod,
-      order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
-      tolerances.value_rel, budget);
+             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={}",
+             lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
+             tolerances.value_rel, budget) +
+         (ignores_semantics ? " ignore_semantics" : "");
 }
 
 bool LineArguments::allows(int set_aside, int buildings) const {

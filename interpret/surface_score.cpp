@@ -10,16 +10,17 @@ namespace {
 
 bool is_opening(const std::string& type) { return type == "Window" || type == "Door"; }
 
-/// What we call a polygon: "" if nothing.
-std::string our_type(const LabelledBuilding& labelled, int polygon, OpeningPolicy policy) {
+/// What we call a polygon that they call `theirs`: "" if nothing.
+std::string our_type(const LabelledBuilding& labelled, int polygon, const std::string& theirs,
+                     OpeningPolicy policy) {
   const auto source = static_cast<std::size_t>(polygon);
   if (source >= labelled.surface_of_polygon.size()) return "";
   const int number = labelled.surface_of_polygon[source];
   if (number < 0) return "";
   const SemanticSurface& surface = labelled.surfaces[static_cast<std::size_t>(number)];
-  if (policy == OpeningPolicy::compare || !is_opening(surface.type) || surface.parent < 0)
-    return surface.type;
-  return labelled.surfaces[static_cast<std::size_t>(surface.parent)].type;
+  if (!is_opening(surface.type) || surface.parent < 0) return surface.type;
+  const std::string& around = labelled.surfaces[static_cast<std::size_t>(surface.parent)].type;
+  return policy == OpeningPolicy::as_host || around == theirs ? around : surface.type;
 }
 
 double ratio(double part, double whole) {
@@ -42,7 +43,7 @@ void compare_surfaces(const Building& building, const LabelledBuilding& labelled
       score.openings_m2 += area_m2;
       continue;
     }
-    const std::string ours = our_type(labelled, polygon.source, policy);
+    const std::string ours = our_type(labelled, polygon.source, polygon.hint, policy);
     score.area_m2[{polygon.hint, ours}] += area_m2;
     if (ours == polygon.hint) continue;
     const Box box = rules::box_of(building, polygon).moved(building.frame.origin_m);

@@ -47,11 +47,11 @@ struct SurfaceScore {
 };
 
 enum class OpeningPolicy {
-  /// Openings are compared as Window and Door.
+  /// Openings are compared as Window and Door; but what we call one agrees with the name of the
+  /// surface it lies in, too: reveals belong to the opening in our naming, to the wall in others'.
   compare,
   /// Polygons that they call Window or Door are left out (`score` of features compares those), and
-  /// what we call Window or Door counts as the surface it lies in: reveals belong to the opening in
-  /// our naming and to the wall in others'.
+  /// what we call Window or Door counts as the surface it lies in.
   as_host
 };
 
@@ -63,7 +63,11 @@ void compare_surfaces(const Building& building, const LabelledBuilding& labelled
 /// A table for a terminal: a line a type, what was taken for what, the share on which both agree.
 std::string to_text(const SurfaceScore& score);
 
-/// The same as one JSON object on one line, without the differences (docs/formats.md).
-std::string to_json(const SurfaceScore& score);
+/// The same as one JSON object on one line (docs/formats.md); `with_differences`: also each of
+/// them.
+std::string to_json(const SurfaceScore& score, bool with_differences = false);
+
+/// The differences as lines for a terminal, the largest area first; of equal areas in their order.
+std::string differences_text(const SurfaceScore& score);
 
 }  // namespace oriel

@@ -1,8 +1,11 @@
 #include "interpret/detail/json_text.h"
 #include "interpret/surface_score.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -57,7 +60,20 @@ std::string to_text(const SurfaceScore& score) {
   return text;
 }
 
-std::string to_json(const SurfaceScore& score) {
+std::string differences_text(const SurfaceScore& score) {
+  std::vector<const SurfaceDifference*> sorted;
+  for (const SurfaceDifference& d : score.differences) sorted.push_back(&d);
+  std::ranges::stable_sort(sorted, std::greater{}, &SurfaceDifference::area_m2);
+  std::string text;
+  for (const SurfaceDifference* d : sorted)
+    text += fmt::format(
+        "{}: polygon {} is {}, by the rules {}: {:.2f} m2 at ({:.3f}, {:.3f}, {:.3f})\n",
+        d->building, d->polygon, d->theirs, d->ours.empty() ? "nothing" : d->ours, d->area_m2,
+        d->place.x, d->place.y, d->place.z);
+  return text;
+}
+
+std::string to_json(const SurfaceScore& score, bool with_differences) {
   std::string classes, confusion;
   for (const std::string& type : types_of(score)) {
     const auto [theirs, ours] = areas_of(score, type);
@@ -71,10 +87,20 @@ std::string to_json(const SurfaceScore& score) {
     confusion += fmt::format(R"({}{{"theirs":{},"ours":{},"area_m2":{}}})",
                              confusion.empty() ? "" : ",", rules::json_string(pair.first),
                              rules::json_string(pair.second), rules::json_number(area));
-  return fmt::format(
-      R"({{"surfaces":{{{}}},"agreement":{},"polygons":{},"openings_m2":{},"unnamed_m2":{},"confusion":[{}]}})",
+  std::string differences;
+  for (const SurfaceDifference& d : score.differences)
+    differences += fmt::format(
+        R"({}{{"building":{},"polygon":{},"theirs":{},"ours":{},"area_m2":{},"place":[{},{},{}]}})",
+        differences.empty() ? "" : ",", rules::json_string(d.building), d.polygon,
+        rules::json_string(d.theirs), rules::json_string(d.ours), rules::json_number(d.area_m2),
+        rules::json_number(d.place.x), rules::json_number(d.place.y),
+        rules::json_number(d.place.z));
+  std::string text = fmt::format(
+      R"({{"surfaces":{{{}}},"agreement":{},"polygons":{},"openings_m2":{},"unnamed_m2":{},"confusion":[{}])",
       classes, rules::json_number(score.agreement()), score.polygons,
       rules::json_number(score.openings_m2), rules::json_number(score.unnamed_m2), confusion);
+  if (with_differences) text += fmt::format(R"(,"differences":[{}])", differences);
+  return text + "}";
 }
 
 }  // namespace oriel

@@ -79,8 +79,10 @@ bool remove_ids(RawNode& node, std::string_view key, const std::unordered_set<st
 
 class CityJsonWriter {
  public:
-  CityJsonWriter(const detail::CityJsonSource& source, const Document& document)
-      : source_(source),
+  CityJsonWriter(const detail::CityJsonSource& source, const Document& document,
+                 ExistingSemantics existing)
+      : existing_(existing),
+        source_(source),
         document_(document),
         root_(root_of(source.text)),
         objects_(root_.value_of("CityObjects")) {
@@ -148,15 +150,18 @@ class CityJsonWriter {
 
   /// Adds the labels to a geometry that stays. Returns the texts of its polygons if an installation
   /// shares them.
-  static std::vector<std::string> fill_geometry(RawNode& geometry,
-                                                const LabelledBuilding& labelled) {
+  [[nodiscard]] std::vector<std::string> fill_geometry(RawNode& geometry,
+                                                       const LabelledBuilding& labelled) const {
     const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
     auto [shape, polygons] = detail::geometry_of(geometry.value_of("boundaries"), kind->depth,
                                                  !labelled.installations.empty());
-    const std::string_view existing = geometry.value_of("semantics");
+    const std::string_view there = geometry.value_of("semantics");
+    const std::string_view existing =
+        existing_ == ExistingSemantics::replace ? std::string_view() : there;
     std::string semantics =
-        detail::filled_semantics(existing, shape, labelled.surface_of_polygon, labelled.surfaces);
-    if (semantics != existing) geometry.set("semantics", std::move(semantics));
+        detail::filled_semantics(existing, shape, labelled.surface_of_polygon, labelled.surfaces,
+                                 existing_ == ExistingSemantics::keep);
+    if (semantics != there) geometry.set("semantics", std::move(semantics));
     return std::move(polygons);
   }
 
@@ -254,6 +259,7 @@ class CityJsonWriter {
     root_.set("transform", transform.text());
   }
 
+  ExistingSemantics existing_;
   const detail::CityJsonSource& source_;
   const Document& document_;
   RawNode root_;
@@ -273,9 +279,10 @@ std::string write_cityjson(const Document& document, const std::vector<LabelledB
                            const WriteOptions& options) {
   if (!document.source && document.format == Format::citygml) return {};
   if (document.source)
-    return CityJsonWriter(*document.source, document).write(labelled, options.removed);
+    return CityJsonWriter(*document.source, document, options.existing)
+        .write(labelled, options.removed);
   const detail::CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
-  return CityJsonWriter(fresh, document).write(labelled, options.removed);
+  return CityJsonWriter(fresh, document, options.existing).write(labelled, options.removed);
 }
 
 }  // namespace oriel

@@ -8,8 +8,20 @@
 
 namespace oriel {
 
+/// What becomes of semantic surfaces that the chosen geometry has already.
+enum class ExistingSemantics {
+  /// They stay, and polygons without one get ours. A wall that is there gains the openings we found
+  /// in it as `children`.
+  fill,
+  /// The same, but nothing that is there changes: openings in its walls have no `parent`.
+  keep,
+  /// Ours take their place.
+  replace
+};
+
 /// What to write besides the labels.
 struct WriteOptions {
+  ExistingSemantics existing = ExistingSemantics::fill;
   /// Ids of CityObjects to leave out, such as installations that were generalised away. They also
   /// leave the `children` and `parents` of all other objects.
   std::vector<std::string> removed;

@@ -76,8 +76,8 @@ std::string nested_values(const std::vector<int>& flat, const GeometryShape& sha
 class Filling {
  public:
   Filling(std::string_view existing, const GeometryShape& shape,
-          const std::vector<SemanticSurface>& surfaces)
-      : shape_(shape), surfaces_(surfaces), number_of_(surfaces.size(), -1) {
+          const std::vector<SemanticSurface>& surfaces, bool is_kept)
+      : shape_(shape), surfaces_(surfaces), is_kept_(is_kept), number_of_(surfaces.size(), -1) {
     if (!RawNode::is_object(existing)) return;
     const RawNode semantics(existing);
     existing_ = elements_of(semantics.value_of("surfaces"));
@@ -144,7 +144,7 @@ class Filling {
   void link_parents(std::span<const int> wanted) {
     std::vector<int> instead(surfaces_.size(), -1);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (is_surface(wanted[i]) && flat_[i] >= 0 && instead[index(wanted[i])] < 0 &&
+      if (!is_kept_ && is_surface(wanted[i]) && flat_[i] >= 0 && instead[index(wanted[i])] < 0 &&
           !is_opening(flat_[i]))
         instead[index(wanted[i])] = flat_[i];
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
@@ -189,6 +189,7 @@ class Filling {
 
   const GeometryShape& shape_;
   const std::vector<SemanticSurface>& surfaces_;
+  bool is_kept_;
   std::vector<std::string_view> existing_;
   /// The surface of each polygon in the output's numbers, -1 for none.
   std::vector<int> flat_;
@@ -209,8 +210,8 @@ void append_members(std::string& out, const Members& members) {
 
 std::string filled_semantics(std::string_view existing, const GeometryShape& shape,
                              std::span<const int> surface_of_polygon,
-                             const std::vector<SemanticSurface>& surfaces) {
-  Filling filling(existing, shape, surfaces);
+                             const std::vector<SemanticSurface>& surfaces, bool is_kept) {
+  Filling filling(existing, shape, surfaces, is_kept);
   if (!filling.fill(surface_of_polygon)) return std::string(existing);
   RawNode semantics(RawNode::is_object(existing) ? existing : "{}");
   semantics.set("surfaces", filling.surfaces_text());
