@@ -48,6 +48,13 @@ Role role_of(const rules::Pack& pack, const std::string& label) {
 /// Four digits are enough to compare and keep the files short.
 double rounded(double score) { return std::round(score * 1e4) / 1e4; }
 
+/// Ids of groups, joined by ';' as in feature records: members are flat.
+std::string joined(const std::vector<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "" : ";") + id;
+  return text;
+}
+
 class Annotator {
  public:
   Annotator(const Building& building, const Segmentation& segmentation, const FeatureTable& table,
@@ -204,6 +211,7 @@ Members Annotator::members_of(int feature) const {
   if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
   members.emplace_back("oriel_score", rounded(verdict.score));
   members.emplace_back("oriel_rule", verdict.rule);
+  if (!verdict.groups.empty()) members.emplace_back("oriel_groups", joined(verdict.groups));
   return members;
 }
 

@@ -51,6 +51,13 @@ RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, P
   return report;
 }
 
+RoundReport round_report(const Pack& pack, const rules::Choice& choice) {
+  if (choice.rule < 0) return {};
+  const Rule& rule = pack.rules[static_cast<std::size_t>(choice.rule)];
+  const rules::Class& label = pack.classes[static_cast<std::size_t>(rule.label)];
+  return {label.name, choice.score, choice.margin, rule.id};
+}
+
 bool is_better(const RuleReport& p, const RuleReport& q) {
   if (p.priority != q.priority) return p.priority > q.priority;
   return p.score != q.score ? p.score > q.score : p.id < q.id;
@@ -71,7 +78,8 @@ Explanation explain(const RuleBase& base, const FeatureTable& table, const Featu
                     const Interpretation& interpretation, FeatureId feature) {
   const Pack& pack = base.pack();
   rules::Facts facts(pack, table, graph);
-  rules::Labelling(pack, facts).run();
+  rules::Labelling labelling(pack, facts);
+  labelling.run();
   Evaluator evaluator(pack, facts);
   Prover prover(pack, table, evaluator, feature.value);
   Explanation explanation;
@@ -81,6 +89,8 @@ Explanation explain(const RuleBase& base, const FeatureTable& table, const Featu
   explanation.min_score = pack.decide.min_score;
   for (const Rule& rule : pack.rules)
     explanation.rules.push_back(report_of(pack, rule, evaluator, prover));
+  for (const auto& round : labelling.rounds())
+    explanation.rounds.push_back(round_report(pack, round[feature.index()]));
   explanation.best = find_best(explanation.rules);
   return explanation;
 }

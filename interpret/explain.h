@@ -58,6 +58,15 @@ struct RuleReport {
   std::vector<TermReport> terms;
 };
 
+/// What one round of a pack with `iterate:` said of the feature.
+struct RoundReport {
+  /// Empty: unknown.
+  std::string label;
+  double score = 0;
+  double margin = 0;
+  std::string rule;
+};
+
 /// Why a feature has its label, or none: the whole proof, in the order of the pack.
 struct Explanation {
   std::string building;
@@ -67,6 +76,8 @@ struct Explanation {
   /// The rule that would be first if `min_score` were 0: an index into `rules`.
   std::optional<std::size_t> best;
   std::vector<RuleReport> rules;
+  /// Round by round; empty if the pack has no `iterate:`. `rules` are judged as in the last.
+  std::vector<RoundReport> rounds;
 };
 
 /// Runs the pack again over the building and judges every condition of every rule for `feature`,

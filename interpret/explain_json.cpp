@@ -76,6 +76,14 @@ std::string rule_json(const RuleReport& rule) {
   return fmt::format("{{{}}}", text);
 }
 
+std::string round_json(const RoundReport& round) {
+  std::string text = member("label", json_string(round.label));
+  text += next("score", json_number(round.score));
+  text += next("margin", json_number(round.margin));
+  text += next("rule", json_string(round.rule));
+  return fmt::format("{{{}}}", text);
+}
+
 }  // namespace
 
 std::string to_json(const Explanation& explanation) {
@@ -90,6 +98,7 @@ std::string to_json(const Explanation& explanation) {
   text += next("min_score", json_number(explanation.min_score));
   text += next("best",
                explanation.best ? json_string(explanation.rules[*explanation.best].id) : "null");
+  if (!explanation.rounds.empty()) text += next("rounds", list(explanation.rounds, round_json));
   text += next("rules", list(explanation.rules, rule_json));
   return fmt::format("{{{}}}", text);
 }

@@ -85,6 +85,12 @@ std::string headline(const Explanation& explanation) {
   return text;
 }
 
+std::string to_string(const RoundReport& round) {
+  if (round.label.empty()) return "unknown";
+  return fmt::format("{} {:.2f} by {}, margin {:.2f}", round.label, round.score, round.rule,
+                     round.margin);
+}
+
 void pad(std::string& text, std::size_t column) {
   text += std::string(text.size() < column ? column - text.size() : 1, ' ');
 }
@@ -105,6 +111,8 @@ std::string to_text(const Explanation& explanation) {
     columns[cell] = start;
   }
   std::string text = headline(explanation) + "\n";
+  for (std::size_t i = 0; i < explanation.rounds.size(); ++i)
+    text += fmt::format("  round {}: {}\n", i + 1, to_string(explanation.rounds[i]));
   for (const Line& line : lines) {
     std::string row(line.indent, ' ');
     for (std::size_t cell = 0; cell < columns.size(); ++cell) {

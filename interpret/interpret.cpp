@@ -1,10 +1,15 @@
 #include "interpret/interpret.h"
 
+#include "interpret/detail/groups.h"
 #include "interpret/detail/labelling.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel {
 
@@ -42,13 +47,28 @@ Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTa
   return issue;
 }
 
+/// Ids are sorted, so that the sentence does not depend on the order of features.
+Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const FeatureTable& table) {
+  constexpr std::size_t kShown = 5;
+  std::vector<std::string> ids;
+  for (const int row : rows) ids.push_back(table.id(FeatureId{row}));
+  std::ranges::sort(ids);
+  const std::size_t more = ids.size() - std::min(ids.size(), kShown);
+  ids.resize(ids.size() - more);
+  std::string sentence = fmt::format("after {} rounds {} features still change: {}", pack.rounds,
+                                     rows.size(), fmt::join(ids, ", "));
+  if (more > 0) sentence += fmt::format(" and {} more", more);
+  return building_issue(Severity::warning, "R261", table.building(), std::move(sentence));
+}
+
 }  // namespace
 
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph) {
   const rules::Pack& pack = base.pack();
   rules::Facts facts(pack, table, graph);
-  const auto choices = rules::Labelling(pack, facts).run();
+  rules::Labelling labelling(pack, facts);
+  const auto choices = labelling.run();
   Interpretation result;
   result.verdicts.reserve(choices.size());
   for (std::size_t row = 0; row < choices.size(); ++row) {
@@ -57,6 +77,12 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
     if (choices[row].is_ambiguous)
       result.issues.push_back(ambiguity(pack, result.verdicts.back(), table));
   }
+  if (const auto rows = labelling.unsettled(); !rows.empty())
+    result.issues.push_back(unsettled(pack, rows, table));
+  result.groups = rules::find_groups(pack, facts, table);
+  for (const Group& group : result.groups)
+    for (const FeatureId member : group.members)
+      result.verdicts[member.index()].groups.push_back(group.id);
   return result;
 }
 

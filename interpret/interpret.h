@@ -14,7 +14,8 @@ namespace oriel {
 ///
 /// Depends on the table's values and the graph's pairs alone: the same for features in another
 /// order. Issues: R260 (note) for every verdict whose margin is below the pack's
-/// `decide: ambiguous_below`.
+/// `decide: ambiguous_below`; R261 (warning) if the pack has `iterate:` and its last
+/// round still changed something.
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph);
 

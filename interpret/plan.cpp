@@ -17,6 +17,7 @@ namespace {
 
 using rules::ClassId;
 using rules::Entry;
+using rules::ExprId;
 using rules::kBlock;
 using rules::Truth;
 
@@ -56,23 +57,51 @@ bool is_asking_for_class(const rules::Code& code, rules::ExprId id) {
   if (expr.op == rules::Op::is_class) return true;
   for (const rules::ExprId arg : expr.args)
     if (is_asking_for_class(code, arg)) return true;
-  return is_asking_for_class(code, expr.filter) || is_asking_for_class(code, expr.join);
+  return is_asking_for_class(code, expr.filter) || is_asking_for_class(code, expr.join) ||
+         is_asking_for_class(code, expr.value);
 }
 
-/// Marks the features of a block that `entry` fits.
-void find_fitting(const rules::Pack& pack, const Entry& entry, const std::vector<ClassId>& labels,
-                  rules::Evaluator& evaluator, rules::Frame frame, std::span<Truth> fits) {
-  for (std::size_t i = 0; i < frame.size; ++i) {
-    const ClassId label = labels[static_cast<std::size_t>(frame.rows[0][i])];
-    const bool is_meant =
-        entry.target == rules::kNoClass || rules::is_within(pack.classes, label, entry.target);
-    fits[i] = rules::truth_of(is_meant);
+/// Marks the features that an entry is for.
+void mark_targets(const rules::Pack& pack, const Entry& entry, const std::vector<ClassId>& labels,
+                  const Interpretation& interpretation, std::vector<Truth>& fits) {
+  std::ranges::fill(fits, Truth::no);
+  if (entry.group < 0) {
+    for (std::size_t row = 0; row < fits.size(); ++row)
+      fits[row] = rules::truth_of(entry.target == rules::kNoClass ||
+                                  rules::is_within(pack.classes, labels[row], entry.target));
+    return;
   }
-  if (entry.when == rules::kNoExpr) return;
+  const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
+  for (const Group& group : interpretation.groups)
+    for (const FeatureId member : group.members)
+      if (group.kind == kind) fits[member.index()] = Truth::yes;
+}
+
+/// Takes back the marks of features whose `when` is not true.
+void judge_condition(ExprId when, const rules::Facts& facts, rules::Evaluator& evaluator,
+                     std::vector<Truth>& fits) {
+  if (when == rules::kNoExpr) return;
   std::array<Truth, kBlock> answers;
-  frame.needed = fits.data();
-  evaluator.truths(entry.when, frame, std::span(answers).first(frame.size));
-  for (std::size_t i = 0; i < frame.size; ++i) fits[i] = std::min(fits[i], answers[i]);
+  for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
+    rules::Frame frame;
+    frame.size = std::min(kBlock, facts.rows - begin);
+    frame.rows[0] = facts.row_numbers.data() + begin;
+    frame.needed = fits.data() + begin;
+    evaluator.truths(when, frame, std::span(answers).first(frame.size));
+    for (std::size_t i = 0; i < frame.size; ++i)
+      fits[begin + i] = std::min(fits[begin + i], answers[i]);
+  }
+}
+
+/// A group is redrawn as a whole: an entry fits it if it fits all its members.
+void keep_whole_groups(const std::string& kind, const Interpretation& interpretation,
+                       std::vector<Truth>& fits) {
+  for (const Group& group : interpretation.groups) {
+    if (group.kind != kind) continue;
+    const auto is_fit = [&](FeatureId member) { return fits[member.index()] == Truth::yes; };
+    if (std::ranges::all_of(group.members, is_fit)) continue;
+    for (const FeatureId member : group.members) fits[member.index()] = Truth::no;
+  }
 }
 
 }  // namespace
@@ -90,18 +119,17 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   if (needs_classes) set_membership(pack, labels, facts);
 
   std::vector<const Entry*> chosen(facts.rows, nullptr);
+  std::vector<Truth> fits(facts.rows);
   rules::Evaluator evaluator(pack, facts);
   for (const Entry& entry : pack.entries) {
     if (scale_denominator < entry.scale_from || scale_denominator > entry.scale_to) continue;
-    for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
-      rules::Frame frame;
-      frame.size = std::min(kBlock, facts.rows - begin);
-      frame.rows[0] = facts.row_numbers.data() + begin;
-      std::array<Truth, kBlock> fits;
-      find_fitting(pack, entry, labels, evaluator, frame, std::span(fits).first(frame.size));
-      for (std::size_t i = 0; i < frame.size; ++i)
-        if (fits[i] == Truth::yes && chosen[begin + i] == nullptr) chosen[begin + i] = &entry;
-    }
+    mark_targets(pack, entry, labels, interpretation, fits);
+    judge_condition(entry.when, facts, evaluator, fits);
+    if (entry.group >= 0)
+      keep_whole_groups(pack.groups[static_cast<std::size_t>(entry.group)].name, interpretation,
+                        fits);
+    for (std::size_t row = 0; row < fits.size(); ++row)
+      if (fits[row] == Truth::yes && chosen[row] == nullptr) chosen[row] = &entry;
   }
 
   Plan result;

@@ -35,6 +35,31 @@ std::optional<std::string> read_file(const std::string& path) {
   return text;
 }
 
+std::optional<rules::FoundPack> find_embedded(const std::string& name) {
+  const auto text = embedded_pack(name);
+  if (!text) return std::nullopt;
+  return rules::FoundPack{name + ".yaml", std::string(*text)};
+}
+
+/// The file `name` in the folder of `pack`. A link that leads out of the folder is not followed.
+std::optional<rules::FoundPack> find_beside(const std::string& pack, const std::string& name) {
+  const std::filesystem::path file = std::filesystem::path(pack).parent_path() / name;
+  std::error_code problem;
+  const auto folder = std::filesystem::canonical(pack, problem).parent_path();
+  const auto real = std::filesystem::canonical(file, problem);
+  if (problem || real.parent_path() != folder) return std::nullopt;
+  auto text = read_file(file.string());
+  if (!text) return std::nullopt;
+  return rules::FoundPack{file.string(), std::move(*text)};
+}
+
+Checked<RuleBase> load(std::string text, std::string file, const rules::PackFinder& find) {
+  Checked<RuleBase> checked;
+  if (auto pack = rules::load(std::move(text), std::move(file), find, checked.issues))
+    checked.value.emplace(std::move(pack));
+  return checked;
+}
+
 }  // namespace
 
 const std::string& RuleBase::name() const { return pack_->name; }
@@ -59,10 +84,7 @@ std::vector<std::string> RuleBase::codelists() const {
 }
 
 Checked<RuleBase> load_pack(std::string text, std::string file) {
-  Checked<RuleBase> checked;
-  if (auto pack = rules::load(std::move(text), std::move(file), checked.issues))
-    checked.value.emplace(std::move(pack));
-  return checked;
+  return load(std::move(text), std::move(file), find_embedded);
 }
 
 Checked<RuleBase> load_pack_file(const std::string& path) {
@@ -71,7 +93,10 @@ Checked<RuleBase> load_pack_file(const std::string& path) {
   if (!text)
     return refuse(path, "there is no pack here that can be read; the packs built in are: " +
                             rules::join(embedded_packs()));
-  return load_pack(std::move(*text), path);
+  return load(std::move(*text), path, [&](const std::string& name) {
+    auto embedded = find_embedded(name);
+    return embedded ? embedded : find_beside(path, name);
+  });
 }
 
 std::optional<std::string_view> embedded_pack(std::string_view name) {

@@ -26,7 +26,8 @@ class RuleBase {
   [[nodiscard]] const std::string& version() const;
   /// The name it was loaded under, as places show it.
   [[nodiscard]] const std::string& file() const;
-  /// Of the pack's text, 64 hexadecimal digits.
+  /// Of the pack's text, 64 hexadecimal digits; of a pack that extends others of theirs, too: with
+  /// d the digest so far and t the next text, sha256(d + sha256(t)).
   [[nodiscard]] const std::string& sha256() const;
   /// The labels it may give, in the order of the pack.
   [[nodiscard]] std::vector<std::string> labels() const;
@@ -43,10 +44,12 @@ class RuleBase {
 
 /// The pack in `text` (docs/rules.md is the language), called `file` in places. All findings come
 /// at once, in the order of the text, each with code (R2xx), file:line:column, source line and
-/// caret; with an error among them there is no value. Nothing is read but `text`.
+/// caret; with an error among them there is no value. Nothing is read but `text`;
+/// it may extend packs that are built in.
 Checked<RuleBase> load_pack(std::string text, std::string file);
 
 /// The embedded pack called `path`, else the pack in the file at `path`. R200 if there is neither.
+/// It may extend files in its own folder. Nothing else is read.
 Checked<RuleBase> load_pack_file(const std::string& path);
 
 /// The text of a pack that was built into the library ("residential"), or nothing.

@@ -56,6 +56,14 @@ ExprId Checker::term(const Syntax& syntax) {
       fmt::format("'{}' is a text; a score is made of numbers and conditions", text_of(syntax)));
 }
 
+ExprId Checker::pair_condition(const Syntax& syntax) {
+  in_expression_ = 0;
+  is_in_relation_ = true;
+  const ExprId id = check_as_condition(syntax);
+  is_in_relation_ = false;
+  return id;
+}
+
 ExprId Checker::constant(const Syntax& syntax, std::optional<Dimension> dimension) {
   in_expression_ = 0;
   const ExprId id = check_as_number(syntax);
@@ -110,6 +118,8 @@ ExprId Checker::check_by_kind(const Syntax& syntax) {
       return check_call(syntax);
     case Kind::quantifier:
       return check_quantifier(syntax);
+    case Kind::aggregate:
+      return check_aggregate(syntax);
     case Kind::is_test:
       return check_is(syntax);
     case Kind::negate:

@@ -22,7 +22,7 @@ inline constexpr std::size_t kMostInPack = 200'000;
 /// expressions go into `pack.code`; what is wrong goes into `findings`:
 /// R204 … R208 unknown names, R222 too large, R230 dimensions differ, R231 a unit is missing,
 /// R232 the wrong type, R234 unknown word, R235 mm@map outside generalise, R236 self or other out
-/// of reach, R247 a macro that needs itself.
+/// of reach, R247 a macro that needs itself, R249 what a relation cannot ask.
 class Checker {
  public:
   Checker(Pack& pack, Names& names, Findings& findings)
@@ -33,11 +33,16 @@ class Checker {
 
   /// Inside `surfaces:` names are those of surface_schema(), and there is nothing to relate.
   void speak_of_surfaces() { is_of_surfaces_ = true; }
+  /// Inside scores of a pack that iterates classes are those of the round before.
+  void read_previous_round(bool is_previous) { is_previous_ = is_previous; }
 
   /// A condition, or kNoExpr and an error.
   ExprId condition(const Syntax& syntax);
   /// A number or a condition, or kNoExpr and an error.
   ExprId term(const Syntax& syntax);
+  /// A condition on two features, self (level 0, also without a name) and other (level 1), of which
+  /// nothing but attributes is known; or kNoExpr and an error.
+  ExprId pair_condition(const Syntax& syntax);
   /// A number of no feature, with the dimension if one is given; or kNoExpr and an error.
   ExprId constant(const Syntax& syntax, std::optional<Dimension> dimension = {});
 
@@ -58,10 +63,13 @@ class Checker {
   ExprId check_is(const Syntax& syntax);
   ExprId check_host(const Syntax& syntax, int level);
   ExprId check_quantifier(const Syntax& syntax);
-  ExprId make_quantifier(Op op, int relation, int level, ExprId where, Span span);
+  ExprId check_aggregate(const Syntax& syntax);
+  std::optional<int> relation_of(const Syntax& syntax);
+  ExprId make_quantifier(Expr expr, ExprId where);
   std::optional<int> level_of(const Syntax& syntax);
   void report_unknown_name(const Syntax& syntax);
   void report_unknown_class(const Syntax& syntax);
+  ExprId refuse_class(const Syntax& syntax);
 
   // Operators.
   ExprId check_call(const Syntax& syntax);
@@ -92,6 +100,8 @@ class Checker {
   Findings* findings_;
   bool is_map_allowed_ = false;
   bool is_of_surfaces_ = false;
+  bool is_in_relation_ = false;
+  bool is_previous_ = false;
   int macro_depth_ = 0;
   int level_ = 0;
   /// Operands and operators looked at: of the expression at hand, and of the pack.

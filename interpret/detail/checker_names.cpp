@@ -50,6 +50,10 @@ ExprId Checker::check_parameter(const Syntax& syntax) {
 
 std::optional<int> Checker::level_of(const Syntax& syntax) {
   const bool is_in_macro = macro_depth_ > 0;
+  if (is_in_relation_) {
+    if (syntax.scope != Syntax::Scope::other) return 0;
+    if (!is_in_macro) return 1;
+  }
   if (syntax.scope == Syntax::Scope::here) return level_;
   if (syntax.scope == Syntax::Scope::self && level_ <= 1) return 0;
   if (syntax.scope == Syntax::Scope::other && level_ >= 1 && !is_in_macro) return level_;
@@ -118,6 +122,7 @@ ExprId Checker::check_is(const Syntax& syntax) {
   const auto level = level_of(syntax);
   if (!level) return kNoExpr;
   if (syntax.is_of_host) return check_host(syntax, *level);
+  if (is_in_relation_) return refuse_class(syntax);
   const ClassId id = index_of(pack_->classes, syntax.name);
   if (id < 0) {
     report_unknown_class(syntax);
@@ -125,8 +130,15 @@ ExprId Checker::check_is(const Syntax& syntax) {
   }
   Expr expr{
       .op = Op::is_class, .type = Type::yes_no, .index = id, .level = *level, .span = syntax.span};
+  expr.is_previous = is_previous_;
   expr.levels = 1U << static_cast<unsigned>(*level);
   return add(std::move(expr));
+}
+
+ExprId Checker::refuse_class(const Syntax& syntax) {
+  return fail("R249", syntax.span,
+              "a relation is found before any class is known; ask for the class where the relation "
+              "is used, as in exists(R where is CLASS)");
 }
 
 void Checker::report_unknown_class(const Syntax& syntax) {
@@ -157,6 +169,7 @@ ExprId Checker::check_host(const Syntax& syntax, int level) {
     expr.levels = 1U << static_cast<unsigned>(level);
     return add(std::move(expr));
   }
+  if (is_in_relation_) return refuse_class(syntax);
   const ClassId id = index_of(pack_->classes, syntax.name);
   if (id < 0) {
     report_unknown_class(syntax);
@@ -167,22 +180,43 @@ ExprId Checker::check_host(const Syntax& syntax, int level) {
             .index = id,
             .level = level + 1,
             .span = syntax.span};
+  test.is_previous = is_previous_;
   test.levels = 1U << static_cast<unsigned>(level + 1);
   const ExprId where = add(std::move(test));
-  return where == kNoExpr ? kNoExpr
-                          : make_quantifier(Op::exists, index_of(relation_schema(), "host"), level,
-                                            where, syntax.span);
+  if (where == kNoExpr) return kNoExpr;
+  Expr exists{.op = Op::exists,
+              .type = Type::yes_no,
+              .index = index_of(relation_schema(), "host"),
+              .level = level,
+              .span = syntax.span};
+  return make_quantifier(std::move(exists), where);
+}
+
+/// The relation that a quantifier leads over, or nothing and an error.
+std::optional<int> Checker::relation_of(const Syntax& syntax) {
+  if (is_in_relation_) {
+    fail("R249", syntax.span,
+         "a relation is found from two features alone; a quantifier looks at more");
+    return std::nullopt;
+  }
+  const int relation = relation_number(*pack_, syntax.relation);
+  if (relation < 0 && contains(names_->broken_relations, syntax.relation)) return std::nullopt;
+  if (relation < 0) {
+    fail("R207", syntax.relation_span,
+         fmt::format("unknown relation '{}'{}", syntax.relation,
+                     did_you_mean(syntax.relation, relation_names(*pack_))));
+    return std::nullopt;
+  }
+  names_->used_relations.insert(relation);
+  // `host is CLASS` needs one level more.
+  if (level_ + 2 < kMostLevels) return relation;
+  fail("R222", syntax.span, "quantifiers nest no deeper than two levels");
+  return std::nullopt;
 }
 
 ExprId Checker::check_quantifier(const Syntax& syntax) {
-  const int relation = index_of(relation_schema(), syntax.relation);
-  if (relation < 0)
-    return fail("R207", syntax.relation_span,
-                fmt::format("unknown relation '{}'{}", syntax.relation,
-                            did_you_mean(syntax.relation, names_of(relation_schema()))));
-  // `host is CLASS` needs one level more.
-  if (level_ + 2 >= kMostLevels)
-    return fail("R222", syntax.span, "quantifiers nest no deeper than two levels");
+  const auto relation = relation_of(syntax);
+  if (!relation) return kNoExpr;
   ExprId where = kNoExpr;
   if (!syntax.children.empty()) {
     ++level_;
@@ -190,23 +224,36 @@ ExprId Checker::check_quantifier(const Syntax& syntax) {
     --level_;
     if (where == kNoExpr) return kNoExpr;
   }
-  const Op op = syntax.name == "exists" ? Op::exists
-                : syntax.name == "none" ? Op::none
-                : syntax.name == "all"  ? Op::all
-                                        : Op::count;
-  return make_quantifier(op, relation, level_, where, syntax.span);
+  Expr expr{.op = Op::count, .index = *relation, .level = level_, .span = syntax.span};
+  if (syntax.name == "exists") expr.op = Op::exists;
+  if (syntax.name == "none") expr.op = Op::none;
+  if (syntax.name == "all") expr.op = Op::all;
+  if (expr.op != Op::count) expr.type = Type::yes_no;
+  return make_quantifier(std::move(expr), where);
+}
+
+ExprId Checker::check_aggregate(const Syntax& syntax) {
+  const auto relation = relation_of(syntax);
+  if (!relation) return kNoExpr;
+  Expr expr{.op = Op::mean, .index = *relation, .level = level_, .span = syntax.span};
+  if (syntax.name == "min") expr.op = Op::least;
+  if (syntax.name == "max") expr.op = Op::greatest;
+  const bool has_condition = syntax.children.size() > 1;
+  ++level_;
+  expr.value = check_as_number(syntax.children[0]);
+  const ExprId where = has_condition ? check_as_condition(syntax.children[1]) : kNoExpr;
+  --level_;
+  if (expr.value == kNoExpr || (has_condition && where == kNoExpr)) return kNoExpr;
+  expr.dimension = at(expr.value).dimension;
+  return make_quantifier(std::move(expr), where);
 }
 
 /// Conditions on the other feature alone are pushed out of the join: they are evaluated once for
 /// every feature, not once for every pair.
-ExprId Checker::make_quantifier(Op op, int relation, int level, ExprId where, Span span) {
-  const unsigned self = 1U << static_cast<unsigned>(level);
+ExprId Checker::make_quantifier(Expr expr, ExprId where) {
+  const unsigned self = 1U << static_cast<unsigned>(expr.level);
   const unsigned other = self << 1U;
-  Expr expr{.op = op,
-            .type = op == Op::count ? Type::number : Type::yes_no,
-            .index = relation,
-            .level = level,
-            .span = span};
+  const Span span = expr.span;
   expr.levels = self;
   std::vector<ExprId> filters, joins;
   std::vector<ExprId> conditions;
@@ -220,7 +267,7 @@ ExprId Checker::make_quantifier(Op op, int relation, int level, ExprId where, Sp
   };
   expr.filter = conjunction(std::move(filters));
   expr.join = conjunction(std::move(joins));
-  for (const ExprId id : {expr.filter, expr.join}) {
+  for (const ExprId id : {expr.filter, expr.join, expr.value}) {
     if (id == kNoExpr) continue;
     expr.levels |= at(id).levels & ~other;
     expr.height = std::max(expr.height, at(id).height + 1);

@@ -48,6 +48,8 @@ void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
     gather(expr, frame, out);
   else if (expr.op == Op::count)
     count(id, frame, out);
+  else if (is_aggregate(expr.op))
+    aggregate(id, frame, out);
   else
     apply_all(expr, frame, out);
 }
@@ -174,7 +176,8 @@ void Evaluator::combine(const Expr& expr, const Frame& frame, std::span<Truth> o
 }
 
 void Evaluator::membership(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
-  const auto& members = facts_->membership[static_cast<std::size_t>(expr.index)];
+  const auto& known = expr.is_previous ? facts_->previous : facts_->membership;
+  const auto& members = known[static_cast<std::size_t>(expr.index)];
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = members[static_cast<std::size_t>(rows[i])];
 }

@@ -58,6 +58,7 @@ class Evaluator {
   void gather(const Expr& expr, const Frame& frame, std::span<double> out) const;
   void apply_all(const Expr& expr, const Frame& frame, std::span<double> out);
   void count(ExprId id, const Frame& frame, std::span<double> out);
+  void aggregate(ExprId id, const Frame& frame, std::span<double> out);
 
   void flag(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
   void compare(const Expr& expr, const Frame& frame, std::span<Truth> out);
@@ -74,6 +75,8 @@ class Evaluator {
 
   struct Pairs;
   void flush(const Expr& expr, Pairs& pairs, std::span<Tally> out);
+  struct Values;
+  void flush(const Expr& expr, Pairs& pairs, Values& values);
 
   const Pack* pack_;
   const Facts* facts_;

@@ -34,6 +34,9 @@ enum class Op {
   maximum,
   square_root,
   count,  ///< quantifier
+  least,  ///< aggregates: quantifiers over a value: index: relation
+  greatest,
+  mean,
   // Yes or no.
   flag,  ///< index: column of a yes/no attribute
   less,
@@ -83,6 +86,10 @@ struct Expr {
   /// none.
   ExprId filter = kNoExpr;
   ExprId join = kNoExpr;
+  /// Of an aggregate: the number taken from every other feature.
+  ExprId value = kNoExpr;
+  /// Of a test for a class: it reads the memberships of the round before (`iterate:`).
+  bool is_previous = false;
   /// Where it was written, for excerpts and explanations.
   Span span{};
 };
@@ -93,8 +100,11 @@ using Code = std::vector<Expr>;
 /// True if its value is the same for all features.
 inline bool is_constant(const Expr& expr) { return expr.levels == 0; }
 
+inline bool is_aggregate(Op op) { return op == Op::least || op == Op::greatest || op == Op::mean; }
+
+/// True if it looks at other features through a relation.
 inline bool is_quantifier(Op op) {
-  return op == Op::count || op == Op::exists || op == Op::none || op == Op::all;
+  return op == Op::count || op == Op::exists || op == Op::none || op == Op::all || is_aggregate(op);
 }
 
 }  // namespace oriel::rules

@@ -20,13 +20,44 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       is_unknown_(pack.classes.size()) {}
 
 std::vector<Choice> Labelling::run() {
+  if (pack_->rounds == 0) {
+    run_round();
+    return std::move(choices_);
+  }
+  const auto nothing = facts_->membership;
+  facts_->previous.assign(nothing.size(), std::vector<Truth>(facts_->rows, Truth::unknown));
+  while (true) {
+    choices_.assign(facts_->rows, {});
+    for (auto& unknown : is_unknown_) unknown.clear();
+    run_round();
+    rounds_.push_back(choices_);
+    const bool is_last = static_cast<int>(rounds_.size()) == pack_->rounds;
+    if (is_last || facts_->membership == facts_->previous) return std::move(choices_);
+    facts_->previous = std::exchange(facts_->membership, nothing);
+  }
+}
+
+std::vector<int> Labelling::unsettled() const {
+  std::vector<int> rows;
+  if (facts_->previous.empty()) return rows;
+  for (const int row : facts_->row_numbers) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t id = 0; id < facts_->membership.size(); ++id) {
+      if (facts_->membership[id][r] == facts_->previous[id][r]) continue;
+      rows.push_back(row);
+      break;
+    }
+  }
+  return rows;
+}
+
+void Labelling::run_round() {
   for (const Step& step : pack_->steps) {
     if (step.is_decision)
       run_decision(step);
     else
       run_predicates(step);
   }
-  return std::move(choices_);
 }
 
 /// Predicates that need each other start from "no" everywhere and are raised until nothing changes:

@@ -39,13 +39,25 @@ struct Choice {
 
 /// Runs the rules of a pack over one building, stratum by stratum. Afterwards `facts.membership`
 /// says of every feature and class whether it is one.
+///
+/// A pack with `iterate:` is run round by round, until a round changes no membership or there were
+/// as many as it allows. Scores read the memberships of the round before, `facts.previous`; in the
+/// first round all are unknown.
 class Labelling {
  public:
   Labelling(const Pack& pack, Facts& facts);
 
+  /// What was decided; of several rounds in the last.
   std::vector<Choice> run();
 
+  /// What was decided in each round; empty without `iterate:`.
+  [[nodiscard]] const std::vector<std::vector<Choice>>& rounds() const { return rounds_; }
+  /// The rows whose memberships the last round still changed.
+  [[nodiscard]] std::vector<int> unsettled() const;
+
  private:
+  void run_round();
+
   struct Candidate {
     int rule = -1;
     double score = 0;
@@ -71,6 +83,7 @@ class Labelling {
   Facts* facts_;
   Evaluator evaluator_;
   std::vector<Choice> choices_;
+  std::vector<std::vector<Choice>> rounds_;
   /// Candidates of the decision at hand, and the first of every feature, or -1.
   std::vector<Candidate> candidates_;
   std::vector<int> first_candidate_;

@@ -1,6 +1,7 @@
 #include "interpret/detail/load.h"
 
 #include "interpret/detail/loader.h"
+#include "interpret/detail/reach.h"
 #include "interpret/detail/section.h"
 #include "interpret/detail/strata.h"
 #include "interpret/detail/yaml_tree.h"
@@ -23,15 +24,9 @@ constexpr std::size_t kMostClasses = 256;
 constexpr std::size_t kMostNames = 1024;
 
 const std::vector<std::string>& top_keys() {
-  static const std::vector<std::string> keys = {"schema",  "pack",     "params",    "hosts",
-                                                "classes", "macros",   "rules",     "decide",
-                                                "emit",    "surfaces", "generalise"};
-  return keys;
-}
-
-/// Sections of the language that this version does not have yet.
-const std::vector<std::string>& later_keys() {
-  static const std::vector<std::string> keys = {"extends", "relations", "groups", "iterate"};
+  static const std::vector<std::string> keys = {
+      "schema", "pack",   "extends", "params", "hosts", "classes",  "relations", "macros",
+      "rules",  "decide", "iterate", "groups", "emit",  "surfaces", "generalise"};
   return keys;
 }
 
@@ -59,7 +54,8 @@ bool is_small_enough(const Section& top, Findings& findings) {
         std::string("'") + key + "' has no more than " + std::to_string(most) + " entries");
   };
   check("classes", kMostClasses);
-  for (const char* key : {"params", "macros", "rules", "emit", "surfaces", "generalise"})
+  for (const char* key :
+       {"params", "relations", "macros", "rules", "groups", "emit", "surfaces", "generalise"})
     check(key, kMostNames);
   return is_small;
 }
@@ -73,18 +69,25 @@ void read_sections(Section& top, Loader& loader) {
   read(top.find("hosts"), read_hosts);
   read(top.find("classes"), read_classes);
   read(top.find("macros"), read_macros);
+  read(top.find("relations"), read_relations);
+  read(top.find("iterate"), read_iterate);
   read(top.require("rules"), read_rules);
   read(top.find("decide"), read_decide);
+  read(top.find("groups"), read_groups);
   read(top.find("emit"), read_emit);
   read(top.find("surfaces"), read_surfaces);
   read(top.find("generalise"), read_generalise);
+  check_entries(loader.pack, loader.findings);
 }
+
+/// What a pack beneath says and this one has no use for is no fault of this one.
+bool is_own(Span span, const Loader& loader) { return loader.pack.source.is_in_first(span.begin); }
 
 /// A macro that no rule uses is checked all the same.
 void report_unused_macros(Loader& loader) {
   std::vector<const Macro*> unused;
   for (const Macro& macro : loader.names.macros)
-    if (!macro.is_used) unused.push_back(&macro);
+    if (!macro.is_used && is_own(macro.span, loader)) unused.push_back(&macro);
   for (const Macro* macro : unused) {
     loader.findings.warning("R242", macro->span,
                             fmt::format("the macro '{}' is never used", macro->name));
@@ -94,9 +97,19 @@ void report_unused_macros(Loader& loader) {
 
 void report_unused_params(const Loader& loader) {
   for (std::size_t i = 0; i < loader.pack.params.size(); ++i)
-    if (const Param& param = loader.pack.params[i]; !loader.names.is_param_used[i])
+    if (const Param& param = loader.pack.params[i];
+        !loader.names.is_param_used[i] && is_own(param.span, loader))
       loader.findings.warning("R241", param.span,
                               fmt::format("the param '{}' is never used", param.name));
+}
+
+void report_unused_relations(const Loader& loader) {
+  const auto& used = loader.names.used_relations;
+  for (const Relation& relation : loader.pack.relations)
+    if (is_own(relation.span, loader) &&
+        !used.contains(relation_number(loader.pack, relation.name)))
+      loader.findings.warning("R248", relation.span,
+                              fmt::format("the relation '{}' is never used", relation.name));
 }
 
 /// A class called window or door is written as what it says, unless the pack says otherwise.
@@ -109,7 +122,7 @@ void add_default_emissions(Pack& pack) {
 
 void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   check_traps(root, findings);
-  Section top(root, "a pack", top_keys(), findings, later_keys());
+  Section top(root, "a pack", top_keys(), findings);
   if (!top.is_map()) return;
   check_schema(top, findings);
   if (!is_small_enough(top, findings)) return;
@@ -118,24 +131,38 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   if (findings.has_errors()) return;
   report_unused_macros(loader);
   report_unused_params(loader);
+  report_unused_relations(loader);
   find_strata(pack, findings);
+  if (!findings.has_errors()) check_reach(pack, findings);
   add_default_emissions(pack);
+}
+
+void drop_byte_order_mark(std::string& text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
 }
 
 }  // namespace
 
-std::shared_ptr<const Pack> load(std::string text, std::string file, std::vector<Issue>& issues) {
-  const std::string digest = sha256(text);
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+std::shared_ptr<const Pack> load(std::string text, std::string file, const PackFinder& find,
+                                 std::vector<Issue>& issues) {
+  std::string digest = sha256(text);
+  drop_byte_order_mark(text);
+  const PackFinder find_and_digest = [&](const std::string& name) {
+    auto found = find(name);
+    if (!found) return found;
+    digest = sha256(digest + sha256(found->text));
+    drop_byte_order_mark(found->text);
+    return found;
+  };
   auto pack = std::make_shared<Pack>(Source(std::move(file), std::move(text)));
-  pack->sha256 = digest;
   Findings findings(pack->source);
   const std::size_t bad = find_bad_byte(pack->source.text());
   if (bad != std::string_view::npos)
     findings.error("R200", {bad, bad}, "this is no UTF-8 text");
-  else if (const auto root = parse_yaml(findings))
+  else if (const auto root = read_tree(pack->source, find_and_digest, findings))
     read_pack(*root, *pack, findings);
+  pack->sha256 = std::move(digest);
   issues = findings.issues();
   return findings.has_errors() ? nullptr : pack;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/detail/extend.h"
 #include "interpret/detail/pack.h"
 #include "kernel/model/issue.h"
 
@@ -9,8 +10,9 @@
 
 namespace oriel::rules {
 
-/// The pack in `text`, or null if it has errors; `issues` is set to all findings. `file` names it
-/// in places.
-std::shared_ptr<const Pack> load(std::string text, std::string file, std::vector<Issue>& issues);
+/// The pack in `text`, put over those that it extends, or null if it has errors; `issues` is set to
+/// all findings. `file` names it in places.
+std::shared_ptr<const Pack> load(std::string text, std::string file, const PackFinder& find,
+                                 std::vector<Issue>& issues);
 
 }  // namespace oriel::rules

@@ -28,11 +28,20 @@ void read_params(const YamlNode& node, Loader& loader);
 void read_classes(const YamlNode& node, Loader& loader);
 void read_macros(const YamlNode& node, Loader& loader);
 void read_hosts(const YamlNode& node, Loader& loader);
+void read_relations(const YamlNode& node, Loader& loader);
+void read_groups(const YamlNode& node, Loader& loader);
 void read_rules(const YamlNode& node, Loader& loader);
 void read_decide(const YamlNode& node, Loader& loader);
+void read_iterate(const YamlNode& node, Loader& loader);
 void read_emit(const YamlNode& node, Loader& loader);
 void read_surfaces(const YamlNode& node, Loader& loader);
 void read_generalise(const YamlNode& node, Loader& loader);
+
+/// True if `node` can name something new; else an error R216 that calls it `what`.
+bool expect_name(const YamlNode& node, const std::string& what, Findings& findings);
+
+/// The number of the relation called by `node`, with _ or blanks between its words, or -1 and R207.
+int read_relation(const YamlNode& node, const std::string& what, Loader& loader);
 
 /// The class called by `node`, or kNoClass and R205.
 ClassId read_class(const YamlNode& node, const std::string& what, Loader& loader);

@@ -25,6 +25,19 @@ const std::vector<std::string>& words_of(std::string_view attribute) {
   return attribute == "ground_source" ? ground_sources : any;
 }
 
+int relation_number(const Pack& pack, std::string_view name) {
+  const int built_in = index_of(relation_schema(), name);
+  if (built_in >= 0) return built_in;
+  const int declared = index_of(pack.relations, name);
+  return declared < 0 ? -1 : declared + static_cast<int>(relation_schema().size());
+}
+
+std::vector<std::string> relation_names(const Pack& pack) {
+  std::vector<std::string> names = rules::names_of(relation_schema());
+  for (const Relation& relation : pack.relations) names.push_back(relation.name);
+  return names;
+}
+
 bool is_identifier(std::string_view text) {
   return !text.empty() && is_lower(text.front()) && std::ranges::all_of(text, is_name_character);
 }

@@ -4,6 +4,7 @@
 #include "interpret/detail/pack.h"
 #include "interpret/detail/syntax.h"
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,16 @@ struct Names {
   /// The same for params; parallel to Pack::params.
   std::vector<std::string> broken_params;
   std::vector<bool> is_param_used;
+  /// Relations of the pack that are no relations: their uses are not reported again.
+  std::vector<std::string> broken_relations;
+  /// Numbers of the relations that something leads over.
+  std::set<int> used_relations;
 };
+
+/// The number of the relation called `name`, built in or of the pack, or -1.
+int relation_number(const Pack& pack, std::string_view name);
+/// All of them, in the order of their numbers.
+std::vector<std::string> relation_names(const Pack& pack);
 
 /// The element of `list` called `name`: its index, or -1.
 template <class Named>

@@ -107,6 +107,27 @@ struct Decide {
   double ambiguous_below = 0;
 };
 
+/// A relation that the pack declares: the pairs of another one for which a condition holds.
+/// Relations are numbered: those of relation_schema(), then those of the pack in their order.
+struct Relation {
+  std::string name;
+  /// The number of the relation that it narrows, below its own.
+  int within = -1;
+  /// Over self (level 0) and other (level 1); neither classes nor quantifiers stand in it.
+  ExprId where = kNoExpr;
+  Span span;
+};
+
+/// Features of a class that hang together by a relation: `groups:`.
+struct GroupKind {
+  std::string name;
+  ClassId of = kNoClass;
+  /// The number of the relation.
+  int by = -1;
+  int at_least = 2;
+  Span span;
+};
+
 /// An entry of `generalise:`.
 struct Entry {
   std::string id;
@@ -114,6 +135,8 @@ struct Entry {
   double scale_to = 0;
   /// kNoClass: any feature.
   ClassId target = kNoClass;
+  /// The members of the groups of this kind (Pack::groups) in place of a class, or -1.
+  int group = -1;
   ExprId when = kNoExpr;
   std::string operation;
   Span span;
@@ -132,9 +155,13 @@ struct Pack {
   Hosts hosts;
   std::vector<Param> params;
   std::vector<Class> classes;
+  std::vector<Relation> relations;
+  std::vector<GroupKind> groups;
   std::vector<Rule> rules;
   std::vector<Step> steps;
   Decide decide;
+  /// How often the pack is run at most; 0: once, without `iterate:`.
+  int rounds = 0;
   std::vector<Entry> entries;
   /// Null: the pack says nothing of surfaces but `hosts:`.
   std::shared_ptr<const SurfaceRules> surfaces;

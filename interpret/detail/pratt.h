@@ -43,6 +43,8 @@ class Pratt {
   Syntax plain_name(Syntax::Scope scope, Span begin);
   Syntax call();
   Syntax quantifier();
+  Syntax aggregate(Syntax node, Syntax value);
+  void relation_of(Syntax& node, std::vector<Syntax>& children);
 
   // Operators: pratt.cpp.
   Syntax infix(Syntax left, Power power);

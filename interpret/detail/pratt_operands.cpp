@@ -18,7 +18,7 @@ const std::vector<std::string>& quantifiers() {
 }
 
 const std::vector<std::string>& functions() {
-  static const std::vector<std::string> words = {"abs", "min", "max", "sqrt"};
+  static const std::vector<std::string> words = {"abs", "min", "max", "mean", "sqrt"};
   return words;
 }
 
@@ -38,8 +38,8 @@ bool is_reserved(std::string_view word) { return contains(reserved_words(), word
 
 const std::vector<std::string>& reserved_words() {
   static const std::vector<std::string> words = [] {
-    std::vector<std::string> list = {"and", "or",    "not",  "in",    "is",
-                                     "by",  "where", "self", "other", "host"};
+    std::vector<std::string> list = {"and",   "or",   "not",   "in",   "is", "by",
+                                     "where", "self", "other", "host", "of"};
     for (const std::string& word : callables()) list.push_back(word);
     return list;
   }();
@@ -171,9 +171,12 @@ Syntax Pratt::call() {
   tokens_.expect(Token::Kind::open_round, fmt::format("'(' after '{}'", name.text));
   std::vector<Syntax> arguments;
   arguments.push_back(expression(Power::loosest));
+  const bool is_unary = node.name == "abs" || node.name == "sqrt";
+  if (!is_unary && tokens_.is_at_word("of"))
+    return aggregate(std::move(node), std::move(arguments[0]));
+  if (node.name == "mean") tokens_.fail_expecting("'of' and a relation, as in mean(a of alike)");
   while (tokens_.take_if(Token::Kind::comma)) arguments.push_back(expression(Power::loosest));
   node.span.end = tokens_.expect(Token::Kind::close_round, "',' or ')'").span.end;
-  const bool is_unary = node.name == "abs" || node.name == "sqrt";
   if (is_unary ? arguments.size() != 1 : arguments.size() < 2)
     tokens_.fail(
         "R220", name.span,
@@ -186,14 +189,30 @@ Syntax Pratt::quantifier() {
   Syntax node{.kind = Kind::quantifier, .span = name.span, .name_span = name.span};
   node.name = name.text;
   tokens_.expect(Token::Kind::open_round, fmt::format("'(' after '{}'", name.text));
+  std::vector<Syntax> condition;
+  relation_of(node, condition);
+  return finish(std::move(node), std::move(condition));
+}
+
+/// `min(value of relation where condition)`, from `of` on.
+Syntax Pratt::aggregate(Syntax node, Syntax value) {
+  tokens_.take();
+  node.kind = Kind::aggregate;
+  std::vector<Syntax> children;
+  children.push_back(std::move(value));
+  relation_of(node, children);
+  return finish(std::move(node), std::move(children));
+}
+
+/// `relation where condition)`; the condition is added to `children`.
+void Pratt::relation_of(Syntax& node, std::vector<Syntax>& children) {
   const Token relation = tokens_.expect(Token::Kind::word, "a relation");
   node.relation = relation.text;
   node.relation_span = relation.span;
-  std::vector<Syntax> condition;
-  if (tokens_.take_if_word("where")) condition.push_back(expression(Power::loosest));
-  const char* wanted = condition.empty() ? "'where' or ')'" : "')'";
+  const bool has_condition = tokens_.take_if_word("where");
+  if (has_condition) children.push_back(expression(Power::loosest));
+  const char* wanted = has_condition ? "')'" : "'where' or ')'";
   node.span.end = tokens_.expect(Token::Kind::close_round, wanted).span.end;
-  return finish(std::move(node), std::move(condition));
 }
 
 }  // namespace oriel::rules

@@ -3,6 +3,7 @@
 #include "interpret/detail/arithmetic.h"
 #include "interpret/detail/fold.h"
 #include "interpret/detail/labelling.h"
+#include "interpret/detail/names.h"
 #include "interpret/detail/quantity.h"
 
 #include <algorithm>
@@ -98,6 +99,7 @@ std::string Prover::show(ExprId id, double other) {
 
 std::string Prover::show_named(ExprId id, double other) {
   if (at(id).op == Op::count) return show_tally(id);
+  if (is_aggregate(at(id).op)) return show_aggregate(id, other);
   return text_of(id) + " = " + show(id, other);
 }
 
@@ -108,6 +110,26 @@ std::string Prover::show_tally(ExprId id) {
   std::string text = fmt::format("{} = {} of {}", text_of(id), tally.yes, tally.total);
   if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
   return text;
+}
+
+/// "mean(height of in_row) = 2.31 m of 4".
+std::string Prover::show_aggregate(ExprId id, double other) {
+  Evaluator::Tally tally;
+  evaluator_->tally(id, frame(), std::span(&tally, 1));
+  std::string text = fmt::format("{} = {} of {}", text_of(id), show(id, other), tally.yes);
+  if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
+  return text;
+}
+
+/// What the relation of a quantifier is, where the pack declares it.
+std::string Prover::show_relation(const Expr& expr) const {
+  const std::size_t built_in = relation_schema().size();
+  const auto number = static_cast<std::size_t>(expr.index);
+  if (number < built_in) return "";
+  const Relation& relation = pack_->relations[number - built_in];
+  return fmt::format("{}: {} where {}", relation.name,
+                     relation_names(*pack_)[static_cast<std::size_t>(relation.within)],
+                     text_of(relation.where));
 }
 
 void Prover::find_missing(ExprId id, std::vector<std::string>& missing) const {
@@ -171,6 +193,7 @@ ConditionReport Prover::condition(ExprId id) {
     case Op::none:
     case Op::all:
       report.value = show_tally(id);
+      report.bound = show_relation(expr);
       break;
     default:
       compare(expr, report);

@@ -40,6 +40,8 @@ class Prover {
   std::string show(ExprId id, double other);
   std::string show_named(ExprId id, double other);
   std::string show_tally(ExprId id);
+  std::string show_aggregate(ExprId id, double other);
+  [[nodiscard]] std::string show_relation(const Expr& expr) const;
   void find_missing(ExprId id, std::vector<std::string>& missing) const;
 
   const Pack* pack_;

@@ -1,23 +1,20 @@
-#include "interpret/detail/evaluator.h"
+#include "interpret/detail/pairs.h"
 
 #include <algorithm>
 
 namespace oriel::rules {
-
-/// Pairs self -> other that wait for the conditions on both.
-struct Evaluator::Pairs {
-  std::array<std::size_t, kBlock> slots;
-  std::array<int, kBlock> selves;
-  std::array<int, kBlock> others;
-  std::array<Truth, kBlock> filtered;
-  std::size_t size = 0;
-};
 
 namespace {
 
 void add(Evaluator::Tally& tally, Truth answer) {
   tally.yes += answer == Truth::yes ? 1 : 0;
   tally.unknown += answer == Truth::unknown ? 1 : 0;
+}
+
+/// How a pair answers a quantifier. Where it is unknown whether the other is one at all, the answer
+/// is that of `is one and …`; of `all` it is that of `is none or …`.
+Truth answer_of(Op op, Truth is_other, Truth answer) {
+  return op == Op::all ? std::max(negated(is_other), answer) : std::min(is_other, answer);
 }
 
 }  // namespace
@@ -47,35 +44,30 @@ void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out) {
   for (std::size_t slot = 0; slot < out.size(); ++slot) {
     out[slot] = {};
     if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
-    const auto others = links.of(rows[slot]);
-    out[slot].total = static_cast<int>(others.size());
-    for (const int other : others) {
+    const std::size_t end = links.begin_of(rows[slot] + 1);
+    out[slot].total = static_cast<int>(end - links.begin_of(rows[slot]));
+    for (std::size_t link = links.begin_of(rows[slot]); link < end; ++link) {
+      const int other = links.others[link];
+      const Truth is_other = links.is_other(link);
       const Truth filtered =
           filter == nullptr ? Truth::yes : filter[static_cast<std::size_t>(other)];
-      if (filtered == Truth::no) continue;
-      if (expr.join == kNoExpr) {
-        add(out[slot], filtered);
+      if (filtered == Truth::no || expr.join == kNoExpr) {
+        add(out[slot], answer_of(expr.op, is_other, filtered));
         continue;
       }
       if (pairs.size == kBlock) flush(expr, pairs, out);
-      pairs.slots[pairs.size] = slot;
-      pairs.selves[pairs.size] = rows[slot];
-      pairs.others[pairs.size] = other;
-      pairs.filtered[pairs.size++] = filtered;
+      pairs.add(slot, rows[slot], other, is_other, filtered);
     }
   }
   if (pairs.size > 0) flush(expr, pairs, out);
 }
 
 void Evaluator::flush(const Expr& expr, Pairs& pairs, std::span<Tally> out) {
-  Frame frame;
-  frame.size = pairs.size;
-  frame.rows[static_cast<std::size_t>(expr.level)] = pairs.selves.data();
-  frame.rows[static_cast<std::size_t>(expr.level) + 1] = pairs.others.data();
   std::array<Truth, kBlock> joined;
-  truths(expr.join, frame, std::span(joined).first(pairs.size));
+  truths(expr.join, pairs.frame(expr.level), std::span(joined).first(pairs.size));
   for (std::size_t i = 0; i < pairs.size; ++i)
-    add(out[pairs.slots[i]], std::min(pairs.filtered[i], joined[i]));
+    add(out[pairs.slots[i]],
+        answer_of(expr.op, pairs.is_other[i], std::min(pairs.filtered[i], joined[i])));
   pairs.size = 0;
 }
 

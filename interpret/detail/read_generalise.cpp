@@ -84,10 +84,17 @@ void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
 void read_target(const YamlNode& node, Entry& entry, Loader& loader) {
   const auto text = read_text(node, "'for'", loader.findings);
   if (!text || *text == "any") return;
-  if (text->starts_with("group "))
-    loader.findings.error("R215", node.span, "entries for groups are not in this version");
-  else
+  constexpr std::string_view kGroup = "group ";
+  if (!text->starts_with(kGroup)) {
     entry.target = read_class(node, "'for'", loader);
+    return;
+  }
+  const std::string name(trimmed(std::string_view(*text).substr(kGroup.size())));
+  entry.group = index_of(loader.pack.groups, name);
+  if (entry.group < 0)
+    loader.findings.error(
+        "R253", node.span,
+        "unknown group '" + name + "'" + did_you_mean(name, names_of(loader.pack.groups)));
 }
 
 void read_entry_id(const YamlNode& node, Entry& entry, std::set<std::string>& ids, Loader& loader) {

@@ -24,21 +24,6 @@ bool contains(const std::vector<std::string>& list, std::string_view name) {
   return std::ranges::find(list, name) != list.end();
 }
 
-/// True if `node` can name something new; else an error R216.
-bool expect_name(const YamlNode& node, const std::string& what, Findings& findings) {
-  const std::string& name = node.text;
-  const char* problem = nullptr;
-  if (!is_identifier(name))
-    problem = "a name is a small letter, then small letters, digits and _";
-  else if (contains(reserved_words(), name))
-    problem = "this is a word of the language";
-  else if (contains(taken_names(), name))
-    problem = "this name has a meaning of its own";
-  if (problem == nullptr) return true;
-  findings.error("R216", node.span, what + " cannot be called '" + name + "': " + problem);
-  return false;
-}
-
 bool is_version(std::string_view text) {
   int parts = 0;
   while (true) {
@@ -126,6 +111,20 @@ void check_tree(Loader& loader) {
 }
 
 }  // namespace
+
+bool expect_name(const YamlNode& node, const std::string& what, Findings& findings) {
+  const std::string& name = node.text;
+  const char* problem = nullptr;
+  if (!is_identifier(name))
+    problem = "a name is a small letter, then small letters, digits and _";
+  else if (contains(reserved_words(), name))
+    problem = "this is a word of the language";
+  else if (contains(taken_names(), name))
+    problem = "this name has a meaning of its own";
+  if (problem == nullptr) return true;
+  findings.error("R216", node.span, what + " cannot be called '" + name + "': " + problem);
+  return false;
+}
 
 void read_header(const YamlNode& node, Loader& loader) {
   Section section(node, "'pack'", {"name", "version"}, loader.findings);

@@ -97,8 +97,10 @@ std::optional<ScoreTerm> read_term(const YamlNode& node, Loader& loader) {
 
 void read_score(const YamlNode& node, Rule& rule, Loader& loader) {
   if (!expect_list(node, "'score'", loader.findings)) return;
+  loader.checker.read_previous_round(loader.pack.rounds > 0);
   for (const YamlNode& item : node.items)
     if (auto term = read_term(item, loader)) rule.score.push_back(*term);
+  loader.checker.read_previous_round(false);
 }
 
 void read_rule_id(const YamlNode& node, Rule& rule, std::set<std::string>& ids, Loader& loader) {
@@ -115,7 +117,7 @@ void read_rule_id(const YamlNode& node, Rule& rule, std::set<std::string>& ids, 
 
 void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
   Section section(node, "a rule", {"id", "label", "priority", "require", "unless", "score"},
-                  loader.findings, {"iterate"});
+                  loader.findings);
   if (!section.is_map()) return;
   Rule rule;
   rule.span = node.span;

@@ -12,6 +12,9 @@ namespace {
 /// SIG3D's class of building installations on the outside of a building.
 constexpr const char* kOuterCharacteristics = "1000";
 
+/// What has not settled by then goes round in circles.
+constexpr int kMostRounds = 8;
+
 const std::vector<std::string>& emitted_types() {
   static const std::vector<std::string> types = {"Window", "Door", "BuildingInstallation"};
   return types;
@@ -106,6 +109,16 @@ void read_decide(const YamlNode& node, Loader& loader) {
   read_share(section.find("ambiguous_below"), "'ambiguous_below'", decide.ambiguous_below, loader);
   if (const YamlNode* otherwise = section.find("otherwise"))
     read_choice(*otherwise, "'otherwise'", {"unknown"}, loader.findings);
+}
+
+void read_iterate(const YamlNode& node, Loader& loader) {
+  Section section(node, "'iterate'", {"rounds"}, loader.findings);
+  const YamlNode* rounds = section.require("rounds");
+  if (rounds == nullptr) return;
+  const auto count = read_integer(*rounds, "'rounds'", loader.findings);
+  if (count && (*count < 2 || *count > kMostRounds))
+    loader.findings.error("R212", rounds->span, "'rounds' lies in 2 .. 8");
+  loader.pack.rounds = count.value_or(0);
 }
 
 void read_emit(const YamlNode& node, Loader& loader) {

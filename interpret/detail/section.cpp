@@ -107,15 +107,12 @@ void report_unknown_key(const YamlEntry& entry, const std::string& what,
 }  // namespace
 
 Section::Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
-                 Findings& findings, const std::vector<std::string>& later)
+                 Findings& findings)
     : node_(&node), what_(std::move(what)), findings_(&findings) {
   if (!expect(node, Kind::map, what_, "a map", findings)) return;
   for (const YamlEntry& entry : node.entries) {
     const std::string& key = entry.key.text;
-    if (entry.key.kind != Kind::scalar || contains(keys, key)) continue;
-    if (contains(later, key))
-      findings.error("R215", entry.key.span, fmt::format("'{}' is not in this version", key));
-    else
+    if (entry.key.kind == Kind::scalar && !contains(keys, key))
       report_unknown_key(entry, what_, keys, findings);
   }
 }

@@ -11,12 +11,11 @@
 namespace oriel::rules {
 
 /// A map of a pack whose keys are fixed. Making one reports every key that is not among `keys`
-/// (R209), every key of the language that this version does not have yet, `later` (R215), and a
-/// node that is no map (R211); `what` names it in messages ("a rule").
+/// (R209), and a node that is no map (R211); `what` names it in messages ("a rule").
 class Section {
  public:
   Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
-          Findings& findings, const std::vector<std::string>& later = {});
+          Findings& findings);
 
   /// The value of `key`, or null.
   [[nodiscard]] const YamlNode* find(std::string_view key) const;

@@ -53,12 +53,25 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-Source::Source(std::string file, std::string text)
-    : file_(std::move(file)), text_(std::move(text)) {
-  line_starts_.push_back(0);
-  for (std::size_t i = 0; i < text_.size(); ++i)
+Source::Source(std::string file, std::string text) { append(std::move(file), text); }
+
+Span Source::append(std::string file, const std::string& text) {
+  if (!parts_.empty()) text_ += '\n';
+  const std::size_t begin = text_.size();
+  parts_.push_back({std::move(file), begin, line_starts_.size()});
+  text_ += text;
+  line_starts_.push_back(begin);
+  for (std::size_t i = begin; i < text_.size(); ++i)
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
+  return {begin, text_.size()};
 }
+
+const Source::Part& Source::part_of(std::size_t offset) const {
+  const auto next = std::ranges::upper_bound(parts_, offset, {}, &Part::begin);
+  return *(next - 1);
+}
+
+bool Source::is_in_first(std::size_t offset) const { return &part_of(offset) == parts_.data(); }
 
 std::string_view Source::text_of(Span span) const {
   return std::string_view(text_).substr(span.begin, span.end - span.begin);
@@ -82,8 +95,9 @@ Place Source::place(std::size_t offset) const {
   const std::size_t start = line_starts_[line];
   const std::size_t before = count_characters(text_of({start, offset}));
   Place place;
-  place.file = file_;
-  place.line = static_cast<int>(line) + 1;
+  const Part& part = part_of(offset);
+  place.file = part.file;
+  place.line = static_cast<int>(line - part.first_line) + 1;
   place.column = static_cast<int>(before) + 1;
   return place;
 }

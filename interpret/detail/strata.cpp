@@ -24,7 +24,9 @@ struct Question {
   Span span;
 };
 
-bool makes_strict(Op op) { return op == Op::negation || op == Op::none || op == Op::count; }
+bool makes_strict(Op op) {
+  return op == Op::negation || op == Op::none || op == Op::count || is_aggregate(op);
+}
 
 /// Collects the questions of one rule.
 class QuestionFinder {
@@ -44,6 +46,7 @@ class QuestionFinder {
     if (id == kNoExpr) return;
     const Expr& expr = pack_->code[index(id)];
     if (expr.op == Op::is_class) {
+      if (expr.is_previous) return;  // known from the round before
       ask(expr, is_strict);
       return;
     }
@@ -51,6 +54,7 @@ class QuestionFinder {
     for (const ExprId arg : expr.args) visit(arg, is_strict);
     visit(expr.filter, is_strict);
     visit(expr.join, is_strict);
+    visit(expr.value, is_strict);
   }
 
   void ask(const Expr& expr, bool is_strict) {

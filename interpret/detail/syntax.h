@@ -16,6 +16,7 @@ struct Syntax {
     name,        ///< [scope.]name: an attribute, a macro, or a word compared with a text
     call,        ///< name(children…): abs, min, max, sqrt
     quantifier,  ///< name(relation [where children[0]]): exists, none, count, all
+    aggregate,   ///< name(children[0] of relation [where children[1]]): min, max, mean
     is_test,     ///< [scope] is name, or [scope.]host is name
     negate,      ///< - children[0]
     negation,    ///< not children[0]

@@ -23,7 +23,7 @@ struct Stop : std::exception {};
 /// Reads from a text without copying it.
 class TextBuffer : public std::streambuf {
  public:
-  explicit TextBuffer(const std::string& text) {
+  explicit TextBuffer(std::string_view text) {
     char* begin = const_cast<char*>(text.data());
     setg(begin, begin, begin + text.size());
   }
@@ -33,7 +33,7 @@ class TextBuffer : public std::streambuf {
 /// end; a scalar's end is found by comparing it with the text.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(Findings& findings) : findings_(&findings) {}
+  TreeBuilder(Span where, Findings& findings) : findings_(&findings), where_(where) {}
 
   [[nodiscard]] YamlNode take_root() { return std::move(root_); }
   [[nodiscard]] bool has_root() const { return has_root_; }
@@ -92,8 +92,8 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   [[nodiscard]] Span at(const YAML::Mark& mark) const {
-    const auto offset = static_cast<std::size_t>(std::max(mark.pos, 0));
-    const std::size_t begin = std::min(offset, findings_->source().text().size());
+    const auto offset = where_.begin + static_cast<std::size_t>(std::max(mark.pos, 0));
+    const std::size_t begin = std::min(offset, where_.end);
     return {begin, begin};
   }
 
@@ -112,6 +112,7 @@ class TreeBuilder : public YAML::EventHandler {
   void add_key(Open& map, YamlNode key);
 
   Findings* findings_;
+  Span where_;
   std::vector<Open> open_;
   YamlNode root_;
   bool has_root_ = false;
@@ -133,7 +134,7 @@ std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
 
 YamlNode TreeBuilder::make_scalar(const YAML::Mark& mark, const std::string& tag,
                                   const std::string& value) {
-  const std::string_view text = findings_->source().text();
+  const std::string_view text = std::string_view(findings_->source().text()).substr(0, where_.end);
   YamlNode node = make_node(YamlNode::Kind::scalar, mark);
   node.text = value;
   node.is_plain = tag == "?";
@@ -191,36 +192,35 @@ void TreeBuilder::add_key(Open& map, YamlNode key) {
 }
 
 /// What yaml-cpp says, with the advice that this dialect of YAML needs most.
-std::string explain_syntax(const Source& source, const YAML::Exception& problem) {
+std::string explain_syntax(const Source& source, Span at, const YAML::Exception& problem) {
   std::string sentence = "not YAML: " + problem.msg;
-  const auto offset = static_cast<std::size_t>(std::max(problem.mark.pos, 0));
-  const std::string line = source.excerpt({offset, offset});
+  const std::string line = source.excerpt(at);
   if (line.find(" in [") != std::string::npos && problem.msg.find("flow") != std::string::npos)
     sentence += "; a condition with [ ] or , inside a list in [ ] must be quoted";
   return sentence;
 }
 
-void report(Findings& findings, const YAML::Exception& problem) {
+void report(Span where, Findings& findings, const YAML::Exception& problem) {
   const std::string& text = findings.source().text();
   const auto mark = static_cast<std::size_t>(std::max(problem.mark.pos, 0));
-  const std::size_t offset = std::min(mark, text.size());
-  if (offset < text.size() && text[offset] == '*')
+  const std::size_t offset = std::min(where.begin + mark, where.end);
+  if (offset < where.end && text[offset] == '*')
     findings.error("R203", {offset, offset}, "a pack has no aliases (*name)");
   else
-    findings.error("R201", {offset, offset}, explain_syntax(findings.source(), problem));
+    findings.error("R201", {offset, offset},
+                   explain_syntax(findings.source(), {offset, offset}, problem));
 }
 
 }  // namespace
 
-std::optional<YamlNode> parse_yaml(Findings& findings) {
-  const std::string& text = findings.source().text();
-  if (text.size() > kMostBytes) {
-    findings.error("R213", {0, 0}, "a pack is no longer than 1 MiB");
+std::optional<YamlNode> parse_yaml(Span where, Findings& findings) {
+  if (where.end - where.begin > kMostBytes) {
+    findings.error("R213", {where.begin, where.begin}, "a pack is no longer than 1 MiB");
     return std::nullopt;
   }
-  TextBuffer buffer(text);
+  TextBuffer buffer(findings.source().text_of(where));
   std::istream stream(&buffer);
-  TreeBuilder builder(findings);
+  TreeBuilder builder(where, findings);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
@@ -228,11 +228,11 @@ std::optional<YamlNode> parse_yaml(Findings& findings) {
   } catch (const Stop&) {
     return std::nullopt;
   } catch (const YAML::Exception& problem) {
-    report(findings, problem);
+    report(where, findings, problem);
     return std::nullopt;
   }
   if (!builder.has_root()) {
-    findings.error("R201", {0, 0}, "the pack is empty");
+    findings.error("R201", {where.begin, where.begin}, "the pack is empty");
     return std::nullopt;
   }
   return builder.take_root();

@@ -37,9 +37,10 @@ struct YamlEntry {
   YamlNode value;
 };
 
-/// The one document in the text of `findings.source()`, or nothing and an error: R201 for what is
-/// no YAML, R203 for anchors, aliases, tags and further documents, R211 for a key that is no text,
-/// R213 for a text beyond the limits above. A repeated key is an error R202 and both stay.
-std::optional<YamlNode> parse_yaml(Findings& findings);
+/// The one document at `where` in the text of `findings.source()`, or nothing and an error: R201
+/// for what is no YAML, R203 for anchors, aliases, tags and further documents, R211 for a key that
+/// is no text, R213 for a text beyond the limits above. A repeated key is an error R202 and both
+/// stay.
+std::optional<YamlNode> parse_yaml(Span where, Findings& findings);
 
 }  // namespace oriel::rules

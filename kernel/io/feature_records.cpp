@@ -121,6 +121,7 @@ const std::vector<std::string>& record_fields() {
                                    "host",     "aabb_m", "source_polygons"};
     for (const Attribute& attribute : feature_schema()) names.push_back(record_name(attribute));
     for (const RelationKind& relation : relations()) names.push_back("rel_" + relation.name);
+    names.emplace_back("groups");
     return names;
   }();
   return fields;
@@ -158,6 +159,7 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     record.margin = verdict.margin;
     record.rule = verdict.rule;
     record.runner_up = verdict.runner_up;
+    record.groups = verdict.groups;
   }
   return records;
 }
@@ -228,6 +230,7 @@ std::optional<std::string> set_field(FeatureRecord& record, std::string_view fie
   if (field == "margin") return set_number(record.margin, field, cell);
   if (field == "aabb_m") return set_box(record, cell);
   if (field == "source_polygons") return set_polygons(record, cell);
+  if (field == "groups") record.groups = split(cell);
   for (std::size_t c = 0; c < feature_schema().size(); ++c)
     if (record_name(feature_schema()[c]) == field)
       return set_attribute(record.attributes[c], feature_schema()[c], cell);

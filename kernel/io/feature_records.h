@@ -42,10 +42,13 @@ struct FeatureRecord {
   std::vector<RecordValue> attributes;
   /// The ids it is related to, for each relation of relation_schema() but "host", in its order.
   std::vector<std::vector<std::string>> relations;
+  /// Ids of the groups it is in.
+  std::vector<std::string> groups;
 };
 
 /// The names of a record's fields: building, id, label, score, margin, rule, runner_up, parent,
-/// host, aabb_m, source_polygons, record_name() of every attribute, then rel_NAME.
+/// host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME,
+/// then groups.
 const std::vector<std::string>& record_fields();
 
 /// The records of one building, in feature order. `table` and `graph` are those of `segmentation`;

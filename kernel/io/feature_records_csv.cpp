@@ -129,6 +129,7 @@ void append_csv_record(std::string& out, const FeatureRecord& record) {
                                  joined_numbers(record.source_polygons)};
   for (const RecordValue& value : record.attributes) cells.push_back(cell_of(value));
   for (const auto& ids : record.relations) cells.push_back(joined(ids));
+  cells.push_back(joined(record.groups));
   append_csv_line(out, cells);
 }
 

@@ -96,6 +96,7 @@ void append_json_record(std::string& out, const FeatureRecord& record) {
     append_json(out, value);
   }
   for (const auto& ids : record.relations) list(ids);
+  list(record.groups);
   out += '}';
 }
 

@@ -22,11 +22,25 @@ struct Verdict {
   std::string rule;
   /// The label that came second, or empty.
   std::string runner_up;
+  /// Ids of the groups it is in, in the order of Interpretation::groups.
+  std::vector<std::string> groups{};
+};
+
+/// Features that belong together: a component of one of the pack's `groups:`.
+struct Group {
+  /// The kind and the smallest id of its members: `window_row.f11yv1hbtweapa`.
+  std::string id;
+  /// Its name in the pack.
+  std::string kind;
+  /// In feature order.
+  std::vector<FeatureId> members;
 };
 
 /// The verdicts of one building, one per feature in feature order.
 struct Interpretation {
   std::vector<Verdict> verdicts;
+  /// In the order of the pack, then by id.
+  std::vector<Group> groups;
   std::vector<Issue> issues;
 };
 

@@ -38,7 +38,8 @@ TEST_SUITE("interpret") {
   TEST_CASE("an unknown key is named with what was probably meant") {
     CHECK(fault("clases: {}") ==
           "t.yaml:4:1: R209 unknown key 'clases' in a pack; did you mean 'classes'? (keys: schema, "
-          "pack, params, hosts, classes, macros, rules, decide, emit, generalise)\n"
+          "pack, extends, params, hosts, classes, relations, macros, rules, decide, iterate, "
+          "groups, emit, generalise)\n"
           "clases: {}\n"
           "^~~~~~\n");
   }
@@ -105,14 +106,9 @@ TEST_SUITE("interpret") {
               .starts_with("t.yaml:8:16: R212 the fall begins before the rise has ended\n"));
   }
 
-  TEST_CASE("what a later version will have is refused and not passed over") {
-    for (const std::string key : {"extends", "relations", "groups", "iterate"})
-      CHECK(fault(key + ": {}") == "t.yaml:4:1: R215 '" + key + "' is not in this version\n" + key +
-                                       ": {}\n^" + std::string(key.size() - 1, '~') + "\n");
-    CHECK(fault_in_rule("  - {id: w, label: window, require: sense = hole, iterate: {rounds: 2}}\n")
-              .starts_with("t.yaml:5:51: R215 'iterate' is not in this version\n"));
+  TEST_CASE("entries for groups name one that is declared") {
     CHECK(fault("generalise: [{id: r, scale: \"1:1000 ..\", for: group row, do: omit}]")
-              .starts_with("t.yaml:4:47: R215 entries for groups are not in this version\n"));
+              .starts_with("t.yaml:4:47: R253 unknown group 'row'\n"));
   }
 
   TEST_CASE("names that cannot be told from the language are refused") {

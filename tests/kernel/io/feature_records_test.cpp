@@ -19,6 +19,7 @@ std::vector<FeatureRecord> sample(bool with_verdicts) {
   Interpretation interpretation;
   interpretation.verdicts = {{FeatureId{0}, "bay, \"big\"", 0.9, 0.3, "bay-rule", "balcony"},
                              {FeatureId{1}, "", 0, 0, "", ""}};
+  interpretation.verdicts[0].groups = {"row.b1", "pair.b1"};
   return feature_records(small.building, small.segmentation, small.table, small.graph,
                          with_verdicts ? &interpretation : nullptr);
 }
@@ -96,6 +97,8 @@ TEST_SUITE("kernel/io") {
                          b.parent, b.host, b.aabb_m, b.source_polygons));
           CHECK(a.attributes == b.attributes);
           CHECK(a.relations == b.relations);
+          CHECK(a.groups == b.groups);
+          CHECK(a.groups.size() == (with_verdicts && i == 0 ? 2 : 0));
         }
       }
   }
