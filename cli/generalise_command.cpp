@@ -1,13 +1,16 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "generalise/generalise.h"
+#include "generalise/to_lod.h"
 #include "interpret/plan.h"
+#include "interpret/profile.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,8 @@ namespace {
 
 struct Arguments : LabelArguments {
   std::string scale;
+  std::vector<std::string> lods;
+  std::string profile;
 };
 
 /// N of "1:N", "1 : N" or "N".
@@ -33,11 +38,62 @@ double denominator_of(const std::string& text) {
   return value;
 }
 
+/// CityJSON's closed list.
+bool is_lod(const std::string& text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '3'; };
+  return (text.size() == 1 && is_digit(text[0])) ||
+         (text.size() == 3 && is_digit(text[0]) && text[1] == '.' && is_digit(text[2]));
+}
+
+/// What is to be made of every building: redrawn for a scale, or at levels of detail.
+struct Targets {
+  std::optional<double> scale;
+  /// One for each level of detail; for a scale at most one.
+  std::vector<Profile> profiles;
+
+  [[nodiscard]] bool has_lods() const { return !scale; }
+  [[nodiscard]] std::string text() const {
+    if (scale) return fmt::format("1:{}", *scale);
+    std::string text;
+    for (const Profile& profile : profiles) text += (text.empty() ? "LoD " : ", ") + profile.level;
+    return text;
+  }
+};
+
+/// Nothing if a profile cannot be used, which is told.
+std::optional<Targets> targets_of(const Arguments& arguments, const RuleBase& rules,
+                                  Report& report) {
+  Targets targets;
+  std::vector<std::string> names;
+  if (!arguments.scale.empty()) {
+    targets.scale = denominator_of(arguments.scale);
+    if (!arguments.profile.empty()) names.push_back(arguments.profile);
+  }
+  std::vector<std::string> lods = arguments.lods;
+  std::ranges::sort(lods);
+  if (std::ranges::adjacent_find(lods) != lods.end())
+    throw CLI::ValidationError("--to-lod", "a level of detail stands twice");
+  for (const std::string& lod : arguments.lods) {
+    if (!is_lod(lod))
+      throw CLI::ValidationError("--to-lod", fmt::format("'{}' is no level of detail", lod));
+    names.push_back((arguments.profile.empty() ? "lod" : arguments.profile) + ":" + lod);
+  }
+  for (const std::string& name : names) {
+    auto profile = load_profile_file(name);
+    report.tell(profile.issues);
+    if (!profile.value) return std::nullopt;
+    report.tell(check_profile(*profile.value, rules));
+    targets.profiles.push_back(std::move(*profile.value));
+  }
+  return targets;
+}
+
 class Generaliser {
  public:
-  Generaliser(const Arguments& arguments, const RuleBase& rules, Run& run, Report& report)
+  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules, Run& run,
+              Report& report)
       : arguments_(arguments),
-        scale_(denominator_of(arguments.scale)),
+        targets_(targets),
         rules_(rules),
         run_(run),
         report_(report),
@@ -57,7 +113,7 @@ class Generaliser {
     };
     const ExitCode code = run_.go(visitor);
     outputs_.commit();
-    run_.tell_summary(fmt::format("generalised to 1:{}", scale_), removed_, " left out");
+    run_.tell_summary("generalised to " + targets_.text(), removed_, " left out");
     return code;
   }
 
@@ -70,35 +126,82 @@ class Generaliser {
       outputs_.add_features(document.buildings[i], lines[i]);
       auto redrawn = run_.timings().measure(
           Stage::generalise, [&] { return redraw_building(document.buildings[i], lines[i]); });
-      if (!redrawn) continue;
-      for (const auto& [label, count] : redrawn->removed) removed_[label] += count;
-      labelled.push_back(std::move(redrawn->labelled));
-      options.removed.insert(options.removed.end(), redrawn->removed_ids.begin(),
-                             redrawn->removed_ids.end());
+      add(std::move(redrawn), labelled, options);
     }
     run_.timings().measure(Stage::write, [&] { outputs_.add(document, labelled, options); });
   }
 
-  std::optional<Redrawn> redraw_building(const Building& building, const OnLine& line) {
+  /// Of several levels of detail the first says what is gone from the building; an installation
+  /// leaves the file if no level has it.
+  void add(std::vector<Redrawn> all, std::vector<LabelledBuilding>& labelled,
+           WriteOptions& options) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Redrawn& redrawn = all[i];
+      for (const std::string& id : redrawn.removed_ids)
+        if (std::ranges::none_of(all, [&](const Redrawn& other) { return has(other, id); }))
+          options.removed.push_back(id);
+      if (i == 0)
+        for (const auto& [label, count] : redrawn.removed) removed_[label] += count;
+      else
+        redrawn.labelled.attributes.clear();
+    }
+    for (Redrawn& redrawn : all) labelled.push_back(std::move(redrawn.labelled));
+  }
+  static bool has(const Redrawn& redrawn, const std::string& id) {
+    const auto& list = redrawn.labelled.installations;
+    return std::ranges::find(list, id, &Installation::id) != list.end();
+  }
+
+  /// One for each target; none if one of them cannot be had.
+  std::vector<Redrawn> redraw_building(const Building& building, const OnLine& line) {
+    std::vector<Redrawn> all;
+    const LabelledBuilding labelled = outputs_.annotated(building, line);
+    const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
+    for (std::size_t i = 0; i < count; ++i) {
+      auto redrawn = redraw_for(i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr,
+                                building, labelled, line);
+      if (!redrawn) return {};
+      all.push_back(std::move(*redrawn));
+    }
+    return all;
+  }
+
+  std::optional<Redrawn> redraw_for(const Profile* profile, const Building& building,
+                                    const LabelledBuilding& labelled, const OnLine& line) {
     const auto& [table, graph] = line.description;
-    const Plan plan = oriel::plan(rules_, table, graph, line.interpretation, scale_);
+    Plan plan;
+    if (targets_.scale)
+      plan = oriel::plan(rules_, table, graph, line.interpretation, *targets_.scale);
+    if (profile != nullptr)
+      plan = plan_by_profile(std::move(plan), *profile, rules_, *line.segmentation, table,
+                             line.interpretation, targets_.scale);
     report_.tell(plan.issues);
     auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
                                   arguments_.segment_options());
-    for (const Issue& issue : generalised.issues) {
+    if (!tell(generalised.issues) || !generalised.value) return std::nullopt;
+    const Tolerances& tolerances = arguments_.segment_options().tolerances;
+    if (!targets_.has_lods())
+      return redraw(building, labelled, *line.segmentation, table, line.interpretation,
+                    std::move(*generalised.value), tolerances);
+    auto product = to_lod(building, labelled, *line.segmentation, table, line.interpretation,
+                          *profile, std::move(*generalised.value), tolerances);
+    if (!tell(product.issues)) return std::nullopt;
+    return std::move(product.value);
+  }
+
+  /// False if there is an error: the building is set aside.
+  bool tell(const std::vector<Issue>& issues) {
+    for (const Issue& issue : issues) {
       if (issue.severity == Severity::error)
         run_.set_aside(issue);
       else
         report_.tell(issue);
     }
-    if (!generalised.value) return std::nullopt;
-    return redraw(building, outputs_.annotated(building, line), *line.segmentation, table,
-                  line.interpretation, std::move(*generalised.value),
-                  arguments_.segment_options().tolerances);
+    return !has_errors(issues);
   }
 
   const Arguments& arguments_;
-  double scale_;
+  const Targets& targets_;
   const RuleBase& rules_;
   Run& run_;
   Report& report_;
@@ -110,8 +213,10 @@ ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
+  const auto targets = targets_of(arguments, *rules, report);
+  if (!targets) return ExitCode::rules;
   Run run(arguments, &*rules, report);
-  Generaliser generaliser(arguments, *rules, run, report);
+  Generaliser generaliser(arguments, *targets, *rules, run, report);
   return generaliser.go();
 }
 
@@ -119,12 +224,21 @@ ExitCode work(const Arguments& arguments) {
 
 void add_generalise(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "generalise",
-      "Redraw buildings for a target scale: a closed solid with what the scale can show");
+  CLI::App* command = app.add_subcommand("generalise",
+                                         "Redraw buildings for a target scale or level of detail: "
+                                         "a closed solid with what it can show");
   add_label_arguments(*command, *arguments);
   command->get_option("--output")->required();
-  command->add_option("--scale", arguments->scale, "Target scale, such as 1:2000")->required();
+  CLI::Option_group* target = command->add_option_group("Target");
+  target->add_option("--scale", arguments->scale, "Target scale, such as 1:2000");
+  target
+      ->add_option("--to-lod", arguments->lods,
+                   "Levels of detail to make, such as 2.0,1.2; they share a file")
+      ->delimiter(',');
+  target->require_option(1);
+  command->add_option("--profile", arguments->profile,
+                      "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
+                      "file (--to-lod: lod; --scale: they stay)");
   command->footer(
       "Example:\n  oriel generalise house.city.json --scale 1:20000 -o house-1-20000.city.json");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });

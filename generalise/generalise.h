@@ -8,6 +8,7 @@
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
+#include "kernel/segment/remove.h"
 #include "kernel/segment/segment.h"
 
 #include <map>
@@ -22,6 +23,10 @@ struct Generalised {
   Solid solid;
   /// The features that are gone: those of the plan and all that sat on them. Ascending.
   std::vector<FeatureId> removed;
+  /// Steps of the plan that were not carried out, and why; by feature.
+  std::vector<Refusal> refused{};
+  /// To be drawn even if nothing is gone: its own solid instead of the input's polygons.
+  bool is_drawn_anew = false;
 };
 
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are

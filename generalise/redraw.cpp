@@ -1,4 +1,5 @@
 #include "generalise/generalise.h"
+#include "generalise/removed.h"
 #include "kernel/segment/draw_imprints.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ class Redrawer {
     label_facets();
     tie_openings();
     keep_installations(table);
-    count_removed(segmentation, interpretation);
+    count_removed(generalised_.removed, segmentation, interpretation, out_);
     out_.labelled.geometry = std::move(generalised_.solid);
     return std::move(out_);
   }
@@ -121,19 +122,6 @@ class Redrawer {
     }
   }
 
-  void count_removed(const Segmentation& segmentation, const Interpretation& interpretation) {
-    double volume = 0;
-    for (const FeatureId id : generalised_.removed) {
-      ++out_.removed[interpretation.verdicts[id.index()].label];
-      volume += segmentation.features[id.index()].volume_m3;
-    }
-    auto& attributes = out_.labelled.attributes;
-    for (const auto& [label, count] : out_.removed)
-      attributes.emplace_back("oriel_removed_" + (label.empty() ? "unknown" : label),
-                              std::int64_t{count});
-    if (!out_.removed.empty()) attributes.emplace_back("oriel_removed_volume_m3", volume);
-  }
-
   const LabelledBuilding& labelled_;
   Generalised generalised_;
   std::map<int, double> area_;   ///< of input polygons
@@ -148,7 +136,8 @@ Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
                const Segmentation& segmentation, const FeatureTable& table,
                const Interpretation& interpretation, Generalised generalised,
                const Tolerances& tolerances) {
-  if (generalised.removed.empty() && building.is_solid) return {labelled, {}, {}};
+  if (generalised.removed.empty() && building.is_solid && !generalised.is_drawn_anew)
+    return {labelled, {}, {}};
   std::vector<FeatureId> imprints;
   for (int i = 0; i < std::ssize(segmentation.features); ++i)
     if (segmentation.features[at(i)].sense == Sense::imprint &&

@@ -14,4 +14,7 @@ struct EmbeddedPack {
 /// All of them, sorted by name.
 std::span<const EmbeddedPack> embedded();
 
+/// The profiles of the folder rules/profiles/, in the same way.
+std::span<const EmbeddedPack> embedded_profiles();
+
 }  // namespace oriel::rules

@@ -133,12 +133,14 @@ class CityJsonWriter {
     const detail::GeometryPlace place = source_.places[index];
     RawNode object(objects_.value(place.object));
     RawNode geometries(object.value_of("geometry"));
-    RawNode geometry(geometries.value(place.geometry));
+    const std::size_t number = make_room(geometries, place, labelled);
+    RawNode geometry(geometries.value(number));
     const std::vector<std::string> polygons =
         labelled.geometry ? replace_geometry(geometry, labelled, document_.buildings[index].frame)
                           : fill_geometry(geometry, labelled);
+    if (!labelled.lod.empty()) geometry.set("lod", '"' + labelled.lod + '"');
     const std::string lod(geometry.value_of("lod"));
-    geometries.set(place.geometry, geometry.text());
+    geometries.set(number, geometry.text());
     object.set("geometry", geometries.text());
     if (labelled.geometry) object.erase("geographicalExtent");
     set_members(object, "attributes", labelled.attributes);
@@ -146,6 +148,25 @@ class CityJsonWriter {
     objects_.set(place.object, object.text());
     for (const Installation& installation : labelled.installations)
       put_object(installation.id, installation_text(installation, labelled, polygons, lod));
+  }
+
+  /// Which element of "geometry" a labelled building is written to. Geometries that have its level
+  /// of detail already leave, so that an object never has two solids of one level.
+  std::size_t make_room(RawNode& geometries, detail::GeometryPlace place,
+                        const LabelledBuilding& labelled) {
+    std::size_t number = place.geometry;
+    if (labelled.lod.empty()) return number;
+    if (!has_place_.insert(labelled.building).second) {
+      geometries.push_back(R"({"type":"Solid"})");
+      number = geometries.size() - 1;
+    }
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      if (i == number || geometries.is_erased(i) || !RawNode::is_object(geometries.value(i)))
+        continue;
+      const std::string_view lod = RawNode(geometries.value(i)).value_of("lod");
+      if (lod.starts_with('"') && decoded(lod) == labelled.lod) geometries.erase(i);
+    }
+    return number;
   }
 
   /// Adds the labels to a geometry that stays. Returns the texts of its polygons if an installation
@@ -264,6 +285,8 @@ class CityJsonWriter {
   const Document& document_;
   RawNode root_;
   RawNode objects_;
+  /// Buildings whose chosen geometry was replaced by one with a level of detail of its own.
+  std::unordered_set<std::string> has_place_;
   /// Indices into Document::buildings by id.
   std::unordered_map<std::string_view, std::size_t> building_of_;
   /// Members of `objects_` by id, made when the first is looked for.

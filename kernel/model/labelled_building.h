@@ -51,6 +51,9 @@ struct LabelledBuilding {
   /// Replaces the input geometry, in the input's frame; missing: the input's polygons stay as they
   /// are.
   std::optional<Solid> geometry;
+  /// The level of detail that `geometry` is written with; empty: the input's. Buildings with the
+  /// same id and several levels stand one behind the other.
+  std::string lod{};
 };
 
 }  // namespace oriel

@@ -3,6 +3,7 @@
 #include "kernel/model/ids.h"
 #include "kernel/model/issue.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,16 @@ struct Step {
   FeatureId feature;
   /// The operator's name ("omit").
   std::string operation;
-  /// Id of the pack's entry that asked for it.
+  /// Id of the pack's entry that asked for it, or of a profile's verdict ("lod:2.0/point").
   std::string rule;
+  /// The operator's arguments: lengths in metres and ratios.
+  std::map<std::string, double> numbers{};
+  std::map<std::string, std::string> words{};
 };
 
 /// The decisions for one building at one scale, in feature order; at most one step a feature.
 struct Plan {
-  /// The target scale 1 : scale.
+  /// The target scale 1 : scale; 0 where a level of detail is the target.
   double scale = 0;
   std::vector<Step> steps;
   std::vector<Issue> issues;

@@ -1,0 +1,65 @@
+#include "generalise/to_lod.h"
+
+#include "generalise/removed.h"
+#include "kernel/blocks/blocks.h"
+
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+/// Blocks have tops, walls and a ground, and nothing else.
+const char* type_of_block_facet(const Plane& plane) {
+  if (plane.coefficients[2] > 0) return "RoofSurface";
+  return plane.coefficients[2] < 0 ? "GroundSurface" : "WallSurface";
+}
+
+Redrawn drawn_blocks(const LabelledBuilding& labelled, Solid solid) {
+  Redrawn out;
+  out.labelled.building = labelled.building;
+  out.labelled.attributes = labelled.attributes;
+  for (const Installation& installation : labelled.installations)
+    out.removed_ids.push_back(installation.id);
+  for (const Facet& facet : solid.facets) {
+    out.labelled.surface_of_polygon.push_back(static_cast<int>(out.labelled.surfaces.size()));
+    out.labelled.surfaces.push_back(
+        {type_of_block_facet(solid.planes[facet.plane.index()]), -1, {}});
+  }
+  out.labelled.geometry = std::move(solid);
+  return out;
+}
+
+}  // namespace
+
+Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
+                        const Segmentation& segmentation, const FeatureTable& table,
+                        const Interpretation& interpretation, const Profile& profile,
+                        Generalised generalised, const Tolerances& tolerances) {
+  Checked<Redrawn> out;
+  if (profile.form == Profile::Form::as_is) {
+    generalised.is_drawn_anew = true;
+    out.value = redraw(building, labelled, segmentation, table, interpretation,
+                       std::move(generalised), tolerances);
+  } else {
+    BlockOptions options;
+    options.is_by_roof = profile.form == Profile::Form::blocks;
+    options.least_piece_m2 = profile.least_piece_m2;
+    auto made = blocks(generalised.solid, building.id, options, tolerances);
+    out.issues = std::move(made.issues);
+    if (!made.value) return out;
+    const auto note = [&](const char* sentence) {
+      out.issues.push_back(building_issue(Severity::note, "G407", building.id, sentence));
+    };
+    if (made.value->is_simplified)
+      note("parts of its roof meet in a vertical edge: it became one block");
+    if (made.value->is_from_above)
+      note("its ground is less than half of what is seen from above, which became the footprint");
+    out.value = drawn_blocks(labelled, std::move(made.value->solid));
+    count_removed(generalised.removed, segmentation, interpretation, *out.value);
+  }
+  out.value->labelled.lod = profile.level;
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "generalise/generalise.h"
+#include "interpret/profile.h"
+#include "kernel/model/tolerances.h"
+
+namespace oriel {
+
+/// What a building is at a level of detail: what `generalised` left of it, in the form that the
+/// profile asks for, to be written with the profile's level.
+///
+/// As it is: redraw(), with the whole geometry drawn anew. As blocks: kernel/blocks/blocks.h of the
+/// solid; each facet is a semantic surface RoofSurface, WallSurface or GroundSurface, and no
+/// installation is left. Note G407 if blocks had to be simpler than asked for, G406 (error) and no
+/// value if there are none.
+Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labelled,
+                        const Segmentation& segmentation, const FeatureTable& table,
+                        const Interpretation& interpretation, const Profile& profile,
+                        Generalised generalised, const Tolerances& tolerances = {});
+
+}  // namespace oriel

@@ -1,0 +1,253 @@
+#include "interpret/profile.h"
+
+#include "interpret/detail/embedded.h"
+#include "interpret/detail/pack.h"
+#include "interpret/detail/section.h"
+#include "interpret/detail/suggest.h"
+#include "kernel/model/sha256.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::Findings;
+using rules::Section;
+using rules::YamlNode;
+
+constexpr const char* kSchema = "oriel-profile/1";
+
+class ProfileReader {
+ public:
+  ProfileReader(Findings& findings, Profile& profile) : findings_(findings), profile_(profile) {}
+
+  void read(const YamlNode& root, const std::string& level) {
+    Section top(root, "a profile", {"schema", "profile", "levels"}, findings_);
+    if (!top.is_map()) return;
+    if (const YamlNode* schema = top.require("schema");
+        schema != nullptr && schema->text != kSchema)
+      findings_.error("R212", schema->span, fmt::format("the schema is {}", kSchema));
+    if (const YamlNode* header = top.require("profile")) {
+      Section section(*header, "'profile'", {"name", "version"}, findings_);
+      section.require("version");
+      if (const YamlNode* name = section.require("name")) profile_.name = name->text;
+    }
+    const YamlNode* levels = top.require("levels");
+    if (levels == nullptr || !rules::expect_map(*levels, "'levels'", findings_)) return;
+    // All levels are checked, so that a profile is right or wrong whatever level is asked for.
+    const Profile base = profile_;
+    std::optional<Profile> chosen;
+    std::vector<std::string> names;
+    for (const auto& [key, value] : levels->entries) {
+      profile_ = base;
+      profile_.level = key.text;
+      names.push_back(key.text);
+      read_level(value);
+      if (key.text == level || (level.empty() && levels->entries.size() == 1)) chosen = profile_;
+    }
+    if (chosen)
+      profile_ = *chosen;
+    else
+      findings_.error("R261", levels->span,
+                      fmt::format("{}; the levels of '{}' are {}",
+                                  level.empty() ? "a level is needed"
+                                                : fmt::format("there is no level '{}'", level),
+                                  base.name, rules::join(names)));
+  }
+
+ private:
+  void read_level(const YamlNode& node) {
+    Section section(node, "a level",
+                    {"form", "least-piece-m2", "omit", "keep", "imprints", "on-ground", "sizes-m",
+                     "area-m2", "map-mm", "verdicts", "invariants"},
+                    findings_);
+    if (!section.is_map()) return;
+    if (const YamlNode* form = section.require("form")) read_form(*form);
+    if (const YamlNode* piece = section.find("least-piece-m2"))
+      profile_.least_piece_m2 = positive(*piece, "'least-piece-m2'").value_or(0);
+    read_classes(section.find("omit"), profile_.omit);
+    read_classes(section.find("keep"), profile_.keep);
+    profile_.omits_imprints = word(section.find("imprints"), "keep", "omit");
+    if (const YamlNode* on_ground = section.find("on-ground"))
+      read_classes(on_ground, profile_.on_ground.emplace());
+    read_sizes(section, node);
+    if (const YamlNode* invariants = section.find("invariants")) read_invariants(*invariants);
+  }
+
+  void read_form(const YamlNode& node) {
+    if (node.text == "as-is")
+      profile_.form = Profile::Form::as_is;
+    else if (node.text == "block")
+      profile_.form = Profile::Form::block;
+    else if (node.text == "blocks")
+      profile_.form = Profile::Form::blocks;
+    else
+      findings_.error("R211", node.span,
+                      "'form' is as-is, block or blocks, not '" + node.text + "'");
+  }
+
+  void read_classes(const YamlNode* node, std::vector<std::string>& classes) {
+    if (node == nullptr || !rules::expect_list(*node, "a list of classes", findings_)) return;
+    for (const YamlNode& item : node->items)
+      if (const auto text = rules::read_text(item, "a class", findings_)) classes.push_back(*text);
+  }
+
+  /// True for the second word.
+  bool word(const YamlNode* node, const std::string& first, const std::string& second) {
+    if (node == nullptr || node->text == first) return false;
+    if (node->text == second) return true;
+    findings_.error("R211", node->span,
+                    fmt::format("write {} or {}, not '{}'", first, second, node->text));
+    return false;
+  }
+
+  std::optional<double> positive(const YamlNode& node, const std::string& what) {
+    const auto value = rules::read_number(node, what, findings_);
+    if (value && !(*value > 0)) {
+      findings_.error("R211", node.span, what + " is more than 0");
+      return std::nullopt;
+    }
+    return value;
+  }
+
+  void read_sizes(Section& section, const YamlNode& level) {
+    const YamlNode* sizes = section.find("sizes-m");
+    const YamlNode* map = section.find("map-mm");
+    const YamlNode* verdicts = section.find("verdicts");
+    if (verdicts != nullptr) read_verdicts(*verdicts);
+    if ((sizes != nullptr && map != nullptr) ||
+        (sizes == nullptr && map == nullptr && verdicts != nullptr)) {
+      findings_.error("R262", level.span,
+                      "verdicts of size need either 'sizes-m' with 'area-m2', or 'map-mm'");
+      return;
+    }
+    if (map != nullptr) profile_.map_mm = positive(*map, "'map-mm'");
+    if (sizes == nullptr) return;
+    Section of_sizes(*sizes, "'sizes-m'", {"a", "b", "c"}, findings_);
+    const YamlNode* area = section.require("area-m2");
+    std::array<std::optional<double>, 4> numbers;
+    std::size_t i = 0;
+    for (const char* key : {"a", "b", "c"}) {
+      if (const YamlNode* node = of_sizes.require(key))
+        numbers.at(i) = positive(*node, fmt::format("'{}'", key));
+      ++i;
+    }
+    if (area != nullptr) numbers[3] = positive(*area, "'area-m2'");
+    if (!std::ranges::all_of(numbers, [](const auto& n) { return n.has_value(); })) return;
+    profile_.sizes = Thresholds{*numbers[0], *numbers[1], *numbers[2], *numbers[3]};
+    const Thresholds& t = *profile_.sizes;
+    if (!t.is_chain())
+      findings_.error(
+          "R260", sizes->span,
+          fmt::format("the sizes are no chain: c <= b < a and a*a > area > a*b must hold; "
+                      "here c = {}, b = {}, a = {}, a*a = {}, area = {}, a*b = {}",
+                      t.c_m, t.b_m, t.a_m, t.a_m * t.a_m, t.area_m2, t.a_m * t.b_m));
+  }
+
+  void read_verdicts(const YamlNode& node) {
+    Section section(node, "'verdicts'", {"point", "line", "small", "sheet"}, findings_);
+    if (!section.is_map()) return;
+    for (const Significance verdict :
+         {Significance::point, Significance::line, Significance::small, Significance::sheet})
+      if (word(section.find(to_string(verdict)), "keep", "omit")) profile_.omitted.insert(verdict);
+  }
+
+  void read_invariants(const YamlNode& node) {
+    Section section(node, "'invariants'", {"footprint-pct", "volume-pct", "top-m"}, findings_);
+    if (!section.is_map()) return;
+    const auto read = [&](const char* key, std::optional<double>& into) {
+      if (const YamlNode* value = section.find(key))
+        into = positive(*value, fmt::format("'{}'", key));
+    };
+    read("footprint-pct", profile_.footprint_pct);
+    read("volume-pct", profile_.volume_pct);
+    read("top-m", profile_.top_m);
+  }
+
+  Findings& findings_;
+  Profile& profile_;
+};
+
+std::optional<std::string> text_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::string text(rules::kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad() || file.gcount() == 0) return std::nullopt;
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+}  // namespace
+
+std::optional<Thresholds> Profile::thresholds(std::optional<double> scale) const {
+  if (sizes) return sizes;
+  if (map_mm && scale) return map_thresholds(*map_mm, *scale);
+  return std::nullopt;
+}
+
+Checked<Profile> load_profile(std::string text, std::string file, const std::string& level) {
+  Checked<Profile> out;
+  Profile profile;
+  profile.sha256 = sha256(text);
+  const rules::Source source(std::move(file), std::move(text));
+  Findings findings(source);
+  const std::size_t bad = rules::find_bad_byte(source.text());
+  if (bad != std::string_view::npos)
+    findings.error("R200", {bad, bad}, "this is no UTF-8 text");
+  else if (const auto root = rules::parse_yaml(findings))
+    ProfileReader(findings, profile).read(*root, level);
+  out.issues = findings.issues();
+  if (!findings.has_errors()) out.value = std::move(profile);
+  return out;
+}
+
+Checked<Profile> load_profile_file(const std::string& name_and_level) {
+  const std::size_t colon = name_and_level.rfind(':');
+  const std::string name = name_and_level.substr(0, colon);
+  const std::string level = colon == std::string::npos ? "" : name_and_level.substr(colon + 1);
+  for (const rules::EmbeddedPack& profile : rules::embedded_profiles())
+    if (profile.name == name) return load_profile(std::string(profile.text), name + ".yaml", level);
+  if (auto text = text_of_file(name)) return load_profile(std::move(*text), name, level);
+  Issue issue;
+  issue.code = "R200";
+  issue.sentence = "there is no profile here that can be read; the profiles built in are: " +
+                   rules::join(embedded_profiles());
+  issue.place.file = name;
+  return {std::nullopt, {std::move(issue)}};
+}
+
+std::vector<std::string> embedded_profiles() {
+  std::vector<std::string> names;
+  for (const rules::EmbeddedPack& profile : rules::embedded_profiles())
+    names.emplace_back(profile.name);
+  return names;
+}
+
+std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base) {
+  std::vector<Issue> issues;
+  for (const auto* list : {&profile.omit, &profile.keep})
+    for (const std::string& name : *list) {
+      if (std::ranges::find(base.pack().classes, name, &rules::Class::name) !=
+          base.pack().classes.end())
+        continue;
+      Issue issue;
+      issue.severity = Severity::warning;
+      issue.code = "R263";
+      issue.sentence =
+          fmt::format("the profile {} names the class '{}', which the pack {} does not have",
+                      profile.title(), name, base.name());
+      issue.place.file = profile.name;
+      issues.push_back(std::move(issue));
+    }
+  return issues;
+}
+
+}  // namespace oriel

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "interpret/rule_base.h"
+#include "interpret/significance.h"
+#include "kernel/model/feature_table.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/issue.h"
+#include "kernel/model/plan.h"
+#include "kernel/model/segmentation.h"
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// What a level of detail or a map asks for, whatever the rules call things: one level of a file
+/// under rules/profiles/ (docs/generalisation.md, "Profiles").
+struct Profile {
+  /// The building's form: as it is, one flat block, or one for each main part of the roof.
+  enum class Form { as_is, block, blocks };
+
+  std::string name;    ///< "lod"
+  std::string level;   ///< "2.0"
+  std::string sha256;  ///< of the file's text
+  Form form = Form::as_is;
+  /// Of `block` and `blocks`: courtyards and separate pieces with less area go.
+  double least_piece_m2 = 0;
+  /// Classes of the pack; what is of one of them, or under it, always goes, or always stays.
+  std::vector<std::string> omit, keep;
+  bool omits_imprints = false;  ///< those without label
+  /// What reaches the ground goes only if it is of one of these classes; missing: it may go.
+  std::optional<std::vector<std::string>> on_ground;
+  std::optional<Thresholds> sizes;
+  /// Instead of `sizes`: the least length on the map.
+  std::optional<double> map_mm;
+  /// Verdicts that make a feature go that neither the pack nor the lists above decide of.
+  std::set<Significance> omitted;
+  /// What an operation must not change by more than this, in percent; missing: it may.
+  std::optional<double> footprint_pct, volume_pct;
+  /// The same of the highest point, in metres.
+  std::optional<double> top_m;
+
+  /// "lod:2.0".
+  [[nodiscard]] std::string title() const { return name + ":" + level; }
+  /// Map thresholds need a scale; others leave it aside. Nothing if there are neither.
+  [[nodiscard]] std::optional<Thresholds> thresholds(std::optional<double> scale) const;
+};
+
+/// A level of the profile in `text`, called `file` in places. `level` may be empty if there is only
+/// one. Findings have codes: R2xx as in packs, R260 sizes that are no chain, R261 no such level,
+/// R262 both sizes and a length on the map, or neither where verdicts need them.
+Checked<Profile> load_profile(std::string text, std::string file, const std::string& level);
+
+/// The same of "NAME" or "NAME:LEVEL": of a profile built in, else of the file NAME.
+Checked<Profile> load_profile_file(const std::string& name_and_level);
+
+/// The names of the profiles that were built in, sorted.
+std::vector<std::string> embedded_profiles();
+
+/// Classes that a profile names and the pack does not have: a warning R263 each. They are passed
+/// over.
+std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base);
+
+/// Adds to `plan`, which may be empty, what the profile asks for of features without a step there:
+/// first its lists of classes, then the verdict of significance. A feature that carries one that is
+/// to stay by the profile does not go for its size. Steps are called "NAME:LEVEL/omit" or
+/// "NAME:LEVEL/VERDICT". `scale` is needed by map profiles.
+Plan plan_by_profile(Plan plan, const Profile& profile, const RuleBase& base,
+                     const Segmentation& segmentation, const FeatureTable& table,
+                     const Interpretation& interpretation, std::optional<double> scale);
+
+}  // namespace oriel

@@ -1,0 +1,297 @@
+#include "kernel/blocks/blocks.h"
+
+#include "kernel/blocks/detail/plan_view.h"
+#include "kernel/blocks/detail/prisms.h"
+#include "kernel/solidify/solidify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+using detail::Arrangement;
+using detail::PlanView;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A corner of a triangle seen from above, with the height of the roof over it.
+struct Corner {
+  Vec3 plan;
+  double z = 0;
+};
+
+/// The area of a triangle, seen from above, in which it lies lower than `z`. Signed, so that the
+/// fans of any outline add up.
+double area_below(std::array<Corner, 3> t, double z) {
+  const double area = cross(t[1].plan - t[0].plan, t[2].plan - t[0].plan).z / 2;
+  std::ranges::sort(t, {}, &Corner::z);
+  const double low = t[0].z, mid = t[1].z, high = t[2].z;
+  if (z >= high) return area;
+  if (z <= low) return 0;
+  if (z <= mid) return area * (z - low) * (z - low) / ((mid - low) * (high - low));
+  return area * (1 - (high - z) * (high - z) / ((high - mid) * (high - low)));
+}
+
+class BlockBuilder {
+ public:
+  BlockBuilder(const Solid& solid, const std::string& name, const BlockOptions& options,
+               const Tolerances& tolerances)
+      : name_(name),
+        options_(options),
+        tolerances_(tolerances),
+        view_(solid, options.ground_reach_m, tolerances.weld_m),
+        plan_(view_.arrangement()) {}
+
+  Checked<Blocks> run() {
+    Checked<Blocks> out;
+    Blocks result;
+    result.is_from_above = is_ground_too_small();
+    for (const bool is_by_roof : {true, false}) {
+      if (is_by_roof && !options_.is_by_roof) continue;
+      divide(is_by_roof, result.is_from_above);
+      if (heights_m_.empty()) break;
+      Building building = detail::prisms(view_, part_of_, heights_m_);
+      building.id = name_;
+      auto solid = solidify(building, tolerances_);
+      if (!solid.value || !is_closed(*solid.value)) continue;
+      result.solid = std::move(*solid.value);
+      for (Facet& facet : result.solid.facets) facet.polygons.clear();
+      result.parts = static_cast<int>(heights_m_.size());
+      result.is_simplified = options_.is_by_roof && !is_by_roof;
+      out.value = std::move(result);
+      return out;
+    }
+    out.issues.push_back(building_issue(
+        Severity::error, "G406", name_,
+        heights_m_.empty() ? "no block can be made: the building covers no ground"
+                           : "no block can be made: its outline touches itself in a point"));
+    return out;
+  }
+
+ private:
+  [[nodiscard]] const std::vector<PlanView::Region>& regions() const { return view_.regions(); }
+
+  [[nodiscard]] bool is_ground_too_small() const {
+    double ground_m2 = 0, all_m2 = 0;
+    for (const PlanView::Region& region : regions()) {
+      if (region.top < 0) continue;
+      all_m2 += region.area_m2;
+      if (region.is_on_ground) ground_m2 += region.area_m2;
+    }
+    return ground_m2 < all_m2 / 2;
+  }
+
+  /// Gives every region its block: first one to each, then joined.
+  void divide(bool is_by_roof, bool is_from_above) {
+    part_of_.assign(regions().size(), -1);
+    for (std::size_t r = 1; r < regions().size(); ++r)
+      if (regions()[r].top >= 0 && (is_from_above || regions()[r].is_on_ground))
+        part_of_[r] = static_cast<int>(r);
+    give_thin_regions_away();
+    drop_small_pieces();
+    join(is_by_roof);
+    if (is_by_roof) join_small_parts();
+    number_parts();
+    find_heights();
+  }
+
+  [[nodiscard]] double length_m(std::size_t half_edge) const {
+    return length(view_.point(plan_.origin(half_edge)) -
+                  view_.point(plan_.origin(Arrangement::twin(half_edge))));
+  }
+
+  /// Regions narrower than the reach come of corners that do not lie above each other: they go to
+  /// what they share most of their border with.
+  void give_thin_regions_away() {
+    constexpr int kThin = 1 << 30;  // beyond all numbers of regions
+    std::vector<std::size_t> thin;
+    for (std::size_t r = 1; r < regions().size(); ++r)
+      if (regions()[r].is_thin) thin.push_back(r);
+    for (const std::size_t r : thin) part_of_[r] = kThin + static_cast<int>(r);
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (const std::size_t r : thin) {
+        if (part_of_[r] < kThin) continue;
+        std::map<int, double> border_m;
+        for_each_edge_of(r, [&](std::size_t h) {
+          const int other = part_of_[plan_.region(Arrangement::twin(h))];
+          if (other < kThin) border_m[other] += length_m(h);
+        });
+        if (border_m.empty()) continue;
+        part_of_[r] =
+            std::ranges::max_element(border_m, {}, [](const auto& e) { return e.second; })->first;
+        has_changed = true;
+      }
+    }
+    for (const std::size_t r : thin)
+      if (part_of_[r] >= kThin) part_of_[r] = -1;
+  }
+
+  template <class Visit>
+  void for_each_edge_of(std::size_t region, Visit visit) {
+    if (edges_of_.empty()) {
+      edges_of_.resize(regions().size());
+      for (std::size_t h = 0; h < plan_.half_edge_count(); ++h)
+        edges_of_[plan_.region(h)].push_back(h);
+    }
+    for (const std::size_t h : edges_of_[region]) visit(h);
+  }
+
+  /// Connected regions of the footprint, or of what lies around, as one: courtyards and separate
+  /// pieces that are too small change sides.
+  void drop_small_pieces() {
+    if (options_.least_piece_m2 <= 0) return;
+    std::vector<std::size_t> piece(regions().size());
+    std::iota(piece.begin(), piece.end(), std::size_t{0});
+    const auto find = [&](std::size_t r) {
+      while (piece[r] != r) r = piece[r] = piece[piece[r]];
+      return r;
+    };
+    for (std::size_t h = 0; h < plan_.half_edge_count(); ++h) {
+      const std::size_t r = plan_.region(h), s = plan_.region(Arrangement::twin(h));
+      if ((part_of_[r] < 0) == (part_of_[s] < 0)) piece[find(r)] = find(s);
+    }
+    std::map<std::size_t, double> area_m2;
+    for (std::size_t r = 1; r < regions().size(); ++r) area_m2[find(r)] += regions()[r].area_m2;
+    const std::size_t outside = find(0);
+    double largest_m2 = 0;
+    for (std::size_t r = 1; r < regions().size(); ++r)
+      if (part_of_[r] >= 0) largest_m2 = std::max(largest_m2, area_m2[find(r)]);
+    for (std::size_t r = 1; r < regions().size(); ++r) {
+      const double here_m2 = area_m2[find(r)];
+      if (find(r) == outside || here_m2 >= options_.least_piece_m2) continue;
+      if (part_of_[r] < 0)
+        part_of_[r] = static_cast<int>(r);
+      else if (here_m2 < largest_m2)
+        part_of_[r] = -1;
+    }
+  }
+
+  /// Joins regions that are to have one top. In a courtyard that was closed no roof is seen: it
+  /// takes the height of what is around it.
+  void join(bool is_by_roof) {
+    std::map<int, int> into;
+    const auto find = [&](int p) {
+      for (auto next = into.find(p); next != into.end(); next = into.find(p)) p = next->second;
+      return p;
+    };
+    for (std::size_t h = 0; h < plan_.half_edge_count(); ++h) {
+      const std::size_t r = plan_.region(h), s = plan_.region(Arrangement::twin(h));
+      if (part_of_[r] < 0 || part_of_[s] < 0) continue;
+      const int p = find(part_of_[r]), q = find(part_of_[s]);
+      if (p != q && (!is_by_roof || step_m(h) <= options_.step_m)) into[p] = q;
+    }
+    for (int& part : part_of_)
+      if (part >= 0) part = find(part);
+  }
+
+  /// The largest jump of the roof along an edge of the plan.
+  [[nodiscard]] double step_m(std::size_t h) const {
+    const int f = regions()[plan_.region(h)].top;
+    const int g = regions()[plan_.region(Arrangement::twin(h))].top;
+    if (f < 0 || g < 0) return 0;
+    double jump_m = 0;
+    for (const std::size_t end : {h, Arrangement::twin(h)}) {
+      const Vec3 point = view_.point(plan_.origin(end));
+      jump_m = std::max(jump_m, std::abs(view_.height_m(f, point) - view_.height_m(g, point)));
+    }
+    return jump_m;
+  }
+
+  /// The smallest first; the outside takes none of them.
+  void join_small_parts() {
+    while (true) {
+      std::map<int, double> area_m2;
+      for (std::size_t r = 1; r < regions().size(); ++r)
+        if (part_of_[r] >= 0) area_m2[part_of_[r]] += regions()[r].area_m2;
+      std::map<int, std::map<int, double>> border_m;
+      for (std::size_t h = 0; h < plan_.half_edge_count(); ++h) {
+        const int p = part_of_[plan_.region(h)];
+        const int q = part_of_[plan_.region(Arrangement::twin(h))];
+        if (p >= 0 && q >= 0 && p != q) border_m[p][q] += length_m(h);
+      }
+      int smallest = -1;
+      for (const auto& [part, size_m2] : area_m2)
+        if (size_m2 < options_.least_part_m2 && border_m.contains(part) &&
+            (smallest < 0 || size_m2 < area_m2[smallest]))
+          smallest = part;
+      if (smallest < 0) return;
+      const auto& around = border_m[smallest];
+      const int into =
+          std::ranges::max_element(around, {}, [](const auto& e) { return e.second; })->first;
+      std::ranges::replace(part_of_, smallest, into);
+    }
+  }
+
+  void number_parts() {
+    std::map<int, int> number;
+    for (int& part : part_of_)
+      if (part >= 0) part = number.try_emplace(part, static_cast<int>(number.size())).first->second;
+    heights_m_.assign(number.size(), 0);
+  }
+
+  /// Tops are whole millimetres: what is no measure of the building need not look like one.
+  void find_heights() {
+    std::vector<std::vector<std::array<Corner, 3>>> fans(heights_m_.size());
+    for (std::size_t r = 1; r < regions().size(); ++r) {
+      const PlanView::Region& region = regions()[r];
+      if (part_of_[r] < 0 || region.top < 0 || region.is_thin) continue;
+      for (const detail::Outline& outline : region.outlines)
+        for (std::size_t i = 2; i < outline.size(); ++i)
+          fans[at(part_of_[r])].push_back({corner(region.top, outline[0]),
+                                           corner(region.top, outline[i - 1]),
+                                           corner(region.top, outline[i])});
+    }
+    for (std::size_t p = 0; p < fans.size(); ++p)
+      heights_m_[p] = std::round(quantile_m(fans[p]) * 1000) / 1000;
+  }
+
+  [[nodiscard]] Corner corner(int facet, Vec3 point) const {
+    return {point, view_.height_m(facet, point)};
+  }
+
+  /// The height below which the wanted share of the area lies.
+  [[nodiscard]] double quantile_m(const std::vector<std::array<Corner, 3>>& fan) const {
+    double low = Box::kInfinity, high = -Box::kInfinity, all_m2 = 0;
+    for (const auto& triangle : fan) {
+      for (const Corner& c : triangle) {
+        low = std::min(low, c.z);
+        high = std::max(high, c.z);
+      }
+      all_m2 += area_below(triangle, Box::kInfinity);
+    }
+    constexpr int kSteps = 40;  // of a hundred metres to far less than a micrometre
+    for (int step = 0; step < kSteps; ++step) {
+      const double mid = (low + high) / 2;
+      double below_m2 = 0;
+      for (const auto& triangle : fan) below_m2 += area_below(triangle, mid);
+      (below_m2 < options_.height_share * all_m2 ? low : high) = mid;
+    }
+    return high;
+  }
+
+  const std::string& name_;
+  const BlockOptions& options_;
+  const Tolerances& tolerances_;
+  PlanView view_;
+  const Arrangement& plan_;
+  std::vector<int> part_of_;  ///< by region; -1: outside
+  std::vector<double> heights_m_;
+  std::vector<std::vector<std::size_t>> edges_of_;  ///< by region, once they are asked for
+};
+
+}  // namespace
+
+Checked<Blocks> blocks(const Solid& solid, const std::string& name, const BlockOptions& options,
+                       const Tolerances& tolerances) {
+  return BlockBuilder(solid, name, options, tolerances).run();
+}
+
+}  // namespace oriel

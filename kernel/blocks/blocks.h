@@ -1,0 +1,54 @@
+#pragma once
+
+#include "kernel/model/issue.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+
+#include <string>
+
+namespace oriel {
+
+/// How a building is turned into upright blocks with flat tops.
+struct BlockOptions {
+  /// False: one block over each piece of the footprint. True: a block for each part of the roof.
+  bool is_by_roof = false;
+  /// Two pieces of roof are one part if no more than this lies between them along the border that
+  /// they share, seen from above. 3 m: a storey, as in 3DBAG's LoD 1.3.
+  double step_m = 3;
+  /// Parts with less area than this join the neighbour with the longest common border.
+  double least_part_m2 = 4;
+  /// Courtyards and separate pieces of the footprint with less area than this go; 0: none do.
+  double least_piece_m2 = 0;
+  /// So much of a block's area, seen from above, has its roof below the block's top. 0.7 as in
+  /// 3DBAG's `h_dak_70p`.
+  double height_share = 0.7;
+  /// A facet that looks down is ground if all of it lies no higher than this over the lowest point.
+  double ground_reach_m = 0.5;
+};
+
+/// A building made of upright blocks.
+struct Blocks {
+  /// Closed; its facets look up, down, or sideways. One lump for each piece of the footprint.
+  Solid solid;
+  /// How many blocks there are.
+  int parts = 0;
+  /// The ground facets are less than half of what is seen from above (a building on stilts, or
+  /// without a floor): what is seen from above was taken as the footprint.
+  bool is_from_above = false;
+  /// There was to be a block for each part of the roof, and they meet in a vertical edge without a
+  /// common wall, which no closed solid can: one block was made.
+  bool is_simplified = false;
+};
+
+/// Blocks over the footprint of `solid`, from its lowest ground to the height that `options` say.
+///
+/// The footprint is the union of the ground facets, seen from above; its corners are the solid's
+/// corners and the crossings of its edges, put together within weld_m. Nothing is simplified but
+/// what the options say. No value and an error G406 if there is no footprint, or if no closed solid
+/// comes of it (outlines that touch in a point).
+/// `name` is the building's in the message. Source: the levels of detail 1.0 to 1.3 of Biljecki,
+/// Ledoux and Stoter 2016; docs/generalisation.md.
+Checked<Blocks> blocks(const Solid& solid, const std::string& name, const BlockOptions& options,
+                       const Tolerances& tolerances = {});
+
+}  // namespace oriel
