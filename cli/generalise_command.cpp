@@ -176,8 +176,11 @@ class Generaliser {
       plan = plan_by_profile(std::move(plan), *profile, rules_, *line.segmentation, table,
                              line.interpretation, targets_.scale);
     report_.tell(plan.issues);
+    Invariants invariants;
+    if (profile != nullptr)
+      invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m};
     auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
-                                  arguments_.segment_options());
+                                  arguments_.segment_options(), invariants);
     if (!tell(generalised.issues) || !generalised.value) return std::nullopt;
     const Tolerances& tolerances = arguments_.segment_options().tolerances;
     if (!targets_.has_lods())

@@ -1,21 +1,19 @@
 #include "generalise/generalise.h"
 
-#include "generalise/operators/omit.h"
-
 #include <fmt/format.h>
 
 namespace oriel {
 
 namespace {
 
-Issue refusal_issue(const Refusal& refusal, const Segmentation& segmentation,
+Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segmentation,
                     const FeatureTable& table, const Interpretation& interpretation,
                     const std::string& target) {
   const FeatureId parent = segmentation.features[refusal.feature.index()].parent;
   const std::string& label = interpretation.verdicts[refusal.feature.index()].label;
   const bool is_piece = parent.is_valid() && label.empty();
   Issue issue =
-      building_issue(is_piece ? Severity::note : Severity::warning, "G401", table.building(),
+      building_issue(is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
                      is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}",
                                             table.id(parent), target, refusal.reason)
                               : fmt::format("is not omitted at {}: {}", target, refusal.reason));
@@ -27,22 +25,21 @@ Issue refusal_issue(const Refusal& refusal, const Segmentation& segmentation,
 
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
                                 const FeatureTable& table, const Interpretation& interpretation,
-                                const Plan& plan, const SegmentOptions& options) {
+                                const Plan& plan, const SegmentOptions& options,
+                                const Invariants& invariants) {
   Checked<Generalised> out;
   const std::string target =
       plan.scale > 0 ? fmt::format("1:{}", plan.scale) : std::string("this level of detail");
-  Remainder remainder = omit(solid, segmentation, plan, options);
-  for (const Refusal& refusal : remainder.refused)
+  CarriedOut done = carry_out(solid, segmentation, plan, options, invariants);
+  for (const CarriedOut::Refused& refusal : done.refused)
     out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, target));
-  if (remainder.solid.facets.empty() || volume_m3(remainder.solid) <= 0 ||
-      !is_closed(remainder.solid)) {
+  if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
         Severity::error, "G402", table.building(),
         fmt::format("nothing closed would be left at {}; it stays as it is", target)));
     return out;
   }
-  out.value = Generalised{std::move(remainder.solid), std::move(remainder.removed),
-                          std::move(remainder.refused)};
+  out.value = Generalised{std::move(done.solid), std::move(done.removed), std::move(done.refused)};
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generalise/carry_out.h"
 #include "kernel/model/building.h"
 #include "kernel/model/feature_table.h"
 #include "kernel/model/interpretation.h"
@@ -8,7 +9,6 @@
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
-#include "kernel/segment/remove.h"
 #include "kernel/segment/segment.h"
 
 #include <map>
@@ -24,23 +24,25 @@ struct Generalised {
   /// The features that are gone: those of the plan and all that sat on them. Ascending.
   std::vector<FeatureId> removed;
   /// Steps of the plan that were not carried out, and why; by feature.
-  std::vector<Refusal> refused{};
+  std::vector<CarriedOut::Refused> refused{};
   /// To be drawn even if nothing is gone: its own solid instead of the input's polygons.
   bool is_drawn_anew = false;
 };
 
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are
-/// left out, each with a warning G401 that names the feature and the reason; the others go on. For
-/// a feature without a label that is a piece of another one it is a note: such pieces come of how a
-/// concave part was cut, and many have no cut of their own in the whole building. No value if
-/// nothing would be left of the building (G402): it is to stay as it is.
+/// left out, each with a warning G401, or G405 if an invariant would break, that names the feature
+/// and the reason; the others go on. For a feature without a label that is a piece of another one
+/// it is a note: such pieces come of how a concave part was cut, and many have no cut of their own
+/// in the whole building. No value if nothing would be left of the building (G402): it is to stay
+/// as it is.
 ///
 /// `segmentation` is that of `solid`, made with `options`; `table` gives features their ids in
 /// messages, `interpretation` their labels. Source: paper 5.1 (omission) and 5.2;
 /// docs/generalisation.md.
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
                                 const FeatureTable& table, const Interpretation& interpretation,
-                                const Plan& plan, const SegmentOptions& options = {});
+                                const Plan& plan, const SegmentOptions& options = {},
+                                const Invariants& invariants = {});
 
 /// What is to be written of a generalised building, and which CityObjects have to leave the file.
 struct Redrawn {

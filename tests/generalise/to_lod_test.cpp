@@ -1,0 +1,106 @@
+#include "generalise/to_lod.h"
+
+#include "kernel/io/writer.h"
+#include "tests/generalise/line.h"
+#include "tests/support/shapes.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel;
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+Checked<Redrawn> product(const Line& line, const std::string& level) {
+  const Profile profile = *load_profile_file("lod:" + level).value;
+  const auto& [table, graph] = line.description;
+  const Plan plan = plan_by_profile({}, profile, residential(), line.segmentation, table,
+                                    line.interpretation, std::nullopt);
+  auto left = generalise(line.solid, line.segmentation, table, line.interpretation, plan);
+  REQUIRE(left.value);
+  return to_lod(line.building(), line.labelled, line.segmentation, table, line.interpretation,
+                profile, std::move(*left.value));
+}
+
+}  // namespace
+
+TEST_SUITE("generalise") {
+  TEST_CASE("every sample at every level is a closed solid in the file too") {
+    for (const std::string& name : samples()) {
+      const Line line = line_of_sample(name);
+      for (const char* level : {"2.0", "1.3", "1.2", "1.0"}) {
+        const auto made = product(line, level);
+        REQUIRE(made.value);
+        const std::string text = write_cityjson(line.document, {made.value->labelled},
+                                                {.removed = made.value->removed_ids});
+        const Line again = line_of_text(text);
+        CHECK(is_closed(again.solid));
+        CHECK(again.building().lod == level);
+        const json city = json::parse(text);
+        for (const auto& [id, object] : city["CityObjects"].items()) {
+          // What stands on the ground is a part of the building: a bay keeps its name.
+          if (object["type"] == "BuildingInstallation") {
+            CHECK(object["attributes"]["oriel_label"] == "bay");
+            CHECK(level == std::string("2.0"));
+            continue;
+          }
+          for (const json& geometry : object["geometry"]) {
+            REQUIRE(geometry.contains("semantics"));
+            for (const json& shell : geometry["semantics"]["values"])
+              for (const json& value : shell) CHECK(value.is_number());
+            for (const json& surface : geometry["semantics"]["surfaces"]) {
+              CHECK(surface["type"] != "Window");
+              CHECK(surface["type"] != "Door");
+            }
+          }
+        }
+      }
+    }
+  }
+
+  TEST_CASE("the house at 2.0 has its roof and no dormer chimney or balcony") {
+    const Line line = line_of_sample("house");
+    const auto made = product(line, "2.0");
+    REQUIRE(made.value);
+    CHECK(made.value->removed.at("dormer") == 2);
+    CHECK(made.value->removed.at("chimney") == 1);
+    CHECK(made.value->removed.at("balcony") == 1);
+    const Solid& solid = *made.value->labelled.geometry;
+    std::set<PlaneId> roofs;
+    for (const Facet& facet : solid.facets)
+      if (solid.planes[facet.plane.index()].normal.z > 0.3) roofs.insert(facet.plane);
+    CHECK(roofs.size() >= 2);
+  }
+
+  TEST_CASE("a wing on the ground without label stays and a small block on the roof goes") {
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {12, 10, 6})
+                                  .add({2, -1.5, 0}, {5, 0, 1.8})
+                                  .add({4, 4, 6}, {5.5, 7, 7.5})
+                                  .build());
+    REQUIRE(line.segmentation.features.size() == 2);
+    const auto made = product(line, "2.0");
+    REQUIRE(made.value);
+    CHECK(volume_m3(*made.value->labelled.geometry) ==
+          doctest::Approx(720 + 3 * 1.5 * 1.8).epsilon(1e-6));
+  }
+
+  TEST_CASE("a part that holds another up stays") {
+    // The tower is thin enough to be a line; the cabin on top of it is not small.
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {20, 20, 6})
+                                  .add({8, 8, 6}, {9.9, 9.9, 12})
+                                  .add({6, 6, 12}, {14, 14, 16})
+                                  .build());
+    const auto made = product(line, "2.0");
+    REQUIRE(made.value);
+    CHECK(volume_m3(*made.value->labelled.geometry) ==
+          doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+  }
+}

@@ -1,0 +1,93 @@
+#include "interpret/profile.h"
+
+#include <array>
+#include <string>
+
+#include <doctest/doctest.h>
+
+using namespace oriel;
+
+namespace {
+
+std::string profile_with(const std::string& level) {
+  return "schema: oriel-profile/1\nprofile: {name: p, version: 1.0.0}\nlevels:\n  any: " + level +
+         "\n";
+}
+
+/// The codes of what is wrong with a level, one after the other.
+std::string codes_of(const std::string& level, const std::string& asked = "") {
+  std::string codes;
+  const auto loaded = load_profile(profile_with(level), "p.yaml", asked);
+  CHECK(loaded.value.has_value() == !has_errors(loaded.issues));
+  for (const Issue& issue : loaded.issues) codes += issue.code + " ";
+  return codes;
+}
+
+}  // namespace
+
+TEST_SUITE("interpret") {
+  TEST_CASE("the verdicts of significance are those of the design") {
+    const Thresholds t{2, 1, 0.5, 3};
+    REQUIRE(t.is_chain());
+    CHECK(significance(.3, .3, .3, t) == Significance::point);
+    CHECK(significance(6, .1, .1, t) == Significance::line);
+    CHECK(significance(4, 1.5, .2, t) == Significance::sheet);
+    CHECK(significance(2.4, .9, .05, t) == Significance::line);
+    CHECK(significance(1.5, .6, .5, t) == Significance::point);
+    CHECK(significance(3, 2.5, 1.2, t) == Significance::keep);
+    CHECK(significance(2.2, 1.2, .2, t) == Significance::small);
+  }
+
+  TEST_CASE("the thresholds of a map are a chain at every scale") {
+    for (const double scale : {1.0, 500.0, 2500.0, 1e6}) {
+      const Thresholds t = map_thresholds(0.5, scale);
+      CHECK(t.is_chain());
+      CHECK(t.a_m == doctest::Approx(0.0005 * scale));
+    }
+  }
+
+  TEST_CASE("every level of every built-in profile loads without findings") {
+    const std::array names{"citygml:1",   "citygml:2",   "citygml:3",   "lod:1.0",
+                           "lod:1.2",     "lod:1.3",     "lod:2.0",     "map",
+                           "plateau:2.0", "plateau:2.1", "plateau:2.2", "plateau:3.1"};
+    const RuleBase residential = *load_pack_file("residential").value;
+    for (const char* name : names) {
+      const auto loaded = load_profile_file(name);
+      REQUIRE_MESSAGE(loaded.value, name);
+      CHECK(loaded.issues.empty());
+      CHECK(loaded.value->thresholds(1000)->is_chain());
+      CHECK(check_profile(*loaded.value, residential).empty());
+    }
+    CHECK(embedded_profiles() == std::vector<std::string>{"citygml", "lod", "map", "plateau"});
+  }
+
+  TEST_CASE("sizes that are no chain are refused") {
+    const std::string tail = ", verdicts: {point: omit}}";
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 3" + tail) == "");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 2, c: 0.5}, area-m2: 3" + tail) == "R260 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 1.5}, area-m2: 3" + tail) == "R260 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 2" + tail) == "R260 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 4" + tail) == "R260 ");
+  }
+
+  TEST_CASE("a profile that cannot be meant is refused with a code") {
+    CHECK(codes_of("{form: as-is, verdicts: {point: omit}}") == "R262 ");
+    CHECK(codes_of("{form: as-is, map-mm: 0.5, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 3}") ==
+          "R262 ");
+    CHECK(codes_of("{form: as-is, map-mm: -1}") == "R211 ");
+    CHECK(codes_of("{form: round}") == "R211 ");
+    CHECK(codes_of("{form: as-is, omits: [door]}") == "R209 ");
+    CHECK(codes_of("{form: as-is}", "7") == "R261 ");
+    CHECK(codes_of("{}") == "R210 ");
+    CHECK_FALSE(load_profile_file("no-such-profile").value);
+    CHECK_FALSE(load_profile_file("lod").value);
+  }
+
+  TEST_CASE("classes that the pack does not have are told") {
+    const auto loaded = load_profile(profile_with("{form: as-is, omit: [dormr]}"), "p.yaml", "");
+    REQUIRE(loaded.value);
+    const auto issues = check_profile(*loaded.value, *load_pack_file("residential").value);
+    REQUIRE(issues.size() == 1);
+    CHECK(issues[0].code == "R263");
+  }
+}
