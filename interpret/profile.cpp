@@ -202,7 +202,7 @@ Checked<Profile> load_profile(std::string text, std::string file, const std::str
   const std::size_t bad = rules::find_bad_byte(source.text());
   if (bad != std::string_view::npos)
     findings.error("R200", {bad, bad}, "this is no UTF-8 text");
-  else if (const auto root = rules::parse_yaml(findings))
+  else if (const auto root = rules::parse_yaml({0, source.text().size()}, findings))
     ProfileReader(findings, profile).read(*root, level);
   out.issues = findings.issues();
   if (!findings.has_errors()) out.value = std::move(profile);
