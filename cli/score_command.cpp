@@ -136,6 +136,8 @@ void add_score(CLI::App& app, Action& action) {
   command->add_flag("--surfaces", arguments->is_of_surfaces,
                     "Name the surfaces of models as if they had no semantics, compare with those");
   command->add_option("--lod", arguments->lod, "With --surfaces: level of detail to read");
+  command->add_option("--budget", arguments->budget,
+                      "With --surfaces: half-edges that segmenting one building may look at");
   add_rules_argument(*command, arguments->rules);
   command->add_flag("--json", arguments->is_json, "As JSON, with all misses");
   command->add_flag("-v,--verbose", arguments->is_verbose, "List all misses, not the first 20");

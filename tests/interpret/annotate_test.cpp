@@ -135,7 +135,7 @@ TEST_SUITE("interpret") {
     CHECK(type_at(labelled, 2) == "WallSurface");
   }
 
-  TEST_CASE("the sill of a sash in an unlabelled frame is a floor in a wall") {
+  TEST_CASE("the sill of a sash in an unlabelled frame belongs to the wall") {
     House h = house();
     const int frame = h.add({{2, 0, 1}, times(2, kX), kZ});
     const auto sash = add_recess(h, 2.1, 1);
@@ -144,7 +144,7 @@ TEST_SUITE("interpret") {
     all.insert(all.end(), sash.begin(), sash.end());
     const FeatureId owner = h.add_feature("", Sense::imprint, 0, all, {2});
     h.segmentation.features[hole.index()].host = owner;
-    CHECK(type_at(h.annotated(), sash[1]) == "OuterFloorSurface");
+    CHECK(type_at(h.annotated(), sash[1]) == "WallSurface");
   }
 
   TEST_CASE("every polygon is a surface named by where it looks") {
@@ -192,14 +192,14 @@ TEST_SUITE("interpret") {
     CHECK(type_at(h.annotated(), sash) == "Window");
   }
 
-  TEST_CASE("features without a label keep walls and have floors") {
+  TEST_CASE("a niche too narrow for a foot belongs to the wall") {
     House h = house();
     const std::vector<int> niche = add_recess(h, 2, 2);
     h.add_feature("", Sense::hole, 0.1, niche, {2});
     const LabelledBuilding labelled = h.annotated();
     CHECK(type_at(labelled, niche[0]) == "WallSurface");
-    CHECK(type_at(labelled, niche[1]) == "OuterFloorSurface");
-    CHECK(type_at(labelled, niche[2]) == "OuterCeilingSurface");
+    CHECK(type_at(labelled, niche[1]) == "WallSurface");
+    CHECK(type_at(labelled, niche[2]) == "WallSurface");
   }
 
   TEST_CASE("a balcony is an installation with its polygons and codes") {

@@ -39,7 +39,7 @@ TEST_SUITE("interpret") {
     CHECK(fault("clases: {}") ==
           "t.yaml:4:1: R209 unknown key 'clases' in a pack; did you mean 'classes'? (keys: schema, "
           "pack, extends, params, hosts, classes, relations, macros, rules, decide, iterate, "
-          "groups, emit, generalise)\n"
+          "groups, emit, surfaces, generalise)\n"
           "clases: {}\n"
           "^~~~~~\n");
   }

@@ -1,0 +1,113 @@
+#include "interpret/surfaces.h"
+
+#include "tests/interpret/support.h"
+
+using namespace oriel;
+using namespace oriel::test;
+
+namespace {
+
+/// One surface with these attributes.
+SurfaceTable surface(double inclination, double height, const std::string& part = "") {
+  SurfaceTable table(1);
+  table.set(0, "inclination", inclination);
+  table.set(0, "height", height);
+  table.set(0, "b", 2.0);
+  if (!part.empty()) table.set(0, "part", part);
+  return table;
+}
+
+std::string fault(const std::string& entry) {
+  return findings(
+      pack_with("rules: []\nsurfaces:\n  - {id: s, type: RoofSurface, when: \"" + entry + "\"}\n"));
+}
+
+SurfaceVerdict verdict(const std::string& pack, const SurfaceTable& table) {
+  const RuleBase base = load(pack);
+  return interpret_surfaces(base, table).at(0);
+}
+
+}  // namespace
+
+TEST_SUITE("interpret") {
+  TEST_CASE("without surface rules the hosts of the pack decide") {
+    const std::string pack = pack_with("rules: []\n");
+    CHECK(verdict(pack, surface(90, 0)).type == "WallSurface");
+    CHECK(verdict(pack, surface(30, 5)).type == "RoofSurface");
+    CHECK(verdict(pack, surface(180, 0.4)).type == "GroundSurface");
+    CHECK(verdict(pack, surface(180, 0.6)).type == "OuterCeilingSurface");
+    CHECK(verdict(pack, surface(30, 5)).rule.empty());
+    CHECK(interpret_surfaces(load(pack), SurfaceTable(1)).at(0).type == "WallSurface");
+  }
+
+  TEST_CASE("the first entry that holds decides and a missing value holds nothing") {
+    const std::string pack = pack_with(
+        "params: {low: {value: 1 m}}\n"
+        "macros: {flat: inclination < 10 deg}\n"
+        "rules: []\n"
+        "surfaces:\n"
+        "  - {id: covered, type: OuterFloorSurface, when: [flat, gap_above < 4 m]}\n"
+        "  - {id: low, type: ClosureSurface, when: flat and height < $low}\n"
+        "  - {id: door, type: GroundSurface, when: part = door}\n"
+        "  - {id: flat, type: RoofSurface, when: flat}\n");
+    CHECK(verdict(pack, surface(0, 5)).rule == "flat");
+    CHECK(verdict(pack, surface(0, 0.5)).rule == "low");
+    CHECK(verdict(pack, surface(0, 5, "door")).rule == "door");
+    CHECK(verdict(pack, surface(0, 5, "window")).rule == "flat");
+    CHECK(verdict(pack, surface(90, 5)).rule.empty());
+    SurfaceTable covered = surface(0, 0.5);
+    covered.set(0, "gap_above", 3.0);
+    CHECK(verdict(pack, covered).type == "OuterFloorSurface");
+  }
+
+  TEST_CASE("each of many surfaces is named as if it stood alone") {
+    const RuleBase base = *load_pack_file("residential").value;
+    SurfaceTable many(1500);
+    for (std::size_t row = 0; row < many.rows(); ++row) {
+      many.set(row, "inclination", static_cast<double>(row % 181));
+      many.set(row, "height", static_cast<double>(row % 7) / 4);
+      if (row % 3 == 0) many.set(row, "gap_above", static_cast<double>(row % 11));
+      if (row % 5 > 0) many.set(row, "b", static_cast<double>(row % 13) / 6);
+      if (row % 2 == 0) many.set(row, "wall_up", static_cast<double>(row % 17) / 16);
+    }
+    const auto verdicts = interpret_surfaces(base, many);
+    for (std::size_t row = 0; row < many.rows(); ++row) {
+      SurfaceTable one(1);
+      for (const char* name : {"inclination", "height", "gap_above", "b", "wall_up"})
+        if (const auto value = many.number(row, name)) one.set(0, name, *value);
+      CHECK(interpret_surfaces(base, one).at(0).type == verdicts[row].type);
+      CHECK(explain_surface(base, many, row).starts_with(verdicts[row].type + " by "));
+    }
+  }
+
+  TEST_CASE("surface rules are checked before any building is read") {
+    CHECK(fault("hight > 1 m").find("R204 unknown attribute 'hight'; did you mean 'height'?") !=
+          std::string::npos);
+    CHECK(fault("volume > 1 m3").find("R204") != std::string::npos);
+    CHECK(fault("height > 1").find("R231") != std::string::npos);
+    CHECK(fault("height > 1 m2").find("R230") != std::string::npos);
+    CHECK(fault("part = wndow").find("R234") != std::string::npos);
+    CHECK(fault("facing = inside").find("R234") != std::string::npos);
+    CHECK(fault("self is window").find("R232 'self is window' speaks of features") !=
+          std::string::npos);
+    CHECK(fault("exists(contains)").find("R232") != std::string::npos);
+    CHECK(findings(pack_with("rules: []\nsurfaces: [{id: s, type: Roof, when: synthetic}]\n"))
+              .find("R212 a type of surface is one of") != std::string::npos);
+    CHECK(findings(pack_with("rules: []\nsurfaces: [{id: s, when: synthetic}]\n")).find("R210") !=
+          std::string::npos);
+    CHECK(findings(pack_with("rules: []\nsurfaces:\n"
+                             "  - {id: s, type: RoofSurface, when: synthetic}\n"
+                             "  - {id: s, type: RoofSurface, when: synthetic}\n"))
+              .find("R240") != std::string::npos);
+  }
+
+  TEST_CASE("both built-in packs name surfaces alike where no feature is named") {
+    const RuleBase whole = *load_pack_file("residential").value;
+    const RuleBase alone = *load_pack_file("surfaces-only").value;
+    CHECK(alone.rule_count() == 0);
+    for (double inclination = 0; inclination <= 180; inclination += 3)
+      for (const double height : {0.0, 1.0, 6.0})
+        CHECK(interpret_surfaces(whole, surface(inclination, height)).at(0).type ==
+              interpret_surfaces(alone, surface(inclination, height)).at(0).type);
+  }
+}
