@@ -90,7 +90,7 @@ class ListMerge {
 };
 
 void put_section(std::string_view key, YamlNode& base, YamlNode over, Findings& findings) {
-  const bool is_list = key == "rules" || key == "generalise";
+  const bool is_list = key == "rules" || key == "surfaces" || key == "generalise";
   if (is_list && base.kind == Kind::sequence && over.kind == Kind::sequence) {
     ListMerge merge(base, findings);
     for (YamlNode& item : over.items) merge.put(std::move(item));
