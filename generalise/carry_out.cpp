@@ -1,6 +1,6 @@
 #include "generalise/carry_out.h"
 
-#include "generalise/operators/omit.h"
+#include "generalise/detail/steps.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,9 +9,11 @@ namespace oriel {
 
 namespace {
 
-class Steps {
+using detail::carry_out_steps;
+
+class Guard {
  public:
-  Steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
+  Guard(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
         const SegmentOptions& options, const Invariants& invariants)
       : solid_(solid),
         segmentation_(segmentation),
@@ -40,11 +42,7 @@ class Steps {
     Plan some{plan_.scale, {}, {}};
     for (std::size_t i = 0; i < count; ++i)
       if (!is_undone(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
-    Remainder remainder = omit(solid_, segmentation_, some, options_);
-    CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
-    for (Refusal& refusal : remainder.refused)
-      out.refused.push_back({refusal.feature, "G401", std::move(refusal.reason)});
-    return out;
+    return carry_out_steps(solid_, segmentation_, some, options_);
   }
 
   /// The first `good` steps break nothing, the first `bad` do.
@@ -78,7 +76,7 @@ class Steps {
 
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                      const SegmentOptions& options, const Invariants& invariants) {
-  return Steps(solid, segmentation, plan, options, invariants).run();
+  return Guard(solid, segmentation, plan, options, invariants).run();
 }
 
 }  // namespace oriel

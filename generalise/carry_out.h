@@ -20,6 +20,8 @@ struct CarriedOut {
     std::string reason;
   };
   std::vector<Refused> refused;
+  /// Features that look different now; they are not among the removed. Ascending.
+  std::vector<FeatureId> changed{};
 };
 
 /// Carries out the steps of a plan on its solid, one operator after the other, and takes back, one

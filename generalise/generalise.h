@@ -27,6 +27,8 @@ struct Generalised {
   std::vector<CarriedOut::Refused> refused{};
   /// To be drawn even if nothing is gone: its own solid instead of the input's polygons.
   bool is_drawn_anew = false;
+  /// Features that look different now, ascending.
+  std::vector<FeatureId> changed{};
 };
 
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are

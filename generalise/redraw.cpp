@@ -136,7 +136,8 @@ Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
                const Segmentation& segmentation, const FeatureTable& table,
                const Interpretation& interpretation, Generalised generalised,
                const Tolerances& tolerances) {
-  if (generalised.removed.empty() && building.is_solid && !generalised.is_drawn_anew)
+  if (generalised.removed.empty() && generalised.changed.empty() && building.is_solid &&
+      !generalised.is_drawn_anew)
     return {labelled, {}, {}};
   std::vector<FeatureId> imprints;
   for (int i = 0; i < std::ssize(segmentation.features); ++i)

@@ -11,6 +11,8 @@ struct OperatorArgument {
   /// "length", "ratio" or "word".
   std::string kind;
   std::string meaning;
+  /// The words that it may be.
+  std::vector<std::string> words{};
 };
 
 /// What a pack may ask for under `do:`.
@@ -23,7 +25,7 @@ struct OperatorKind {
   bool is_built = false;
 };
 
-/// All operators by name; `omit` is built.
+/// All operators by name.
 const std::vector<OperatorKind>& operator_table();
 
 }  // namespace oriel

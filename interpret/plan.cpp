@@ -1,5 +1,6 @@
 #include "interpret/plan.h"
 
+#include "interpret/detail/fold.h"
 #include "interpret/detail/labelling.h"
 #include "interpret/detail/names.h"
 
@@ -104,6 +105,16 @@ void keep_whole_groups(const std::string& kind, const Interpretation& interpreta
   }
 }
 
+Step step_of(const rules::Pack& pack, const Entry& entry, FeatureId feature, double scale) {
+  Step step{feature, entry.operation, entry.id};
+  for (const Entry::Argument& argument : entry.arguments)
+    if (argument.value == rules::kNoExpr)
+      step.words[argument.name] = argument.word;
+    else if (const auto value = rules::fold(pack, argument.value, scale))
+      step.numbers[argument.name] = *value;
+  return step;
+}
+
 }  // namespace
 
 Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
@@ -137,7 +148,7 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   for (std::size_t row = 0; row < chosen.size(); ++row)
     if (chosen[row] != nullptr)
       result.steps.push_back(
-          {FeatureId{static_cast<int>(row)}, chosen[row]->operation, chosen[row]->id});
+          step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)}, scale_denominator));
   return result;
 }
 

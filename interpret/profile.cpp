@@ -55,7 +55,7 @@ class ProfileReader {
     if (chosen)
       profile_ = *chosen;
     else
-      findings_.error("R261", levels->span,
+      findings_.error("R271", levels->span,
                       fmt::format("{}; the levels of '{}' are {}",
                                   level.empty() ? "a level is needed"
                                                 : fmt::format("there is no level '{}'", level),
@@ -124,7 +124,7 @@ class ProfileReader {
     if (verdicts != nullptr) read_verdicts(*verdicts);
     if ((sizes != nullptr && map != nullptr) ||
         (sizes == nullptr && map == nullptr && verdicts != nullptr)) {
-      findings_.error("R262", level.span,
+      findings_.error("R272", level.span,
                       "verdicts of size need either 'sizes-m' with 'area-m2', or 'map-mm'");
       return;
     }
@@ -145,7 +145,7 @@ class ProfileReader {
     const Thresholds& t = *profile_.sizes;
     if (!t.is_chain())
       findings_.error(
-          "R260", sizes->span,
+          "R270", sizes->span,
           fmt::format("the sizes are no chain: c <= b < a and a*a > area > a*b must hold; "
                       "here c = {}, b = {}, a = {}, a*a = {}, area = {}, a*b = {}",
                       t.c_m, t.b_m, t.a_m, t.a_m * t.a_m, t.area_m2, t.a_m * t.b_m));
@@ -240,7 +240,7 @@ std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base) {
         continue;
       Issue issue;
       issue.severity = Severity::warning;
-      issue.code = "R263";
+      issue.code = "R273";
       issue.sentence =
           fmt::format("the profile {} names the class '{}', which the pack {} does not have",
                       profile.title(), name, base.name());

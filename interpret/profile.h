@@ -49,8 +49,8 @@ struct Profile {
 };
 
 /// A level of the profile in `text`, called `file` in places. `level` may be empty if there is only
-/// one. Findings have codes: R2xx as in packs, R260 sizes that are no chain, R261 no such level,
-/// R262 both sizes and a length on the map, or neither where verdicts need them.
+/// one. Findings have codes: R2xx as in packs, R270 sizes that are no chain, R271 no such level,
+/// R272 both sizes and a length on the map, or neither where verdicts need them.
 Checked<Profile> load_profile(std::string text, std::string file, const std::string& level);
 
 /// The same of "NAME" or "NAME:LEVEL": of a profile built in, else of the file NAME.
@@ -59,7 +59,7 @@ Checked<Profile> load_profile_file(const std::string& name_and_level);
 /// The names of the profiles that were built in, sorted.
 std::vector<std::string> embedded_profiles();
 
-/// Classes that a profile names and the pack does not have: a warning R263 each. They are passed
+/// Classes that a profile names and the pack does not have: a warning R273 each. They are passed
 /// over.
 std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base);
 

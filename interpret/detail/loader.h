@@ -66,6 +66,9 @@ struct FixedValue {
 std::optional<FixedValue> read_quantity(const YamlNode& node, std::optional<Dimension> dimension,
                                         Loader& loader);
 
+/// The same, not folded: it may depend on the scale.
+ExprId read_constant(const YamlNode& node, std::optional<Dimension> dimension, Loader& loader);
+
 /// The condition in `node`, or kNoExpr and an error.
 ExprId read_condition(const YamlNode& node, Loader& loader);
 

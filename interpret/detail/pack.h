@@ -139,6 +139,13 @@ struct Entry {
   int group = -1;
   ExprId when = kNoExpr;
   std::string operation;
+  /// The operator's arguments: constants, or words.
+  struct Argument {
+    std::string name;
+    ExprId value = kNoExpr;
+    std::string word;
+  };
+  std::vector<Argument> arguments;
   Span span;
 };
 

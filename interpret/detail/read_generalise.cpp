@@ -62,6 +62,28 @@ const YamlNode* operator_name(const YamlNode& node, Findings& findings) {
   return nullptr;
 }
 
+/// `{to: 0.5 mm@map, anchor: sill}`.
+void read_arguments(const YamlNode& node, const OperatorKind& kind, Entry& entry, Loader& loader) {
+  Section section(node, "'" + kind.name + "'", names_of(kind.arguments), loader.findings);
+  if (!section.is_map()) return;
+  for (const OperatorArgument& argument : kind.arguments) {
+    const YamlNode* value = section.find(argument.name);
+    if (value == nullptr) continue;
+    Entry::Argument& read = entry.arguments.emplace_back();
+    read.name = argument.name;
+    if (argument.kind == "word") {
+      read.word = value->text;
+      if (std::ranges::find(argument.words, read.word) == argument.words.end())
+        loader.findings.error("R211", value->span,
+                              "'" + argument.name + "' is one of " + join(argument.words) +
+                                  ", not '" + value->text + "'");
+    } else {
+      const Dimension dimension{argument.kind == "length" ? 1 : 0, 0};
+      read.value = read_constant(*value, dimension, loader);
+    }
+  }
+}
+
 void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
   const YamlNode* name = operator_name(node, loader.findings);
   if (name == nullptr) return;
@@ -73,10 +95,13 @@ void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
         "R251", name->span,
         "unknown operator '" + name->text + "'" + did_you_mean(name->text, names_of(table)));
   else if (!found->is_built)
-    loader.findings.error(
-        "R252", name->span,
-        "the operator '" + name->text + "' is not in this version, which has only 'omit'");
-  else if (node.kind != YamlNode::Kind::scalar)
+    loader.findings.error("R252", name->span,
+                          "the operator '" + name->text + "' is not in this version");
+  else if (node.kind == YamlNode::Kind::scalar)
+    return;
+  else if (!found->arguments.empty())
+    read_arguments(node.entries[0].value, *found, entry, loader);
+  else
     loader.findings.error("R211", node.entries[0].value.span,
                           "'" + name->text + "' has no arguments: write do: " + name->text);
 }

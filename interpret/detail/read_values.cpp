@@ -52,6 +52,12 @@ std::optional<FixedRange> read_range(const YamlNode& node, std::optional<Dimensi
   return std::nullopt;
 }
 
+ExprId read_constant(const YamlNode& node, std::optional<Dimension> dimension, Loader& loader) {
+  const auto where = expression_span(node, loader.findings);
+  const auto syntax = where ? parse_expression(*where, loader.findings) : std::nullopt;
+  return syntax ? loader.checker.constant(*syntax, dimension) : kNoExpr;
+}
+
 ExprId read_condition(const YamlNode& node, Loader& loader) {
   const auto where = expression_span(node, loader.findings);
   const auto syntax = where ? parse_expression(*where, loader.findings) : std::nullopt;

@@ -45,7 +45,7 @@ TEST_SUITE("cli") {
     CHECK(run({"generalise", sample("block"), "--to-lod", "two", "-o", "-"}).exit == 2);
     const Outcome unknown = run({"generalise", sample("block"), "--to-lod", "3.3", "-o", "-"});
     CHECK(unknown.exit == 4);
-    CHECK(unknown.says("R261"));
+    CHECK(unknown.says("R271"));
   }
 
   TEST_CASE("a map profile decides of what the pack has no entry for") {

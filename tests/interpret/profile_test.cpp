@@ -64,20 +64,20 @@ TEST_SUITE("interpret") {
   TEST_CASE("sizes that are no chain are refused") {
     const std::string tail = ", verdicts: {point: omit}}";
     CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 3" + tail) == "");
-    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 2, c: 0.5}, area-m2: 3" + tail) == "R260 ");
-    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 1.5}, area-m2: 3" + tail) == "R260 ");
-    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 2" + tail) == "R260 ");
-    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 4" + tail) == "R260 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 2, c: 0.5}, area-m2: 3" + tail) == "R270 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 1.5}, area-m2: 3" + tail) == "R270 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 2" + tail) == "R270 ");
+    CHECK(codes_of("{form: as-is, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 4" + tail) == "R270 ");
   }
 
   TEST_CASE("a profile that cannot be meant is refused with a code") {
-    CHECK(codes_of("{form: as-is, verdicts: {point: omit}}") == "R262 ");
+    CHECK(codes_of("{form: as-is, verdicts: {point: omit}}") == "R272 ");
     CHECK(codes_of("{form: as-is, map-mm: 0.5, sizes-m: {a: 2, b: 1, c: 0.5}, area-m2: 3}") ==
-          "R262 ");
+          "R272 ");
     CHECK(codes_of("{form: as-is, map-mm: -1}") == "R211 ");
     CHECK(codes_of("{form: round}") == "R211 ");
     CHECK(codes_of("{form: as-is, omits: [door]}") == "R209 ");
-    CHECK(codes_of("{form: as-is}", "7") == "R261 ");
+    CHECK(codes_of("{form: as-is}", "7") == "R271 ");
     CHECK(codes_of("{}") == "R210 ");
     CHECK_FALSE(load_profile_file("no-such-profile").value);
     CHECK_FALSE(load_profile_file("lod").value);
@@ -88,6 +88,6 @@ TEST_SUITE("interpret") {
     REQUIRE(loaded.value);
     const auto issues = check_profile(*loaded.value, *load_pack_file("residential").value);
     REQUIRE(issues.size() == 1);
-    CHECK(issues[0].code == "R263");
+    CHECK(issues[0].code == "R273");
   }
 }

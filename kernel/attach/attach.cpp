@@ -1,0 +1,272 @@
+#include "kernel/attach/attach.h"
+
+#include "kernel/attach/detail/clearance.h"
+#include "kernel/attach/detail/convex_body.h"
+#include "kernel/geometry/exact.h"
+#include "kernel/geometry/planar.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+constexpr double kLeastClear_m = 0.001;
+/// Parts of facets smaller than this are not met but touched.
+constexpr double kTouch_m2 = 1e-9;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+using Segment = std::pair<Vec3, Vec3>;
+
+class Attacher {
+ public:
+  Attacher(const Solid& solid, std::vector<FacetId> contacts, const std::vector<Plane>& planes,
+           Attach kind, double clear_m)
+      : solid_(solid),
+        contacts_(std::move(contacts)),
+        kind_(kind),
+        clear_m_(std::max(clear_m, kLeastClear_m)) {
+    for (const FacetId contact : contacts_) {
+      const Plane& plane = solid.planes[facet(contact).plane.index()];
+      planes_.push_back(kind == Attach::raise ? exact::opposite(plane) : plane);
+    }
+    planes_.insert(planes_.end(), planes.begin(), planes.end());
+  }
+
+  Attached run() {
+    if (const char* reason = why_not()) return {std::nullopt, {}, reason};
+    Attached out;
+    out.solid = solid_;
+    add_vertices(*out.solid);
+    for (int p = static_cast<int>(contacts_.size()); p < std::ssize(planes_); ++p)
+      if (!body_.loops[at(p)].empty()) add_facet(p, out);
+    if (contacts_.size() == 1)
+      out.solid->facets[contacts_[0].index()].loops.push_back(of_solid(outline(0)));
+    else
+      for (int c = 0; c < 2; ++c) cut_notch(c, *out.solid);
+    return out;
+  }
+
+ private:
+  [[nodiscard]] const Facet& facet(FacetId id) const { return solid_.facets[id.index()]; }
+  [[nodiscard]] Vec3 corner(int c) const { return points_[at(c)]; }
+
+  const char* why_not() {
+    const auto body = detail::convex_body(planes_);
+    if (!body) return "the body is empty or degenerate";
+    body_ = *body;
+    for (const auto& found : body_.corners)
+      points_.push_back(exact::to_metres(found.point, solid_.grid_m));
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      if (body_.loops[c].empty()) return "the body does not touch the facet";
+    if (contacts_.size() == 2 && !find_notch()) return "the two facets share no edge there";
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      if (!is_inside(c)) return "its outline does not fit into the facet";
+    if (meets_others()) return "it would come too near to another part";
+    return nullptr;
+  }
+
+  /// The body's outline on a contact as a hole of it: clockwise seen from outside the solid.
+  [[nodiscard]] Loop outline(std::size_t contact) const {
+    Loop loop = body_.loops[contact];
+    if (kind_ == Attach::sink) std::ranges::reverse(loop);
+    return loop;
+  }
+
+  [[nodiscard]] Loop of_solid(Loop loop) const {
+    for (int& c : loop) c += first_vertex_;
+    return loop;
+  }
+
+  /// The edge of the body that lies in both contacts, and the edge of the solid it lies on.
+  bool find_notch() {
+    const Loop& loop = body_.loops[0];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int p = loop[i], q = loop[(i + 1) % loop.size()];
+      if (is_on_second(p) && is_on_second(q)) notch_ = {p, q};
+    }
+    if (notch_.first < 0) return false;
+    std::vector<std::pair<int, int>> of_second;
+    for_each_edge(contacts_[1], [&](int a, int b) { of_second.emplace_back(b, a); });
+    const Vec3 p = corner(notch_.first), q = corner(notch_.second);
+    for_each_edge(contacts_[0], [&](int a, int b) {
+      if (std::ranges::find(of_second, std::pair{a, b}) == of_second.end()) return;
+      const Vec3 from = solid_.vertices[at(a)].point, to = solid_.vertices[at(b)].point;
+      const Vec3 along = normalised(to - from);
+      const auto fits = [&](Vec3 x) {
+        const double s = dot(x - from, along);
+        return s >= clear_m_ && s <= length(to - from) - clear_m_ &&
+               length(x - from - s * along) < kLeastClear_m;
+      };
+      if (fits(p) && fits(q) && dot(q - p, along) > 0) edge_ = {a, b};
+    });
+    return edge_.first >= 0;
+  }
+  [[nodiscard]] bool is_on_second(int c) const {
+    return std::ranges::find(body_.loops[1], c) != body_.loops[1].end();
+  }
+
+  template <class Visit>
+  void for_each_edge(FacetId id, Visit visit) const {
+    for (const Loop& loop : facet(id).loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+  }
+
+  /// The outline lies in the facet and off its edges; where a notch is cut it touches one of them.
+  [[nodiscard]] bool is_inside(std::size_t contact) const {
+    const Vec3 normal = solid_.planes[facet(contacts_[contact]).plane.index()].normal;
+    std::vector<detail::Outline> outlines;
+    for (const Loop& loop : facet(contacts_[contact]).loops) {
+      outlines.emplace_back();
+      for (const int v : loop) outlines.back().push_back(solid_.vertices[at(v)].point);
+    }
+    const Loop& loop = body_.loops[contact];
+    bool is_clear = true;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int p = loop[i], q = loop[(i + 1) % loop.size()];
+      if (is_of_notch(p) && is_of_notch(q)) continue;
+      if (!is_of_notch(p) && !detail::contains(outlines, normal, corner(p))) return false;
+      for_each_edge(contacts_[contact], [&](int a, int b) {
+        const bool is_cut = std::pair{a, b} == edge_ || std::pair{b, a} == edge_;
+        if (is_cut && (is_of_notch(p) || is_of_notch(q))) return;
+        const Segment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
+        is_clear = is_clear && detail::distance({corner(p), corner(q)}, edge) >= clear_m_;
+      });
+    }
+    // A hole of the facet may lie inside the outline.
+    detail::Outline mine;
+    for (const int c : loop) mine.push_back(corner(c));
+    const std::array<detail::Outline, 1> only{mine};
+    for (const detail::Outline& other : outlines)
+      if (detail::contains(only, normal, other[0])) return false;
+    return is_clear;
+  }
+  [[nodiscard]] bool is_of_notch(int c) const { return c == notch_.first || c == notch_.second; }
+
+  /// Another facet has a part in the body grown by the distance, but not beyond the contacts.
+  [[nodiscard]] bool meets_others() const {
+    std::vector<detail::HalfSpaceM> limits;
+    Box box;
+    for (const Vec3 p : points_) box.grow(p);
+    for (std::size_t p = 0; p < planes_.size(); ++p) {
+      const double grown_m = p < contacts_.size() ? 0 : 0.999 * clear_m_;
+      limits.push_back({planes_[p].normal, planes_[p].offset_m + grown_m});
+    }
+    const double reach_m = 4 * clear_m_;  // corners of sharp bodies grow further than their planes
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      if (std::ranges::find(contacts_, FacetId{f}) != contacts_.end()) continue;
+      const Facet& other = solid_.facets[at(f)];
+      if (is_far(other, box, reach_m)) continue;
+      const Vec3 normal = solid_.planes[other.plane.index()].normal;
+      if (detail::area_within(solid_.vertices, other, normal, limits) > kTouch_m2) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_far(const Facet& other, const Box& box, double reach_m) const {
+    Box its;
+    for (const int v : other.loops[0]) its.grow(solid_.vertices[at(v)].point);
+    return its.min.x > box.max.x + reach_m || box.min.x > its.max.x + reach_m ||
+           its.min.y > box.max.y + reach_m || box.min.y > its.max.y + reach_m ||
+           its.min.z > box.max.z + reach_m || box.min.z > its.max.z + reach_m;
+  }
+
+  void add_vertices(Solid& solid) {
+    first_vertex_ = static_cast<int>(solid.vertices.size());
+    for (const Vec3 p : points_) solid.vertices.push_back({p, true});
+  }
+
+  static PlaneId plane_id(Solid& solid, const Plane& plane) {
+    for (int p = 0; p < std::ssize(solid.planes); ++p)
+      if (solid.planes[at(p)].coefficients == plane.coefficients &&
+          solid.planes[at(p)].offset == plane.offset)
+        return {p};
+    solid.planes.push_back(plane);
+    return {static_cast<int>(solid.planes.size()) - 1};
+  }
+
+  void add_facet(int p, Attached& out) const {
+    const Plane plane = kind_ == Attach::raise ? planes_[at(p)] : exact::opposite(planes_[at(p)]);
+    Loop loop = body_.loops[at(p)];
+    if (kind_ == Attach::sink) std::ranges::reverse(loop);
+    const FacetId id{static_cast<int>(out.solid->facets.size())};
+    out.solid->facets.push_back({plane_id(*out.solid, plane), {of_solid(std::move(loop))}, {}});
+    for (Shell& shell : out.solid->shells)
+      if (std::ranges::find(shell.facets, contacts_[0]) != shell.facets.end()) {
+        shell.facets.push_back(id);
+        break;
+      }
+    out.facets.push_back(id);
+  }
+
+  /// The edge a → b becomes a → p, the outline the long way round, q → b; of the second contact,
+  /// whose edge runs the other way, likewise.
+  void cut_notch(int contact, Solid& solid) const {
+    const auto [a, b] = contact == 0 ? edge_ : std::pair{edge_.second, edge_.first};
+    const int from = contact == 0 ? notch_.first : notch_.second;
+    const Loop hole = outline(static_cast<std::size_t>(contact));
+    // Clockwise, the hole runs from `from` round to the other end of the notch.
+    Loop way(hole);
+    std::ranges::rotate(way, std::ranges::find(way, from));
+    for (Loop& loop : solid.facets[contacts_[at(contact)].index()].loops)
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        if (loop[i] == a && loop[(i + 1) % loop.size()] == b) {
+          const Loop added = of_solid(way);
+          loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, added.begin(),
+                      added.end());
+          return;
+        }
+  }
+
+  const Solid& solid_;
+  std::vector<FacetId> contacts_;
+  std::vector<Plane> planes_;  ///< out of the body, those of the contacts first
+  Attach kind_;
+  double clear_m_;
+  detail::ConvexBody body_;
+  std::vector<Vec3> points_;           ///< of the body's corners
+  int first_vertex_ = 0;               ///< of the solid, for the body's corners
+  std::pair<int, int> notch_{-1, -1};  ///< corners on both contacts, along the first one's edge
+  std::pair<int, int> edge_{-1, -1};   ///< the solid's edge they lie on, of the first contact
+};
+
+}  // namespace
+
+Attached attach(const Solid& solid, const std::vector<FacetId>& contacts,
+                const std::vector<Plane>& planes, Attach kind, double clear_m) {
+  return Attacher(solid, contacts, planes, kind, clear_m).run();
+}
+
+Plane plane_through(const Solid& solid, Vec3 direction, Vec3 point, double within_deg) {
+  direction = normalised(direction);
+  const double least = std::cos(within_deg * std::numbers::pi / 180);
+  std::array<std::int64_t, 3> normal{};
+  double best = least;
+  for (const Plane& plane : solid.planes) {
+    const double along = dot(plane.normal, direction);
+    if (std::abs(along) < best) continue;
+    if (std::abs(along) == best && normal != std::array<std::int64_t, 3>{}) continue;
+    best = std::abs(along);
+    normal = plane.coefficients;
+    if (along < 0)
+      for (std::int64_t& c : normal) c = -c;
+  }
+  if (normal == std::array<std::int64_t, 3>{}) {
+    // Directions of drawn walls have seldom more than twenty bits; the rest is rounding.
+    constexpr double kScale = 1 << 26;
+    const std::array<std::int64_t, 3> rounded{std::llround(direction.x * kScale),
+                                              std::llround(direction.y * kScale),
+                                              std::llround(direction.z * kScale)};
+    normal = exact::direction(rounded).value_or(std::array<std::int64_t, 3>{0, 0, 1});
+  }
+  const Vec3 n{static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+               static_cast<double>(normal[2])};
+  return exact::make_plane(normal, std::llround(dot(n, point) / solid.grid_m), solid.grid_m);
+}
+
+}  // namespace oriel

@@ -1,0 +1,151 @@
+#include "generalise/generalise.h"
+#include "interpret/plan.h"
+#include "kernel/io/writer.h"
+#include "tests/generalise/line.h"
+#include "tests/support/shapes.h"
+
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace oriel;
+using namespace oriel::test;
+
+namespace {
+
+/// A block of 10 x 8 x 6 m with four windows of 1 m x 1 m in a row and a door on the ground.
+BoxBody facade() {
+  BoxBody body;
+  body.add({0, 0, 0}, {10, 8, 6});
+  for (const double x : {1.0, 3.0, 5.0, 7.0}) body.remove({x, 0, 3.5}, {x + 1, 0.2, 4.5});
+  return body.remove({4, 0, 0}, {5, 0.2, 2.2});
+}
+
+/// One step for each feature that `is_meant`.
+template <class Meant>
+Plan plan_for(const Line& line, const Step& like, Meant is_meant) {
+  Plan plan{1000, {}, {}};
+  for (int i = 0; i < std::ssize(line.segmentation.features); ++i)
+    if (is_meant(line.segmentation.features[static_cast<std::size_t>(i)])) {
+      plan.steps.push_back(like);
+      plan.steps.back().feature = {i};
+    }
+  return plan;
+}
+
+bool is_high(const Feature& feature) { return feature.box.min.z > 3; }
+bool is_low(const Feature& feature) { return feature.box.min.z < 0.1; }
+bool is_any(const Feature&) { return true; }
+
+Step step(const std::string& operation, std::map<std::string, double> numbers = {},
+          std::map<std::string, std::string> words = {}) {
+  return {{}, operation, "test", std::move(numbers), std::move(words)};
+}
+
+Generalised carried(const Line& line, const Plan& plan) {
+  auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan);
+  REQUIRE(out.value);
+  CHECK(is_closed(out.value->solid));
+  return std::move(*out.value);
+}
+
+}  // namespace
+
+TEST_SUITE("generalise") {
+  TEST_CASE("windows of a storey become one strip that keeps their area") {
+    const Line line = line_of(facade().build());
+    const auto out = carried(line, plan_for(line, step("aggregate"), is_high));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 1);
+    CHECK(out.removed.size() == 3);
+    CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+    CHECK(out.solid.facets.size() == line.solid.facets.size() - 15);
+  }
+
+  TEST_CASE("a row of four windows becomes two with the same area and aspect") {
+    const Line line = line_of(facade().build());
+    const auto out = carried(line, plan_for(line, step("typify", {{"ratio", 0.5}}), is_high));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 2);
+    CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-5));
+    CHECK(out.solid.facets.size() == line.solid.facets.size() - 10);
+  }
+
+  TEST_CASE("a door grows from its sill on the ground") {
+    const Line line = line_of(facade().build());
+    const auto out = carried(
+        line,
+        plan_for(line, step("enlarge", {{"to", 2.5}, {"gap", 0.1}}, {{"anchor", "sill"}}), is_low));
+    CHECK(out.refused.empty());
+    CHECK(volume_m3(out.solid) ==
+          doctest::Approx(volume_m3(line.solid) + 1 * 2.2 * 0.2 - 2.5 * 2.5 * 0.2).epsilon(1e-6));
+    CHECK(box_of(out.solid).min.z == 0);
+  }
+
+  TEST_CASE("what cannot grow for its neighbours stays as it was") {
+    const Line line = line_of(facade().build());
+    const auto out =
+        carried(line, plan_for(line, step("enlarge", {{"to", 3}, {"gap", 1}}), is_high));
+    CHECK_FALSE(out.refused.empty());
+    for (const auto& refused : out.refused) CHECK(refused.code == "G403");
+    CHECK(out.removed.empty());
+    CHECK(volume_m3(out.solid) <= volume_m3(line.solid));
+  }
+
+  TEST_CASE("a chimney becomes a block and a balcony a slab") {
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {10, 8, 6})
+                                  .add({4, 4, 6}, {4.4, 4.5, 7.2})
+                                  .add({2, -1.2, 3}, {5, 0, 3.2})
+                                  .build());
+    const auto is_chimney = [](const Feature& f) { return f.box.min.z > 5.9; };
+    const auto chimney = carried(
+        line,
+        plan_for(line, step("symbolise", {{"to", 1}}, {{"with", "chimney_block"}}), is_chimney));
+    CHECK(chimney.refused.empty());
+    CHECK(volume_m3(chimney.solid) ==
+          doctest::Approx(volume_m3(line.solid) + 1.2 - 0.4 * 0.5 * 1.2).epsilon(1e-6));
+    const auto is_balcony = [](const Feature& f) { return f.box.min.y < 0; };
+    const auto balcony = carried(
+        line,
+        plan_for(line, step("symbolise", {{"to", 0.5}}, {{"with", "balcony_box"}}), is_balcony));
+    CHECK(balcony.refused.empty());
+    CHECK(volume_m3(balcony.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+  }
+
+  TEST_CASE("a window that collapses leaves its outline and no recess") {
+    const Line line = line_of(facade().build());
+    const auto out = carried(line, plan_for(line, step("collapse"), is_high));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 4);
+    CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid) + 4 * 0.2).epsilon(1e-6));
+    CHECK(out.solid.facets.size() == line.solid.facets.size() - 4 * 5 + 4);
+  }
+
+  TEST_CASE("every operator on every feature of the samples leaves closed solids in the file") {
+    const std::vector<Step> operators{
+        step("enlarge", {{"to", 1.5}, {"gap", 0.1}}, {{"anchor", "sill"}}),
+        step("symbolise", {{"to", 0.8}, {"gap", 0.1}}, {{"with", "chimney_block"}}),
+        step("symbolise", {{"to", 0.8}, {"gap", 0.1}}, {{"with", "dormer_box"}}),
+        step("symbolise", {{"to", 0.8}, {"gap", 0.1}}, {{"with", "balcony_box"}}),
+        step("aggregate", {{"gap", 0.1}}),
+        step("typify", {{"ratio", 0.5}, {"gap", 0.1}}),
+        step("flatten"),
+    };
+    std::size_t changed = 0;
+    for (const char* name : {"house", "row"}) {
+      const Line line = line_of_sample(name);
+      for (const Step& like : operators) {
+        auto out = carried(line, plan_for(line, like, is_any));
+        changed += out.changed.size();
+        const Redrawn redrawn = redraw(line.building(), line.labelled, line.segmentation,
+                                       line.table(), line.interpretation, std::move(out));
+        const Line again = line_of_text(
+            write_cityjson(line.document, {redrawn.labelled}, {.removed = redrawn.removed_ids}));
+        CHECK(is_closed(again.solid));
+      }
+    }
+    CHECK(changed > 20);
+  }
+}

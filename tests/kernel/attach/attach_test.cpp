@@ -1,0 +1,109 @@
+#include "kernel/attach/attach.h"
+
+#include "tests/support/houses.h"
+#include "tests/support/shapes.h"
+#include "tests/support/solidified.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace oriel;
+using namespace oriel::test;
+
+namespace {
+
+Solid block() { return solid_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).build()); }
+
+FacetId facet_looking(const Solid& solid, Vec3 direction) {
+  for (int f = 0; f < std::ssize(solid.facets); ++f) {
+    const FacetId id{f};
+    if (dot(solid.planes[solid.facets[id.index()].plane.index()].normal, direction) > 0.999)
+      return id;
+  }
+  FAIL("no such facet");
+  return {};
+}
+
+/// Planes of a box that look out of it, without the one whose normal is `without`.
+std::vector<Plane> box_planes(const Solid& solid, Vec3 min, Vec3 max,
+                              const std::vector<Vec3>& without) {
+  std::vector<Plane> planes;
+  for (const Vec3 n : {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+    if (std::ranges::find(without, n) == without.end())
+      planes.push_back(plane_through(solid, n, n.x + n.y + n.z > 0 ? max : min, 0.5));
+  return planes;
+}
+
+constexpr Vec3 kFront{0, -1, 0}, kDown{0, 0, -1}, kUp{0, 0, 1};
+
+Attached window(const Solid& solid, Vec3 min, Vec3 max, double clear_m = 0.1) {
+  return attach(solid, {facet_looking(solid, kFront)}, box_planes(solid, min, max, {kFront}),
+                Attach::sink, clear_m);
+}
+
+void check_volume(const Attached& made, double volume) {
+  REQUIRE_MESSAGE(made.solid, made.reason);
+  CHECK(is_closed(*made.solid));
+  CHECK(volume_m3(*made.solid) == doctest::Approx(volume).epsilon(1e-6));
+}
+
+}  // namespace
+
+TEST_SUITE("kernel/attach") {
+  TEST_CASE("a box sunk into a wall takes its volume and adds five facets") {
+    const auto made = window(block(), {2, 0, 1}, {3, 0.2, 2.5});
+    check_volume(made, 480 - 0.3);
+    CHECK(made.facets.size() == 5);
+    CHECK(made.solid->facets.size() == 11);
+  }
+
+  TEST_CASE("a block stands on a sloping roof with a foot that follows it") {
+    const Solid house = solid_of(gabled_house());
+    FacetId roof;
+    for (int f = 0; f < std::ssize(house.facets); ++f)
+      if (const Vec3 n =
+              house.planes[house.facets[static_cast<std::size_t>(f)].plane.index()].normal;
+          n.z > 0.5 && n.y < 0)
+        roof = {f};
+    // Over y 1 to 2 the roof lies 6.75 to 7.5 m high, 7.125 m on the average.
+    const auto made =
+        attach(house, {roof}, box_planes(house, {3, 1, 0}, {4, 2, 9}, {kDown}), Attach::raise, 0.1);
+    check_volume(made, volume_m3(house) + 9 - 7.125);
+    CHECK(made.facets.size() == 5);
+  }
+
+  TEST_CASE("a door that reaches the ground cuts a notch into wall and ground") {
+    const Solid solid = block();
+    const auto made =
+        attach(solid, {facet_looking(solid, kFront), facet_looking(solid, kDown)},
+               box_planes(solid, {4, 0, 0}, {5, 0.2, 2}, {kFront, kDown}), Attach::sink, 0.1);
+    check_volume(made, 480 - 0.4);
+    CHECK(made.facets.size() == 4);
+  }
+
+  TEST_CASE("what comes too near to an edge or to another part is refused") {
+    const Solid solid = block();
+    CHECK_FALSE(window(solid, {0.05, 0, 1}, {3, 0.2, 2}).solid);
+    CHECK_FALSE(window(solid, {2, 0, -1}, {3, 0.2, 2}).solid);
+    CHECK_FALSE(window(solid, {2, 0, 1}, {3, 9, 2}).solid);
+    CHECK_FALSE(window(solid, {2, 0, 1}, {3, 7.95, 2}).solid);
+    const auto first = window(solid, {2, 0, 1}, {3, 0.2, 2});
+    REQUIRE(first.solid);
+    CHECK_FALSE(window(*first.solid, {3.05, 0, 1}, {4, 0.2, 2}).solid);
+    CHECK_FALSE(window(*first.solid, {1, 0, 0.5}, {4, 0.2, 3}).solid);
+    CHECK_FALSE(window(*first.solid, {2.2, 0, 1.2}, {2.8, 0.3, 1.8}).solid);
+    check_volume(window(*first.solid, {3.2, 0, 1}, {4, 0.2, 2}), 480 - 0.2 - 0.16);
+  }
+
+  TEST_CASE("planes that bound no body are refused") {
+    const Solid solid = block();
+    auto planes = box_planes(solid, {2, 0, 1}, {3, 0.2, 2}, {kFront});
+    planes.pop_back();
+    CHECK_FALSE(attach(solid, {facet_looking(solid, kFront)}, planes, Attach::sink, 0.1).solid);
+    CHECK_FALSE(attach(solid, {facet_looking(solid, kUp)},
+                       box_planes(solid, {2, 2, 2}, {3, 3, 3}, {kDown}), Attach::raise, 0.1)
+                    .solid);
+  }
+}
