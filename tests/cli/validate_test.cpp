@@ -1,0 +1,149 @@
+#include "examples/generator/cityjson.h"
+#include "examples/generator/generate.h"
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+#include "tests/support/error_files.h"
+
+#include <filesystem>
+#include <set>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+std::string errors_folder() {
+  return (std::filesystem::path(ORIEL_SOURCE_DIR) / "tests" / "data" / "errors").string();
+}
+
+/// The lines of JSON that the command prints.
+std::vector<json> judged(const std::vector<std::string>& arguments, int exit) {
+  std::vector<std::string> all{"validate", "--json"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = run(all);
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit == exit);
+  std::vector<json> lines;
+  for (std::size_t at = 0; at < outcome.out.size();) {
+    const std::size_t end = outcome.out.find('\n', at);
+    lines.push_back(json::parse(outcome.out.substr(at, end - at)));
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// "E341_104" of each finding, once.
+std::set<std::string> codes_in(const json& building) {
+  std::set<std::string> codes;
+  for (const json& finding : building["findings"])
+    codes.insert(
+        fmt::format("{}_{:03}", finding["code"].get<std::string>(), finding.value("val3dity", 0)));
+  return codes;
+}
+
+TEST_SUITE("cli") {
+  TEST_CASE("the files of tests/data/errors are those that the project makes") {
+    std::set<std::string> expected{"make.cpp"};
+    for (const ErrorFile& file : error_files()) {
+      CAPTURE(file.name);
+      CHECK(bytes_of(errors_folder() + "/" + file.name) == file.text);
+      expected.insert(file.name);
+    }
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(errors_folder()))
+      found.insert(entry.path().filename().string());
+    CHECK(found == expected);
+  }
+
+  TEST_CASE("each file of tests/data/errors has exactly its code") {
+    const std::string page =
+        bytes_of(std::filesystem::path(ORIEL_SOURCE_DIR) / "docs" / "errors.md");
+    for (const ErrorFile& file : error_files()) {
+      CAPTURE(file.name);
+      const std::string stem = file.name.substr(0, file.name.find('.'));
+      const std::string path = errors_folder() + "/" + file.name;
+      if (stem == "E201_000") {  // costs the file
+        CHECK(run({"validate", path}).exit == 5);
+        CHECK(run({"validate", path}).says("E201 has no 'transform'"));
+        continue;
+      }
+      const auto lines = judged({path}, stem == "valid" ? 0 : 3);
+      REQUIRE(lines.size() == 1);
+      CHECK(lines[0]["id"] == "cube");
+      CHECK(lines[0]["valid"] == (stem == "valid"));
+      CHECK(codes_in(lines[0]) ==
+            (stem == "valid" ? std::set<std::string>{} : std::set<std::string>{stem}));
+      if (stem == "valid" || stem.ends_with("000")) continue;
+      const std::size_t section = page.find("### " + stem.substr(0, 4) + " ");
+      REQUIRE(section != std::string::npos);
+      const std::string text = page.substr(section, page.find("###", section + 4) - section);
+      CHECK(text.find("val3dity") != std::string::npos);
+      CHECK(text.find(stem.substr(5)) != std::string::npos);
+    }
+  }
+
+  TEST_CASE("validate tells each building and counts codes at the end") {
+    const Folder folder;
+    auto city = cubes({"a", "b"});
+    city["CityObjects"]["b"]["geometry"][0]["boundaries"][0].erase(1);
+    const std::string path = folder.write("two.city.json", city.dump());
+    const Outcome all = run({"validate", path});
+    CHECK(all.exit == 3);
+    CHECK(all.out.starts_with("a: valid\nb: 1 finding\n  E302 not closed: 4 open edges"));
+    CHECK(all.out.find("(val3dity 302 SHELL_NOT_CLOSED)") != std::string::npos);
+    CHECK(all.says("1 of 2 buildings are valid; 1 E302 (val3dity 302 SHELL_NOT_CLOSED)"));
+    CHECK(run({"validate", path, "--only-problems"}).out.starts_with("b: 1 finding\n"));
+    CHECK(run({"validate", path, "--as", "surfaces"}).exit == 0);
+    CHECK(run({"validate", path, "--id", "a"}).exit == 0);
+    CHECK(run({"validate", folder / "no.city.json"}).exit == 5);
+  }
+
+  TEST_CASE("line ends and a byte order mark change nothing") {
+    const Folder folder;
+    for (const ErrorFile& file : error_files()) {
+      if (!file.name.ends_with(".json") || file.name.starts_with("E201")) continue;
+      CAPTURE(file.name);
+      std::string other = "\xEF\xBB\xBF";
+      for (const char c : file.text) other += c == '\n' ? std::string("\r\n") : std::string(1, c);
+      const auto expected = run({"validate", errors_folder() + "/" + file.name});
+      const auto found = run({"validate", folder.write(file.name, other)});
+      CHECK(found.exit == expected.exit);
+      if (!file.name.ends_with("000.city.json")) CHECK(found.out == expected.out);
+    }
+  }
+
+  TEST_CASE("an open mesh is judged as a solid unless told otherwise") {
+    const Folder folder;
+    const std::string path = folder.write(
+        "open.off", "OFF\n4 3 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+    CHECK(judged({path}, 3)[0]["findings"][0]["code"] == "E301");
+    CHECK(judged({path, "--as", "surfaces"}, 0)[0]["valid"] == true);
+  }
+
+  TEST_CASE("what generalise writes is valid when it is read again") {
+    const Folder folder;
+    oriel::generator::Options options;
+    options.seed = 5;
+    std::vector<std::string> houses{sample("house"), sample("l-house"), sample("row")};
+    for (int i = 0; i < 12; ++i)
+      houses.push_back(
+          folder.write(fmt::format("h{}.city.json", i),
+                       oriel::generator::cityjson(
+                           {fmt::format("h{}", i), oriel::generator::generate(options, i), {}},
+                           oriel::generator::Content::stripped)));
+    for (const char* scale : {"1:1000", "1:5000", "1:20000"})
+      for (const std::string& house : houses) {
+        CAPTURE(scale);
+        CAPTURE(house);
+        const std::string out = folder / "out.city.json";
+        REQUIRE(run({"generalise", house, "--scale", scale, "-o", out}).exit == 0);
+        for (const json& line : judged({out}, 0)) CHECK(line["findings"].empty());
+      }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,163 @@
+#include "kernel/validate/validate.h"
+
+#include "tests/kernel/validate/judged.h"
+#include "tests/support/shapes.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using test::BoxBody;
+using test::codes_of;
+
+/// Four corners of a unit square at height z, counter-clockwise from above.
+std::vector<Vec3> square(double z) { return {{0, 0, z}, {4, 0, z}, {4, 4, z}, {0, 4, z}}; }
+
+Building surfaces(const std::vector<std::vector<Vec3>>& polygons) {
+  Building building = test::building_of(polygons);
+  building.is_solid = false;
+  return building;
+}
+
+/// A square with a hole.
+Building square_with_hole(const std::vector<Vec3>& hole) {
+  Building building = surfaces({square(0), hole});
+  building.polygons[0].rings.push_back(building.polygons[1].rings[0]);
+  building.polygons.pop_back();
+  return building;
+}
+
+TEST_SUITE("kernel/validate") {
+  TEST_CASE("a box is valid wherever it stands and whatever is taken out of it") {
+    const Building box = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    CHECK(validate(box).empty());
+    CHECK(
+        validate(BoxBody().add({0, 0, 0}, {3, 4, 5}).remove({1, 1, 4}, {2, 2, 5}).build()).empty());
+    Building far = box;
+    far.frame.origin_m = {680000, 5400000, 370};
+    CHECK(validate(far).empty());
+  }
+
+  TEST_CASE("a hole may touch the outer ring in one point but not in two") {
+    CHECK(codes_of(square_with_hole({{0, 2, 0}, {1, 3, 0}, {2, 2, 0}, {1, 1, 0}})).empty());
+    CHECK(codes_of(square_with_hole({{0, 2, 0}, {2, 3, 0}, {4, 2, 0}, {2, 1, 0}})) == "E346 205");
+    // Through the outer ring in its corner: the hole's point is on it, and its sides are not.
+    CHECK(codes_of(square_with_hole({{4, 4, 0}, {5, 2, 0}, {2, 1, 0}, {2, 5, 0}})) == "E342 201");
+  }
+
+  TEST_CASE("vertices within the snapping tolerance are one and others are not") {
+    Building building = surfaces({{{0, 0, 0}, {4, 0, 0}, {4, 0.0004, 0}, {4, 4, 0}, {0, 4, 0}}});
+    CHECK(codes_of(building) == "E312 102");
+    ValidateOptions fine;
+    fine.snap_m = 1e-4;
+    CHECK(validate(building, fine).empty());
+  }
+
+  TEST_CASE("tolerances decide on planarity") {
+    const Building bent = surfaces({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0.06}, {0, 4, 0}}});
+    CHECK(codes_of(bent) == "E344 203");
+    ValidateOptions lax;
+    lax.planarity_m = 0.1;
+    CHECK(validate(bent, lax).empty());
+    lax.planarity_deg = 0.1;
+    const auto findings = validate(bent, lax);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].val3dity == 204);
+  }
+
+  TEST_CASE("a finding has its polygon and its place in the input's coordinates") {
+    Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    building.frame.origin_m = {1000, 2000, 10};
+    building.polygons.erase(building.polygons.begin());
+    const auto findings = validate(building);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].code == "E302");
+    CHECK(findings[0].shell == 0);
+    REQUIRE(findings[0].at_m.size() == 2);
+    for (const Vec3 end : findings[0].at_m) {
+      CHECK((end.x == 1000 || end.x == 1003));
+      CHECK((end.y == 2000 || end.y == 2004));
+    }
+  }
+
+  TEST_CASE("loose surfaces are judged as a shell only if that is asked for") {
+    const Building open = surfaces({square(0), square(3)});
+    CHECK(validate(open).empty());
+    ValidateOptions options;
+    options.primitive = ValidateOptions::Primitive::solid;
+    CHECK(validate(open, options)[0].code == "E301");
+    Building composite = open;
+    composite.is_composite = true;
+    CHECK(codes_of(composite) == "E351 305");
+  }
+
+  TEST_CASE("the order of polygons and where rings start change no code") {
+    std::mt19937 random(7);
+    for (const auto& [name, building] : test::error_buildings()) {
+      CAPTURE(name);
+      const std::string codes = codes_of(building);
+      for (int i = 0; i < 5; ++i) {
+        Building other = building;
+        std::ranges::shuffle(other.polygons, random);
+        other.repeats.clear();
+        for (Polygon& polygon : other.polygons)
+          for (auto& ring : polygon.rings)
+            std::ranges::rotate(ring,
+                                ring.begin() + static_cast<std::ptrdiff_t>(random() % ring.size()));
+        if (building.repeats.empty()) CHECK(codes_of(other) == codes);
+      }
+    }
+  }
+
+  TEST_CASE("coordinates that are none or far away are one finding") {
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(), 1e308, -1e308, 1e10}) {
+      Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+      building.vertices[3].y = bad;
+      CHECK(codes_of(building) == "E506 0");
+    }
+  }
+
+  TEST_CASE("nothing and empty rings are findings") {
+    CHECK(codes_of(Building{}) == "E313 902");
+    Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    building.polygons[0].rings.clear();
+    building.polygons[1].rings = {{}};
+    building.polygons[2].rings.emplace_back();
+    CHECK(codes_of(building) == "E311 101, E311 101, E311 101");
+  }
+
+  TEST_CASE("ten thousand times the same polygon is soon judged") {
+    Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    for (int i = 0; i < 10'000; ++i) building.polygons.push_back(building.polygons[0]);
+    const std::string codes = codes_of(building);
+    CHECK(codes.starts_with("E303 303"));
+    building.is_solid = false;
+    CHECK(codes_of(building).empty());
+    building.is_composite = true;
+    CHECK(codes_of(building) == codes);
+  }
+
+  TEST_CASE("a thousand times the same solid is soon judged") {
+    Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    const std::size_t faces = building.polygons.size();
+    for (int body = 1; body < 1000; ++body)
+      for (std::size_t i = 0; i < faces; ++i) {
+        building.polygons.push_back(building.polygons[i]);
+        building.polygons.back().body = body;
+      }
+    CHECK(validate(building).empty());
+    building.is_composite = true;
+    const auto findings = validate(building);
+    CHECK(findings.size() == 999);
+    CHECK(findings[0].val3dity == 502);
+  }
+}
+
+}  // namespace
+}  // namespace oriel
