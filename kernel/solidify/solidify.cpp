@@ -1,6 +1,8 @@
 #include "kernel/solidify/solidify.h"
 
+#include "kernel/solidify/detail/disjoint_sets.h"
 #include "kernel/solidify/detail/facets.h"
+#include "kernel/solidify/detail/mend/mend.h"
 #include "kernel/solidify/detail/plane_clusters.h"
 #include "kernel/solidify/detail/shell_mesh.h"
 #include "kernel/solidify/detail/shells.h"
@@ -9,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -39,29 +43,122 @@ void check_size(const Building& building, const Tolerances& tolerances,
                                        reach, limit, tolerances.weld_m)));
 }
 
-/// Every edge has two half-edges, or the open loops are counted and named.
-void check_closed(const Building& building, const Soup& soup, const ShellMesh& mesh,
+bool is_closed(const ShellMesh& mesh) {
+  return std::ranges::find(mesh.twin, -1) == mesh.twin.end();
+}
+
+Issue warning(const Building& building, std::string code, std::string sentence) {
+  return building_issue(Severity::warning, std::move(code), building.id, std::move(sentence));
+}
+
+/// What mending has done, as findings.
+void tell_repairs(const Building& building, const detail::Mended& mended,
                   std::vector<Issue>& issues) {
-  const auto first = std::ranges::find(mesh.twin, -1);
-  if (first == mesh.twin.end()) return;
-  std::vector<char> is_seen(mesh.half_edge_count(), 0);
-  const auto at = [](int i) { return static_cast<std::size_t>(i); };
-  int edges = 0, loops = 0;
-  for (int start = 0; start < std::ssize(mesh.twin); ++start) {
-    if (mesh.twin[at(start)] >= 0 || is_seen[at(start)]) continue;
-    ++loops;
-    for (int h = start; !is_seen[at(h)];) {
-      is_seen[at(h)] = 1;
-      ++edges;
-      h = mesh.next[at(h)];
-      while (mesh.twin[at(h)] >= 0) h = mesh.next[at(mesh.twin[at(h)])];
+  const RepairReport& report = mended.report;
+  if (report.t_vertices > 0 || !report.duplicates.empty())
+    issues.push_back(building_issue(
+        Severity::note, "E317", building.id,
+        fmt::format("{} vertices were put into the edges that they lie on; {} polygons are there "
+                    "twice and were dropped",
+                    report.t_vertices, report.duplicates.size())));
+  if (mended.is_open) return;
+  if (mended.turned > 0)
+    issues.push_back(warning(
+        building, "E308",
+        fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
+                    mended.turned)));
+  if (!report.caps.empty()) {
+    double sum = 0, largest = 0;
+    for (const Cap& cap : report.caps) {
+      sum += cap.area_m2;
+      largest = std::max(largest, cap.area_m2);
     }
+    issues.push_back(
+        warning(building, "E316",
+                fmt::format("{} holes were closed by faces of oriel's own, {:.2f} m² together, the "
+                            "largest {:.2f} m²",
+                            report.caps.size(), sum, largest)));
   }
-  const int end = mesh.next[static_cast<std::size_t>(first - mesh.twin.begin())];
-  issues.push_back(
-      error(building, "E302",
-            fmt::format("not closed: {} open edges in {} loops, the first at {} (val3dity 302)",
-                        edges, loops, detail::place_text(soup, soup.corners[at(end)]))));
+  if (!report.dangling.empty() || !report.inner.empty())
+    issues.push_back(warning(
+        building, "E315",
+        fmt::format("{} polygons do not bound the solid and were left out: {} dangling sheets "
+                    "({:.2f} m²), {} inner faces ({:.2f} m²)",
+                    report.dangling.size() + report.inner.size(), report.dangling.size(),
+                    report.dangling_area_m2, report.inner.size(), report.inner_area_m2)));
+}
+
+/// How many connected pieces the open edges make.
+int count_loops(const std::vector<OpenEdge>& edges) {
+  std::map<std::tuple<double, double, double>, int> number;
+  detail::DisjointSets sets(0);
+  const auto number_of = [&](Vec3 p) {
+    const auto [entry, is_new] =
+        number.try_emplace({p.x, p.y, p.z}, static_cast<int>(number.size()));
+    if (is_new) sets.add();
+    return entry->second;
+  };
+  for (const OpenEdge& edge : edges) sets.unite(number_of(edge.from), number_of(edge.to));
+  int loops = 0;
+  for (int i = 0; i < std::ssize(number); ++i) loops += sets.find(i) == i;
+  return loops;
+}
+
+/// The building stays open: how far, and the first few places.
+Issue not_closed(const Building& building, const std::vector<OpenEdge>& edges) {
+  std::string places;
+  for (std::size_t i = 0; i < std::min<std::size_t>(edges.size(), 3); ++i) {
+    const Vec3 p = edges[i].from;
+    places += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", i > 0 ? ", " : "", p.x, p.y, p.z);
+  }
+  return error(building, "E302",
+               fmt::format("not closed: {} open edges in {} loops, the first at {} (val3dity 302)",
+                           edges.size(), count_loops(edges), places));
+}
+
+/// A soup and its mesh: closed, or issues have an error.
+struct Shells {
+  Soup soup;
+  ShellMesh mesh;
+};
+
+/// The shells of a building whose polygons are no closed shell as they came.
+Shells mended_shells(const Building& building, const Tolerances& tolerances,
+                     const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
+  std::vector<Issue> told_before;
+  const Soup soup = detail::weld(building, tolerances, told_before);
+  detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair);
+  out.report = std::move(mended.report);
+  tell_repairs(building, {{}, mended.is_open, mended.turned, out.report}, out.issues);
+  Shells shells;
+  if (mended.is_open) {
+    // Without open edges it is not a hole that keeps it from being a solid.
+    if (out.report.open_edges.empty())
+      out.issues.insert(out.issues.end(), why.begin(), why.end());
+    else
+      out.issues.push_back(not_closed(building, out.report.open_edges));
+    return shells;
+  }
+  shells.soup = std::move(mended.soup);
+  shells.mesh = detail::build_shell_mesh(shells.soup, building.id, out.issues);
+  return shells;
+}
+
+Shells closed_shells(const Building& building, const Tolerances& tolerances,
+                     const RepairOptions& repair, Solidified& out) {
+  Shells shells{detail::weld(building, tolerances, out.issues), {}};
+  if (shells.soup.polygons.size() < 4) {
+    out.issues.push_back(error(building, "E301",
+                               fmt::format("{} polygons cannot enclose a volume (val3dity 301)",
+                                           shells.soup.polygons.size())));
+    return shells;
+  }
+  std::vector<Issue> issues;
+  shells.mesh = detail::build_shell_mesh(shells.soup, building.id, issues);
+  if (has_errors(issues) || !is_closed(shells.mesh))
+    return mended_shells(building, tolerances, repair, std::move(issues), out);
+  out.issues.insert(out.issues.end(), issues.begin(), issues.end());
+  return shells;
 }
 
 /// What the input says of every component: of its last facet, of the facet's first polygon.
@@ -81,22 +178,14 @@ std::vector<detail::ComponentHint> hints_of(const Building& building, const Soup
 
 }  // namespace
 
-Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) {
-  Checked<Solid> out;
+Solidified solidify(const Building& building, const Tolerances& tolerances,
+                    const RepairOptions& repair) {
+  Solidified out;
   const auto is_set_aside = [&] { return has_errors(out.issues); };
 
   check_size(building, tolerances, out.issues);
   if (is_set_aside()) return out;
-  Soup soup = detail::weld(building, tolerances, out.issues);
-  if (soup.polygons.size() < 4)
-    out.issues.push_back(error(
-        building, "E301",
-        fmt::format("{} polygons cannot enclose a volume (val3dity 301)", soup.polygons.size())));
-  if (is_set_aside()) return out;
-
-  const ShellMesh mesh = detail::build_shell_mesh(soup, building.id, out.issues);
-  if (is_set_aside()) return out;
-  check_closed(building, soup, mesh, out.issues);
+  const auto [soup, mesh] = closed_shells(building, tolerances, repair, out);
   if (is_set_aside()) return out;
 
   const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances);
@@ -116,7 +205,7 @@ Checked<Solid> solidify(const Building& building, const Tolerances& tolerances) 
   if (is_set_aside()) return out;
   detail::arrange_shells(solid, snapped.component, hints, building.id, out.issues);
   const bool may_be_open = snapped.has_united || snapped.swallowed > 0;
-  if (!is_set_aside() && may_be_open && !is_closed(solid))
+  if (!is_set_aside() && may_be_open && !oriel::is_closed(solid))
     out.issues.push_back(error(
         building, "E302", "not closed after its vertices were put on their planes (val3dity 302)"));
   if (!is_set_aside()) out.value = std::move(solid);

@@ -4,8 +4,14 @@
 #include "kernel/model/issue.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/solidify/repair.h"
 
 namespace oriel {
+
+/// A solid, what was found on the way, and what was done to polygons that were no solid.
+struct Solidified : Checked<Solid> {
+  RepairReport report;
+};
 
 /// Makes a closed, oriented solid with planar facets out of a building's polygons.
 ///
@@ -14,7 +20,12 @@ namespace oriel {
 /// shell is oriented outward (cavities inward), and the vertices are put where their planes meet.
 /// Shuffling the input changes nothing but the numbers in Facet::polygons.
 ///
-/// What is no solid is set aside: no value, and an error that says why, with val3dity's number:
+/// Polygons that are no closed shell are repaired as `repair` allows: doubles go, vertices are put
+/// into the edges they lie on, plane holes are closed, and what bounds the enclosed space on one
+/// side only is kept. Facets of such faces alone list no polygons. The report says what was done,
+/// and so do E315 (polygons left out), E316 (holes closed), E317 (the rest).
+///
+/// What is no solid then is set aside: no value, and an error that says why, with val3dity's number:
 ///   E301 too few polygons (301), E302 shell not closed (302), E303 more than two facets at an edge
 ///   that do not pair up (303), E307 polygons that cannot be oriented alike (307), E310 a shell
 ///   without volume, E501 larger than the exact range (4 km at the default weld_m).
@@ -22,6 +33,7 @@ namespace oriel {
 /// round (307), E309 parts thinner than the tolerances that were swallowed.
 ///
 /// Source: the B-rep of the paper's section 3.1; facts and reasons in docs/solidify.md.
-Checked<Solid> solidify(const Building& building, const Tolerances& tolerances = {});
+Solidified solidify(const Building& building, const Tolerances& tolerances = {},
+                    const RepairOptions& repair = {});
 
 }  // namespace oriel

@@ -212,6 +212,12 @@ std::string place_text(const Soup& soup, int point) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z);
 }
 
+ShellMesh linked_rings(const Soup& soup) {
+  ShellMesh mesh;
+  link_rings(soup, mesh);
+  return mesh;
+}
+
 ShellMesh build_shell_mesh(Soup& soup, const std::string& building, std::vector<Issue>& issues) {
   ShellMesh mesh;
   link_rings(soup, mesh);

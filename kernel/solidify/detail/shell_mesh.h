@@ -27,6 +27,9 @@ struct ShellMesh {
   [[nodiscard]] std::size_t vertex_count() const { return point_of.size(); }
 };
 
+/// The rings of a soup as half-edges that are not paired yet: `next` and `polygon_of` only.
+ShellMesh linked_rings(const Soup& soup);
+
 /// Turns polygons round until neighbours agree (E308 with their number), pairs the half-edges, and
 /// tells vertices apart. Where more than two polygons meet at an edge they are paired around it so
 /// that every pair encloses material. The soup's rings are turned round along.

@@ -277,7 +277,9 @@ class Snapper {
         for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = number[at(vertices[i])];
       }
       facet.polygons.reserve(polygons[f].size());
-      for (const int p : polygons[f]) facet.polygons.push_back(soup_.polygons[at(p)].source);
+      for (const int p : polygons[f])
+        if (const int source = soup_.polygons[at(p)].source; source >= 0)
+          facet.polygons.push_back(source);
       if (facet.polygons.size() > 1) std::ranges::sort(facet.polygons);
     }
     return out;

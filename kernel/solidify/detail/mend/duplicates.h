@@ -1,0 +1,11 @@
+#pragma once
+
+#include "kernel/solidify/detail/soup.h"
+
+namespace oriel::detail {
+
+/// For each polygon 1 if an earlier one of the same body has the same rings, either way round. Of
+/// equal polygons the first in the soup's order is no duplicate.
+std::vector<char> find_duplicates(const Soup& soup);
+
+}  // namespace oriel::detail

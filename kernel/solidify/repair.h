@@ -1,0 +1,71 @@
+#pragma once
+
+#include "kernel/model/vec3.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Which holes of a shell are closed by faces of oriel's own.
+enum class Closing {
+  /// None.
+  none,
+  /// Plane ones of up to RepairOptions::cap_area_m2.
+  planar,
+  /// Plane ones of any size; larger ones only if the smaller ones do not close the building.
+  any
+};
+
+/// How much of a building that is no solid may be changed.
+struct RepairOptions {
+  Closing close = Closing::planar;
+  /// 10 m²: what windows, garage doors and shop fronts measure whose panes stand loose behind
+  /// unfilled holes; a missing wall, roof or ground is larger.
+  double cap_area_m2 = 10;
+};
+
+/// An edge of one polygon only, in metres of the frame, as the polygon goes along it.
+struct OpenEdge {
+  Vec3 from, to;
+  int polygon = -1;  ///< Polygon::source
+};
+
+/// A face that oriel made to close a hole.
+struct Cap {
+  double area_m2 = 0;
+  Vec3 centre;  ///< the mean of its corners, metres of the frame
+};
+
+/// What solidify() did to a building that was no solid as it came. Polygons are given by their
+/// source numbers, sorted.
+struct RepairReport {
+  /// False: the polygons were a closed shell already, and nothing below was tried.
+  bool was_needed = false;
+  /// Polygons with the same rings as another one, either way round.
+  std::vector<int> duplicates;
+  /// Vertices of one polygon put into the edge of a neighbour on which they lie.
+  int t_vertices = 0;
+  /// Edges of more than two polygons.
+  int crowded_edges = 0;
+  /// Polygons with the outside on both sides: roof overhangs, loose panes.
+  std::vector<int> dangling;
+  double dangling_area_m2 = 0;
+  /// Polygons with material on both sides: partitions, the inner faces of boxes that stand in each
+  /// other.
+  std::vector<int> inner;
+  double inner_area_m2 = 0;
+  /// Faces made by oriel that bound the solid.
+  std::vector<Cap> caps;
+  /// Connected shells beside the one with the largest box that were kept as lumps of their own, and
+  /// those kept as cavities.
+  int detached_shells = 0;
+  int cavities = 0;
+  /// If the building stays open: the edges of one polygon, and how many loops they form at least.
+  std::vector<OpenEdge> open_edges;
+};
+
+/// "planar" and so on.
+std::string to_string(Closing closing);
+
+}  // namespace oriel
