@@ -147,8 +147,12 @@ class CityJson {
   template <class List, class Write>
   static std::string list(const List& items, const Write& write) {
     std::string text = "[";
-    for (const auto& item : items) text += (text.size() > 1 ? "," : "") + write(item);
-    return text + "]";
+    for (const auto& item : items) {
+      if (text.size() > 1) text += ',';
+      text += write(item);
+    }
+    text += ']';
+    return text;
   }
 
   int number(const Point& point) {
