@@ -77,9 +77,10 @@ void strip_object(json& object, json& before, const std::set<std::string>& added
             [&](const json& id) { return added.contains(id.get<std::string>()); });
   if (object.contains("attributes")) {
     json& attributes = object["attributes"];
+    const json had = before.value("attributes", json::object());
     json left = json::object();
     for (const auto& [name, value] : attributes.items())
-      if (!name.starts_with("oriel_")) left[name] = value;
+      if (!name.starts_with("oriel_") || had.contains(name)) left[name] = value;
     attributes = left;
     if (left.empty() && !before.contains("attributes")) object.erase("attributes");
   }
