@@ -73,6 +73,7 @@ TEST_SUITE("kernel/validate") {
   TEST_CASE("a finding has its polygon and its place in the input's coordinates") {
     Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
     building.frame.origin_m = {1000, 2000, 10};
+    building.is_solid = true;
     building.polygons.erase(building.polygons.begin());
     const auto findings = validate(building);
     REQUIRE(findings.size() == 1);
@@ -134,6 +135,7 @@ TEST_SUITE("kernel/validate") {
 
   TEST_CASE("ten thousand times the same polygon is soon judged") {
     Building building = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
+    building.is_solid = true;
     for (int i = 0; i < 10'000; ++i) building.polygons.push_back(building.polygons[0]);
     const std::string codes = codes_of(building);
     CHECK(codes.starts_with("E303 303"));
