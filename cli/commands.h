@@ -17,6 +17,7 @@ using Action = std::function<ExitCode()>;
 void add_segment(CLI::App& app, Action& action);
 void add_label(CLI::App& app, Action& action);
 void add_generalise(CLI::App& app, Action& action);
+void add_repair(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_score(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);

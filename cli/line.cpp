@@ -17,17 +17,39 @@ void append(std::vector<Issue>& all, std::vector<Issue> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+void make_solid(const Building& building, const Tolerances& tolerances, const RepairOptions& repair,
+                Timings& timings, OnLine& out) {
+  auto solid =
+      timings.measure(Stage::solidify, [&] { return solidify(building, tolerances, repair); });
+  append(out.issues, std::move(solid.issues));
+  out.repair = std::move(solid.report);
+  out.solid = std::move(solid.value);
+}
+
+Issue fault_of_ours(const Building& building, const std::exception& fault) {
+  return building_issue(Severity::error, "E901", building.id,
+                        fmt::format("a fault of oriel's own: {}", fault.what()));
+}
+
 }  // namespace
 
-OnLine run_line(const Building& building, const SegmentOptions& options, const RuleBase* rules,
-                Timings& timings) {
+OnLine run_to_solid(const Building& building, const Tolerances& tolerances,
+                    const RepairOptions& repair, Timings& timings) {
   OnLine out;
   try {
-    auto solid =
-        timings.measure(Stage::solidify, [&] { return solidify(building, options.tolerances); });
-    append(out.issues, std::move(solid.issues));
-    if (!solid.value) return out;
-    out.solid = std::move(solid.value);
+    make_solid(building, tolerances, repair, timings, out);
+  } catch (const std::exception& fault) {
+    out.issues.push_back(fault_of_ours(building, fault));
+  }
+  return out;
+}
+
+OnLine run_line(const Building& building, const SegmentOptions& options,
+                const RepairOptions& repair, const RuleBase* rules, Timings& timings) {
+  OnLine out;
+  try {
+    make_solid(building, options.tolerances, repair, timings, out);
+    if (!out.solid) return out;
     Segmentation segmentation =
         timings.measure(Stage::segment, [&] { return segment(building, *out.solid, options); });
     timings.measure(Stage::segment,
@@ -43,8 +65,7 @@ OnLine run_line(const Building& building, const SegmentOptions& options, const R
     }
     out.segmentation = std::move(segmentation);
   } catch (const std::exception& fault) {
-    out.issues.push_back(building_issue(Severity::error, "E901", building.id,
-                                        fmt::format("a fault of oriel's own: {}", fault.what())));
+    out.issues.push_back(fault_of_ours(building, fault));
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include "kernel/model/building.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/issue.h"
+#include "kernel/model/repair.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/segment.h"
@@ -19,6 +20,7 @@ namespace oriel::cli {
 /// One building on the straight line, as far as it came.
 struct OnLine {
   std::optional<Solid> solid;
+  RepairReport repair;
   std::optional<Segmentation> segmentation;
   Description description;
   Interpretation interpretation;  ///< empty without rules
@@ -37,7 +39,11 @@ struct OnLine {
 
 /// Solidifies, segments, describes and, with `rules`, interprets a building. A fault of ours in one
 /// building is an error E901 of that building, so that the others go on.
-OnLine run_line(const Building& building, const SegmentOptions& options, const RuleBase* rules,
-                Timings& timings);
+OnLine run_line(const Building& building, const SegmentOptions& options,
+                const RepairOptions& repair, const RuleBase* rules, Timings& timings);
+
+/// The first step of it only.
+OnLine run_to_solid(const Building& building, const Tolerances& tolerances,
+                    const RepairOptions& repair, Timings& timings);
 
 }  // namespace oriel::cli

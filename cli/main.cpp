@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   add_segment(app, action);
   add_label(app, action);
   add_generalise(app, action);
+  add_repair(app, action);
   add_explain(app, action);
   add_score(app, action);
   add_validate(app, action);

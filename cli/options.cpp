@@ -25,11 +25,14 @@ SegmentOptions LineArguments::segment_options() const {
   return options;
 }
 
+RepairOptions LineArguments::repair_options() const { return {*parse_closing(close), cap_area_m2}; }
+
 std::string LineArguments::configuration() const {
   return fmt::format(
-             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={}",
+             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={} "
+             "close={} close_area_m2={}",
              lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
-             tolerances.value_rel, budget) +
+             tolerances.value_rel, budget, close, cap_area_m2) +
          (ignores_semantics ? " ignore_semantics" : "");
 }
 
@@ -75,12 +78,7 @@ void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   if (has_many) add_selection_arguments(command, a.selection);
 }
 
-void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
-  add_input_arguments(command, a, has_many);
-  command
-      .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
-      ->check(CLI::IsMember({"natural", "paper"}))
-      ->capture_default_str();
+void add_solid_arguments(CLI::App& command, LineArguments& a) {
   command
       .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
                   "Polygons share a plane if tilted by no more than this")
@@ -95,12 +93,17 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   command
-      .add_option("--value-rel", a.tolerances.value_rel, "Values within this fraction are the same")
-      ->check(CLI::Range(0.0, 0.5))
+      .add_option("--close", a.close,
+                  "Holes to close where a building is no closed shell: none, plane ones of up to "
+                  "--close-area, or any plane one")
+      ->check(CLI::IsMember({"none", "planar", "any"}))
       ->capture_default_str();
-  command.add_option("--budget", a.budget, "Half-edges that segmenting one building may look at")
-      ->check(CLI::PositiveNumber)
+  command.add_option("--close-area", a.cap_area_m2, "... with --close planar, in m2")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+void add_run_arguments(CLI::App& command, LineArguments& a) {
   command.add_option("--timings", a.timings_file,
                      "Write the milliseconds of each stage to this file, as JSON");
   command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
@@ -135,6 +138,23 @@ void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
       })
       ->capture_default_str();
   command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
+}
+
+void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+  add_input_arguments(command, a, has_many);
+  command
+      .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
+      ->check(CLI::IsMember({"natural", "paper"}))
+      ->capture_default_str();
+  add_solid_arguments(command, a);
+  command
+      .add_option("--value-rel", a.tolerances.value_rel, "Values within this fraction are the same")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command.add_option("--budget", a.budget, "Half-edges that segmenting one building may look at")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_run_arguments(command, a);
 }
 
 void add_rules_argument(CLI::App& command, std::string& pack) {

@@ -3,6 +3,7 @@
 #include "cli/selection.h"
 #include "interpret/rule_base.h"
 #include "kernel/io/reader.h"
+#include "kernel/model/repair.h"
 #include "kernel/segment/segment.h"
 
 #include <string>
@@ -19,6 +20,8 @@ struct LineArguments {
   std::string from;
   std::string order = "natural";
   Tolerances tolerances;
+  std::string close = "planar";
+  double cap_area_m2 = RepairOptions{}.cap_area_m2;
   std::int64_t budget = SegmentOptions{}.budget;
   /// What the input calls its polygons is not looked at.
   bool ignores_semantics = false;
@@ -32,9 +35,12 @@ struct LineArguments {
   std::string status_stem;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";
+  /// What is asked for is the solid: buildings are not segmented.
+  bool ends_at_solid = false;
 
   [[nodiscard]] ReadOptions read_options() const;
   [[nodiscard]] SegmentOptions segment_options() const;
+  [[nodiscard]] RepairOptions repair_options() const;
   /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is
   /// made of.
   [[nodiscard]] std::string configuration() const;
@@ -46,7 +52,13 @@ struct LineArguments {
 /// more than one input (`has_many`), the selection.
 void add_input_arguments(CLI::App& command, LineArguments& arguments, bool has_many);
 
-/// Adds the arguments to a command. `has_many`: it takes more than one input.
+/// Adds the arguments that say how polygons become a solid.
+void add_solid_arguments(CLI::App& command, LineArguments& arguments);
+
+/// Adds the arguments that say how the command goes about its work.
+void add_run_arguments(CLI::App& command, LineArguments& arguments);
+
+/// Adds all of them to a command. `has_many`: it takes more than one input.
 void add_line_arguments(CLI::App& command, LineArguments& arguments, bool has_many);
 
 /// Adds `--rules PACK`.

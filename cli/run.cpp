@@ -109,10 +109,13 @@ void Run::run_inputs(const Visitor& visitor) {
 }
 
 OnLine Run::on_line(const Building& building, Timings& timings) const {
+  const RepairOptions repair = arguments_.repair_options();
+  if (arguments_.ends_at_solid)
+    return run_to_solid(building, arguments_.tolerances, repair, timings);
   const SegmentOptions options = arguments_.segment_options();
   OnLine line = arguments_.ignores_semantics
-                    ? run_line(without_hints(building), options, rules_, timings)
-                    : run_line(building, options, rules_, timings);
+                    ? run_line(without_hints(building), options, repair, rules_, timings)
+                    : run_line(building, options, repair, rules_, timings);
   if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
   return line;
 }
@@ -196,7 +199,7 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
     if (line.is_passed_over) continue;
     ++buildings_;
     tell(line.issues);
-    if (!line.is_done()) {
+    if (arguments_.ends_at_solid ? !line.solid : !line.is_done()) {
       keep_errors(line.issues);
       ++set_aside_;
       raise(ExitCode::set_aside);

@@ -198,14 +198,29 @@ class CityJsonWriter {
       const bool has_surface = index < labelled.surface_of_polygon.size();
       surfaces.push_back(has_surface ? labelled.surface_of_polygon[index] : -1);
     }
+    const std::string existing =
+        labelled.keeps_semantics ? carried_semantics(geometry, labelled, solid) : "";
     std::string type;
     append_json(type, solid.type);
     geometry.set("type", std::move(type));
     geometry.set("boundaries", std::move(solid.boundaries));
     for (const std::string_view key : {"semantics", "material", "texture"}) geometry.erase(key);
-    std::string semantics = detail::filled_semantics("", solid.shape, surfaces, labelled.surfaces);
+    std::string semantics =
+        detail::filled_semantics(existing, solid.shape, surfaces, labelled.surfaces);
     if (!semantics.empty()) geometry.set("semantics", std::move(semantics));
     return std::move(solid.facets);
+  }
+
+  /// What the facets that are written keep of the geometry's semantics.
+  static std::string carried_semantics(const RawNode& geometry, const LabelledBuilding& labelled,
+                                       const detail::SolidText& solid) {
+    const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
+    const auto old = detail::geometry_of(geometry.value_of("boundaries"), kind->depth, false);
+    std::vector<std::vector<int>> sources;
+    for (const int facet : solid.order)
+      sources.push_back(labelled.geometry->facets.at(static_cast<std::size_t>(facet)).polygons);
+    return detail::carried_semantics(geometry.value_of("semantics"), old.shape, solid.shape,
+                                     sources);
   }
 
   static std::string installation_text(const Installation& installation,

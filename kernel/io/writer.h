@@ -34,7 +34,8 @@ struct WriteOptions {
 ///   semantics: polygons that have a semantic surface keep it, the others get ours, appended behind
 ///   the surfaces that are there. Openings have `parent`, and their wall lists them in `children`.
 /// - With it the geometry becomes a Solid (a MultiSolid if it has several lumps) with the facets as
-///   polygons; its material and texture go, and vertices that nothing uses any more leave the file.
+///   polygons; with LabelledBuilding::keeps_semantics they keep the semantic surface that their
+///   input polygons share, if they do; its material and texture go, and vertices that nothing uses any more leave the file.
 ///   New vertices are rounded to the transform's scale; if that is coarser than 1 mm, or would move
 ///   a vertex off a facet's plane by more than 2 mm, or would make two vertices one, the file gets
 ///   a scale finer by a power of ten. A line of a CityJSONSeq keeps its header's transform.

@@ -54,6 +54,8 @@ struct LabelledBuilding {
   /// The level of detail that `geometry` is written with; empty: the input's. Buildings with the
   /// same id and several levels stand one behind the other.
   std::string lod{};
+  /// With `geometry`: facets whose polygons all have one semantic surface in the input keep that.
+  bool keeps_semantics = false;
 };
 
 }  // namespace oriel

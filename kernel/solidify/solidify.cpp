@@ -52,21 +52,20 @@ Issue warning(const Building& building, std::string code, std::string sentence) 
 }
 
 /// What mending has done, as findings.
-void tell_repairs(const Building& building, const detail::Mended& mended,
+void tell_repairs(const Building& building, const RepairReport& report, bool is_open,
                   std::vector<Issue>& issues) {
-  const RepairReport& report = mended.report;
   if (report.t_vertices > 0 || !report.duplicates.empty())
     issues.push_back(building_issue(
         Severity::note, "E317", building.id,
         fmt::format("{} vertices were put into the edges that they lie on; {} polygons are there "
                     "twice and were dropped",
                     report.t_vertices, report.duplicates.size())));
-  if (mended.is_open) return;
-  if (mended.turned > 0)
+  if (is_open) return;
+  if (report.turned > 0)
     issues.push_back(warning(
         building, "E308",
         fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
-                    mended.turned)));
+                    report.turned)));
   if (!report.caps.empty()) {
     double sum = 0, largest = 0;
     for (const Cap& cap : report.caps) {
@@ -129,7 +128,7 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
   const Soup soup = detail::weld(building, tolerances, told_before);
   detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair);
   out.report = std::move(mended.report);
-  tell_repairs(building, {{}, mended.is_open, mended.turned, out.report}, out.issues);
+  tell_repairs(building, out.report, mended.is_open, out.issues);
   Shells shells;
   if (mended.is_open) {
     // Without open edges it is not a hole that keeps it from being a solid.
@@ -141,6 +140,8 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
   }
   shells.soup = std::move(mended.soup);
   shells.mesh = detail::build_shell_mesh(shells.soup, building.id, out.issues);
+  if (!has_errors(out.issues) && !is_closed(shells.mesh))
+    out.issues.push_back(error(building, "E302", "not closed after mending (val3dity 302)"));
   return shells;
 }
 

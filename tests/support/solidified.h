@@ -20,8 +20,9 @@ inline Solid solid_of(const Building& building, const Tolerances& tolerances = {
 
 /// The codes that solidify gives a building, separated by blanks; with "solid" in front if it makes
 /// one.
-inline std::string outcome_of(const Building& building, const Tolerances& tolerances = {}) {
-  const auto solid = solidify(building, tolerances);
+inline std::string outcome_of(const Building& building, const Tolerances& tolerances = {},
+                              const RepairOptions& repair = {}) {
+  const auto solid = solidify(building, tolerances, repair);
   CHECK(solid.value.has_value() != has_errors(solid.issues));
   std::string out = solid.value ? "solid" : "";
   for (const Issue& issue : solid.issues) out += (out.empty() ? "" : " ") + issue.code;

@@ -219,4 +219,24 @@ std::string filled_semantics(std::string_view existing, const GeometryShape& sha
   return semantics.text();
 }
 
+std::string carried_semantics(std::string_view existing, const GeometryShape& old_shape,
+                              const GeometryShape& shape,
+                              const std::vector<std::vector<int>>& sources) {
+  if (!RawNode::is_object(existing)) return {};
+  RawNode semantics(existing);
+  const auto surfaces = elements_of(semantics.value_of("surfaces"));
+  const std::vector<int> old =
+      flat_values(semantics.value_of("values"), old_shape, static_cast<int>(surfaces.size()));
+  std::vector<int> flat;
+  for (const std::vector<int>& polygons : sources) {
+    const auto value = [&](int p) { return old.at(static_cast<std::size_t>(p)); };
+    const bool is_one = !polygons.empty() && std::ranges::all_of(polygons, [&](int p) {
+      return value(p) == value(polygons.front());
+    });
+    flat.push_back(is_one ? value(polygons.front()) : -1);
+  }
+  semantics.set("values", nested_values(flat, shape));
+  return semantics.text();
+}
+
 }  // namespace oriel::detail

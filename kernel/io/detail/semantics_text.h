@@ -29,4 +29,11 @@ std::string filled_semantics(std::string_view existing, const GeometryShape& sha
                              std::span<const int> surface_of_polygon,
                              const std::vector<SemanticSurface>& surfaces, bool is_kept = false);
 
+/// The text of "semantics" for a geometry whose polygons are made of those of another one: what
+/// all that a polygon is made of (`sources`, numbers in the old geometry) have in common, if
+/// anything. The surfaces stay as they are. Empty if `existing` is.
+std::string carried_semantics(std::string_view existing, const GeometryShape& old_shape,
+                              const GeometryShape& shape,
+                              const std::vector<std::vector<int>>& sources);
+
 }  // namespace oriel::detail

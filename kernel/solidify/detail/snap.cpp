@@ -280,7 +280,11 @@ class Snapper {
       for (const int p : polygons[f])
         if (const int source = soup_.polygons[at(p)].source; source >= 0)
           facet.polygons.push_back(source);
-      if (facet.polygons.size() > 1) std::ranges::sort(facet.polygons);
+      if (facet.polygons.size() > 1) {
+        std::ranges::sort(facet.polygons);
+        const auto repeated = std::ranges::unique(facet.polygons);  // pieces of one polygon
+        facet.polygons.erase(repeated.begin(), repeated.end());
+      }
     }
     return out;
   }

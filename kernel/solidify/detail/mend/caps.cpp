@@ -17,6 +17,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Polygons at less than this angle to a cap, on the same side of an edge, lie in it.
 constexpr double kSameWay_rad = 2 * std::numbers::pi / 180;
 
+/// Cutting a loop into plane pieces takes the cube of its points.
+constexpr std::size_t kLongestBentLoop = 64;
+
 struct OpenHalfEdge {
   int from, to, polygon;
 };
@@ -38,6 +41,7 @@ class CapFinder {
       follow_corner(edge.from, edge.to, edge.polygon);
       follow_corner(edge.to, edge.from, edge.polygon);
     }
+    close_bent_loops();
     return std::move(caps_);
   }
 
@@ -120,16 +124,101 @@ class CapFinder {
     std::vector<int> points = ring;
     std::ranges::sort(points);
     if (ring.size() < 3 || std::ranges::adjacent_find(points) != points.end()) return;
-    Vec3 sum;
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      sum = sum + cross(place(ring[i]) - place(ring[0]),
-                        place(ring[(i + 1) % ring.size()]) - place(ring[0]));
-    const double area = dot(sum, normal) / 2;
+    const double area = dot(area_vector(ring), normal) / 2;
     if (area <= 0 || area > max_area_) return;
     for (std::size_t i = 0; i < ring.size(); ++i)
       if (is_covered_at(ring[i], ring[(i + 1) % ring.size()], normal)) return;
     if (!known_.insert(std::move(points)).second) return;
     caps_.push_back({std::move(ring), area, polygon});
+  }
+
+  using Ring = std::vector<int>;
+
+  /// Loops of open edges that no cap has.
+  void close_bent_loops() {
+    std::map<int, std::vector<int>> open_at;  // by point
+    std::set<std::pair<int, int>> capped;
+    for (const CapDraft& cap : caps_)
+      for (std::size_t i = 0; i < cap.ring.size(); ++i)
+        capped.insert(std::minmax({cap.ring[i], cap.ring[(i + 1) % cap.ring.size()]}));
+    std::map<int, int> polygon_at;
+    for (const OpenHalfEdge& edge : open_) {
+      if (capped.contains(std::minmax({edge.from, edge.to}))) continue;
+      open_at[edge.from].push_back(edge.to);
+      open_at[edge.to].push_back(edge.from);
+      polygon_at[edge.from] = edge.polygon;
+    }
+    std::set<int> seen;
+    for (const auto& [start, ends] : open_at) {
+      Ring loop;
+      int before = -1, v = start;
+      while (seen.insert(v).second && open_at.at(v).size() == 2) {
+        loop.push_back(v);
+        const auto& next = open_at.at(v);
+        v = std::exchange(before, v) == next[0] ? next[1] : next[0];
+      }
+      if (v == start && loop.size() >= 4 && loop.size() <= kLongestBentLoop)
+        keep_pieces(loop, polygon_at[start]);
+    }
+  }
+
+  void keep_pieces(Ring loop, int polygon) {
+    std::vector<CapDraft> pieces;
+    double area = 0;
+    while (!loop.empty()) {
+      Ring piece = take_plane_piece(loop);
+      const Vec3 vector = area_vector(piece);
+      const Vec3 normal = normalised(vector);
+      area += length(vector) / 2;
+      if (area > max_area_ || length(vector) == 0) return;
+      for (std::size_t i = 0; i < piece.size(); ++i) {
+        const int from = piece[i], to = piece[(i + 1) % piece.size()];
+        if (polygons_at_.contains(std::minmax({from, to})) && is_covered_at(from, to, normal))
+          return;
+      }
+      pieces.push_back({std::move(piece), length(vector) / 2, polygon});
+    }
+    caps_.insert(caps_.end(), pieces.begin(), pieces.end());
+  }
+
+  /// Takes the largest plane piece off a loop: of those with the most points the one with the
+  /// shortest chord. What is left of the loop stays; nothing if all of it is plane.
+  Ring take_plane_piece(Ring& loop) const {
+    const std::size_t size = loop.size();
+    if (is_plane(loop)) return std::exchange(loop, {});
+    Ring best;
+    std::size_t best_start = 0;
+    for (std::size_t count = size - 1; count >= 3 && best.empty(); --count)
+      for (std::size_t start = 0; start < size; ++start) {
+        Ring piece;
+        for (std::size_t i = 0; i < count; ++i) piece.push_back(loop[(start + i) % size]);
+        if (!is_plane(piece) || (!best.empty() && chord(best) <= chord(piece))) continue;
+        best = std::move(piece);
+        best_start = start;
+      }
+    Ring rest;
+    for (std::size_t i = best.size() - 1; i <= size; ++i)
+      rest.push_back(loop[(best_start + i) % size]);
+    loop = std::move(rest);
+    return best;
+  }
+
+  [[nodiscard]] double chord(const Ring& piece) const {
+    return length(place(piece.back()) - place(piece.front()));
+  }
+
+  [[nodiscard]] Vec3 area_vector(const Ring& ring) const {
+    Vec3 sum;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      sum = sum + cross(place(ring[i]) - place(ring[0]),
+                        place(ring[(i + 1) % ring.size()]) - place(ring[0]));
+    return sum;
+  }
+
+  [[nodiscard]] bool is_plane(const Ring& ring) const {
+    const Vec3 normal = normalised(area_vector(ring));
+    return std::ranges::all_of(
+        ring, [&](int v) { return std::abs(dot(normal, place(v) - place(ring[0]))) <= reach_; });
   }
 
   /// A polygon at that edge lies in the plane, on the side of the cap.
@@ -148,8 +237,7 @@ class CapFinder {
   /// So that a rim of many edges is followed once, not from each of them.
   bool is_first_visit(int from, int to, Vec3 normal) {
     const auto rounded = [](double c) { return static_cast<int>(std::lround(64 * c)); };
-    return visited_
-        .insert({from, to, rounded(normal.x), rounded(normal.y), rounded(normal.z)})
+    return visited_.insert({from, to, rounded(normal.x), rounded(normal.y), rounded(normal.z)})
         .second;
   }
 

@@ -40,8 +40,8 @@ class Uniter {
     if (group.size() > 2) {
       spokes = sort_round(soup_, mesh_, group, shapes_);
     } else {
-      const int low = std::min(soup_.corners[at(group[0])],
-                               soup_.corners[at(mesh_.next[at(group[0])])]);
+      const int low =
+          std::min(soup_.corners[at(group[0])], soup_.corners[at(mesh_.next[at(group[0])])]);
       for (const int h : group) spokes.push_back({h, soup_.corners[at(h)] == low});
     }
     for (std::size_t i = 0; i < spokes.size(); ++i) {

@@ -3,6 +3,7 @@
 #include "kernel/solidify/detail/edge_groups.h"
 #include "kernel/solidify/detail/mend/caps.h"
 #include "kernel/solidify/detail/mend/cells.h"
+#include "kernel/solidify/detail/mend/contacts.h"
 #include "kernel/solidify/detail/mend/duplicates.h"
 #include "kernel/solidify/detail/mend/nesting.h"
 #include "kernel/solidify/detail/mend/soup_builder.h"
@@ -112,6 +113,16 @@ Cap cap_of(const Stage& stage, int polygon) {
   return cap;
 }
 
+/// Sorts the polygons of a list, each once, without those of which a piece is in the soup.
+void drop_kept(const Soup& soup, std::vector<int>& polygons) {
+  std::vector<int> kept;
+  for (const SoupPolygon& polygon : soup.polygons) kept.push_back(polygon.source);
+  std::ranges::sort(kept);
+  std::ranges::sort(polygons);
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  std::erase_if(polygons, [&](int p) { return std::ranges::binary_search(kept, p); });
+}
+
 /// Fills the soup and the rest of the report.
 void keep_boundary(const Stage& stage, bool is_solid, Mended& mended) {
   const auto& [soup, shapes, cells] = stage;
@@ -127,20 +138,19 @@ void keep_boundary(const Stage& stage, bool is_solid, Mended& mended) {
       const bool is_turned = is_front == (role == PieceRole::cavity);
       builder.add_polygon(soup, p, is_turned);
       if (source == kCapSource) report.caps.push_back(cap_of(stage, p));
-      mended.turned += is_turned && source != kCapSource;
+      report.turned += is_turned && source != kCapSource;
     } else if (source != kCapSource) {
       const bool is_dangling = is_front && cells.is_back_outside(p);
       (is_dangling ? report.dangling : report.inner).push_back(source);
       (is_dangling ? report.dangling_area_m2 : report.inner_area_m2) += shapes[at(p)].area * m2;
     }
   }
-  std::ranges::sort(report.dangling);
-  std::ranges::sort(report.inner);
+  mended.soup = builder.finish();
+  for (auto* const polygons : {&report.dangling, &report.inner}) drop_kept(mended.soup, *polygons);
   const auto lumps = std::ranges::count(roles, PieceRole::lump);
   report.detached_shells = std::max(0, static_cast<int>(lumps) - 1);
   report.cavities = static_cast<int>(std::ranges::count(roles, PieceRole::cavity));
   report.crowded_edges = cells.crowded_edges;
-  mended.soup = builder.finish();
 }
 
 }  // namespace
@@ -157,8 +167,11 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
     mended.is_open = true;
     return mended;
   }
-  std::vector<OpenEdge> open = open_edges_of(joined);
-  const Stage stage = close_holes(Stage(std::move(joined)), tolerances, options);
+  auto [whole, cut] =
+      cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
+  report.cut = cut;
+  std::vector<OpenEdge> open = open_edges_of(whole);
+  const Stage stage = close_holes(Stage(std::move(whole)), tolerances, options);
   mended.is_open = stage.is_open();
   if (mended.is_open)
     report.open_edges = std::move(open);

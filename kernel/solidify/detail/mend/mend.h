@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernel/model/repair.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/detail/soup.h"
-#include "kernel/solidify/repair.h"
 
 namespace oriel::detail {
 
@@ -13,18 +13,17 @@ struct Mended {
   Soup soup;
   /// The polygons enclose less of themselves than is left over: a hole lets the outside in.
   bool is_open = false;
-  /// Polygons that were turned round.
-  int turned = 0;
   RepairReport report;
 };
 
 /// Makes the boundary of a solid of polygons that are no closed shell:
 /// 1. one of equal polygons stays (duplicates.h);
 /// 2. vertices on the edge of a neighbour are put into it (t_vertices.h);
-/// 3. the cells between the polygons are found, polygons sorted round the edges (cells.h);
-/// 4. if the outer cell has got in, holes are closed, the small ones first (caps.h);
-/// 5. shells in the material of others are dropped or become cavities (nesting.h);
-/// 6. what has the outer cell on one side only stays.
+/// 3. polygons are cut where the edges of others lie on them (contacts.h);
+/// 4. the cells between the polygons are found, polygons sorted round the edges (cells.h);
+/// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h);
+/// 6. shells in the material of others are dropped or become cavities (nesting.h);
+/// 7. what has the outer cell on one side only stays.
 /// `is_solid`: Building::is_solid. Polygons that cross each other without a common edge are not
 /// looked for.
 Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,

@@ -40,7 +40,7 @@ class RoleFinder {
       int depth = 0;  // how much material there is around it
       for (const int j : around[at(i)])
         depth += (roles[at(j)] == PieceRole::lump) - (roles[at(j)] == PieceRole::cavity);
-      roles[at(i)] = depth <= 0                   ? PieceRole::lump
+      roles[at(i)] = depth <= 0                    ? PieceRole::lump
                      : wants_cavity(pieces[at(i)]) ? PieceRole::cavity
                                                    : PieceRole::within;
     }

@@ -63,8 +63,8 @@ void SoupBuilder::close_polygon() {
 }
 
 void SoupBuilder::append(std::span<const int> simple_ring) {
-  const auto begin = soup_.corners.insert(soup_.corners.end(), simple_ring.begin(),
-                                          simple_ring.end());
+  const auto begin =
+      soup_.corners.insert(soup_.corners.end(), simple_ring.begin(), simple_ring.end());
   std::rotate(begin, std::min_element(begin, soup_.corners.end()), soup_.corners.end());
   soup_.first_corner.push_back(static_cast<int>(soup_.corners.size()));
 }

@@ -16,50 +16,59 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vec3 place(const Soup& soup, int point) { return exact::to_metres(soup.points[at(point)], 1); }
 
-/// The edges with an odd number of polygons, each once, and their ends.
-struct OddEdges {
-  std::vector<std::pair<int, int>> edges;
-  std::vector<int> ends;
+/// Every edge once, and the ends of those with an odd number of polygons.
+struct Edges {
+  std::vector<std::pair<int, int>> all;
+  std::vector<int> odd_ends;
 };
 
-OddEdges odd_edges(const Soup& soup) {
-  OddEdges odd;
+Edges edges_of(const Soup& soup) {
+  Edges edges;
   const ShellMesh mesh = linked_rings(soup);
   EdgeGroups(soup, mesh).for_each([&](EdgeGroup group) {
-    if (group.size() % 2 == 0) return;
     const auto h = at(group[0]);
-    const auto [low, high] = std::minmax({soup.corners[h], soup.corners[at(mesh.next[h])]});
-    odd.edges.emplace_back(low, high);
-    odd.ends.insert(odd.ends.end(), {low, high});
+    const auto edge = std::minmax({soup.corners[h], soup.corners[at(mesh.next[h])]});
+    if (edges.all.empty() || edges.all.back() != edge) edges.all.push_back(edge);
+    if (group.size() % 2 == 1)
+      edges.odd_ends.insert(edges.odd_ends.end(), {edge.first, edge.second});
   });
-  std::ranges::sort(odd.ends);
-  odd.ends.erase(std::unique(odd.ends.begin(), odd.ends.end()), odd.ends.end());
-  return odd;
+  std::ranges::sort(edges.odd_ends);
+  edges.odd_ends.erase(std::unique(edges.odd_ends.begin(), edges.odd_ends.end()),
+                       edges.odd_ends.end());
+  return edges;
 }
 
 /// By edge (the smaller point first) the points between its ends, in order.
 using Between = std::map<std::pair<int, int>, std::vector<int>>;
 
-Between find_between(const Soup& soup, const OddEdges& odd, double reach) {
-  std::vector<Box> boxes(odd.ends.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].grow(place(soup, odd.ends[i]));
-  const BoxTree tree(std::move(boxes));
+Between find_between(const Soup& soup, double reach) {
+  const Edges edges = edges_of(soup);
+  std::map<std::pair<int, int>, std::vector<std::pair<double, int>>> found;
+  if (!edges.odd_ends.empty()) {
+    std::vector<Box> boxes(edges.all.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      boxes[i].grow(place(soup, edges.all[i].first));
+      boxes[i].grow(place(soup, edges.all[i].second));
+    }
+    const BoxTree tree(std::move(boxes));
+    for (const int v : edges.odd_ends) {
+      const Vec3 point = place(soup, v);
+      tree.search([&](const Box& box) { return comes_near(box, point, point, reach); },
+                  [&](int i) {
+                    const auto& edge = edges.all[at(i)];
+                    if (v == edge.first || v == edge.second) return;
+                    const Vec3 from = place(soup, edge.first), to = place(soup, edge.second);
+                    const Vec3 axis = normalised(to - from), way = point - from;
+                    const double along = dot(way, axis);
+                    if (along <= 0 || along >= length(to - from)) return;
+                    if (length(way - along * axis) <= reach) found[edge].emplace_back(along, v);
+                  });
+    }
+  }
   Between between;
-  for (const auto& [low, high] : odd.edges) {
-    const Vec3 from = place(soup, low), to = place(soup, high);
-    const Vec3 axis = normalised(to - from);
-    std::vector<std::pair<double, int>> found;
-    tree.search([&](const Box& box) { return comes_near(box, from, to, reach); },
-                [&](int i) {
-                  const int v = odd.ends[at(i)];
-                  const Vec3 way = place(soup, v) - from;
-                  const double along = dot(way, axis);
-                  if (v == low || v == high || along <= 0 || along >= length(to - from)) return;
-                  if (length(way - along * axis) <= reach) found.emplace_back(along, v);
-                });
-    if (found.empty()) continue;
-    std::ranges::sort(found);
-    for (const auto& [along, v] : found) between[{low, high}].push_back(v);
+  for (auto& [edge, points] : found) {
+    std::ranges::sort(points);
+    for (const auto& [along, v] : points) between[edge].push_back(v);
   }
   return between;
 }
@@ -67,7 +76,7 @@ Between find_between(const Soup& soup, const OddEdges& odd, double reach) {
 }  // namespace
 
 SoupWithTVertices insert_t_vertices(const Soup& soup, double reach) {
-  const Between between = find_between(soup, odd_edges(soup), reach);
+  const Between between = find_between(soup, reach);
   SoupBuilder builder(soup);
   int inserted = 0;
   for (const auto& [edge, points] : between) inserted += static_cast<int>(points.size());

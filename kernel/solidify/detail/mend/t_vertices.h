@@ -4,7 +4,7 @@
 
 namespace oriel::detail {
 
-/// A soup in which no odd edge runs past the end of another odd edge.
+/// A soup in which no edge runs past the end of an odd one.
 struct SoupWithTVertices {
   Soup soup;
   /// Vertices put into an edge, counted once for each edge.
@@ -12,8 +12,8 @@ struct SoupWithTVertices {
 };
 
 /// Puts the vertices that lie within `reach` (grid units) of an edge, between its ends, into that
-/// edge: of all its polygons. Only edges with an odd number of polygons are looked at, and only the
-/// ends of such edges are put in: where the numbers are even nothing is missing.
+/// edge: of all its polygons. Only the ends of edges with an odd number of polygons are put in:
+/// where the numbers are even nothing is missing.
 SoupWithTVertices insert_t_vertices(const Soup& soup, double reach);
 
 }  // namespace oriel::detail

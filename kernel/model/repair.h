@@ -2,7 +2,9 @@
 
 #include "kernel/model/vec3.h"
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -11,9 +13,9 @@ namespace oriel {
 enum class Closing {
   /// None.
   none,
-  /// Plane ones of up to RepairOptions::cap_area_m2.
+  /// Those of up to RepairOptions::cap_area_m2, by one plane face or several.
   planar,
-  /// Plane ones of any size; larger ones only if the smaller ones do not close the building.
+  /// Those of any size; larger ones only if the smaller ones do not close the building.
   any
 };
 
@@ -46,6 +48,10 @@ struct RepairReport {
   std::vector<int> duplicates;
   /// Vertices of one polygon put into the edge of a neighbour on which they lie.
   int t_vertices = 0;
+  /// Polygons cut where the edge of another one lies on them.
+  int cut = 0;
+  /// Polygons that were turned round to agree with their neighbours.
+  int turned = 0;
   /// Edges of more than two polygons.
   int crowded_edges = 0;
   /// Polygons with the outside on both sides: roof overhangs, loose panes.
@@ -65,7 +71,8 @@ struct RepairReport {
   std::vector<OpenEdge> open_edges;
 };
 
-/// "planar" and so on.
+/// "planar" and so on, and back; nothing for another text.
 std::string to_string(Closing closing);
+std::optional<Closing> parse_closing(std::string_view text);
 
 }  // namespace oriel

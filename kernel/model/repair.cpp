@@ -1,4 +1,4 @@
-#include "kernel/solidify/repair.h"
+#include "kernel/model/repair.h"
 
 namespace oriel {
 
@@ -12,6 +12,12 @@ std::string to_string(Closing closing) {
       return "any";
   }
   return "";
+}
+
+std::optional<Closing> parse_closing(std::string_view text) {
+  for (const Closing closing : {Closing::none, Closing::planar, Closing::any})
+    if (to_string(closing) == text) return closing;
+  return std::nullopt;
 }
 
 }  // namespace oriel
