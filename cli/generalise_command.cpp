@@ -1,3 +1,4 @@
+#include "cli/accounts.h"
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "generalise/generalise.h"
@@ -22,6 +23,8 @@ struct Arguments : LabelArguments {
   std::string scale;
   std::vector<std::string> lods;
   std::string profile;
+  std::string explain;
+  std::string metrics;
 };
 
 /// N of "1:N", "1 : N" or "N".
@@ -97,12 +100,14 @@ class Generaliser {
         rules_(rules),
         run_(run),
         report_(report),
-        outputs_(arguments, rules) {}
+        outputs_(arguments, rules),
+        accounts_(arguments.explain, arguments.metrics) {}
 
   ExitCode go() {
     Run::Visitor visitor;
     visitor.begin = [&](std::size_t input) {
       if (input == 0) removed_.clear();
+      if (input == 0) accounts_.clear();
       outputs_.begin(input, !run_.is_last_run());
     };
     visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
@@ -113,6 +118,7 @@ class Generaliser {
     };
     const ExitCode code = run_.go(visitor);
     outputs_.commit();
+    accounts_.commit();
     run_.tell_summary("generalised to " + targets_.text(), removed_, " left out");
     return code;
   }
@@ -182,14 +188,35 @@ class Generaliser {
     auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
                                   arguments_.segment_options(), invariants);
     if (!tell(generalised.issues) || !generalised.value) return std::nullopt;
+    const std::string target = targets_.has_lods() ? "LoD " + profile->level : targets_.text();
+    if (accounts_.has_any())
+      accounts_.add(building.id, target,
+                    account(plan, *generalised.value, table, line.interpretation));
+    const double least_edge_m = least_edge(profile);
+    const SolidFigures before = figures_of(*line.solid, least_edge_m);
+    const auto keep_figures = [&](const Redrawn& redrawn) {
+      const auto& solid = redrawn.labelled.geometry;
+      accounts_.add(building.id, target, least_edge_m, before,
+                    solid ? figures_of(*solid, least_edge_m) : before);
+    };
     const Tolerances& tolerances = arguments_.segment_options().tolerances;
-    if (!targets_.has_lods())
-      return redraw(building, labelled, *line.segmentation, table, line.interpretation,
-                    std::move(*generalised.value), tolerances);
+    if (!targets_.has_lods()) {
+      Redrawn redrawn = redraw(building, labelled, *line.segmentation, table, line.interpretation,
+                               std::move(*generalised.value), tolerances);
+      keep_figures(redrawn);
+      return redrawn;
+    }
     auto product = to_lod(building, labelled, *line.segmentation, table, line.interpretation,
                           *profile, std::move(*generalised.value), tolerances);
     if (!tell(product.issues)) return std::nullopt;
+    keep_figures(*product.value);
     return std::move(product.value);
+  }
+
+  /// The least length that the target shows: the profile's c, else 0.125 mm on the map.
+  [[nodiscard]] double least_edge(const Profile* profile) const {
+    const auto sizes = profile != nullptr ? profile->thresholds(targets_.scale) : std::nullopt;
+    return sizes ? sizes->c_m : 0.000125 * targets_.scale.value_or(0);
   }
 
   /// False if there is an error: the building is set aside.
@@ -209,6 +236,7 @@ class Generaliser {
   Run& run_;
   Report& report_;
   LabelOutputs outputs_;
+  Accounts accounts_;
   std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 
@@ -239,6 +267,12 @@ void add_generalise(CLI::App& app, Action& action) {
                    "Levels of detail to make, such as 2.0,1.2; they share a file")
       ->delimiter(',');
   target->require_option(1);
+  command->add_option("--explain", arguments->explain,
+                      "File for what became of each feature, by which rule, and what was refused "
+                      "and why: text, or JSON lines if it ends in .jsonl");
+  command->add_option(
+      "--metrics", arguments->metrics,
+      "File for figures before and after, a JSON line for each building and target");
   command->add_option("--profile", arguments->profile,
                       "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
                       "file (--to-lod: lod; --scale: they stay)");

@@ -2,6 +2,7 @@
 #include "tests/cli/cubes.h"
 
 #include <set>
+#include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -46,6 +47,27 @@ TEST_SUITE("cli") {
     const Outcome unknown = run({"generalise", sample("block"), "--to-lod", "3.3", "-o", "-"});
     CHECK(unknown.exit == 4);
     CHECK(unknown.says("R271"));
+  }
+
+  TEST_CASE("an account says what became of each feature and figures tell before from after") {
+    const Folder folder;
+    const Outcome made =
+        run({"generalise", sample("house"), "--scale", "1:5000", "--explain", folder / "why.jsonl",
+             "--metrics", folder / "figures.jsonl", "-o", folder / "out.city.json"});
+    REQUIRE(made.exit == 0);
+    int omitted = 0, kept = 0;
+    std::istringstream lines(bytes_of(folder / "why.jsonl"));
+    for (std::string line; std::getline(lines, line);) {
+      const json deed = json::parse(line);
+      CHECK(deed["target"] == "1:5000");
+      if (deed["outcome"] == "omitted") CHECK_FALSE(deed["rule"].get<std::string>().empty());
+      (deed["outcome"] == "omitted" ? omitted : kept) += 1;
+    }
+    CHECK(omitted > 20);
+    CHECK(kept > 0);
+    const json figures = json::parse(bytes_of(folder / "figures.jsonl"));
+    CHECK(figures["facets_after"] < figures["facets_before"]);
+    CHECK(figures["normals_after"] <= figures["normals_before"]);
   }
 
   TEST_CASE("a map profile decides of what the pack has no entry for") {

@@ -1,0 +1,66 @@
+#include "cli/accounts.h"
+
+#include "kernel/io/output_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+void Accounts::clear() {
+  deeds_.clear();
+  figures_.clear();
+}
+
+void Accounts::add(const std::string& building, const std::string& target,
+                   const std::vector<Deed>& deeds) {
+  if (explain_.empty()) return;
+  const bool is_json = explain_.ends_with(".jsonl");
+  for (const Deed& deed : deeds) {
+    if (is_json) {
+      nlohmann::ordered_json line;
+      line["building"] = building;
+      line["target"] = target;
+      line["feature"] = deed.feature;
+      line["label"] = deed.label;
+      line["outcome"] = deed.outcome;
+      line["operation"] = deed.operation;
+      line["rule"] = deed.rule;
+      line["code"] = deed.code;
+      line["reason"] = deed.reason;
+      deeds_ += line.dump() + "\n";
+      continue;
+    }
+    deeds_ += fmt::format("{} {} {} {}: {}", target, building, deed.feature,
+                          deed.label.empty() ? "unknown" : deed.label, deed.outcome);
+    if (!deed.operation.empty()) deeds_ += fmt::format(", {} by {}", deed.operation, deed.rule);
+    if (!deed.reason.empty()) deeds_ += fmt::format(" ({} {})", deed.code, deed.reason);
+    deeds_ += '\n';
+  }
+}
+
+void Accounts::add(const std::string& building, const std::string& target, double least_edge_m,
+                   const SolidFigures& before, const SolidFigures& after) {
+  if (metrics_.empty()) return;
+  nlohmann::ordered_json line;
+  line["building"] = building;
+  line["target"] = target;
+  line["least_edge_m"] = least_edge_m;
+  const auto both = [&](const char* name, auto value) {
+    line[std::string(name) + "_before"] = value(before);
+    line[std::string(name) + "_after"] = value(after);
+  };
+  both("facets", [](const SolidFigures& f) { return f.facets; });
+  both("normals", [](const SolidFigures& f) { return f.normals; });
+  both("short_edges", [](const SolidFigures& f) { return f.short_edges; });
+  both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
+  both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
+  figures_ += line.dump() + "\n";
+}
+
+void Accounts::commit() const {
+  if (!explain_.empty()) write_file(explain_, deeds_);
+  if (!metrics_.empty()) write_file(metrics_, figures_);
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "generalise/account.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What --explain and --metrics of generalise write; each file appears when all inputs are done.
+class Accounts {
+ public:
+  /// Empty names: not asked for. --explain writes JSON lines to a name that ends in .jsonl, else
+  /// text.
+  Accounts(std::string explain, std::string metrics)
+      : explain_(std::move(explain)), metrics_(std::move(metrics)) {}
+
+  [[nodiscard]] bool has_any() const { return !explain_.empty() || !metrics_.empty(); }
+  /// Another run begins: what was added is forgotten.
+  void clear();
+  void add(const std::string& building, const std::string& target, const std::vector<Deed>& deeds);
+  void add(const std::string& building, const std::string& target, double least_edge_m,
+           const SolidFigures& before, const SolidFigures& after);
+  void commit() const;
+
+ private:
+  std::string explain_, metrics_;
+  std::string deeds_, figures_;
+};
+
+}  // namespace oriel::cli
