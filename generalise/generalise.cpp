@@ -12,11 +12,12 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
   const FeatureId parent = segmentation.features[refusal.feature.index()].parent;
   const std::string& label = interpretation.verdicts[refusal.feature.index()].label;
   const bool is_piece = parent.is_valid() && label.empty();
-  Issue issue =
-      building_issue(is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
-                     is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}",
-                                            table.id(parent), target, refusal.reason)
-                              : fmt::format("is not omitted at {}: {}", target, refusal.reason));
+  Issue issue = building_issue(
+      is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
+      is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}", table.id(parent),
+                             target, refusal.reason)
+               : fmt::format("is not {} at {}: {}", refusal.code == "G403" ? "changed" : "omitted",
+                             target, refusal.reason));
   issue.place.feature = table.id(refusal.feature);
   return issue;
 }
