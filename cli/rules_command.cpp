@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/report.h"
+#include "cli/rules_commands.h"
 #include "interpret/rule_base.h"
 
 #include <cstdio>
@@ -64,6 +65,7 @@ void add_rules(CLI::App& app, Action& action) {
   check->add_flag("--json", arguments->is_json, "All findings as one JSON array");
   check->footer("Example:\n  oriel rules check my_rules.yaml");
   check->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+  add_rules_test(*rules, action);
 }
 
 }  // namespace oriel::cli

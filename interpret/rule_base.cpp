@@ -3,11 +3,10 @@
 #include "interpret/detail/embedded.h"
 #include "interpret/detail/load.h"
 #include "interpret/detail/pack.h"
+#include "interpret/detail/read_file.h"
 #include "interpret/detail/suggest.h"
-#include "interpret/detail/yaml_tree.h"
 
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 namespace oriel {
@@ -20,19 +19,6 @@ Checked<RuleBase> refuse(const std::string& path, std::string sentence) {
   issue.sentence = std::move(sentence);
   issue.place.file = path;
   return {std::nullopt, {std::move(issue)}};
-}
-
-/// The first bytes of a file, one more than a pack may have at most; nothing if it cannot be read.
-std::optional<std::string> read_file(const std::string& path) {
-  std::error_code problem;
-  if (std::filesystem::is_directory(path, problem)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::string text(rules::kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) return std::nullopt;
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
 }
 
 std::optional<rules::FoundPack> find_embedded(const std::string& name) {
@@ -48,7 +34,7 @@ std::optional<rules::FoundPack> find_beside(const std::string& pack, const std::
   const auto folder = std::filesystem::canonical(pack, problem).parent_path();
   const auto real = std::filesystem::canonical(file, problem);
   if (problem || real.parent_path() != folder) return std::nullopt;
-  auto text = read_file(file.string());
+  auto text = rules::read_file(file.string());
   if (!text) return std::nullopt;
   return rules::FoundPack{file.string(), std::move(*text)};
 }
@@ -89,7 +75,7 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
 
 Checked<RuleBase> load_pack_file(const std::string& path) {
   if (const auto text = embedded_pack(path)) return load_pack(std::string(*text), path + ".yaml");
-  auto text = read_file(path);
+  auto text = rules::read_file(path);
   if (!text)
     return refuse(path, "there is no pack here that can be read; the packs built in are: " +
                             rules::join(embedded_packs()));

@@ -108,10 +108,11 @@ inline std::string findings(const std::string& text) {
   return printed;
 }
 
-/// A pack that must load without any finding.
+/// A pack that must load without any finding, but that a rule may be shadowed by another one.
 inline RuleBase load(const std::string& text) {
   auto checked = load_pack(text, "t.yaml");
-  for (const Issue& issue : checked.issues) FAIL_CHECK(to_string(issue));
+  for (const Issue& issue : checked.issues)
+    if (issue.code != "R255") FAIL_CHECK(to_string(issue));
   REQUIRE(checked.value);
   return *checked.value;
 }
