@@ -123,7 +123,7 @@ void repeat(const YamlNode& node, const FixtureFeature& feature, Fixture& fixtur
   for (int i = 0; i < columns * rows; ++i) {
     FixtureFeature copy = feature;
     const int row = i / columns;
-    copy.name += "." + std::to_string(i + 1);
+    copy.name = fmt::format("{}.{}", feature.name, i + 1);
     copy.x = feature.x.value_or(0) + dx * (i % columns);
     for (const char* name : {"height", "top"})
       if (const auto z = copy.numbers.find(name); z != copy.numbers.end()) z->second += dz * row;

@@ -52,7 +52,7 @@ TEST_SUITE("interpret") {
     std::size_t packs = 0;
     std::size_t at = 0;
     while (const auto pack = take_block(text, "```yaml", at)) {
-      if (!pack->starts_with("schema")) continue;
+      if (!pack->starts_with("schema")) continue;  // of surfaces and tests
       ++packs;
       CHECK(findings_of(*pack).empty());
     }
