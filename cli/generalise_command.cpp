@@ -129,6 +129,11 @@ class Generaliser {
     WriteOptions options;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!lines[i].is_done()) continue;
+      if (lines[i].is_open) {
+        run_.set_aside(building_issue(Severity::error, "G404", document.buildings[i].id,
+                                      "is open: there is no solid to redraw"));
+        continue;
+      }
       outputs_.add_features(document.buildings[i], lines[i]);
       auto redrawn = run_.timings().measure(
           Stage::generalise, [&] { return redraw_building(document.buildings[i], lines[i]); });

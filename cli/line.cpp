@@ -2,8 +2,12 @@
 
 #include "interpret/interpret.h"
 #include "kernel/segment/imprints.h"
+#include "kernel/segment/ring_features.h"
+#include "kernel/segment/segment_open.h"
+#include "kernel/solidify/open_shell.h"
 #include "kernel/solidify/solidify.h"
 
+#include <algorithm>
 #include <exception>
 #include <iterator>
 
@@ -15,6 +19,24 @@ namespace {
 
 void append(std::vector<Issue>& all, std::vector<Issue> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+/// The facets of a building that solidify found open, or nothing if it found something else: what
+/// was an error then is a warning.
+std::optional<Solid> opened(const Building& building, std::vector<Issue>& issues,
+                            const Tolerances& tolerances) {
+  const auto is_geometry = [](const Issue& issue) {
+    return issue.severity != Severity::error || issue.code.starts_with("E3");
+  };
+  if (!std::ranges::all_of(issues, is_geometry)) return std::nullopt;
+  auto shell = open_shell(building, tolerances);
+  if (!shell) return shell;
+  for (Issue& issue : issues) {
+    if (issue.severity != Severity::error) continue;
+    issue.severity = Severity::warning;
+    issue.sentence += "; features are taken from its rings, nothing is cut";
+  }
+  return shell;
 }
 
 void make_solid(const Building& building, const Tolerances& tolerances, const RepairOptions& repair,
@@ -49,11 +71,19 @@ OnLine run_line(const Building& building, const SegmentOptions& options,
   OnLine out;
   try {
     make_solid(building, options.tolerances, repair, timings, out);
+    if (!out.solid) {
+      out.solid = timings.measure(Stage::solidify,
+                                  [&] { return opened(building, out.issues, options.tolerances); });
+      out.is_open = out.solid.has_value();
+    }
     if (!out.solid) return out;
-    Segmentation segmentation =
-        timings.measure(Stage::segment, [&] { return segment(building, *out.solid, options); });
-    timings.measure(Stage::segment,
-                    [&] { add_imprints(building, *out.solid, segmentation, options.tolerances); });
+    Segmentation segmentation = timings.measure(Stage::segment, [&] {
+      Segmentation found =
+          out.is_open ? segment_open(*out.solid) : segment(building, *out.solid, options);
+      add_ring_features(building, *out.solid, found, options.tolerances);
+      add_imprints(building, *out.solid, found, options.tolerances);
+      return found;
+    });
     append(out.issues, segmentation.issues);
     out.description =
         timings.measure(Stage::describe, [&] { return describe(building, segmentation); });

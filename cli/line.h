@@ -21,6 +21,8 @@ namespace oriel::cli {
 struct OnLine {
   std::optional<Solid> solid;
   RepairReport repair;
+  /// The building stayed open: `solid` is no solid but its open_shell, and nothing was cut.
+  bool is_open = false;
   std::optional<Segmentation> segmentation;
   Description description;
   Interpretation interpretation;  ///< empty without rules

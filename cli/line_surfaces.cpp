@@ -9,7 +9,7 @@ namespace oriel::cli {
 void describe_line_surfaces(const Building& building, const Tolerances& tolerances,
                             Timings& timings, OnLine& line) {
   SurfaceContext context;
-  if (line.solid) context.solid = &*line.solid;
+  if (line.solid && !line.is_open) context.solid = &*line.solid;
   if (line.segmentation) {
     context.segmentation = &*line.segmentation;
     context.features = &line.description.table;

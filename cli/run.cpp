@@ -34,7 +34,7 @@ ExitCode Run::go(const Visitor& visitor) {
   if (!arguments_.status_stem.empty()) ledger_.emplace(arguments_.status_stem);
   for (run_ = 1; run_ <= arguments_.repeat; ++run_) {
     timings_.emplace_back();
-    buildings_ = set_aside_ = 0;
+    buildings_ = set_aside_ = open_ = 0;
     labels_.clear();
     run_inputs(visitor);
   }
@@ -204,6 +204,7 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
       ++set_aside_;
       raise(ExitCode::set_aside);
     }
+    if (line.is_open) ++open_;
     for (const Verdict& verdict : line.interpretation.verdicts) ++labels_[verdict.label];
   }
   visitor.record(*record.value, arrival.lines);
@@ -219,6 +220,7 @@ void Run::tell_summary(const std::string& verb, const std::map<std::string, int>
   std::string text =
       fmt::format("{} {} of {} buildings", verb, buildings_ - set_aside_, buildings_);
   if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), what_of_them);
+  if (open_ > 0) text += fmt::format("; {} open", open_);
   if (set_aside_ > 0) {
     text += fmt::format("; {} set aside", set_aside_);
     std::string codes;

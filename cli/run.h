@@ -80,6 +80,7 @@ class Run {
   ExitCode code_ = ExitCode::clean;
   int buildings_ = 0;
   int set_aside_ = 0;
+  int open_ = 0;  ///< buildings that came to the end without a solid
   std::map<std::string, int> labels_;
   std::optional<Ledger> ledger_;
   std::vector<Issue> errors_;  ///< of the record at hand

@@ -4,6 +4,7 @@
 #include "kernel/describe/detail/shape.h"
 #include "kernel/describe/detail/site.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/geometry/visible_level.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,8 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -60,11 +63,11 @@ void describe_cut(FeatureTable& table, const Subject& s) {
   if (f.value) table.set(s.id, "value", *f.value);
   if (f.quality) table.set(s.id, "quality", *f.quality);
   table.set(s.id, "new_area", f.new_area_m2);
-  if (f.sense != Sense::imprint) table.set(s.id, "old_area", f.old_area_m2);
-  table.set(s.id, "volume", f.volume_m3);
+  const bool has_cut = f.sense != Sense::imprint && !f.is_uncut;
+  if (has_cut) table.set(s.id, "old_area", f.old_area_m2);
+  if (!f.is_uncut || f.sense == Sense::imprint) table.set(s.id, "volume", f.volume_m3);
   table.set(s.id, "surface", f.surface_m2);
-  table.set(s.id, "split_order",
-            f.sense == Sense::imprint ? 0 : static_cast<double>(f.planes.size()));
+  table.set(s.id, "split_order", has_cut ? static_cast<double>(f.planes.size()) : 0);
 }
 
 /// What points of one plane are apart in doubles is nothing: an imprint has no depth.
@@ -91,20 +94,89 @@ void describe_size(FeatureTable& table, const Subject& s) {
   table.set(s.id, "azimuth", azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
+/// How far cells reach, each direction of a cell measured once.
+class CellReaches {
+ public:
+  explicit CellReaches(const Segmentation& segmentation)
+      : segmentation_(segmentation), points_(segmentation.cells.size()) {}
+
+  [[nodiscard]] double reach(CellId cell, Vec3 direction) {
+    const auto [entry, is_new] =
+        known_.try_emplace({cell, direction.x, direction.y, direction.z}, 0.0);
+    if (is_new) {
+      auto& points = points_[cell.index()];
+      if (points.empty())
+        points = detail::points_of(segmentation_, segmentation_.cells[cell.index()]);
+      entry->second = detail::extent_along(points, direction).high;
+    }
+    return entry->second;
+  }
+
+ private:
+  const Segmentation& segmentation_;
+  std::vector<std::vector<Vec3>> points_;
+  std::map<std::tuple<CellId, double, double, double>, double> known_;
+};
+
 /// How far the feature sticks out of the box of the cell it sits on: the paper's difference of
 /// bounding boxes.
-void describe_growth(FeatureTable& table, const Subject& s, const Segmentation& segmentation) {
+void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches) {
   if (!s.feature->host_facet) return;
-  const auto host =
-      detail::points_of(segmentation, segmentation.cells[s.feature->host_facet->cell.index()]);
+  const CellId host = s.feature->host_facet->cell;
   const auto beyond = [&](Vec3 direction) {
-    return std::max(0.0, detail::extent_along(s.points, direction).high -
-                             detail::extent_along(host, direction).high);
+    return std::max(
+        0.0, detail::extent_along(s.points, direction).high - reaches.reach(host, direction));
   };
   table.set(s.id, "growth_up", beyond({0, 0, 1}));
   table.set(s.id, "growth_down", beyond({0, 0, -1}));
   table.set(s.id, "growth_out", beyond(*s.normal));
   table.set(s.id, "growth_side", std::max(beyond(s.across), beyond(-s.across)));
+}
+
+/// Input polygons as what is parallel to a plane.
+class Panes {
+ public:
+  explicit Panes(const Building& building) {
+    for (const Polygon& polygon : building.polygons) {
+      if (polygon.source < 0 || polygon.rings.empty()) continue;
+      if (std::ssize(panes_) <= polygon.source) panes_.resize(at(polygon.source) + 1);
+      Pane& pane = panes_[at(polygon.source)];
+      for (const auto& ring : polygon.rings) {
+        detail::Outline outline;
+        for (const int v : ring) outline.push_back(building.vertices[at(v)]);
+        detail::start_at_least(outline);
+        for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+          pane.area = pane.area + 0.5 * cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
+        if (&ring != &polygon.rings[0]) continue;
+        for (const Vec3 p : outline)
+          pane.middle = pane.middle + (1.0 / static_cast<double>(outline.size())) * p;
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<double> level_in(const Feature& feature, const Plane& plane) const {
+    std::vector<detail::ParallelArea> parallel;
+    for (const int source : feature.source_polygons) {
+      const Pane& pane = panes_[at(source)];
+      const double across_m2 = std::abs(dot(pane.area, plane.normal));
+      if (across_m2 > std::sqrt(0.5) * length(pane.area))  // by 45 degrees or less
+        parallel.push_back({dot(pane.middle, plane.normal) - plane.offset_m, across_m2});
+    }
+    return detail::visible_level(std::move(parallel), feature.new_area_m2);
+  }
+
+ private:
+  struct Pane {
+    Vec3 area, middle;
+  };
+  std::vector<Pane> panes_;  ///< by Polygon::source
+};
+
+void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
+                     const Panes& panes) {
+  if (!s.normal) return;
+  const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
+  if (const auto level_m = panes.level_in(*s.feature, plane)) table.set(s.id, "recess", -*level_m);
 }
 
 /// Where the ground is looked for: below the middle of the cap, a little inside the body.
@@ -239,6 +311,8 @@ bool is_opening(const Subject& s) {
 Description describe(const Building& building, const Segmentation& segmentation) {
   Description out{FeatureTable(building.id, segmentation.features.size()), {}};
   const detail::Site site(segmentation);
+  const Panes panes(building);
+  CellReaches reaches(segmentation);
   const std::vector<int> facades = detail::facades_of(segmentation);
   std::vector<Subject> subjects;
   std::vector<InFacade> placed;
@@ -248,7 +322,8 @@ Description describe(const Building& building, const Segmentation& segmentation)
     const Subject& s = subjects.back();
     describe_cut(out.table, s);
     describe_size(out.table, s);
-    describe_growth(out.table, s, segmentation);
+    describe_recess(out.table, s, segmentation, panes);
+    describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
     describe_edge_gap(out.table, s, segmentation);
     placed.push_back(in_facade(s, facades[i]));

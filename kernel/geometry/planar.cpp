@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace oriel::detail {
 
@@ -56,6 +57,11 @@ double signed_area(const Outline& outline, Vec3 normal) {
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
     sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
   return dot(sum, normal) / 2;
+}
+
+void start_at_least(Outline& outline) {
+  const auto key = [](Vec3 p) { return std::tuple(p.x, p.y, p.z); };
+  std::ranges::rotate(outline, std::ranges::min_element(outline, {}, key));
 }
 
 double perimeter(const Outline& outline) {

@@ -18,6 +18,9 @@ inline constexpr double kThin_m = 1e-9;
 /// The signed area of a closed outline about a unit normal: positive if counter-clockwise.
 double signed_area(const Outline& outline, Vec3 normal);
 
+/// Turns a closed outline so that it begins at its least point (x, then y, then z).
+void start_at_least(Outline& outline);
+
 /// The length of a closed outline.
 double perimeter(const Outline& outline);
 

@@ -200,6 +200,7 @@ void append_id(std::string& out, std::string_view key, const FeatureTable& table
 std::vector<std::string> flags_of(const Segmentation& segmentation, const Feature& feature) {
   std::vector<std::string> flags;
   if (feature.is_natural) flags.emplace_back("natural");
+  if (feature.is_uncut) flags.emplace_back("uncut");
   if (!feature.node.is_valid()) return flags;
   const CsgNode& node = segmentation.nodes[feature.node.index()];
   if (node.kind == CsgNode::Kind::leaf && node.cell.is_valid())
@@ -210,7 +211,8 @@ std::vector<std::string> flags_of(const Segmentation& segmentation, const Featur
 void append_feature(std::string& out, const Building& building, const Segmentation& segmentation,
                     const FeatureTable& table, const Feature& feature) {
   const FeatureId id{static_cast<int>(&feature - segmentation.features.data())};
-  const bool has_cut = feature.sense == Sense::protrusion || feature.sense == Sense::hole;
+  const bool has_cut = (feature.sense == Sense::protrusion || feature.sense == Sense::hole) &&
+                       !feature.is_uncut;
   const Box box = feature.box.moved(building.frame.origin_m);
   out += '{';
   append_id(out, "id", table, id);

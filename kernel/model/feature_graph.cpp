@@ -6,7 +6,7 @@ namespace oriel {
 
 void FeatureGraph::set(const std::string& name, std::vector<Pair> pairs) {
   std::erase_if(pairs, [](const Pair& p) { return p.first == p.second; });
-  std::ranges::sort(pairs);
+  if (!std::ranges::is_sorted(pairs)) std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   relations_[name] = std::move(pairs);
 }

@@ -43,6 +43,10 @@ const std::vector<Attribute>& feature_schema() {
       {"width", metre, "horizontal extent along the host's facet", "rules.md"},
       {"height_of", metre, "vertical extent", "rules.md"},
       {"depth", metre, "extent along the normal of the host's facet", "rules.md"},
+      {"recess", metre,
+       "how far behind the plane of its cap half of its outline shows the feature's surface; "
+       "negative before it",
+       "rules.md"},
       {"inclination", degree, "of the largest cap: 0 horizontal, 90 vertical, above 90 facing down",
        "5.2"},
       {"azimuth", degree,
@@ -81,6 +85,7 @@ const std::vector<RelationKind>& relation_schema() {
   static const std::vector<RelationKind> schema = {
       {"host", "the feature that owns the facet its largest cap lies in"},
       {"contains", "features it hosts, and those that they host"},
+      {"inside", "features that host it, and those that host them"},
       {"same_facade", "features on the same facade"},
       {"same_storey", "openings in the same storey"},
       {"alike",

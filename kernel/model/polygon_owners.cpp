@@ -11,19 +11,20 @@ namespace {
 
 std::size_t index(int id) { return static_cast<std::size_t>(id); }
 
-/// Imprints stand behind the features of the tree, inner ones behind outer ones.
+/// What no cut made is as large as what it owns: imprints and uncut features. They stand behind the
+/// features of the tree, of each kind inner ones behind outer ones.
 std::vector<double> sizes_of(const std::vector<Feature>& features) {
   std::vector<double> size_m3(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) size_m3[f] = features[f].volume_m3;
   const auto pass_on = [&](std::size_t f) {
     const FeatureId host = features[f].host;
-    if (host.is_valid() && features[host.index()].sense == Sense::imprint)
+    if (host.is_valid() && !features[host.index()].node.is_valid())
       size_m3[host.index()] += size_m3[f];
   };
   for (std::size_t f = 0; f < features.size(); ++f)
-    if (features[f].sense != Sense::imprint) pass_on(f);
+    if (features[f].node.is_valid()) pass_on(f);
   for (std::size_t f = features.size(); f-- > 0;)
-    if (features[f].sense == Sense::imprint) pass_on(f);
+    if (!features[f].node.is_valid()) pass_on(f);
   return size_m3;
 }
 

@@ -30,6 +30,8 @@ std::string to_string(LeafFlag flag) {
       return "cycle";
     case LeafFlag::budget:
       return "budget";
+    case LeafFlag::open:
+      return "open";
   }
   return "";
 }

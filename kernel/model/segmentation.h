@@ -45,7 +45,8 @@ enum class LeafFlag {
   own,     ///< convex but for the planes of the cut that made it, which are no split planes of it
   no_candidate,  ///< not convex, and no valid candidate
   cycle,         ///< a state came back: the safety net of the termination argument
-  budget         ///< the counted work budget is used up
+  budget,        ///< the counted work budget is used up
+  open           ///< no closed body: the facets of a building that stayed open
 };
 
 /// A leaf of the tree as a closed body. The body of a solid is the sum of its cells with their
@@ -79,7 +80,7 @@ struct Feature {
   FeatureId host;
   /// That facet, all features on it taken away: of a wall, the facade. Missing for cavities.
   std::optional<CellFacet> host_facet;
-  /// The node of the feature's own subtree; invalid for an imprint.
+  /// The node of the feature's own subtree; invalid for an imprint and an uncut feature.
   NodeId node;
   /// See CsgNode.
   std::optional<double> value;
@@ -102,8 +103,11 @@ struct Feature {
   /// Input polygons that lie in the feature with most of their area, also those of features within
   /// it; sorted.
   std::vector<int> source_polygons;
-  /// Of an imprint its outline, counter-clockwise seen from outside.
+  /// Of an imprint and of an uncut feature its outline, counter-clockwise seen from outside.
   Loop outline{};
+  /// True: no cut splits it off, it is known by a ring only (see add_ring_features). It has no
+  /// node, no value and no quality, and its volume is not known: 0.
+  bool is_uncut = false;
 };
 
 /// Counts of the work, all independent of the machine.
@@ -128,14 +132,14 @@ struct Segmentation {
   /// The oriented split planes, which are Solid::planes with the same ids, then planes that only
   /// caps of parts lie in.
   std::vector<Plane> planes;
-  /// The solid's vertices, same indices, then those that cuts made, then those of the outlines of
-  /// imprints, which may lie on edges and in facets of the solid.
+  /// The solid's vertices, same indices, then those that cuts made, then those of uncut features and
+  /// of the outlines of imprints, which may lie on edges and in facets of the solid.
   std::vector<Vertex> vertices;
   std::vector<CsgNode> nodes;
   NodeId root;
   std::vector<Cell> cells;
-  /// In the order of the tree, parents before what they contain; then imprints, outer before inner
-  /// ones.
+  /// In the order of the tree, parents before what they contain; then uncut features and imprints,
+  /// of each outer before inner ones.
   std::vector<Feature> features;
   SegmentationStats stats;
   std::vector<Issue> issues;
@@ -145,7 +149,7 @@ struct Segmentation {
 std::string to_string(Order order);
 /// "protrusion", "hole", "cavity", "imprint".
 std::string to_string(Sense sense);
-/// "convex", "own", "no-candidate", "cycle", "budget".
+/// "convex", "own", "no-candidate", "cycle", "budget", "open".
 std::string to_string(LeafFlag flag);
 
 }  // namespace oriel

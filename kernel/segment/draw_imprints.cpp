@@ -3,12 +3,11 @@
 #include "kernel/segment/detail/facet_splitter.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <iterator>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace oriel {
 
@@ -36,8 +35,7 @@ class ImprintDrawer {
   [[nodiscard]] const std::vector<Facet>& facets() const { return splitter_.solid().facets; }
 
   void enter(int f) {
-    const Plane& plane = splitter_.solid().planes[facets()[at(f)].plane.index()];
-    facets_in_[key_of(plane)].push_back(FacetId{f});
+    for (const int polygon : facets()[at(f)].polygons) facets_of_[polygon].push_back(FacetId{f});
   }
 
   void draw(const Feature& imprint) {
@@ -53,9 +51,15 @@ class ImprintDrawer {
 
   /// The facet of its plane around the middle of an imprint.
   [[nodiscard]] std::optional<FacetId> home_of(const Feature& imprint, const Plane& plane) const {
-    const auto found = facets_in_.find(key_of(plane));
-    if (found == facets_in_.end()) return std::nullopt;
-    for (const FacetId f : found->second) {
+    std::vector<FacetId> candidates;
+    for (const int polygon : imprint.source_polygons)
+      if (const auto found = facets_of_.find(polygon); found != facets_of_.end())
+        candidates.insert(candidates.end(), found->second.begin(), found->second.end());
+    std::ranges::sort(candidates);
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    for (const FacetId f : candidates) {
+      if (key_of(splitter_.solid().planes[facets()[f.index()].plane.index()]) != key_of(plane))
+        continue;
       std::vector<Outline> outlines;
       for (const Loop& loop : facets()[f.index()].loops) {
         outlines.emplace_back();
@@ -78,7 +82,8 @@ class ImprintDrawer {
 
   const Segmentation& segmentation_;
   detail::FacetSplitter splitter_;
-  std::map<std::pair<std::array<std::int64_t, 3>, std::int64_t>, std::vector<FacetId>> facets_in_;
+  /// By Polygon::source; facets that have been split since may no longer name the polygon.
+  std::unordered_map<int, std::vector<FacetId>> facets_of_;
 };
 
 }  // namespace

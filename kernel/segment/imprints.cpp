@@ -59,6 +59,9 @@ class ImprintWriter {
 
   /// Which cell facet has an input polygon, and which features lie in which plane.
   void find_homes() {
+    for (int i = 0; i < std::ssize(out_.features); ++i)
+      if (out_.features[at(i)].is_uncut)  // outer ones first
+        for (const int source : out_.features[at(i)].source_polygons) ring_[source] = FeatureId{i};
     for (int c = 0; c < std::ssize(out_.cells); ++c) {
       const auto& facets = out_.cells[at(c)].facets;
       for (int f = 0; f < std::ssize(facets); ++f)
@@ -172,7 +175,7 @@ class ImprintWriter {
               const detail::PlaneAxes& axes) {
     for (const FeatureId id : within) {
       Feature& recess = feature(id);
-      if (recess.sense != Sense::hole) continue;
+      if (recess.sense != Sense::hole && !recess.is_uncut) continue;
       std::vector<Vec3> points;
       for (const int v : recess.vertices) points.push_back(out_.vertices[at(v)].point);
       if (!axes.reach_of(points).holds(reach, slack_m())) continue;
@@ -189,12 +192,22 @@ class ImprintWriter {
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
 
+  /// The smaller of the imprint and the uncut feature that have the host polygon.
+  [[nodiscard]] std::optional<FeatureId> host_of(const Inset& inset) const {
+    const auto imprint = owner_.find(inset.host);
+    const auto ring = ring_.find(subdivisions_.polygons[at(inset.host)].source);
+    if (imprint == owner_.end() && ring == ring_.end()) return std::nullopt;
+    if (imprint == owner_.end()) return ring->second;
+    if (ring == ring_.end()) return imprint->second;
+    const auto area_m2 = [&](FeatureId id) { return out_.features[id.index()].new_area_m2; };
+    return area_m2(ring->second) < area_m2(imprint->second) ? ring->second : imprint->second;
+  }
+
   Feature make(const Inset& inset, CellFacet home, PlaneId plane) {
     Feature f;
     f.sense = Sense::imprint;
     f.parent = out_.cells[home.cell.index()].feature;
-    const auto owner = owner_.find(inset.host);
-    f.host = owner != owner_.end() ? owner->second : f.parent;
+    f.host = host_of(inset).value_or(f.parent);
     f.host_facet = home;
     f.new_area_m2 = inset.area_m2;
     f.planes = {plane};
@@ -251,6 +264,7 @@ class ImprintWriter {
   std::size_t tree_features_;
   std::map<int, CellFacet> home_;  ///< by Polygon::source
   std::map<PlaneId, std::vector<Resident>> residents_;
+  std::map<int, FeatureId> ring_;   ///< by Polygon::source: the smallest uncut feature
   std::map<int, FeatureId> owner_;  ///< of subdivision polygons: the smallest imprint so far
 };
 

@@ -130,6 +130,7 @@ class FeatureRemover {
       if (has_lodger_that_stays(id)) return "what lies in it cannot go";
       return std::nullopt;
     }
+    if (f.is_uncut) return "no cut frees it: only its ring is known";
     std::vector<Side> sides;
     for (const PlaneId plane : f.planes) {
       const auto side = world_.planes.find(segmentation_.planes[plane.index()]);

@@ -115,10 +115,30 @@ TEST_SUITE("cli") {
     check_set_aside(city.dump(), "in.city.json: b: E203 polygon 2 uses vertex 99; there are 24");
   }
 
-  TEST_CASE("a building that is not closed is set aside") {
+  TEST_CASE("a building larger than the exact range is set aside") {
+    auto city = cubes({"a", "b", "c"});
+    city["vertices"][8][0] = 9'000'000;
+    check_set_aside(city.dump(), "error: b: E501 reaches ");
+  }
+
+  TEST_CASE("a building that is not closed is labelled as open and not generalised") {
     auto city = cubes({"a", "b", "c"});
     city["CityObjects"]["b"]["geometry"][0]["boundaries"][0].erase(1);
-    check_set_aside(city.dump(), "error: b: E302 not closed: 4 open edges");
+    const Folder folder;
+    const std::string input = folder.write("in.city.json", city.dump());
+    const Outcome labelled = run({"label", input, "-o", folder / "out.city.json"});
+    CHECK(labelled.exit == 0);
+    CHECK(labelled.says("warning: b: E302 not closed: 4 open edges"));
+    CHECK(labelled.says("labelled 3 of 3 buildings; 1 open"));
+    const auto out = nlohmann::json::parse(bytes_of(folder / "out.city.json"));
+    CHECK(out["CityObjects"]["b"]["attributes"].contains("oriel_pack"));
+    const Outcome redrawn =
+        run({"generalise", input, "--scale", "1:1000", "-o", folder / "small.city.json"});
+    CHECK(redrawn.exit == 3);
+    CHECK(redrawn.says("error: b: G404 "));
+    CHECK(redrawn.says("generalised to 1:1000 2 of 3 buildings"));
+    const auto small = nlohmann::json::parse(bytes_of(folder / "small.city.json"));
+    CHECK(small["CityObjects"]["b"] == nlohmann::json::parse(city.dump())["CityObjects"]["b"]);
   }
 
   TEST_CASE("a broken line of a CityJSONSeq costs that line") {

@@ -67,15 +67,33 @@ TEST_SUITE("cli") {
     CHECK(classes["dormer"]["f1"].get<double>() >= 0.80);
   }
 
+  TEST_CASE("openings of the surveyed buildings are named whether the building is closed or not") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string data = shared / "data/ingolstadt";
+    std::vector<std::string> arguments{"label", "--features", folder / "parts.jsonl"};
+    for (const std::string& file : stripped_files(data)) arguments.push_back(file);
+    REQUIRE(arguments.size() == 3 + 19);
+    const Outcome outcome = run(arguments);
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("labelled 19 of 19 buildings"));
+    const Outcome scored = run({"score", folder / "parts.jsonl", "--truth", data, "--json"});
+    REQUIRE(scored.exit == 0);
+    const json classes = json::parse(scored.out)["classes"];
+    CHECK(classes["window"]["recall"].get<double>() >= 0.96);
+    CHECK(classes["window"]["precision"].get<double>() >= 0.92);
+    CHECK(classes["door"]["f1"].get<double>() >= 0.70);
+  }
+
   TEST_CASE("a tile of the 3DBAG is segmented and the rest has reasons") {
     ORIEL_NEEDS_SHARED(shared);
     const Folder folder;
     const std::string tile = shared / "data/3dbag/tile_5910.city.jsonl";
     const Outcome outcome = run({"label", tile, "--lod", "2.2", "-o", folder / "out.city.jsonl"});
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("labelled 210 of 212 buildings"));
-    CHECK(outcome.says("; 2 set aside ("));
-    CHECK(errors_in(outcome.err) == 2);
+    CHECK(outcome.says("labelled 211 of 212 buildings"));
+    CHECK(outcome.says("; 1 open; 1 set aside ("));
+    CHECK(errors_in(outcome.err) == 1);
     const std::string out = bytes_of(folder / "out.city.jsonl"), in = bytes_of(tile);
     CHECK(std::ranges::count(out, '\n') == std::ranges::count(in, '\n'));
     CHECK(folder.names() == std::vector<std::string>{"out.city.jsonl"});

@@ -50,14 +50,14 @@ TEST_SUITE("cli") {
 
   TEST_CASE("messages stand on stderr only and data on stdout only") {
     auto city = cubes({"a", "b"});
-    city["CityObjects"]["b"]["geometry"][0]["boundaries"][0].erase(1);
+    city["vertices"][8][0] = 9'000'000;
     const Folder folder;
     const std::string input = folder.write("in.city.json", city.dump());
     const Outcome listed = run({"label", input});
     CHECK(listed.exit == 3);
     CHECK(listed.out.starts_with("a: 0 of "));
-    CHECK(listed.out.find("E302") == std::string::npos);
-    CHECK(listed.err.starts_with("error: b: E302 "));
+    CHECK(listed.out.find("E501") == std::string::npos);
+    CHECK(listed.err.starts_with("error: b: E501 "));
     const Outcome written = run({"label", input, "-o", folder / "out.city.json"});
     CHECK(written.out.empty());
     CHECK(written.err == listed.err);
@@ -65,20 +65,20 @@ TEST_SUITE("cli") {
 
   TEST_CASE("there are no colours and no progress in a file") {
     auto city = cubes({"a", "b"});
-    city["CityObjects"]["b"]["geometry"][0]["boundaries"][0].erase(1);
+    city["vertices"][8][0] = 9'000'000;
     const Surroundings piped{.in = city.dump()};
     CHECK(run({"label", "-", "--from", "cityjson"}, piped).err.find('\033') == std::string::npos);
   }
 
   TEST_CASE("a terminal gets colours unless NO_COLOR is set") {
     auto city = cubes({"a", "b"});
-    city["CityObjects"]["b"]["geometry"][0]["boundaries"][0].erase(1);
+    city["vertices"][8][0] = 9'000'000;
     Surroundings terminal{.in = city.dump(), .has_terminal = true};
     terminal.environment = {"NO_COLOR="};
     CHECK(
-        run({"label", "-", "--from", "cityjson"}, terminal).says("\033[31merror\033[0m: b: E302"));
+        run({"label", "-", "--from", "cityjson"}, terminal).says("\033[31merror\033[0m: b: E501"));
     terminal.environment = {"NO_COLOR=1"};
-    CHECK(run({"label", "-", "--from", "cityjson"}, terminal).says("error: b: E302"));
+    CHECK(run({"label", "-", "--from", "cityjson"}, terminal).says("error: b: E501"));
   }
 
   TEST_CASE("the cells of segment --json sum up to the volume of the solid") {

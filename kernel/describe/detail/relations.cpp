@@ -27,9 +27,12 @@ double overlap(const Extent& p, const Extent& q) {
 bool is_like(double p, double q) { return std::abs(p - q) <= kAlike * std::max(p, q); }
 
 bool is_alike(const InFacade& p, const InFacade& q) {
-  const double distance =
-      std::hypot(p.across.middle() - q.across.middle(), p.height.middle() - q.height.middle());
-  return p.kind == q.kind && is_like(p.a, q.a) && is_like(p.b, q.b) && distance <= kNeighbourhood_m;
+  // The square root comes last: most pairs differ in what is told quickly.
+  const double along = p.across.middle() - q.across.middle();
+  const double up = p.height.middle() - q.height.middle();
+  return p.kind == q.kind && std::abs(along) <= kNeighbourhood_m &&
+         std::abs(up) <= kNeighbourhood_m && is_like(p.a, q.a) && is_like(p.b, q.b) &&
+         std::hypot(along, up) <= kNeighbourhood_m;
 }
 
 bool is_beside(const InFacade& p, const InFacade& q) {
@@ -43,12 +46,17 @@ bool is_above(const InFacade& p, const InFacade& q) {
          std::abs(gap) <= kNextTo_m;
 }
 
-/// Members of each group, by number.
-std::map<int, std::vector<std::size_t>> members(const std::vector<int>& group_of) {
+/// Visits every two members of one group, both ways, in ascending order.
+template <class Visit>
+void for_each_pair(const std::vector<int>& group_of, Visit visit) {
   std::map<int, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < group_of.size(); ++i)
     if (group_of[i] >= 0) groups[group_of[i]].push_back(i);
-  return groups;
+  for (std::size_t i = 0; i < group_of.size(); ++i) {
+    if (group_of[i] < 0) continue;
+    for (const std::size_t j : groups.find(group_of[i])->second)
+      if (i != j) visit(i, j);
+  }
 }
 
 std::vector<Pair> contained(const Segmentation& segmentation) {
@@ -119,24 +127,23 @@ FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade
 
   std::vector<int> facades;
   for (const InFacade& f : features) facades.push_back(f.facade);
-  for (const auto& [facade, group] : members(facades))
-    for (const std::size_t i : group)
-      for (const std::size_t j : group) {
-        if (i == j) continue;
-        const InFacade &p = features[i], &q = features[j];
-        same_facade.emplace_back(id(i), id(j));
-        if (is_alike(p, q)) alike.emplace_back(id(i), id(j));
-        if (is_beside(p, q)) beside.emplace_back(id(i), id(j));
-        if (is_above(p, q)) above.emplace_back(id(i), id(j));
-      }
-  for (const auto& [storey, group] : members(storeys))
-    for (const std::size_t i : group)
-      for (const std::size_t j : group)
-        if (i != j) same_storey.emplace_back(id(i), id(j));
+  // Feature by feature, so that the pairs come sorted.
+  for_each_pair(facades, [&](std::size_t i, std::size_t j) {
+    const InFacade &p = features[i], &q = features[j];
+    same_facade.emplace_back(id(i), id(j));
+    if (is_alike(p, q)) alike.emplace_back(id(i), id(j));
+    if (is_beside(p, q)) beside.emplace_back(id(i), id(j));
+    if (is_above(p, q)) above.emplace_back(id(i), id(j));
+  });
+  for_each_pair(storeys,
+                [&](std::size_t i, std::size_t j) { same_storey.emplace_back(id(i), id(j)); });
 
   FeatureGraph graph;
   graph.set("host", std::move(hosts));
-  graph.set("contains", contained(segmentation));
+  std::vector<Pair> contains = contained(segmentation), inside;
+  for (const auto& [outer, inner] : contains) inside.emplace_back(inner, outer);
+  graph.set("contains", std::move(contains));
+  graph.set("inside", std::move(inside));
   graph.set("same_facade", std::move(same_facade));
   graph.set("same_storey", std::move(same_storey));
   graph.set("alike", std::move(alike));

@@ -18,12 +18,13 @@ Site::Site(const Segmentation& segmentation)
     : segmentation_(segmentation), eaves_m_(segmentation.cells.size()) {
   double largest = 0;
   Extent all;
+  find_uncut();
   for (std::size_t c = 0; c < segmentation.cells.size(); ++c) {
     const Cell& cell = segmentation.cells[c];
     if (cell.sign < 0) continue;
     const Extent height = extent_along(points_of(segmentation, cell), {0, 0, 1});
     all.low = std::min(all.low, height.low);
-    if (cell.volume_m3 > largest) {
+    if (cell.volume_m3 > largest || cell.flag == LeafFlag::open) {
       largest = cell.volume_m3;
       ridge_m_ = height.high;
     }
@@ -32,6 +33,7 @@ Site::Site(const Segmentation& segmentation)
           segmentation.planes[cell.facets[static_cast<std::size_t>(f)].plane.index()];
       const double inclination = inclination_deg(plane.normal);
       if (inclination > kWallFrom_deg && inclination < 180 - kWallFrom_deg) continue;
+      if (is_uncut(cell.facets[static_cast<std::size_t>(f)])) continue;
       const CellId id{static_cast<int>(c)};
       GroundFacet found = ground_facet({id, f}, plane, id);
       if (inclination <= kWallFrom_deg)
@@ -42,6 +44,18 @@ Site::Site(const Segmentation& segmentation)
   }
   lowest_m_ = all.low;
   find_terrain();
+}
+
+/// What lies in uncut features is still there, and is neither ground nor roof.
+void Site::find_uncut() {
+  for (const Feature& feature : segmentation_.features)
+    if (feature.is_uncut)
+      uncut_.insert(feature.source_polygons.begin(), feature.source_polygons.end());
+}
+
+bool Site::is_uncut(const Facet& facet) const {
+  return !uncut_.empty() && !facet.polygons.empty() &&
+         std::ranges::all_of(facet.polygons, [&](int source) { return uncut_.contains(source); });
 }
 
 /// Air under the body that is open on three sides or more is where the ground rises under it: a

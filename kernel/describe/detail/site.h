@@ -4,6 +4,7 @@
 #include "kernel/model/segmentation.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,14 @@ class Site {
     Plane plane;
     CellId cell;
   };
+  void find_uncut();
+  [[nodiscard]] bool is_uncut(const Facet& facet) const;
   void find_terrain();
   [[nodiscard]] GroundFacet ground_facet(CellFacet facet, const Plane& plane, CellId cell) const;
   static std::optional<Foot> lowest_at(Vec3 point, const std::vector<GroundFacet>& facets);
 
   const Segmentation& segmentation_;
+  std::set<int> uncut_;  ///< Polygon::source
   std::vector<GroundFacet> grounds_;
   std::vector<GroundFacet> terrain_;  ///< undersides of the body over ground that rises
   std::vector<std::optional<double>> eaves_m_;

@@ -1,11 +1,13 @@
 #include "kernel/segment/detail/subdivisions.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/segment/detail/points_on_edges.h"
 #include "kernel/solidify/detail/soup.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -128,23 +130,49 @@ class SubdivisionMaker {
       };
       subdivision.first_polygon = static_cast<int>(out_.polygons.size());
       for (const int polygon : members[s])
-        add_polygon(soup, polygon, static_cast<int>(s), plane.normal, point_of);
+        for (const int v : soup.corners_of(polygon)) point_of(v);
+      const std::vector<Vec3> points(out_.points.begin() + first_point, out_.points.end());
+      const PointsOnEdges on_edges(points, axes_in(plane.normal), tolerances_.weld_m);
+      for (const int polygon : members[s])
+        add_polygon(soup, polygon, static_cast<int>(s), plane.normal,
+                    [&](std::span<const int> ring) {
+                      return with_points_between(ring, first_point, point_of, on_edges);
+                    });
       subdivision.past_polygon = static_cast<int>(out_.polygons.size());
     }
   }
 
+  /// The points of a ring, also those of other polygons that lie on its edges.
   template <class PointOf>
-  void add_polygon(const Soup& soup, int polygon, int subdivision, Vec3 normal, PointOf point_of) {
+  static std::vector<int> with_points_between(std::span<const int> ring, int first_point,
+                                              PointOf point_of, const PointsOnEdges& on_edges) {
+    std::vector<int> corners, points;
+    for (const int v : ring) corners.push_back(point_of(v));
+    const std::set<int> own(corners.begin(), corners.end());
+    std::set<int> taken;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      points.push_back(corners[i]);
+      const int to = corners[(i + 1) % corners.size()];
+      for (const int between : on_edges.between(corners[i] - first_point, to - first_point))
+        if (const int p = between + first_point; !own.contains(p) && taken.insert(p).second)
+          points.push_back(p);
+    }
+    return points;
+  }
+
+  template <class PointsOf>
+  void add_polygon(const Soup& soup, int polygon, int subdivision, Vec3 normal,
+                   PointsOf points_of) {
     const int source = soup.polygons[at(polygon)].source;
     SubdivisionPolygon record{source,      *hint_of_source_.at(source),
                               subdivision, static_cast<int>(out_.edges.size()),
                               -1,          0};
     for (const int r : soup.rings_of(polygon)) {
-      const std::span<const int> ring = soup.ring(r);
+      const std::vector<int> ring = points_of(soup.ring(r));
       const int first = static_cast<int>(out_.edges.size());
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const int next = i + 1 < ring.size() ? first + static_cast<int>(i) + 1 : first;
-        out_.edges.push_back({point_of(ring[i]), static_cast<int>(out_.polygons.size()), next, -1});
+        out_.edges.push_back({ring[i], static_cast<int>(out_.polygons.size()), next, -1});
       }
     }
     record.past_edge = static_cast<int>(out_.edges.size());

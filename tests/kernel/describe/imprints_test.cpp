@@ -32,6 +32,20 @@ Building recess_and_twin() {
 }
 
 TEST_SUITE("kernel/describe") {
+  TEST_CASE("the recess of an opening is where its pane is and not its frame") {
+    // A frame of a tenth in the plane of the wall, the sashes 4 cm behind it.
+    const Described d = with_imprints(test::block_with_sashes());
+    const FeatureId frame = d.at({2, 0, 1}, {4, 0.04, 2.5});
+    test::check_numbers(d, frame, {{"recess", 0.04}});
+    const FeatureId sash = d.at({2.125, 0, 1.125}, {2.875, 0.04, 2.375});
+    test::check_numbers(d, sash, {{"recess", 0.04}});
+    CHECK(holds(d, "inside", sash, frame));
+    CHECK_FALSE(holds(d, "inside", frame, sash));
+    const Described twin = with_imprints(recess_and_twin());
+    test::check_numbers(twin, twin.at({4, 0, 1}, {5.25, 0, 2.5}), {{"recess", 0}});
+    test::check_numbers(twin, twin.at({2, 0, 1}, {3.25, 0.125, 2.5}), {{"recess", 0.125}});
+  }
+
   TEST_CASE("an imprint has the attributes of an opening and no depth") {
     const Described d = with_imprints(recess_and_twin());
     const FeatureId pane = d.at({4, 0, 1}, {5.25, 0, 2.5});

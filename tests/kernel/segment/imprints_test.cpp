@@ -5,6 +5,7 @@
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"
 #include "tests/support/flush.h"
+#include "tests/support/generated_house.h"
 #include "tests/support/houses.h"
 #include "tests/support/segmented.h"
 
@@ -16,6 +17,7 @@
 namespace oriel {
 namespace {
 
+using test::building_of;
 using test::features_of;
 using test::Segmented;
 
@@ -76,22 +78,6 @@ void check_imprints(const Segmented& s) {
       CHECK(std::ranges::includes(feature(s, f.host).source_polygons, f.source_polygons));
 }
 
-/// A house of the generator as a building; polygons are numbered as in the body.
-Building building_of(const generator::Body& body) {
-  Building building;
-  building.id = "house";
-  for (const generator::Point& p : body.vertices)
-    building.vertices.push_back({static_cast<double>(p.x) / 1e6, static_cast<double>(p.y) / 1e6,
-                                 static_cast<double>(p.z) / 1e6});
-  for (const generator::Polygon& polygon : body.polygons) {
-    Polygon copy;
-    copy.rings = polygon.rings;
-    copy.source = static_cast<int>(building.polygons.size());
-    building.polygons.push_back(std::move(copy));
-  }
-  return test::framed(std::move(building));
-}
-
 double volume_of(const Box& box) {
   const Vec3 size = box.max - box.min;
   return std::max(0.0, size.x) * std::max(0.0, size.y) * std::max(0.0, size.z);
@@ -140,6 +126,19 @@ TEST_SUITE("kernel/segment") {
     CHECK(f.cap_point.x > 2);
     CHECK(f.cap_point.x < 3);
     CHECK(f.cap_point.y == 0);
+  }
+
+  TEST_CASE("corners that only the pane has on the edges of its ring hide nothing") {
+    Building building = test::plain_block();
+    const int pane = test::add_pane(building, 2, 1, 3, 2.25);
+    Segmented s = test::segmented(building);
+    auto& ring = s.building.polygons.back().rings[0];
+    REQUIRE(s.building.polygons.back().source == pane);
+    ring.insert(ring.begin() + 1, {test::add_vertex(s.building, {2.25, 0, 1}),
+                                   test::add_vertex(s.building, {2.5, 0, 1})});
+    add_imprints(s.building, s.solid, s.segmentation);
+    check_imprints(s);
+    CHECK(feature(s, only_imprint(s)).source_polygons == std::vector{pane});
   }
 
   TEST_CASE("a door that its wall runs along on three sides is an imprint") {
