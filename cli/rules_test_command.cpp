@@ -36,7 +36,7 @@ std::string tests_of(const std::string& file) {
 void describe(const Document& document, Timings& timings,
               Checked<std::vector<DescribedBuilding>>& found) {
   for (const Building& building : document.buildings) {
-    OnLine line = run_line(building, {}, nullptr, timings);
+    OnLine line = run_line(building, {}, {}, nullptr, timings);
     found.issues.insert(found.issues.end(), line.issues.begin(), line.issues.end());
     if (line.is_done())
       found.value->push_back(
@@ -48,7 +48,6 @@ Checked<std::vector<DescribedBuilding>> read_buildings(const std::string& path) 
   Checked<std::vector<DescribedBuilding>> found;
   found.value.emplace();
   Timings timings;
-  timings.begin_run();
   try {
     Reader reader(path, {});
     while (const auto record = reader.next()) {
