@@ -68,7 +68,7 @@ std::optional<Targets> targets_of(const Arguments& arguments, const RuleBase& ru
                                   Report& report) {
   Targets targets;
   std::vector<std::string> names;
-  if (!arguments.scale.empty()) {
+  if (arguments.lods.empty()) {
     targets.scale = denominator_of(arguments.scale);
     if (!arguments.profile.empty()) names.push_back(arguments.profile);
   }

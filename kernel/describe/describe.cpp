@@ -176,7 +176,10 @@ void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& 
                      const Panes& panes) {
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
-  if (const auto level_m = panes.level_in(*s.feature, plane)) table.set(s.id, "recess", -*level_m);
+  // To the nanometre: below it is the order in which points were summed up.
+  constexpr double kPerMetre = 1e9;
+  if (const auto level_m = panes.level_in(*s.feature, plane))
+    table.set(s.id, "recess", -std::round(*level_m * kPerMetre) / kPerMetre);
 }
 
 /// Where the ground is looked for: below the middle of the cap, a little inside the body.

@@ -78,7 +78,7 @@ TEST_SUITE("cli") {
     const Folder folder;
     const Outcome outcome = run({"explain", folder.write("far.city.json", city.dump()), "f1"});
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("error: far: E501"));
+    CHECK(outcome.says("far: E501"));
     CHECK(!outcome.says("names 0 features"));
     CHECK(outcome.out.empty());
   }

@@ -57,7 +57,8 @@ TEST_SUITE("cli") {
     CHECK(listed.exit == 3);
     CHECK(listed.out.starts_with("a: 0 of "));
     CHECK(listed.out.find("E501") == std::string::npos);
-    CHECK(listed.err.starts_with("error: b: E501 "));
+    CHECK(listed.err.starts_with("error: "));
+    CHECK(listed.says("b: E501 "));
     const Outcome written = run({"label", input, "-o", folder / "out.city.json"});
     CHECK(written.out.empty());
     CHECK(written.err == listed.err);
@@ -75,10 +76,9 @@ TEST_SUITE("cli") {
     city["vertices"][8][0] = 9'000'000;
     Surroundings terminal{.in = city.dump(), .has_terminal = true};
     terminal.environment = {"NO_COLOR="};
-    CHECK(
-        run({"label", "-", "--from", "cityjson"}, terminal).says("\033[31merror\033[0m: b: E501"));
+    CHECK(run({"label", "-", "--from", "cityjson"}, terminal).says("\033[31merror\033[0m: "));
     terminal.environment = {"NO_COLOR=1"};
-    CHECK(run({"label", "-", "--from", "cityjson"}, terminal).says("error: b: E501"));
+    CHECK(run({"label", "-", "--from", "cityjson"}, terminal).says("b: E501"));
   }
 
   TEST_CASE("the cells of segment --json sum up to the volume of the solid") {

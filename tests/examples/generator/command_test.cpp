@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -36,7 +37,8 @@ std::string read(const fs::path& path) {
 
 /// An empty folder that is removed at the end of the test.
 struct Scratch {
-  fs::path path = fs::path(ORIEL_BINARY_DIR) / "scratch-generator";
+  // Tests may run at the same time.
+  fs::path path = fs::path(ORIEL_BINARY_DIR) / ("scratch-generator-" + std::to_string(::getpid()));
   Scratch() {
     fs::remove_all(path);
     fs::create_directories(path);
