@@ -146,7 +146,7 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("the default pack is extended by its name") {
     const RuleBase base =
-        load(header("residential") + "params: {sill_max: {value: 0.8 m, why: raised floors}}\n");
+        load(header("residential") + "params: {door_height: {value: 1.9 m, why: taller people}}\n");
     const auto residential = load_pack_file("residential");
     REQUIRE(residential.value);
     CHECK(base.labels() == residential.value->labels());

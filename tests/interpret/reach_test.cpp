@@ -58,10 +58,10 @@ TEST_SUITE("interpret") {
     auto rules = opening;
     rules.push_back("id: w, label: window, require: self is opening and a > 4 m");
     CHECK(of_rules(rules) ==
-          "t.yaml:7:60: R254 the rule 'w' can never hold: 'self is opening' and 'a > 4 m' exclude "
+          "t.yaml:7:57: R254 the rule 'w' can never hold: 'self is opening' and 'a > 4 m' exclude "
           "each other\n"
           "  - {id: w, label: window, require: self is opening and a > 4 m}\n"
-          "                                                           ^~~~~~~\n");
+          "                                                        ^~~~~~~\n");
     rules.back() = "id: w, label: window, require: self is opening and a > 2.5 m";
     CHECK(of_rules(rules).empty());
     rules.back() = "id: w, label: window, require: self is opening and sense = cavity";

@@ -98,6 +98,7 @@ TEST_SUITE("interpret") {
       const FeatureId around = scene.add(recess(width, 2.4, 0.4, 0.25));
       const FeatureId pane = scene.add(recess(1.1, 1.4, 0.95));
       scene.relate("host", pane, around);
+      scene.relate("inside", pane, around);
       const std::string label = labels(residential(), scene)[pane.index()];
       CHECK(label == (width < 5.5 ? "-" : "window"));
     }
@@ -203,7 +204,9 @@ TEST_SUITE("interpret") {
   TEST_CASE("panes in a frame are no windows of their own") {
     Scene scene;
     const FeatureId window = scene.add(recess(1.2, 1.4, 0.9));
-    scene.put_on(window, scene.add(recess(0.5, 1.2, 1.0, 0.04)));
+    const FeatureId pane = scene.add(recess(0.5, 1.2, 1.0, 0.04));
+    scene.put_on(window, pane);
+    scene.relate("inside", pane, window);
     CHECK(labels(residential(), scene) == Labels{"window", "-"});
   }
 
