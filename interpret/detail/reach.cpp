@@ -131,7 +131,8 @@ std::string scale_text(double from, double to) {
 
 /// What the entry `second` leaves to be said of it, `first` standing before it without a condition.
 bool report_overlap(const Pack& pack, const Entry& first, const Entry& second, Findings& findings) {
-  if (first.when != kNoExpr || first.id == second.id || !covers_target(pack, first, second)) return false;
+  if (first.when != kNoExpr || first.id == second.id || !covers_target(pack, first, second))
+    return false;
   const double from = std::max(first.scale_from, second.scale_from);
   const double to = std::min(first.scale_to, second.scale_to);
   const Place place = pack.source.place(first.span.begin);

@@ -211,8 +211,8 @@ std::vector<std::string> flags_of(const Segmentation& segmentation, const Featur
 void append_feature(std::string& out, const Building& building, const Segmentation& segmentation,
                     const FeatureTable& table, const Feature& feature) {
   const FeatureId id{static_cast<int>(&feature - segmentation.features.data())};
-  const bool has_cut = (feature.sense == Sense::protrusion || feature.sense == Sense::hole) &&
-                       !feature.is_uncut;
+  const bool has_cut =
+      (feature.sense == Sense::protrusion || feature.sense == Sense::hole) && !feature.is_uncut;
   const Box box = feature.box.moved(building.frame.origin_m);
   out += '{';
   append_id(out, "id", table, id);

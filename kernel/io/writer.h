@@ -35,13 +35,15 @@ struct WriteOptions {
 ///   the surfaces that are there. Openings have `parent`, and their wall lists them in `children`.
 /// - With it the geometry becomes a Solid (a MultiSolid if it has several lumps) with the facets as
 ///   polygons; with LabelledBuilding::keeps_semantics they keep the semantic surface that their
-///   input polygons share, if they do; its material and texture go, and vertices that nothing uses any more leave the file.
-///   New vertices are rounded to the transform's scale; if that is coarser than 1 mm, or would move
-///   a vertex off a facet's plane by more than 2 mm, or would make two vertices one, the file gets
-///   a scale finer by a power of ten. A line of a CityJSONSeq keeps its header's transform.
-/// - With LabelledBuilding::lod that geometry gets this level of detail, and another geometry of the
-///   object with it goes. Of several labelled buildings with one id the first takes the place of the
-///   chosen geometry, the others are appended.
+///   input polygons share, if they do; its material and texture go, and vertices that nothing uses
+///   any more leave the file. New vertices are rounded to the transform's scale; if that is coarser
+///   than 1 mm, or would move a vertex off a facet's plane by more than 2 mm, or would make two
+///   vertices one, the file gets a scale finer by a power of ten. A line of a CityJSONSeq keeps its
+///   header's transform.
+/// - With LabelledBuilding::lod that geometry gets this level of detail, and another geometry of
+/// the
+///   object with it goes. Of several labelled buildings with one id the first takes the place of
+///   the chosen geometry, the others are appended.
 /// - Installations become BuildingInstallation objects, children of their building; one with the
 ///   same id is replaced. Attributes of the building are added; one with the same name is replaced.
 /// - CityGML becomes the lines of a CityJSONSeq (see CityJsonCollector for one file): its header,

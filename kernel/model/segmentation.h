@@ -132,8 +132,8 @@ struct Segmentation {
   /// The oriented split planes, which are Solid::planes with the same ids, then planes that only
   /// caps of parts lie in.
   std::vector<Plane> planes;
-  /// The solid's vertices, same indices, then those that cuts made, then those of uncut features and
-  /// of the outlines of imprints, which may lie on edges and in facets of the solid.
+  /// The solid's vertices, same indices, then those that cuts made, then those of uncut features
+  /// and of the outlines of imprints, which may lie on edges and in facets of the solid.
   std::vector<Vertex> vertices;
   std::vector<CsgNode> nodes;
   NodeId root;

@@ -191,7 +191,8 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("removed objects leave no link behind") {
-    const std::string out = write_cityjson(document_of(rich_file().text()), {}, {.removed = {"part"}});
+    const std::string out =
+        write_cityjson(document_of(rich_file().text()), {}, {.removed = {"part"}});
     CHECK(check_valid(out) == "");
     const json file = json::parse(out);
     CHECK_FALSE(file["CityObjects"].contains("part"));
