@@ -3,6 +3,7 @@
 #include "kernel/describe/detail/relations.h"
 #include "kernel/describe/detail/shape.h"
 #include "kernel/describe/detail/site.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/geometry/visible_level.h"
 
@@ -136,18 +137,17 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
 /// Input polygons as what is parallel to a plane.
 class Panes {
  public:
-  explicit Panes(const Building& building) {
+  Panes(const Building& building, double grid_m) {
     for (const Polygon& polygon : building.polygons) {
       if (polygon.source < 0 || polygon.rings.empty()) continue;
       if (std::ssize(panes_) <= polygon.source) panes_.resize(at(polygon.source) + 1);
       Pane& pane = panes_[at(polygon.source)];
-      for (const auto& ring : polygon.rings) {
-        detail::Outline outline;
-        for (const int v : ring) outline.push_back(building.vertices[at(v)]);
+      auto outlines = detail::outlines_of(building, polygon, grid_m);
+      for (detail::Outline& outline : outlines) {
         detail::start_at_least(outline);
         for (std::size_t i = 1; i + 1 < outline.size(); ++i)
           pane.area = pane.area + 0.5 * cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-        if (&ring != &polygon.rings[0]) continue;
+        if (&outline != &outlines[0]) continue;
         for (const Vec3 p : outline)
           pane.middle = pane.middle + (1.0 / static_cast<double>(outline.size())) * p;
       }
@@ -176,10 +176,7 @@ void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& 
                      const Panes& panes) {
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
-  // To the nanometre: below it is the order in which points were summed up.
-  constexpr double kPerMetre = 1e9;
-  if (const auto level_m = panes.level_in(*s.feature, plane))
-    table.set(s.id, "recess", -std::round(*level_m * kPerMetre) / kPerMetre);
+  if (const auto level_m = panes.level_in(*s.feature, plane)) table.set(s.id, "recess", -*level_m);
 }
 
 /// Where the ground is looked for: below the middle of the cap, a little inside the body.
@@ -314,7 +311,7 @@ bool is_opening(const Subject& s) {
 Description describe(const Building& building, const Segmentation& segmentation) {
   Description out{FeatureTable(building.id, segmentation.features.size()), {}};
   const detail::Site site(segmentation);
-  const Panes panes(building);
+  const Panes panes(building, segmentation.grid_m);
   CellReaches reaches(segmentation);
   const std::vector<int> facades = detail::facades_of(segmentation);
   std::vector<Subject> subjects;

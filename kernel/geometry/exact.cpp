@@ -103,6 +103,8 @@ Vec3 to_metres(const GridPoint& point, double grid_m) {
           static_cast<double>(point[2]) * grid_m};
 }
 
+Vec3 on_grid(Vec3 point, double grid_m) { return to_metres(round_to_grid(point, grid_m), grid_m); }
+
 Vec3 to_metres(const Rational& point, double grid_m) {
   return {divide(point.x, point.w) * grid_m, divide(point.y, point.w) * grid_m,
           divide(point.z, point.w) * grid_m};

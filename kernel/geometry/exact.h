@@ -39,6 +39,10 @@ Rational round_finely(Vec3 point, double grid_m);
 /// A grid point in metres: exact, as |coordinate| < 2^53.
 Vec3 to_metres(const GridPoint& point, double grid_m);
 
+/// The grid point nearest to a point, in metres: what readers of several formats make of one place
+/// differs in the last digits, which this takes off.
+Vec3 on_grid(Vec3 point, double grid_m);
+
 /// A rational point in metres, correct to the last bit or so.
 Vec3 to_metres(const Rational& point, double grid_m);
 

@@ -129,6 +129,8 @@ struct SegmentationStats {
 /// The whole result for one solid.
 struct Segmentation {
   Order order = Order::natural;
+  /// Metres per grid unit of the solid (Solid::grid_m).
+  double grid_m = 0;
   /// The oriented split planes, which are Solid::planes with the same ids, then planes that only
   /// caps of parts lie in.
   std::vector<Plane> planes;

@@ -39,6 +39,7 @@ class Segmenter {
 
   Segmentation run() {
     out_.order = options_.order;
+    out_.grid_m = solid_.grid_m;
     out_.planes = solid_.planes;
     start();
     while (!tasks_.empty()) {

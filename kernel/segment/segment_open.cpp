@@ -4,6 +4,7 @@ namespace oriel {
 
 Segmentation segment_open(const Solid& open_shell) {
   Segmentation out;
+  out.grid_m = open_shell.grid_m;
   out.planes = open_shell.planes;
   out.vertices = open_shell.vertices;
   Cell cell;

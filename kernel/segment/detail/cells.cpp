@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/cells.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,13 +118,9 @@ std::vector<CellWriter::Shape> CellWriter::shapes_of(std::span<const CellFacet> 
 
 /// The shape that holds most of a polygon.
 std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon,
-                                const std::vector<Shape>& shapes, Vec3 normal) {
-  std::vector<Outline> rings;
+                                const std::vector<Shape>& shapes, Vec3 normal) const {
+  const std::vector<Outline> rings = outlines_of(building, polygon, out_.grid_m);
   Box box;
-  for (const auto& ring : polygon.rings) {
-    rings.emplace_back();
-    for (const int v : ring) rings.back().push_back(building.vertices[at(v)]);
-  }
   for (const Vec3 p : rings[0]) box.grow(p);
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < shapes.size(); ++i)

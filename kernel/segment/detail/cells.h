@@ -51,8 +51,8 @@ class CellWriter {
   void give(const std::vector<int>& polygons, const CellFacet& home);
   void attribute_polygons(const Building& building, const Solid& solid);
   [[nodiscard]] std::vector<Shape> shapes_of(std::span<const CellFacet> cell_facets) const;
-  static std::size_t home_of(const Building& building, const Polygon& polygon,
-                             const std::vector<Shape>& shapes, Vec3 normal);
+  [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,
+                                    const std::vector<Shape>& shapes, Vec3 normal) const;
 
   World& world_;
   Segmentation& out_;

@@ -1,5 +1,6 @@
 #include "kernel/segment/detail/loose.h"
 
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/detail/reach.h"
 
@@ -57,13 +58,9 @@ class Joiner {
     std::vector<LoosePolygon> loose;
     for (const Polygon& polygon : building_.polygons) {
       if (polygon.source < 0 || has_facet[at(polygon.source)]) continue;
-      LoosePolygon found{polygon.source, {}, {}, 0};
+      LoosePolygon found{polygon.source, outlines_of(building_, polygon, solid_.grid_m), {}, 0};
       double round_m = 0;
-      for (const auto& ring : polygon.rings) {
-        found.rings.emplace_back();
-        for (const int v : ring) found.rings.back().push_back(building_.vertices[at(v)]);
-        round_m += perimeter(found.rings.back());
-      }
+      for (const Outline& ring : found.rings) round_m += perimeter(ring);
       const Vec3 area = area_vector(found.rings);
       found.area_m2 = length(area);
       found.normal = normalised(area);

@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/polygon_grid.h"
 
+#include "kernel/geometry/outlines.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -25,14 +27,13 @@ PolygonGrid::Place PolygonGrid::place_of(Vec3 point) {
   return {cell(point.x), cell(point.y), cell(point.z)};
 }
 
-PolygonGrid::PolygonGrid(const Building& building) {
+PolygonGrid::PolygonGrid(const Building& building, double grid_m) {
   for (const Polygon& polygon : building.polygons) {
     if (polygon.source < 0 || polygon.rings.empty()) continue;
     PlacedPolygon placed;
     placed.source = polygon.source;
-    for (const auto& ring : polygon.rings) {
-      Outline& outline = placed.rings.emplace_back();
-      for (const int v : ring) outline.push_back(building.vertices[static_cast<std::size_t>(v)]);
+    placed.rings = outlines_of(building, polygon, grid_m);
+    for (Outline& outline : placed.rings) {
       start_at_least(outline);
       for (std::size_t i = 1; i + 1 < outline.size(); ++i)
         placed.area =

@@ -22,7 +22,8 @@ struct PlacedPolygon {
 /// The input polygons of a building, found by the middles of their boxes.
 class PolygonGrid {
  public:
-  explicit PolygonGrid(const Building& building);
+  /// `grid_m` as for outlines_of.
+  PolygonGrid(const Building& building, double grid_m);
 
   [[nodiscard]] const std::vector<PlacedPolygon>& polygons() const { return polygons_; }
 

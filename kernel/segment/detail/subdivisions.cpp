@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/subdivisions.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/segment/detail/points_on_edges.h"
 #include "kernel/solidify/detail/soup.h"
 
@@ -33,11 +34,11 @@ BySource polygons_by_source(const Building& building) {
 
 /// Another polygon can only lie inset in one with an inner ring, with an outer ring that turns
 /// inward twice, or with one that meets itself (a bridge to a hole).
-bool may_host(const Building& building, const Polygon& polygon, Vec3 normal) {
+bool may_host(const Building& building, const Polygon& polygon, Vec3 normal, double grid_m) {
   if (polygon.rings.size() > 1) return true;
-  const auto& ring = polygon.rings[0];
-  if (ring.size() < 6) return false;
-  const auto point = [&](std::size_t i) { return building.vertices[at(ring[i % ring.size()])]; };
+  if (polygon.rings[0].size() < 6) return false;
+  const Outline ring = outlines_of(building, polygon, grid_m)[0];
+  const auto point = [&](std::size_t i) { return ring[i % ring.size()]; };
   int left = 0, right = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const double turn = dot(cross(point(i + 1) - point(i), point(i + 2) - point(i + 1)), normal);
@@ -76,7 +77,7 @@ class SubdivisionMaker {
       const std::string& hint = by_source[at(facet.polygons[0])]->hint;
       for (const int source : facet.polygons) {
         has_hints |= by_source[at(source)]->hint != hint;
-        has_host = has_host || may_host(building_, *by_source[at(source)], normal);
+        has_host = has_host || may_host(building_, *by_source[at(source)], normal, solid_.grid_m);
       }
       if (!has_host && !has_hints) continue;
       for (const int source : facet.polygons)

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "kernel/geometry/planar.h"
+#include "kernel/model/building.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// The rings of an input polygon as outlines, the outer one first, on a grid of `grid_m`
+/// (exact::on_grid): the solid's, so that they meet its facets, and so that the format a building
+/// was read from leaves no trace in what is measured on them.
+std::vector<Outline> outlines_of(const Building& building, const Polygon& polygon, double grid_m);
+
+}  // namespace oriel::detail
