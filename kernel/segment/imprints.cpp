@@ -72,8 +72,7 @@ class ImprintWriter {
       if (f.planes.empty()) continue;
       const Plane& plane = out_.planes[f.planes.front().index()];
       std::vector<Vec3> cap;
-      for (const int v : f.vertices) {
-        const Vec3 p = out_.vertices[at(v)].point;
+      for (const Vec3 p : cap_points_of(f)) {
         if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
           cap.push_back(p);
       }
@@ -82,6 +81,15 @@ class ImprintWriter {
     }
     for (auto& [plane, residents] : residents_)
       std::ranges::stable_sort(residents, {}, [](const Resident& r) { return r.cap.u0; });
+  }
+
+  /// What the cap of a feature is told by: of an uncut one its ring, as it holds what lies beside
+  /// it.
+  [[nodiscard]] std::vector<Vec3> cap_points_of(const Feature& f) const {
+    std::vector<Vec3> points;
+    for (const int v : f.is_uncut ? f.outline : f.vertices)
+      points.push_back(out_.vertices[at(v)].point);
+    return points;
   }
 
   /// The insets of one subdivision, the largest first.
@@ -176,11 +184,11 @@ class ImprintWriter {
     for (const FeatureId id : within) {
       Feature& recess = feature(id);
       if (recess.sense != Sense::hole && !recess.is_uncut) continue;
-      std::vector<Vec3> points;
-      for (const int v : recess.vertices) points.push_back(out_.vertices[at(v)].point);
-      if (!axes.reach_of(points).holds(reach, slack_m())) continue;
-      for (const int p : inset.polygons)
+      if (!axes.reach_of(cap_points_of(recess)).holds(reach, slack_m())) continue;
+      for (const int p : inset.polygons) {
         recess.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
+        owner_[p] = id;
+      }
       tidy(recess.source_polygons);
       return true;
     }

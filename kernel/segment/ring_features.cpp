@@ -7,6 +7,7 @@
 #include "kernel/segment/detail/rings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -31,6 +32,11 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double kSame = 0.8;
 /// A notch is a ring if what is parallel in it fills this part of it.
 constexpr double kFilled = 0.5;
+/// The sides of a wall or a frame are parallel to within 8 degrees.
+constexpr double kParallel = 0.99;
+/// And no further apart than an old wall is thick.
+constexpr double kWall_m = 0.5;
+
 class RingWriter {
  public:
   RingWriter(const Building& building, const Solid& solid, Segmentation& segmentation,
@@ -109,8 +115,10 @@ class RingWriter {
     if (!home) return;
     const RingContent content = detail::content_of(ring, solid_, grid_);
     if (ring.kind == Ring::Kind::notch && !is_recess(ring, content)) return;
+    if (is_told(ring)) return;
+    const std::optional<FeatureId> owner = owner_of(ring, content);
     const FeatureId id{static_cast<int>(out_.features.size())};
-    out_.features.push_back(make(ring, content, *home));
+    out_.features.push_back(make(ring, content, *home, owner));
     for (const Resident& resident : within) {
       Feature& inner = out_.features[resident.id.index()];
       if (inner.planes.front() == plane && !inner.is_uncut &&
@@ -119,6 +127,42 @@ class RingWriter {
         inner.host = id;
     }
     for (const int p : content.polygons) owner_[grid_.polygons()[at(p)].source] = id;
+  }
+
+  /// A wall has an opening on both sides, and a frame in it a front and a back: one opening, told
+  /// by the ring that comes first.
+  [[nodiscard]] bool is_told(const Ring& ring) {
+    const Vec3 normal = plane_of(ring).normal;
+    const Reach reach = detail::axes_in(normal).reach_of(ring.outline);
+    Box box;
+    for (const Vec3 p : ring.outline) box.grow(p);
+    const Vec3 middle = 0.5 * (box.min + box.max);
+    const auto place = [](double c) { return static_cast<long>(std::floor(c / kWall_m)); };
+    const std::array<long, 3> here{place(middle.x), place(middle.y), place(middle.z)};
+    for (long x = here[0] - 1; x <= here[0] + 1; ++x)
+      for (long y = here[1] - 1; y <= here[1] + 1; ++y)
+        for (long z = here[2] - 1; z <= here[2] + 1; ++z)
+          if (const auto near = told_.find({x, y, z}); near != told_.end())
+            for (const Told& other : near->second)
+              if (is_other_side(ring, reach, middle, other)) return true;
+    told_[here].push_back({ring.outline, normal, middle});
+    return false;
+  }
+
+  struct Told {
+    detail::Outline outline;
+    Vec3 normal, middle;
+  };
+
+  [[nodiscard]] bool is_other_side(const Ring& ring, const Reach& reach, Vec3 middle,
+                                   const Told& other) const {
+    const Vec3 normal = plane_of(ring).normal;
+    if (std::abs(dot(normal, other.normal)) < kParallel) return false;
+    if (std::abs(dot(normal, middle - other.middle)) > kWall_m) return false;
+    const Reach its = detail::axes_in(normal).reach_of(other.outline);
+    const Reach common = reach.common(its);
+    return !common.is_empty() &&
+           common.area() >= (1 - detail::kAlike) * std::max(reach.area(), its.area());
   }
 
   /// What fills a notch lies behind it: what is flush with the facet is for add_imprints.
@@ -168,14 +212,15 @@ class RingWriter {
     return smallest;
   }
 
-  Feature make(const Ring& ring, const RingContent& content, CellFacet home) {
+  Feature make(const Ring& ring, const RingContent& content, CellFacet home,
+               std::optional<FeatureId> owner) {
     Feature f;
     f.is_uncut = f.is_natural = true;
     const double level_m = content.level_m.value_or(0);
     const bool is_flat = std::abs(level_m) <= tolerances_.plane_offset_m;
     f.sense = is_flat ? Sense::imprint : level_m > 0 ? Sense::protrusion : Sense::hole;
     f.parent = f.host = out_.cells[home.cell.index()].feature;
-    if (const auto owner = owner_of(ring, content)) f.host = *owner;
+    if (owner) f.host = *owner;
     f.host_facet = home;
     f.new_area_m2 = ring.area_m2;
     f.planes = {solid_.facets[ring.facet.index()].plane};
@@ -238,6 +283,7 @@ class RingWriter {
   std::map<int, CellFacet> home_;  ///< by Polygon::source
   std::map<PlaneId, std::vector<Resident>> residents_;
   std::map<int, FeatureId> owner_;  ///< by Polygon::source: the smallest ring around it so far
+  std::map<std::array<long, 3>, std::vector<Told>> told_;  ///< rings by their middle
   std::map<std::tuple<double, double, double>, int> vertex_;
 };
 

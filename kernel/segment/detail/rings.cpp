@@ -63,7 +63,7 @@ class RingFinder {
 
   /// Of the front and the back of a frame, which are as large within kAlike, the one that looks
   /// the way of more walls with openings comes first, then the one that looks away from the middle
-  /// of the building.
+  /// of the building; of rings that look the same way the foremost.
   void sort() {
     Box box;
     for (const PlacedPolygon& polygon : grid_.polygons()) box.grow(polygon.box);
@@ -76,7 +76,7 @@ class RingFinder {
       const auto looking = looking_m2.find(plane.coefficients);
       const bool looks_inward = dot(plane.normal, p - middle) < 0;
       return std::tuple(-size, looking == looking_m2.end() ? 0 : -looking->second, looks_inward,
-                        r.facet, p.x, p.y, p.z);
+                        plane.coefficients, -plane.offset_m, r.facet, p.x, p.y, p.z);
     });
   }
 

@@ -188,6 +188,43 @@ TEST_SUITE("kernel/segment") {
     CHECK(length(f.box.min - Vec3{2, 0, 1}) < 1e-3);
     CHECK(length(f.box.max - Vec3{3, 0.25, 2}) < 1e-3);
   }
+
+  TEST_CASE("the front and the back of a frame are one opening") {
+    Building building = test::plain_block();
+    std::vector<int> ring = test::front_ring(building, 2, 1, 3, 2);
+    test::front_wall(building).rings.emplace_back(ring.rbegin(), ring.rend());
+    const auto rectangle = [&](double y, double inset) {
+      std::vector<int> corners;
+      for (const Vec3 p : {Vec3{2 + inset, y, 1 + inset},
+                           {3 - inset, y, 1 + inset},
+                           {3 - inset, y, 2 - inset},
+                           {2 + inset, y, 2 - inset}})
+        corners.push_back(test::add_vertex(building, p));
+      return corners;
+    };
+    const auto add = [&](std::vector<std::vector<int>> rings, bool is_turned) {
+      Polygon polygon;
+      polygon.source = static_cast<int>(building.polygons.size());
+      if (is_turned)
+        for (auto& corners : rings) std::ranges::reverse(corners);
+      polygon.rings = std::move(rings);
+      building.polygons.push_back(std::move(polygon));
+    };
+    for (const bool is_back : {false, true}) {
+      const double y = is_back ? 0.17 : 0.01;
+      std::vector<int> inner = rectangle(y, 0.05);
+      std::ranges::reverse(inner);
+      add({rectangle(y, 0), inner}, is_back);
+      add({rectangle(is_back ? 0.1 : 0.08, 0.05)}, is_back);
+    }
+    const Segmented s = opened(building, {ground_of(building)});
+    std::vector<double> areas_m2;
+    for (const Feature& f : s.segmentation.features)
+      if (std::abs(f.box.min.x - 2) < 1e-3 && std::abs(f.box.max.x - 3) < 1e-3)
+        areas_m2.push_back(f.new_area_m2);
+    CHECK(areas_m2.size() == 1);
+    CHECK(s.segmentation.features.size() == 2);  // and the glass
+  }
 }
 
 }  // namespace oriel
