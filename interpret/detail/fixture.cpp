@@ -167,13 +167,14 @@ class Relating {
                                     fixture_->begin());
   }
 
-  /// A host contains what it hosts and what that hosts.
+  /// A host contains what it hosts and what that hosts; all that is inside it.
   void relate_host(std::size_t i) {
     std::size_t host = find(at(i).host);
     if (at(i).host.empty() || host == fixture_->size()) return;
     add("host", i, host);
     for (std::size_t steps = 0; host < fixture_->size() && steps < fixture_->size(); ++steps) {
       add("contains", host, i);
+      add("inside", i, host);
       host = at(host).host.empty() ? fixture_->size() : find(at(host).host);
     }
   }
@@ -182,10 +183,17 @@ class Relating {
     for (const auto& [relation, pattern] : at(i).related)
       for (std::size_t j = 0; j < fixture_->size(); ++j) {
         if (i == j || !is_match(pattern, at(j).name)) continue;
-        const bool is_one_way = relation == "host" || relation == "contains" || relation == "above";
         add(relation, i, j);
-        if (!is_one_way) add(relation, j, i);
+        const std::string back = inverse_of(relation);
+        if (!back.empty()) add(back, j, i);
       }
+  }
+
+  /// What the other feature is to this one; empty if that has no name.
+  static std::string inverse_of(const std::string& relation) {
+    if (relation == "host" || relation == "above") return {};
+    if (relation == "contains") return "inside";
+    return relation == "inside" ? "contains" : relation;
   }
 
   void relate_placed(std::size_t i, std::size_t j) {

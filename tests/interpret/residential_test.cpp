@@ -97,8 +97,7 @@ TEST_SUITE("interpret") {
       Scene scene;
       const FeatureId around = scene.add(recess(width, 2.4, 0.4, 0.25));
       const FeatureId pane = scene.add(recess(1.1, 1.4, 0.95));
-      scene.relate("host", pane, around);
-      scene.relate("inside", pane, around);
+      scene.put_on(around, pane);
       const std::string label = labels(residential(), scene)[pane.index()];
       CHECK(label == (width < 5.5 ? "-" : "window"));
     }
@@ -206,7 +205,6 @@ TEST_SUITE("interpret") {
     const FeatureId window = scene.add(recess(1.2, 1.4, 0.9));
     const FeatureId pane = scene.add(recess(0.5, 1.2, 1.0, 0.04));
     scene.put_on(window, pane);
-    scene.relate("inside", pane, window);
     CHECK(labels(residential(), scene) == Labels{"window", "-"});
   }
 

@@ -43,6 +43,7 @@ class Scene {
   void put_on(FeatureId host, FeatureId feature) {
     relate("host", feature, host);
     relate("contains", host, feature);
+    relate("inside", feature, host);
   }
 
   [[nodiscard]] FeatureTable table() const {

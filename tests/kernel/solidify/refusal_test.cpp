@@ -75,6 +75,25 @@ TEST_SUITE("kernel/solidify") {
     CHECK(outcome_of(test::building_of(quads)) == "E302");
   }
 
+  TEST_CASE("polygons of a closed surface with one side cannot be oriented alike") {
+    // A Klein bottle, cut into triangles.
+    constexpr int kAround = 8, kAcross = 5;
+    const auto point = [](int i, int j) {
+      const double u = i * 2 * 3.14159265358979 / kAround, v = j * 2 * 3.14159265358979 / kAcross;
+      const double r = 6 + 2 * (std::cos(u / 2) * std::sin(v) - std::sin(u / 2) * std::sin(2 * v));
+      return Vec3{r * std::cos(u), r * std::sin(u),
+                  2 * (std::sin(u / 2) * std::sin(v) + std::cos(u / 2) * std::sin(2 * v))};
+    };
+    std::vector<std::vector<Vec3>> triangles;
+    for (int i = 0; i < kAround; ++i)
+      for (int j = 0; j < kAcross; ++j) {
+        const Vec3 p = point(i, j), q = point(i + 1, j), r = point(i + 1, j + 1);
+        triangles.push_back({p, q, r});
+        triangles.push_back({p, r, point(i, j + 1)});
+      }
+    CHECK(outcome_of(test::building_of(triangles)) == "E307");
+  }
+
   TEST_CASE("a shell folded flat and a sheet of paper enclose nothing") {
     const Building folded = test::building_of({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
                                                {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}},

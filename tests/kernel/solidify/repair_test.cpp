@@ -49,8 +49,10 @@ TEST_SUITE("kernel/solidify") {
     CHECK(solid_of(test::with_noise(loose_box(), 0.0002, 1)).vertices.size() == 8);
     Building apart = loose_box();
     apart.vertices[0] = apart.vertices[0] + Vec3{0.005, 0, 0};
-    // Further off along its edge it lies in the middle of that edge: a T-vertex.
-    CHECK(outcome_of(apart) == "solid E317");
+    CHECK(outcome_of(apart) == "solid E317");  // on an edge beside it: a T-vertex
+    Building off = loose_box();
+    off.vertices[0] = off.vertices[0] + Vec3{0.005, 0.005, 0.005};
+    CHECK(outcome_of(off, {}, {Closing::none, 0}) == "E302");
     Tolerances coarse;
     coarse.weld_m = 0.01;
     coarse.plane_offset_m = 0.01;
