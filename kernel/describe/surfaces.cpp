@@ -65,7 +65,7 @@ class Surveyor {
   void measure(std::size_t row);
   void measure_gaps(std::size_t row);
   void measure_surroundings(std::size_t row);
-  [[nodiscard]] bool is_in_building(Vec3 point) const;
+  [[nodiscard]] bool is_in_building(const std::vector<Crossing>& crossings, double z) const;
 
   const std::vector<SurfaceFace>& faces_;
   const Tolerances& tolerances_;
@@ -157,12 +157,11 @@ void Surveyor::measure_gaps(std::size_t row) {
   }
 }
 
-/// Material lies there if one leaves it through a surface that looks up, and entered it through one
-/// that looks down: an overhang of one sheet makes no material of the air below it.
-bool Surveyor::is_in_building(Vec3 point) const {
-  const auto crossings = lines_.at(point);
-  const auto above =
-      std::ranges::find_if(crossings, [&](const Crossing& c) { return c.z > point.z; });
+/// Material lies at a height of a vertical line if one leaves it there through a surface that looks
+/// up, and entered it through one that looks down: an overhang of one sheet makes no material of
+/// the air below it.
+bool Surveyor::is_in_building(const std::vector<Crossing>& crossings, double z) const {
+  const auto above = std::ranges::find_if(crossings, [&](const Crossing& c) { return c.z > z; });
   if (above == crossings.end() || above == crossings.begin()) return false;
   return outward(at(above->face)).z > 0 && outward(at(std::prev(above)->face)).z < 0;
 }
@@ -179,9 +178,10 @@ void Surveyor::measure_surroundings(std::size_t row) {
     const double share_m = length(edge) / static_cast<double>(kProbes.size());
     for (const double t : kProbes) {
       const Vec3 beyond = from + t * edge + kProbe_m * out;
+      const auto crossings = lines_.at(beyond);
       all_m += share_m;
-      if (is_in_building(beyond + Vec3{0, 0, kProbe_m})) up_m += share_m;
-      if (is_in_building(beyond - Vec3{0, 0, kProbe_m})) down_m += share_m;
+      if (is_in_building(crossings, beyond.z + kProbe_m)) up_m += share_m;
+      if (is_in_building(crossings, beyond.z - kProbe_m)) down_m += share_m;
     }
   }
   if (!(all_m > 0)) return;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace oriel {
@@ -68,10 +70,14 @@ const std::vector<Attribute>& surface_schema() {
 }
 
 std::optional<std::size_t> surface_column_of(std::string_view name) {
-  const auto& schema = surface_schema();
-  const auto found = std::ranges::find(schema, name, &Attribute::name);
-  if (found == schema.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - schema.begin());
+  static const auto columns = [] {
+    std::unordered_map<std::string_view, std::size_t> by_name;
+    for (const Attribute& attribute : surface_schema())
+      by_name.emplace(attribute.name, by_name.size());
+    return by_name;
+  }();
+  const auto found = columns.find(name);
+  return found == columns.end() ? std::nullopt : std::optional(found->second);
 }
 
 SurfaceTable::SurfaceTable(std::size_t rows) : rows_(rows), columns_(surface_schema().size()) {

@@ -12,6 +12,8 @@ namespace {
 /// A face that covers the whole building stands in all cells: more of them cost more than they
 /// spare.
 constexpr int kLargestSide = 64;
+/// Ground, roof, and the sills and lintels of a few storeys.
+constexpr std::size_t kUsualCrossings = 16;
 
 int cell(double value, double low, double high, int count) {
   if (!(high > low)) return 0;
@@ -39,7 +41,8 @@ VerticalLines::VerticalLines(std::span<const SurfaceFace> faces) : faces_(faces)
     const Box& box = faces[static_cast<std::size_t>(f)].box;
     for (int row = row_of(box.min.y); row <= row_of(box.max.y); ++row)
       for (int column = column_of(box.min.x); column <= column_of(box.max.x); ++column)
-        cells_[static_cast<std::size_t>(row * side_ + column)].push_back(f);
+        cells_[static_cast<std::size_t>(row * side_ + column)].push_back(
+            {box.min.x, box.max.x, box.min.y, box.max.y, f});
   }
 }
 
@@ -48,10 +51,14 @@ int VerticalLines::row_of(double y) const { return cell(y, box_.min.y, box_.max.
 
 std::vector<Crossing> VerticalLines::at(Vec3 point) const {
   std::vector<Crossing> crossings;
+  crossings.reserve(kUsualCrossings);
   if (box_.is_empty()) return crossings;
-  for (const int f : cells_[static_cast<std::size_t>(row_of(point.y) * side_ + column_of(point.x))])
-    if (figures_[static_cast<std::size_t>(f)].contains(point))
-      crossings.push_back({faces_[static_cast<std::size_t>(f)].z_at(point), f});
+  const auto place = static_cast<std::size_t>(row_of(point.y) * side_ + column_of(point.x));
+  for (const Entry& e : cells_[place]) {
+    if (point.x < e.x0 || point.x > e.x1 || point.y < e.y0 || point.y > e.y1) continue;
+    if (figures_[static_cast<std::size_t>(e.face)].contains(point))
+      crossings.push_back({faces_[static_cast<std::size_t>(e.face)].z_at(point), e.face});
+  }
   std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::tuple(c.z, c.face); });
   return crossings;
 }

@@ -31,8 +31,13 @@ class VerticalLines {
   std::vector<PlanFigure> figures_;
   Box box_;
   int side_ = 1;
+  /// A face and its box seen from above: what most faces of a cell are left out by.
+  struct Entry {
+    double x0, x1, y0, y1;
+    int face;
+  };
   /// The faces whose box touches a cell, row by row.
-  std::vector<std::vector<int>> cells_;
+  std::vector<std::vector<Entry>> cells_;
 };
 
 }  // namespace oriel::detail
