@@ -22,12 +22,10 @@ Plane unoriented(const Plane& plane) {
   return *leading < 0 ? exact::opposite(plane) : plane;
 }
 
-/// The point with the least sum of squared distances to `planes`, drawn weakly towards `start`
-/// where they leave it free.
-Vec3 least_squares(const std::vector<Plane>& planes, Vec3 start) {
-  constexpr double kPull =
-      1e-4;  // tolerance of nothing: only keeps the system regular along free directions
-  double m[3][3] = {{kPull, 0, 0}, {0, kPull, 0}, {0, 0, kPull}};
+/// From `start` to the point with the least sum of squared distances to `planes`, drawn back by
+/// `pull` where they leave it free.
+Vec3 least_squares_shift(const std::vector<Plane>& planes, Vec3 start, double pull) {
+  double m[3][3] = {{pull, 0, 0}, {0, pull, 0}, {0, 0, pull}};
   Vec3 right;
   for (const Plane& plane : planes) {
     const double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
@@ -38,9 +36,19 @@ Vec3 least_squares(const std::vector<Plane>& planes, Vec3 start) {
   const Vec3 r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]},
       r2{m[2][0], m[2][1], m[2][2]};
   const double det = dot(r0, cross(r1, r2));
-  const Vec3 shift =
-      (1 / det) * (right.x * cross(r1, r2) + right.y * cross(r2, r0) + right.z * cross(r0, r1));
-  return start + shift;
+  return (1 / det) * (right.x * cross(r1, r2) + right.y * cross(r2, r0) + right.z * cross(r0, r1));
+}
+
+/// The point nearest to `planes`, no further than `reach` from `start`: planes of a wall and of a
+/// panel in it that are a hair's breadth from parallel meet anywhere.
+Vec3 nearest_point(const std::vector<Plane>& planes, Vec3 start, double reach) {
+  // Tolerances of nothing: they only keep the system regular along free directions.
+  constexpr double kWeakest = 1e-4, kStrongest = 1;
+  for (double pull = kWeakest; pull <= kStrongest; pull *= 10) {
+    const Vec3 shift = least_squares_shift(planes, start, pull);
+    if (length(shift) <= reach) return start + shift;
+  }
+  return start;
 }
 
 struct PlaneHash {
@@ -125,18 +133,19 @@ class Snapper {
     const auto planes = planes_of(v);
     if (planes.empty()) return;
     const Vec3 start = exact::to_metres(soup_.points[at(mesh_.point_of[at(v)])], soup_.grid_m);
+    const double reach = 4 * tolerances_.plane_offset_m;
     if (planes.size() == 3) {
       const auto meeting =
           exact::meet(planes_[at(planes[0])], planes_[at(planes[1])], planes_[at(planes[2])]);
       if (meeting) {
         const Vec3 point = exact::to_metres(*meeting, soup_.grid_m);
-        if (length(point - start) <= 4 * tolerances_.plane_offset_m) {
+        if (length(point - start) <= reach) {
           place_of_[at(v)] = {point, true};
           return;
         }
       }
     }
-    const Vec3 best = least_squares(sorted_planes(planes), start);
+    const Vec3 best = nearest_point(sorted_planes(planes), start, reach);
     place_of_[at(v)] = {exact::to_metres(exact::round_to_grid(best, soup_.grid_m), soup_.grid_m),
                         false};
   }

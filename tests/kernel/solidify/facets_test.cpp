@@ -1,3 +1,4 @@
+#include "tests/support/generated_house.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 
@@ -142,6 +143,26 @@ TEST_SUITE("kernel/solidify") {
     };
     CHECK(planes_with_step(-0.001) == 6);
     CHECK(planes_with_step(-0.1) == 7);
+  }
+
+  TEST_CASE("panels almost in the plane of their wall move no vertex along it") {
+    // Their planes meet that of the wall anywhere.
+    generator::Options options;
+    options.seed = 21;
+    options.flush = 0.3;
+    options.noise = 2000;
+    for (int i = 2; i < 8; ++i) {
+      CAPTURE(i);
+      const Building building = test::building_of(generator::generate(options, i));
+      double furthest = 0;
+      for (const Vertex& vertex : solid_of(building).vertices) {
+        double nearest = 1;
+        for (const Vec3 p : building.vertices)
+          nearest = std::min(nearest, length(p - vertex.point));
+        furthest = std::max(furthest, nearest);
+      }
+      CHECK(furthest <= 4 * Tolerances{}.plane_offset_m);
+    }
   }
 }
 
