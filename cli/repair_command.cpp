@@ -2,6 +2,7 @@
 #include "cli/destination.h"
 #include "cli/options.h"
 #include "cli/run.h"
+#include "cli/written_proof.h"
 #include "kernel/io/output_file.h"
 #include "kernel/io/repair_json.h"
 #include "kernel/model/version.h"
@@ -36,10 +37,11 @@ void label_caps(const Building& building, LabelledBuilding& repaired) {
 
 /// The building with its solid in the place of its polygons, and counts of what was repaired.
 LabelledBuilding repaired_building(const Building& building, const OnLine& line,
-                                   bool keeps_semantics) {
+                                   bool keeps_semantics, int digits) {
   LabelledBuilding repaired;
   repaired.building = building.id;
   repaired.geometry = line.solid;
+  repaired.digits = digits;
   repaired.keeps_semantics = keeps_semantics;
   if (keeps_semantics) label_caps(building, repaired);
   const auto add_count = [&](const char* name, std::size_t count) {
@@ -103,13 +105,27 @@ class Repairer {
   }
 
  private:
-  void add(const Document& document, const std::vector<OnLine>& lines) {
+  /// A solid that would not be valid when it is read again is none.
+  void prove(const Document& document, const Building& building, OnLine& line,
+             std::vector<LabelledBuilding>& solids) {
+    if (!line.solid) return;
+    const WrittenProof proof = prove_written(document, building, *line.solid);
+    if (proof.fault) {
+      line.solid.reset();
+      line.issues.push_back(*proof.fault);
+      run_.set_aside(*proof.fault);
+      return;
+    }
+    solids.push_back(
+        repaired_building(building, line, !arguments_.ignores_semantics, proof.digits));
+  }
+
+  void add(const Document& document, std::vector<OnLine>& lines) {
     std::vector<LabelledBuilding> solids;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
-      const OnLine& line = lines[i];
-      if (line.solid)
-        solids.push_back(repaired_building(building, line, !arguments_.ignores_semantics));
+      OnLine& line = lines[i];
+      prove(document, building, line, solids);
       if (!run_.is_last_run()) continue;
       if (line.solid) ++(line.repair.was_needed ? repaired_ : closed_);
       if (arguments_.is_verbose) std::fputs(summary_of(building, line).c_str(), stderr);

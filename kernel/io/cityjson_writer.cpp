@@ -119,12 +119,16 @@ class CityJsonWriter {
   /// Starts the exchange of vertices if a geometry is replaced.
   void make_pool(const std::vector<LabelledBuilding>& labelled) {
     std::vector<detail::PlacedSolid> solids;
-    for (const LabelledBuilding& building : labelled)
-      if (building.geometry)
-        solids.push_back(
-            {&*building.geometry, &document_.buildings[building_index(building.building)].frame});
+    int asked_for = 0;
+    for (const LabelledBuilding& building : labelled) {
+      if (!building.geometry) continue;
+      asked_for = std::max(asked_for, building.digits);
+      solids.push_back(
+          {&*building.geometry, &document_.buildings[building_index(building.building)].frame});
+    }
     if (solids.empty()) return;
-    digits_ = source_.is_feature ? 0 : detail::finer_digits(source_.transform, solids);
+    if (!source_.is_feature)
+      digits_ = std::max(asked_for, detail::finer_digits(source_.transform, solids));
     pool_.emplace(root_.value_of("vertices"), source_.transform, digits_);
   }
 

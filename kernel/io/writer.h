@@ -38,7 +38,8 @@ struct WriteOptions {
 ///   input polygons share, if they do; its material and texture go, and vertices that nothing uses
 ///   any more leave the file. New vertices are rounded to the transform's scale; if that is coarser
 ///   than 1 mm, or would move a vertex off a facet's plane by more than 2 mm, or would make two
-///   vertices one, the file gets a scale finer by a power of ten. A line of a CityJSONSeq keeps its
+///   vertices one, or if LabelledBuilding::digits asks for it, the file gets a scale finer by
+///   powers of ten. A line of a CityJSONSeq keeps its
 ///   header's transform.
 /// - With LabelledBuilding::lod that geometry gets this level of detail, and another geometry of
 /// the

@@ -24,25 +24,8 @@ constexpr double kOffPlane_m = 0.002;
 /// Finer than this gains nothing over the grid that solids live on.
 constexpr double kFinest_m = 1e-6;
 
-Transform finer(const Transform& transform, int digits) {
-  const Vec3 s = transform.scale;
-  return {{scaled_down(s.x, digits), scaled_down(s.y, digits), scaled_down(s.z, digits)},
-          transform.translate};
-}
-
-/// The integers that stand for a local point.
-std::array<std::int64_t, 3> rounded(Vec3 local, const Frame& frame, const Transform& transform) {
-  const Vec3 from = local - (transform.translate - frame.origin_m);
-  return {std::llround(from.x / transform.scale.x), std::llround(from.y / transform.scale.y),
-          std::llround(from.z / transform.scale.z)};
-}
-
-Vec3 local_point(const std::array<std::int64_t, 3>& key, const Frame& frame,
-                 const Transform& transform) {
-  const Vec3 s = transform.scale;
-  return (transform.translate - frame.origin_m) + Vec3{s.x * static_cast<double>(key[0]),
-                                                       s.y * static_cast<double>(key[1]),
-                                                       s.z * static_cast<double>(key[2])};
+double coarsest_scale(const Transform& transform) {
+  return std::max({transform.scale.x, transform.scale.y, transform.scale.z});
 }
 
 /// True if rounding keeps the vertices apart and near the planes of their facets.
@@ -104,6 +87,26 @@ std::string vertex_text(std::string_view vertex, int digits) {
 
 }  // namespace
 
+Transform finer(const Transform& transform, int digits) {
+  const Vec3 s = transform.scale;
+  return {{scaled_down(s.x, digits), scaled_down(s.y, digits), scaled_down(s.z, digits)},
+          transform.translate};
+}
+
+std::array<std::int64_t, 3> rounded(Vec3 local, const Frame& frame, const Transform& transform) {
+  const Vec3 from = local - (transform.translate - frame.origin_m);
+  return {std::llround(from.x / transform.scale.x), std::llround(from.y / transform.scale.y),
+          std::llround(from.z / transform.scale.z)};
+}
+
+Vec3 local_point(const std::array<std::int64_t, 3>& key, const Frame& frame,
+                 const Transform& transform) {
+  const Vec3 s = transform.scale;
+  return (transform.translate - frame.origin_m) + Vec3{s.x * static_cast<double>(key[0]),
+                                                       s.y * static_cast<double>(key[1]),
+                                                       s.z * static_cast<double>(key[2])};
+}
+
 double scaled_down(double number, int digits) {
   std::array<char, 48> buffer;
   char* const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
@@ -115,13 +118,19 @@ double scaled_down(double number, int digits) {
   return std::stod(text.substr(0, e + 1) + std::to_string(exponent));
 }
 
+int spare_digits(const Transform& transform) {
+  // The factor allows for scales such as 1.0000001e-5.
+  int digits = 0;
+  while (coarsest_scale(finer(transform, digits)) >= 9.9 * kFinest_m) ++digits;
+  return digits;
+}
+
 int finer_digits(const Transform& transform, const std::vector<PlacedSolid>& solids) {
+  const int most = spare_digits(transform);
   int digits = 0;
   while (true) {
-    const Vec3 scale = finer(transform, digits).scale;
-    const double coarsest = std::max({scale.x, scale.y, scale.z});
-    // The next step would go beyond the finest; the factor allows for scales such as 1.0000001e-5.
-    if (coarsest < 9.9 * kFinest_m) return digits;
+    if (digits == most) return digits;
+    const double coarsest = coarsest_scale(finer(transform, digits));
     const bool is_good = std::ranges::all_of(solids, [&](const PlacedSolid& placed) {
       return keeps_shape(placed, finer(transform, digits));
     });

@@ -22,6 +22,17 @@ struct PlacedSolid {
 /// `number` × 10^-digits, rounded once: 0.001 and 1 give the double nearest to 0.0001.
 double scaled_down(double number, int digits);
 
+/// The transform with a scale finer by powers of ten.
+Transform finer(const Transform& transform, int digits);
+
+/// The integers that stand for a local point in a file, and the local point that they stand for.
+std::array<std::int64_t, 3> rounded(Vec3 local, const Frame& frame, const Transform& transform);
+Vec3 local_point(const std::array<std::int64_t, 3>& key, const Frame& frame,
+                 const Transform& transform);
+
+/// By how many powers of ten the transform's scale may get finer at most.
+int spare_digits(const Transform& transform);
+
 /// By how many powers of ten the transform's scale must get finer so that it is no coarser than
 /// 1 mm, no vertex leaves the plane of one of its facets by more than 2 mm, and no two vertices of
 /// a solid become one; at most as many as make it 1e-6.

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "kernel/io/document.h"
+#include "kernel/model/issue.h"
+#include "kernel/model/solid.h"
+
+#include <optional>
+
+namespace oriel::cli {
+
+/// Whether a solid is valid when it is read again.
+struct WrittenProof {
+  int digits = 0;              ///< LabelledBuilding::digits that it takes, the fewest
+  std::optional<Issue> fault;  ///< E318: it is not, whatever the scale; the first finding says why
+};
+
+/// Judges `solid` in the place of the polygons of `building`, one of the document, by validate() on
+/// what as_written() makes of it, first at the scale that the document has.
+WrittenProof prove_written(const Document& document, const Building& building, const Solid& solid);
+
+}  // namespace oriel::cli

@@ -1,0 +1,107 @@
+#include "examples/generator/cityjson.h"
+#include "examples/generator/generate.h"
+#include "tests/cli/command.h"
+#include "tests/support/shared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+std::vector<json> lines_of(const std::string& text) {
+  std::vector<json> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    lines.push_back(json::parse(text.substr(at, end - at)));
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::vector<std::string> files_of(const std::filesystem::path& folder, const std::string& end) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().string().ends_with(end)) files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
+/// Repairs, and judges what was written; returns how many became solids. All of those are valid.
+int solids_of(const std::vector<std::string>& inputs, const std::vector<std::string>& options) {
+  const Folder folder;
+  std::vector<std::string> arguments{"repair", "-o", folder / "out/", "--report", folder / "r"};
+  arguments.insert(arguments.end(), inputs.begin(), inputs.end());
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Outcome repaired = run(arguments);
+  std::map<std::string, bool> is_solid;
+  for (const json& report : lines_of(bytes_of(folder / "r")))
+    is_solid[report["id"].get<std::string>()] = report["is_solid"].get<bool>();
+  const auto solids = std::ranges::count(is_solid, true, [](const auto& e) { return e.second; });
+  if (solids < std::ssize(is_solid)) CHECK(repaired.exit == 3);
+
+  std::vector<std::string> judge{"validate", "--json"};
+  for (const std::string& file : files_of(folder / "out", "")) judge.push_back(file);
+  if (std::ranges::find(options, "--lod") != options.end())
+    judge.insert(judge.end(), std::ranges::find(options, "--lod"), options.end());
+  for (const json& line : lines_of(run(judge).out)) {
+    const std::string id = line["id"].get<std::string>();
+    CAPTURE(id);
+    if (is_solid.contains(id) && is_solid[id]) CHECK(line["findings"] == json::array());
+  }
+  return static_cast<int>(solids);
+}
+
+TEST_SUITE("cli") {
+  TEST_CASE("what repair says is a solid is valid when it is read again: published buildings") {
+    ORIEL_NEEDS_SHARED(shared);
+    const std::filesystem::path data = shared / "data";
+    const auto ingolstadt = files_of(data / "ingolstadt", ".labelled.city.json");
+    CHECK(solids_of(ingolstadt, {"--ignore-semantics"}) >= 14);
+    CHECK(solids_of(ingolstadt, {"--ignore-semantics", "--close", "any"}) >= 14);
+    const auto houses = files_of(data / "random3dcity", ".labelled.city.json");
+    CHECK(solids_of(houses, {"--ignore-semantics"}) == std::ssize(houses));
+    const std::string tile = data / "3dbag/tile_5910.city.jsonl";
+    for (const char* lod : {"1.2", "1.3", "2.2"}) CHECK(solids_of({tile}, {"--lod", lod}) >= 208);
+  }
+
+  TEST_CASE("what repair says is a solid is valid when it is read again: generated houses") {
+    for (const double noise_mm : {0.0, 2.0}) {
+      const Folder folder;
+      oriel::generator::Options options;
+      options.seed = 21;
+      options.flush = 0.3;
+      options.noise = std::lround(1000 * noise_mm);
+      std::vector<std::string> houses;
+      for (int i = 0; i < 60; ++i) {
+        const std::string name = fmt::format("h{}", i);
+        const oriel::generator::Building house{name, oriel::generator::generate(options, i), {}};
+        houses.push_back(
+            folder.write(name + ".city.json",
+                         oriel::generator::cityjson(house, oriel::generator::Content::stripped)));
+      }
+      CHECK(solids_of(houses, {}) >= 59);
+    }
+  }
+
+  TEST_CASE("holes that are closed across other walls make no solid") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string house = shared / "data/ingolstadt/ingolstadt__4018154.labelled.city.json";
+    const Outcome outcome = run({"repair", house, "--ignore-semantics", "--close", "any", "-o",
+                                 folder / "out.city.json", "--report", folder / "r"});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("E318 the repaired solid is not valid: E352 "));
+    CHECK(json::parse(bytes_of(folder / "r"))["is_solid"] == false);
+  }
+}
+
+}  // namespace
