@@ -1,5 +1,7 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
+#include "cli/written_proof.h"
+#include "generalise/generalise.h"
 #include "interpret/surface_score.h"
 
 #include <cstdio>
@@ -13,6 +15,7 @@ namespace {
 struct Arguments : LabelArguments {
   std::string existing = "fill";
   bool is_json = false;
+  bool is_repaired = false;
 
   [[nodiscard]] WriteOptions write_options() const {
     WriteOptions options;
@@ -40,6 +43,29 @@ std::string listing(const Building& building, const OnLine& line) {
   }
   return fmt::format("{}: {} of {} features have a label\n{}\n", building.id, rows.size() - 1,
                      line.interpretation.verdicts.size(), table(rows));
+}
+
+/// --repaired: the labels on the facets of the building's solid. Without one that is valid they
+/// stay on the polygons as they came, and the building counts as set aside.
+LabelledBuilding on_solid(const Document& document, const Building& building, const OnLine& line,
+                          LabelledBuilding labelled, const Tolerances& tolerances, Run& run) {
+  if (line.is_open) {
+    run.set_aside(building_issue(Severity::error, "G404", building.id,
+                                 "is open: its polygons are labelled as they came"));
+    return labelled;
+  }
+  Generalised whole{*line.solid, {}};
+  whole.is_drawn_anew = true;
+  LabelledBuilding drawn = redraw(building, labelled, *line.segmentation, line.description.table,
+                                  line.interpretation, std::move(whole), tolerances)
+                               .labelled;
+  const WrittenProof proof = prove_written(document, building, *drawn.geometry);
+  if (proof.fault) {
+    run.set_aside(*proof.fault);
+    return labelled;
+  }
+  drawn.digits = proof.digits;
+  return drawn;
 }
 
 /// OBJ has groups and materials, which are no semantics.
@@ -87,8 +113,13 @@ ExitCode work(const Arguments& arguments) {
     run.timings().measure(Stage::write, [&] {
       std::vector<LabelledBuilding> labelled;
       for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (outputs.has_buildings() && lines[i].has_surfaces())
+        if (outputs.has_buildings() && lines[i].has_surfaces()) {
           labelled.push_back(outputs.annotated(document.buildings[i], lines[i]));
+          if (arguments.is_repaired && lines[i].is_done())
+            labelled.back() =
+                on_solid(document, document.buildings[i], lines[i], std::move(labelled.back()),
+                         arguments.segment_options().tolerances, run);
+        }
         if (!lines[i].is_done()) continue;
         outputs.add_features(document.buildings[i], lines[i]);
         if (!outputs.has_any() && run.is_last_run())
@@ -120,10 +151,12 @@ void add_label(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
                     "Do not look at what the input calls its polygons");
+  command->add_flag("--repaired", arguments->is_repaired,
+                    "Write the valid solid of each building, as repair does, with its labels");
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
-      "Without -o and --features the labels are listed. Polygons are written as they came, never "
-      "moved.\n"
+      "Without -o and --features the labels are listed. Polygons are written as they came, "
+      "unless --repaired.\n"
       "Example:\n  oriel label house.city.json -o labelled.city.json\n"
       "  oriel label city/*.city.json -o labelled/ --features parts.csv --rules my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
