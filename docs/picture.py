@@ -137,6 +137,14 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
+def write(out, views):
+    rows = b"".join(b"\0" + b"".join(view.pixel(x, y) for view in views for x in range(PANEL_PX))
+                    for y in range(HEIGHT_PX))
+    header = struct.pack(">IIBBBBB", PANEL_PX * len(views), HEIGHT_PX, 8, 2, 0, 0, 0)
+    with open(out, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
 def main(out, paths):
     views = []
     frame = frame_of(polygons_of(paths[0]))
@@ -144,11 +152,7 @@ def main(out, paths):
         views.append(View(frame))
         for rings, colour in polygons_of(path):
             views[-1].draw(rings, colour)
-    rows = b"".join(b"\0" + b"".join(view.pixel(x, y) for view in views for x in range(PANEL_PX))
-                    for y in range(HEIGHT_PX))
-    header = struct.pack(">IIBBBBB", PANEL_PX * len(views), HEIGHT_PX, 8, 2, 0, 0, 0)
-    with open(out, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+    write(out, views)
 
 
 if __name__ == "__main__":
