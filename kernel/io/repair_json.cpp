@@ -1,6 +1,6 @@
 #include "kernel/io/repair_json.h"
 
-#include "kernel/io/detail/json_text.h"
+#include "kernel/io/detail/json_fields.h"
 
 #include <array>
 
@@ -8,34 +8,11 @@ namespace oriel {
 
 namespace {
 
-using detail::append_json;
+using detail::append_field;
 using detail::append_json_array;
 using detail::append_json_key;
-
-template <class Value>
-void append_field(std::string& out, std::string_view key, const Value& value) {
-  append_json_key(out, key);
-  append_json(out, value);
-}
-
-void append_place(std::string& out, std::string_view key, Vec3 p) {
-  append_json_key(out, key);
-  append_json_array(out, std::array{p.x, p.y, p.z});
-}
-
-/// Appends `key:[…]`, each element of `values` an object with what `append(value)` writes.
-template <class Values, class Append>
-void append_objects(std::string& out, std::string_view key, const Values& values,
-                    const Append& append) {
-  append_json_key(out, key);
-  out += '[';
-  for (const auto& value : values) {
-    out += &value == &values.front() ? "{" : ",{";
-    append(value);
-    out += '}';
-  }
-  out += ']';
-}
+using detail::append_objects;
+using detail::append_vector;
 
 void append_left_out(std::string& out, std::string_view key, const std::vector<int>& polygons,
                      double area_m2) {
@@ -66,13 +43,13 @@ std::string repair_json(const Building& building, bool is_solid, const RepairRep
   append_left_out(out, "inner", report.inner, report.inner_area_m2);
   append_objects(out, "caps", report.caps, [&](const Cap& cap) {
     append_field(out, "area_m2", cap.area_m2);
-    append_place(out, "centre", cap.centre + origin);
+    append_vector(out, "centre", cap.centre + origin);
   });
   append_field(out, "detached_shells", report.detached_shells);
   append_field(out, "cavities", report.cavities);
   append_objects(out, "open_edges", report.open_edges, [&](const OpenEdge& edge) {
-    append_place(out, "from", edge.from + origin);
-    append_place(out, "to", edge.to + origin);
+    append_vector(out, "from", edge.from + origin);
+    append_vector(out, "to", edge.to + origin);
     append_field(out, "polygon", edge.polygon);
   });
   append_objects(out, "issues", issues, [&](const Issue& issue) {

@@ -1,6 +1,6 @@
 #include "kernel/io/segmentation_json.h"
 
-#include "kernel/io/detail/json_text.h"
+#include "kernel/io/detail/json_fields.h"
 
 #include <algorithm>
 #include <array>
@@ -14,23 +14,20 @@ namespace oriel {
 
 namespace {
 
+using detail::append_field;
 using detail::append_json;
 using detail::append_json_array;
 using detail::append_json_key;
-
-/// Appends values of any kind under a key.
-template <class Value>
-void append_field(std::string& out, std::string_view key, const Value& value) {
-  append_json_key(out, key);
-  append_json(out, value);
-}
+using detail::append_list;
+using detail::append_objects;
+using detail::append_vector;
 
 void append_field(std::string& out, std::string_view key, const std::optional<double>& value) {
-  append_field(out, key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  detail::append_field(out, key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 void append_field(std::string& out, std::string_view key, std::size_t count) {
-  append_field(out, key, static_cast<std::int64_t>(count));
+  detail::append_field(out, key, static_cast<std::int64_t>(count));
 }
 
 template <class Ids>
@@ -42,43 +39,21 @@ void append_ids(std::string& out, std::string_view key, const Ids& ids) {
   append_json_array(out, numbers);
 }
 
-void append_vector(std::string& out, std::string_view key, Vec3 v) {
-  append_json_key(out, key);
-  append_json_array(out, std::array{v.x, v.y, v.z});
-}
-
-/// Appends `key:[…]`, each element of `values` as `append(value)` writes it.
-template <class Values, class Append>
-void append_list(std::string& out, std::string_view key, const Values& values,
-                 const Append& append) {
-  append_json_key(out, key);
-  out += '[';
-  for (const auto& value : values) {
-    if (&value != &*values.begin()) out += ',';
-    append(value);
-  }
-  out += ']';
-}
-
 void append_planes(std::string& out, const Segmentation& segmentation) {
-  append_list(out, "planes", segmentation.planes, [&](const Plane& plane) {
-    out += '{';
+  append_objects(out, "planes", segmentation.planes, [&](const Plane& plane) {
     append_field(out, "id", static_cast<int>(&plane - segmentation.planes.data()));
     append_vector(out, "normal", plane.normal);
     append_field(out, "offset_m", plane.offset_m);
-    out += '}';
   });
 }
 
 void append_cells(std::string& out, const Segmentation& segmentation) {
-  append_list(out, "cells", segmentation.cells, [&](const Cell& cell) {
-    out += '{';
+  append_objects(out, "cells", segmentation.cells, [&](const Cell& cell) {
     append_field(out, "id", static_cast<int>(&cell - segmentation.cells.data()));
     append_field(out, "sign", cell.sign);
     append_field(out, "volume_m3", cell.volume_m3);
     append_field(out, "convex", cell.is_convex);
     append_field(out, "flag", std::string_view(to_string(cell.flag)));
-    out += '}';
   });
 }
 
@@ -159,8 +134,7 @@ void append_complex(std::string& out, const CellComplex& complex, std::size_t ce
   append_list(out, "vertices", used, [&](Vec3 v) {
     append_json_array(out, std::array{v.x, v.y, v.z});
   });
-  append_list(out, "faces", complex.faces(), [&](const Face& face) {
-    out += '{';
+  append_objects(out, "faces", complex.faces(), [&](const Face& face) {
     append_field(out, "id", static_cast<int>(&face - complex.faces().data()));
     append_field(out, "plane", face.plane.value);
     append_side(out, "front", face.front);
@@ -170,7 +144,6 @@ void append_complex(std::string& out, const CellComplex& complex, std::size_t ce
       for (int& v : loop) v = number[static_cast<std::size_t>(v)];
       append_json_array(out, loop);
     });
-    out += '}';
   });
   // Each pair once, at the cell with the smaller id; the outside is always the neighbour.
   std::vector<std::pair<CellId, Contact>> contacts;
@@ -178,12 +151,10 @@ void append_complex(std::string& out, const CellComplex& complex, std::size_t ce
     for (const Contact& contact : complex.neighbours({c}))
       if (!contact.cell.is_valid() || contact.cell.value > c)
         contacts.emplace_back(CellId{c}, contact);
-  append_list(out, "contacts", contacts, [&](const std::pair<CellId, Contact>& contact) {
-    out += '{';
+  append_objects(out, "contacts", contacts, [&](const std::pair<CellId, Contact>& contact) {
     append_side(out, "cell", contact.first);
     append_side(out, "neighbour", contact.second.cell);
     append_field(out, "area_m2", contact.second.area_m2);
-    out += '}';
   });
   append_field(out, "open_edges", complex.open_edge_count());
 }
