@@ -208,10 +208,10 @@ class Segmenter {
 
   /// Carries out a choice. Nothing, and all is as before, if its rim turns out to separate nothing,
   /// as may be between vertices that lie on their planes by decree only (noisy input). Cuts along
-  /// edges do not fail in that way, so no copy is kept of their bodies.
+  /// edges fail before they change their body if at all, so no copy is kept of it.
   std::optional<std::vector<detail::Change>> try_cut(Task& task, const Choice& choice) {
-    if (choice.is_natural && !choice.imprinted) return cut(task, choice);
-    Boundary body = task.body;
+    std::optional<Boundary> body;
+    if (!choice.is_natural || choice.imprinted) body = task.body;
     const NodeId id = task.node;
     const std::size_t nodes = out_.nodes.size(), features = out_.features.size();
     const std::size_t tasks = tasks_.size();
@@ -220,7 +220,8 @@ class Segmenter {
     try {
       return cut(task, choice);
     } catch (const GeometryError&) {
-      task.body = std::move(body);
+      if (!body && is_body_changed_) throw;
+      if (body) task.body = std::move(*body);
       task.node = id;
       node(id) = {};
       out_.nodes.resize(nodes);
@@ -246,9 +247,13 @@ class Segmenter {
 
     const std::size_t first_part = tasks_.size();
     std::vector<detail::Change> changes;
+    is_body_changed_ = false;
     for (const detail::Lump& lump : choice.lumps) {
       std::vector<int> touched;
       const auto caps = imprint(task.body, *choice.section, lump, touched);
+      is_body_changed_ = is_body_changed_ || !touched.empty();
+      if (caps.empty()) throw GeometryError("the section of a lump has no area");
+      is_body_changed_ = true;
       std::size_t loops = 0;
       for (const detail::Cap& cap : caps) loops += cap.loops.size() + cap.covered.size();
       may_have_parted_ |= loops > 1;
@@ -256,7 +261,7 @@ class Segmenter {
           take_off_part(task, choice, caps, {lump.new_area, lump.value}, std::move(touched)));
     }
     for (const detail::Patch& patch : choice.patches) {
-      may_have_parted_ = true;
+      may_have_parted_ = is_body_changed_ = true;
       changes.push_back(take_off_part(task, choice, patch.caps,
                                       {patch.new_area, patch.new_area / patch.old_area}, {}));
     }
@@ -388,6 +393,7 @@ class Segmenter {
   Side ground_ = -1;
   std::vector<Task> tasks_;
   std::int64_t work_ = 0;
+  bool is_body_changed_ = false;  ///< by the cut at work
   bool may_have_parted_ = false;
   bool is_out_of_budget_ = false;
   NodeId parent_of_rest_;

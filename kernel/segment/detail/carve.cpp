@@ -157,11 +157,15 @@ class Remover {
     throw GeometryError("a cap without a rim");
   }
 
+  /// On the largest new facet; if all caps are parts of old ones, only its point is told.
   void leave_mark(const std::vector<int>& facets, FeatureId mark) {
-    int largest = -1;
-    for (std::size_t i = 0; i < facets.size(); ++i)
-      if (!caps_[i].is_taken && (largest < 0 || body_.area(facets[i]) > body_.area(largest)))
-        largest = facets[i];
+    std::size_t best = 0;
+    const auto rank = [&](std::size_t i) {
+      return std::pair(!caps_[i].is_taken, body_.area(facets[i]));
+    };
+    for (std::size_t i = 1; i < facets.size(); ++i)
+      if (rank(i) > rank(best)) best = i;
+    const int largest = facets[best];
     const auto shape = body_.outlines(largest);
     const Side side = body_.facet(largest).side;
     const Vec3 normal = body_.world().planes.normal(side);
@@ -169,7 +173,7 @@ class Remover {
       // The first vertex of the outline may lie on its plane by decree only.
       const double off = dot(normal, *inside) - body_.world().planes.offset_m(side);
       cap_point_ = *inside - off * normal;
-      body_.add_mark(largest, {mark, cap_point_});
+      if (!caps_[best].is_taken) body_.add_mark(largest, {mark, cap_point_});
     }
   }
 
