@@ -1,5 +1,6 @@
 #include "kernel/io/cityjson_collector.h"
 
+#include "kernel/io/detail/appearance_text.h"
 #include "kernel/io/detail/geometry_text.h"
 #include "kernel/io/detail/json_text.h"
 #include "kernel/io/detail/raw_json.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <type_traits>
 #include <utility>
 
 namespace oriel {
@@ -22,7 +24,15 @@ std::array<Number, 3> three_numbers(std::string_view array) {
   std::array<Number, 3> numbers{};
   std::size_t count = 0;
   detail::for_each_element(array, [&](std::string_view number) {
-    if (count < 3) std::from_chars(number.data(), number.data() + number.size(), numbers[count++]);
+    if (count == 3) return;
+    // Reader also takes whole numbers that are written as 1.0 or 1e3.
+    double value = 0;
+    if (std::is_integral_v<Number> && number.find_first_of(".eE") == std::string_view::npos) {
+      std::from_chars(number.data(), number.data() + number.size(), numbers[count++]);
+      return;
+    }
+    std::from_chars(number.data(), number.data() + number.size(), value);
+    numbers[count++] = static_cast<Number>(value);
   });
   return numbers;
 }
@@ -42,28 +52,97 @@ int common_digits(const std::vector<std::array<std::int64_t, 3>>& vertices, doub
   return digits;
 }
 
+/// The text that a list of "appearance" has under `number`; empty if it has none.
+std::string_view element_at(const std::vector<std::string_view>& list, std::size_t number) {
+  return number < list.size() ? list[number] : std::string_view();
+}
+
+/// The elements of the list `key` of an "appearance", which may be absent.
+std::vector<std::string_view> list_of(std::string_view appearance, std::string_view key) {
+  if (!RawNode::is_object(appearance)) return {};
+  return detail::elements_of(RawNode(appearance).value_of(key));
+}
+
 }  // namespace
 
-void CityJsonCollector::add(std::string_view line) {
-  if (line.empty()) return;
-  if (header_.empty()) {
-    header_ = line;
-    return;
-  }
+std::int64_t CityJsonCollector::Parts::add(std::string_view text) {
+  const auto [found, is_new] =
+      number_of.try_emplace(std::string(text), static_cast<std::int64_t>(texts.size()));
+  if (is_new) texts.emplace_back(text);
+  return found->second;
+}
+
+void CityJsonCollector::begin(std::string_view header) {
+  header_ = header;
+  // Geometry templates may use what the header has, by number: doubles stay.
+  const std::string_view appearance = RawNode(header).value_of("appearance");
+  for (const auto& [key, parts] : {std::pair("materials", &materials_), {"textures", &textures_}})
+    for (const std::string_view text : list_of(appearance, key)) {
+      parts->number_of.try_emplace(std::string(text),
+                                   static_cast<std::int64_t>(parts->texts.size()));
+      parts->texts.emplace_back(text);
+    }
+  for (const std::string_view text : list_of(appearance, "vertices-texture"))
+    places_.emplace_back(text);
+}
+
+std::string CityJsonCollector::object_text(std::string_view object, std::int64_t first_vertex,
+                                           std::string_view appearance) {
+  std::string text = detail::with_vertex_numbers(
+      object, [&](std::size_t number) { return first_vertex + static_cast<std::int64_t>(number); });
+  if (appearance.empty()) return text;
+  const auto materials = list_of(appearance, "materials"),
+             textures = list_of(appearance, "textures");
+  const auto first_place = static_cast<std::int64_t>(places_.size());
+  return detail::with_appearance_numbers(
+      text, {[&](std::size_t n) { return materials_.add(element_at(materials, n)); },
+             [&](std::size_t n) { return textures_.add(element_at(textures, n)); },
+             [&](std::size_t n) { return first_place + static_cast<std::int64_t>(n); }});
+}
+
+std::optional<std::string> CityJsonCollector::add(std::string_view line) {
+  if (line.empty()) return std::nullopt;
+  const bool is_header = header_.empty();
+  if (is_header) begin(line);
   const RawNode feature(line);
   const RawNode objects(feature.value_of("CityObjects"));
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    ids.push_back(objects.key(i));
+    if (ids_.contains(ids.back())) return ids.back();
+  }
+  const std::string_view appearance =
+      is_header ? std::string_view() : feature.value_of("appearance");
   const auto first = static_cast<std::int64_t>(vertices_.size());
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects_.empty()) objects_ += ',';
-    detail::append_json(objects_, std::string_view(objects.key(i)));
-    objects_ += ':';
-    objects_ += detail::with_vertex_numbers(objects.value(i), [&](std::size_t number) {
-      return first + static_cast<std::int64_t>(number);
-    });
+    detail::append_json(objects_, std::string_view(ids[i]));
+    objects_ += ':' + object_text(objects.value(i), first, appearance);
   }
+  ids_.insert(ids.begin(), ids.end());
+  for (const std::string_view place : list_of(appearance, "vertices-texture"))
+    places_.emplace_back(place);
   detail::for_each_element(feature.value_of("vertices"), [&](std::string_view vertex) {
     vertices_.push_back(three_numbers<std::int64_t>(vertex));
   });
+  return std::nullopt;
+}
+
+std::string CityJsonCollector::appearance_text(std::string_view header) const {
+  RawNode appearance(RawNode::is_object(header) ? header : "{}");
+  const auto set = [&](std::string_view key, const std::vector<std::string>& texts) {
+    if (texts.empty()) return;
+    std::string list = "[";
+    for (const std::string& text : texts) {
+      if (list.size() > 1) list += ',';
+      list += text.empty() ? "{}" : text;
+    }
+    appearance.set(key, list + ']');
+  };
+  set("materials", materials_.texts);
+  set("textures", textures_.texts);
+  set("vertices-texture", places_);
+  return appearance.text();
 }
 
 std::string CityJsonCollector::text() const {
@@ -78,6 +157,8 @@ std::string CityJsonCollector::text() const {
   detail::append_json_array(scale_text, scale);
   transform.set("scale", std::move(scale_text));
   file.set("transform", transform.text());
+  const std::string appearance = appearance_text(file.value_of("appearance"));
+  if (appearance != "{}") file.set("appearance", appearance);
   file.set("CityObjects", "{" + objects_ + "}");
   std::string vertices = "[";
   for (const auto& [x, y, z] : vertices_) {

@@ -9,6 +9,9 @@ namespace oriel {
 /// The file formats of buildings. CityGML is read only, STL is written only.
 enum class Format { cityjson, cityjson_seq, citygml, obj, off, stl };
 
+/// What stdin is taken for if nobody says more: a stream.
+inline constexpr Format kFormatOfStdin = Format::cityjson_seq;
+
 /// The format that a file's name says, by its last extensions, upper or lower case: `.city.json`
 /// and `.json`, `.city.jsonl` and `.jsonl`, `.gml`, `.citygml` and `.xml`, `.obj`, `.off`, `.stl`.
 /// Nothing for any other name, and for "-".

@@ -92,7 +92,7 @@ Checked<Document> Reader::State::read_file() {
 
 std::optional<Checked<Document>> Reader::State::read_line() {
   std::string line;
-  do {
+  while (true) {
     if (!input.read_line(line)) {
       is_done = true;
       if (header) return std::nullopt;
@@ -104,11 +104,13 @@ std::optional<Checked<Document>> Reader::State::read_line() {
     }
     ++name.line;
     if (name.line == 1) line.erase(0, line.size() - detail::without_bom(line).size());
-  } while (is_blank(line));
-  auto record = cityjson.read(std::move(line), name, header);
-  if (!header && record.value) header = cityjson.header();
-  if (!header) is_done = true;
-  return record;
+    if (is_blank(line)) continue;
+    auto record = cityjson.read(std::move(line), name, header);
+    if (!record.value && record.issues.empty()) continue;  // the header once more
+    if (!header && record.value) header = cityjson.header();
+    if (!header) is_done = true;
+    return record;
+  }
 }
 
 }  // namespace oriel

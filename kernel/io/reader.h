@@ -40,7 +40,8 @@ class Reader {
 
   /// The next record, or nothing at the end. Without a value the record cannot be used and its
   /// issues say why. The first record of a CityJSONSeq is its header line; without a header there
-  /// are no further records. CityGML has a header, too, then a record for each Building, without
+  /// are no further records; headers with the same facts among the features are passed over.
+  /// CityGML has a header, too, then a record for each Building, without
   /// buildings if it has a fault; a record without a value is the last: there the file is broken.
   /// Throws InputError E101 if reading fails half-way, E505 for a record of more than 4 GB.
   std::optional<Checked<Document>> next();

@@ -1,8 +1,9 @@
 #include "kernel/io/detail/cityjson_objects.h"
 
+#include "kernel/io/detail/families.h"
+
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -60,25 +61,12 @@ void list_relatives(dom::object object, ObjectEntry& entry) {
   }
 }
 
-/// The number of the family of each entry: connected by parents and children.
-std::vector<std::size_t> families_of(const std::vector<ObjectEntry>& entries) {
-  std::vector<std::size_t> root(entries.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto root_of = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  std::unordered_map<std::string_view, std::size_t> entry_of;
-  for (std::size_t i = 0; i < entries.size(); ++i) entry_of.try_emplace(entries[i].id, i);
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    for (const std::string_view id : entries[i].relatives)
-      if (const auto found = entry_of.find(id); found != entry_of.end()) {
-        const std::size_t a = root_of(i);
-        const std::size_t b = root_of(found->second);
-        root[std::max(a, b)] = std::min(a, b);
-      }
-  for (std::size_t i = 0; i < root.size(); ++i) root[i] = root_of(i);
-  return root;
+/// The number of the family of each entry.
+std::vector<std::size_t> families_of_entries(const std::vector<ObjectEntry>& entries) {
+  std::vector<Relative> members;
+  members.reserve(entries.size());
+  for (const ObjectEntry& entry : entries) members.push_back({entry.id, entry.relatives});
+  return families_of(members);
 }
 
 /// Orders lods by number ("0" < "1.2" < "2" < "2.2"), then by text.
@@ -167,7 +155,7 @@ std::vector<ObjectEntry> list_objects(dom::object objects) {
 
 std::vector<Choice> choose_geometries(const std::vector<ObjectEntry>& entries,
                                       const std::optional<std::string>& lod) {
-  const std::vector<std::size_t> family_of = families_of(entries);
+  const std::vector<std::size_t> family_of = families_of_entries(entries);
   std::vector<Family> families(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (const GeometryEntry& geometry : entries[i].geometries)

@@ -3,7 +3,9 @@
 #include "kernel/io/detail/cityjson_geometry.h"
 #include "kernel/io/detail/cityjson_objects.h"
 #include "kernel/io/detail/dom.h"
+#include "kernel/io/detail/id_set.h"
 #include "kernel/io/detail/json_check.h"
+#include "kernel/io/stream_header.h"
 
 #include <array>
 #include <cmath>
@@ -82,6 +84,15 @@ std::string read_crs(dom::object root) {
   return std::string(crs.value_or(std::string_view()));
 }
 
+/// What it says to the lines that follow, but the transform.
+SequenceHeader read_header(dom::object root, const std::string& text) {
+  const auto version = as_string(member(root, "version"));
+  return {{},
+          read_crs(root),
+          std::string(version.value_or(std::string_view())),
+          stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")))};
+}
+
 /// The members that hold the model.
 struct Model {
   dom::object objects;
@@ -110,7 +121,11 @@ struct CityJsonReader::State {
   std::optional<std::string> lod;
   SequenceHeader header;
   std::string refused;
+  IdSet ids;               ///< of the features so far
+  bool is_astray = false;  ///< the last header was not that of the stream
 
+  std::optional<Fault> check_feature(dom::object root, const SequenceHeader& of);
+  std::optional<Fault> check_header(const std::string& text, const SequenceHeader& of);
   std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
   void read_buildings(const Model& model, const TextName& name, Document& document,
                       CityJsonSource& source, std::vector<Issue>& issues) const;
@@ -171,12 +186,41 @@ void CityJsonReader::State::read_buildings(const Model& model, const TextName& n
   }
 }
 
+/// A header among the features: nothing is wrong with the one that the stream has.
+std::optional<Fault> CityJsonReader::State::check_header(const std::string& text,
+                                                         const SequenceHeader& of) {
+  const std::string facts =
+      stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")));
+  is_astray = facts != of.facts;
+  if (!is_astray) return std::nullopt;
+  return Fault{"E116",
+               fmt::format("is a header {}, but that of the stream is {}", facts, of.facts)};
+}
+
+std::optional<Fault> CityJsonReader::State::check_feature(dom::object root,
+                                                          const SequenceHeader& of) {
+  if (is_astray) return Fault{"E116", "stands behind a header that is not that of the stream"};
+  const auto version = member(root, "version");
+  if (version && as_string(version) != of.version)
+    return Fault{"E108", fmt::format("its 'version' is {}; the header says \"{}\"",
+                                     version->is_string() ? in_quotes(*as_string(version))
+                                                          : std::string(found_kind(version)),
+                                     of.version)};
+  const auto id = as_string(member(root, "id"));
+  if (id && !ids.insert(*id))
+    return Fault{"E207", "an earlier line of the stream has this id; that one is read"};
+  return std::nullopt;
+}
+
 Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
                                        const std::optional<SequenceHeader>& header) {
   Checked<Document> result;
+  std::string id;  // of a feature
   const auto refuse = [&](const Fault& fault) {
     result.issues.push_back(error_in(name, fault));
     state_->refused = std::move(text);
+    if (result.issues[0].place.building.empty() && !id.empty())
+      result.issues[0].place.building = id;
     return std::move(result);
   };
   dom::object root;
@@ -185,9 +229,17 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
     state_->refused = std::move(text);
     return result;
   }
+  if (header && as_string(member(root, "type")) == "CityJSON") {
+    if (const auto fault = state_->check_header(text, *header)) return refuse(*fault);
+    return result;
+  }
   if (const auto fault = check_type(root, header ? "CityJSONFeature" : "CityJSON"))
     return refuse(*fault);
-  state_->header = header.value_or(SequenceHeader{{}, read_crs(root)});
+  if (header) {
+    id = as_string(member(root, "id")).value_or(std::string_view());
+    if (const auto fault = state_->check_feature(root, *header)) return refuse(*fault);
+  }
+  state_->header = header ? *header : read_header(root, text);
   if (!header)
     if (const auto fault = read_transform(root, state_->header.transform)) return refuse(*fault);
   Model model;

@@ -15,6 +15,9 @@ namespace oriel::detail {
 struct SequenceHeader {
   Transform transform;
   std::string crs;
+  std::string version;
+  /// stream_header_facts of its text.
+  std::string facts;
 };
 
 /// Reads CityJSON records; keeps simdjson's buffers between them.
@@ -26,7 +29,10 @@ class CityJsonReader {
   CityJsonReader(const CityJsonReader&) = delete;
   CityJsonReader& operator=(const CityJsonReader&) = delete;
 
-  /// The document in `text`: a CityJSON object, or a CityJSONFeature if `header` is given.
+  /// The document in `text`: a CityJSON object, or a CityJSONFeature if `header` is given. An
+  /// object with the same facts as the header (streams that were put together) has neither value
+  /// nor issues. Behind one with other facts (E116) features are refused up to one with the same,
+  /// and so are features with an id that an earlier one had (E207).
   Checked<Document> read(std::string text, const TextName& name,
                          const std::optional<SequenceHeader>& header);
 

@@ -220,4 +220,11 @@ void for_each_element(std::string_view text, const std::function<void(std::strin
   }
 }
 
+std::vector<std::string_view> elements_of(std::string_view text) {
+  std::vector<std::string_view> elements;
+  if (RawNode::is_array(text))
+    for_each_element(text, [&](std::string_view value) { elements.push_back(value); });
+  return elements;
+}
+
 }  // namespace oriel::detail

@@ -75,4 +75,7 @@ class RawNode {
 /// Calls `visit` with each element of the array `text`, in order.
 void for_each_element(std::string_view text, const std::function<void(std::string_view)>& visit);
 
+/// The elements of the array `text`, in order; none if it is no array.
+std::vector<std::string_view> elements_of(std::string_view text);
+
 }  // namespace oriel::detail

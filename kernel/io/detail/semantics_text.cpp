@@ -12,13 +12,6 @@ namespace oriel::detail {
 
 namespace {
 
-std::vector<std::string_view> elements_of(std::string_view text) {
-  std::vector<std::string_view> elements;
-  if (RawNode::is_array(text))
-    for_each_element(text, [&](std::string_view element) { elements.push_back(element); });
-  return elements;
-}
-
 /// The number that stands in "values", or -1 for null and whatever names no surface.
 int surface_number(std::string_view text, int surfaces) {
   int number = -1;
