@@ -14,6 +14,8 @@ using Action = std::function<ExitCode()>;
 
 /// Each adds one command with its arguments and help to the app. When the command is named,
 /// `action` becomes its work.
+void add_cat(CLI::App& app, Action& action);
+void add_collect(CLI::App& app, Action& action);
 void add_segment(CLI::App& app, Action& action);
 void add_label(CLI::App& app, Action& action);
 void add_generalise(CLI::App& app, Action& action);

@@ -63,6 +63,7 @@ Destination::Destination(std::string out, const std::string& to, std::vector<std
 
 Format Destination::format_of_input(std::size_t input) const {
   if (from_) return *from_;
+  if (inputs_[input] == "-") return kFormatOfStdin;
   return format_of(inputs_[input]).value_or(Format::cityjson);
 }
 
@@ -78,8 +79,8 @@ void Destination::check(std::size_t input) const {
              is_stream_out = to == Format::cityjson_seq;
   if (is_stream_in != is_stream_out && (is_stream_out || to == Format::cityjson))
     throw CLI::ValidationError(
-        "-o", fmt::format("{} is not written as {}: use cjio or cjseq to turn one into the other",
-                          to_string(from), to_string(to)));
+        "-o", fmt::format("{} is not written as {}: oriel {} turns one into the other",
+                          to_string(from), to_string(to), is_stream_in ? "collect" : "cat"));
 }
 
 std::string Destination::path_for(std::size_t input) const {

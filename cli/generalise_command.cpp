@@ -245,7 +245,11 @@ class Generaliser {
   std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(Arguments& arguments) {
+  if (arguments.out.empty()) {
+    if (!arguments.is_piped_stream()) throw CLI::RequiredError("--output");
+    arguments.out = "-";
+  }
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -264,7 +268,6 @@ void add_generalise(CLI::App& app, Action& action) {
                                          "Redraw buildings for a target scale or level of detail: "
                                          "a closed solid with what it can show");
   add_label_arguments(*command, *arguments);
-  command->get_option("--output")->required();
   CLI::Option_group* target = command->add_option_group("Target");
   target->add_option("--scale", arguments->scale, "Target scale, such as 1:2000");
   target

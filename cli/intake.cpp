@@ -26,7 +26,8 @@ std::shared_ptr<Arrival> Intake::arrival(Arrival::Kind kind) const {
 }
 
 std::shared_ptr<Arrival> Intake::open() {
-  reader_ = std::make_unique<Reader>(arguments_.inputs[input_], arguments_.read_options());
+  const std::string& input = arguments_.inputs[input_];
+  reader_ = std::make_unique<Reader>(input, arguments_.read_options(input));
   is_first_ = is_readable_ = true;
   return arrival(Arrival::Kind::begin);
 }

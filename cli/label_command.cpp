@@ -99,8 +99,10 @@ ExitCode audit(const Arguments& arguments) {
   return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(Arguments& arguments) {
   if (arguments.existing == "audit") return audit(arguments);
+  if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
+    arguments.out = "-";
   if (arguments.is_json) throw CLI::ValidationError("--json", "goes with --existing audit only");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
@@ -155,8 +157,8 @@ void add_label(CLI::App& app, Action& action) {
                     "Write the valid solid of each building, as repair does, with its labels");
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
-      "Without -o and --features the labels are listed. Polygons are written as they came, "
-      "unless --repaired.\n"
+      "Without -o and --features the labels are listed; a stream from stdin goes to stdout. "
+      "Polygons are written as they came, unless --repaired.\n"
       "Example:\n  oriel label house.city.json -o labelled.city.json\n"
       "  oriel label city/*.city.json -o labelled/ --features parts.csv --rules my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });

@@ -37,6 +37,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", oriel::kVersion);
   app.require_subcommand(1);
   Action action;
+  add_cat(app, action);
+  add_collect(app, action);
   add_segment(app, action);
   add_label(app, action);
   add_generalise(app, action);

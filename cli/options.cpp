@@ -17,6 +17,16 @@ ReadOptions LineArguments::read_options() const {
   return options;
 }
 
+ReadOptions LineArguments::read_options(const std::string& input) const {
+  ReadOptions options = read_options();
+  if (!options.format && input == "-") options.format = kFormatOfStdin;
+  return options;
+}
+
+bool LineArguments::is_piped_stream() const {
+  return inputs.size() == 1 && inputs[0] == "-" && read_options("-").format == Format::cityjson_seq;
+}
+
 SegmentOptions LineArguments::segment_options() const {
   SegmentOptions options;
   options.order = order == "paper" ? Order::paper : Order::natural;
@@ -63,7 +73,7 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
 }  // namespace
 
 void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
-  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin";
+  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin, a CityJSONSeq";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
   } else {
@@ -73,7 +83,9 @@ void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   }
   command.add_option("--lod", a.lod,
                      "Level of detail to read, as written in the input (default: the highest)");
-  command.add_option("--from", a.from, "Format of the input (default: by its name)")
+  command
+      .add_option("--from", a.from,
+                  "Format of the input (default: by its name; of stdin: cityjsonseq)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"}));
   if (has_many) add_selection_arguments(command, a.selection);
 }

@@ -35,10 +35,16 @@ struct LineArguments {
   std::string status_stem;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";
+  /// What is asked for is what was read: buildings do not go down the line.
+  bool ends_at_reading = false;
   /// What is asked for is the solid: buildings are not segmented.
   bool ends_at_solid = false;
 
   [[nodiscard]] ReadOptions read_options() const;
+  /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.
+  [[nodiscard]] ReadOptions read_options(const std::string& input) const;
+  /// The one input is a stream on stdin; what comes of it goes to stdout if nothing else is said.
+  [[nodiscard]] bool is_piped_stream() const;
   [[nodiscard]] SegmentOptions segment_options() const;
   [[nodiscard]] RepairOptions repair_options() const;
   /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is

@@ -110,6 +110,7 @@ void Run::run_inputs(const Visitor& visitor) {
 
 OnLine Run::on_line(const Building& building, Timings& timings) const {
   const RepairOptions repair = arguments_.repair_options();
+  if (arguments_.ends_at_reading) return {};
   if (arguments_.ends_at_solid)
     return run_to_solid(building, arguments_.tolerances, repair, timings);
   const SegmentOptions options = arguments_.segment_options();
@@ -118,6 +119,12 @@ OnLine Run::on_line(const Building& building, Timings& timings) const {
                     : run_line(building, options, repair, rules_, timings);
   if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
   return line;
+}
+
+/// As far as the command asks for.
+bool Run::came_to_end(const OnLine& line) const {
+  if (arguments_.ends_at_reading) return true;
+  return arguments_.ends_at_solid ? line.solid.has_value() : line.is_done();
 }
 
 /// Touches nothing but the arrival.
@@ -199,7 +206,7 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
     if (line.is_passed_over) continue;
     ++buildings_;
     tell(line.issues);
-    if (arguments_.ends_at_solid ? !line.solid : !line.is_done()) {
+    if (!came_to_end(line)) {
       keep_errors(line.issues);
       ++set_aside_;
       raise(ExitCode::set_aside);

@@ -61,6 +61,7 @@ class Run {
  private:
   void run_inputs(const Visitor& visitor);
   [[nodiscard]] OnLine on_line(const Building& building, Timings& timings) const;
+  [[nodiscard]] bool came_to_end(const OnLine& line) const;
   void work_on(Arrival& arrival) const;
   void settle(Arrival& arrival, const Visitor& visitor, Progress& progress);
   void settle_record(Arrival& arrival, const Visitor& visitor);

@@ -114,7 +114,7 @@ class Validation {
 
   void read(const std::string& input) {
     try {
-      Reader reader(input, arguments_.read_options());
+      Reader reader(input, arguments_.read_options(input));
       for (bool is_first = true;; is_first = false) {
         auto record = reader.next();
         if (!record) return;

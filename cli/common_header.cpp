@@ -1,0 +1,24 @@
+#include "cli/common_header.h"
+
+#include "kernel/io/stream_header.h"
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+std::optional<Issue> CommonHeader::check(const std::string& header, const std::string& input) {
+  const std::string facts = stream_header_facts(header);
+  if (facts_.empty()) {
+    facts_ = facts;
+    input_ = input;
+  }
+  if (facts == facts_) return std::nullopt;
+  Issue issue;
+  issue.code = "E116";
+  issue.sentence = fmt::format("has the header {}, but that of {} is {}: they share no stream",
+                               facts, input_, facts_);
+  issue.place.file = input;
+  return issue;
+}
+
+}  // namespace oriel::cli

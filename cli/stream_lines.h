@@ -1,0 +1,38 @@
+#pragma once
+
+#include "cli/line.h"
+#include "kernel/io/document.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What happens with the lines of a CityJSONSeq. They have their line ends.
+struct LineVisitor {
+  std::function<void(const std::string&)> header;
+  std::function<void(const std::string&)> feature;
+};
+
+/// Turns an input into a CityJSONSeq, record by record: CityJSON, OBJ and OFF are taken apart into
+/// features, CityGML becomes lines, the lines of a CityJSONSeq stay as they are.
+class StreamLines {
+ public:
+  /// `is_selecting`: buildings are selected. Then a feature of which none is selected is left out.
+  StreamLines(LineVisitor visitor, bool is_selecting)
+      : visitor_(std::move(visitor)), is_selecting_(is_selecting) {}
+
+  void begin() { is_first_ = true; }
+  /// `lines` belong to the document's buildings.
+  void add(const Document& document, const std::vector<OnLine>& lines);
+
+ private:
+  void take_apart(const Document& document, const std::vector<OnLine>& lines) const;
+
+  LineVisitor visitor_;
+  bool is_selecting_;
+  bool is_first_ = true;  ///< record of its input
+};
+
+}  // namespace oriel::cli
