@@ -173,6 +173,8 @@ std::optional<RecordFormat> record_format_of(std::string_view path) {
 
 FeatureRecordWriter::FeatureRecordWriter(const std::string& path)
     : format_(format_to_use(path)), file_(path) {
+  is_empty_ = file_.size() <= 1;
+  if (file_.size() > 0) return;  // it goes on
   std::string head = format_ == RecordFormat::json ? "[" : "";
   if (format_ == RecordFormat::csv) detail::append_csv_line(head, record_fields());
   file_.append(head);

@@ -1,8 +1,10 @@
 #include "kernel/io/output_file.h"
 
 #include "kernel/io/detail/text.h"
+#include "kernel/io/partial_files.h"
 #include "kernel/model/issue.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -78,7 +80,10 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(resol
     if (descriptor_ < 0) fail(errno);
     return;
   }
-  open_temporary();
+  if (PartialFiles::are_kept())
+    open_partial();
+  else
+    open_temporary();
   if (exists) ::fchmod(descriptor_, found.st_mode & 07777U);
 }
 
@@ -100,9 +105,23 @@ void OutputFile::open_temporary() {
   fail(errno);
 }
 
+void OutputFile::open_partial() {
+  temporary_ = PartialFiles::name_of(target_);
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    temporary_.clear();
+    fail(errno);
+  }
+  PartialFiles::enter(*this);
+  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0 ||
+      ::lseek(descriptor_, 0, SEEK_END) < 0)
+    fail(errno);
+}
+
 OutputFile::~OutputFile() {
+  PartialFiles::leave(*this);
   if (descriptor_ > STDOUT_FILENO) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!temporary_.empty() && !PartialFiles::are_kept()) ::unlink(temporary_.c_str());
   strike_temporary(listed_);
 }
 
@@ -114,6 +133,11 @@ void OutputFile::fail(int reason) {
 
 void OutputFile::append(std::string_view bytes) {
   buffer_ += bytes;
+  size_ += bytes.size();
+  if (PartialFiles::are_watched()) {
+    hash_.add(bytes);
+    lines_ += static_cast<std::uint64_t>(std::ranges::count(bytes, '\n'));
+  }
   if (buffer_.size() >= kBuffer) flush();
 }
 
@@ -134,6 +158,7 @@ void OutputFile::commit() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
+  PartialFiles::note_done(*this);
   strike_temporary(std::exchange(listed_, -1));
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernel/model/sha256.h"
+
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -23,8 +26,14 @@ class OutputFile {
   /// Writes what is left and puts the file in its place. Nothing may be appended after it.
   void commit();
 
+  /// How many bytes it has; of a file that goes on (PartialFiles) those of the earlier run, too.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
  private:
+  friend class PartialFiles;
+
   void open_temporary();
+  void open_partial();
   void flush();
   [[noreturn]] void fail(int reason);
 
@@ -38,6 +47,9 @@ class OutputFile {
   int listed_ = -1;
   int descriptor_ = -1;
   std::string buffer_;
+  std::uint64_t size_ = 0;
+  std::uint64_t lines_ = 0;  ///< with PartialFiles only, and so the hash
+  Sha256 hash_;
 };
 
 /// Deletes the temporary files of all OutputFiles that are open. For the handler of a signal that

@@ -39,7 +39,9 @@ struct Reader::State {
         name{path == "-" ? "stdin" : path, 0},
         input(std::move(path)),
         cityjson(options.lod),
-        citygml(input, name, std::move(options.lod)) {}
+        citygml(input, name, std::move(options.lod)) {
+    if (options.wants_sha256) input.hash();
+  }
 
   std::string read_text();
   Checked<Document> read_file();
@@ -64,6 +66,8 @@ Reader& Reader::operator=(Reader&&) noexcept = default;
 Format Reader::format() const { return state_->format; }
 
 int Reader::line() const { return state_->name.line; }
+
+std::string Reader::sha256() const { return state_->input.digest(); }
 
 const std::string& Reader::refused_line() const { return state_->cityjson.refused(); }
 

@@ -17,6 +17,8 @@ struct ReadOptions {
   std::optional<std::string> lod;
   /// The format. Default: what the file's name says.
   std::optional<Format> format;
+  /// What is read is hashed, too.
+  bool wants_sha256 = false;
 };
 
 /// Reads a file record by record, in bounded memory for CityJSONSeq and CityGML.
@@ -50,6 +52,9 @@ class Reader {
 
   /// Of a CityJSONSeq: where the last record stands, counted from 1.
   [[nodiscard]] int line() const;
+  /// With ReadOptions::wants_sha256 that of the input up to the last record (of CityGML up to some
+  /// place behind it), at the end of all of it; else empty.
+  [[nodiscard]] std::string sha256() const;
   /// The last line of a CityJSONSeq that came without a value, as it was read.
   [[nodiscard]] const std::string& refused_line() const;
 

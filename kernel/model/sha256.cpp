@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -27,8 +28,11 @@ constexpr std::size_t kBlock = 64;
 
 std::array<std::uint32_t, 64> schedule(std::string_view block) {
   std::array<std::uint32_t, 64> w{};
-  for (std::size_t i = 0; i < kBlock; ++i)
-    w[i / 4] = (w[i / 4] << 8U) | static_cast<unsigned char>(block[i]);
+  for (std::size_t i = 0; i < 16; ++i) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, &block[4 * i], sizeof word);
+    w[i] = std::endian::native == std::endian::big ? word : __builtin_bswap32(word);
+  }
   for (std::size_t i = 16; i < 64; ++i) {
     const std::uint32_t s0 = std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ (w[i - 15] >> 3U);
     const std::uint32_t s1 = std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ (w[i - 2] >> 10U);
@@ -61,15 +65,27 @@ void compress(State& state, std::string_view block) {
 
 }  // namespace
 
-std::string sha256(std::string_view text) {
-  State state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  const std::size_t whole = text.size() / kBlock * kBlock;
-  for (std::size_t at = 0; at < whole; at += kBlock) compress(state, text.substr(at, kBlock));
-  std::string tail(text.substr(whole));
+void Sha256::add(std::string_view bytes) {
+  bytes_ += bytes.size();
+  if (!rest_.empty()) {
+    const std::string_view head = bytes.substr(0, kBlock - rest_.size());
+    rest_ += head;
+    bytes.remove_prefix(head.size());
+    if (rest_.size() < kBlock) return;
+    compress(state_, rest_);
+    rest_.clear();
+  }
+  const std::size_t whole = bytes.size() / kBlock * kBlock;
+  for (std::size_t at = 0; at < whole; at += kBlock) compress(state_, bytes.substr(at, kBlock));
+  rest_ = bytes.substr(whole);
+}
+
+std::string Sha256::digest() const {
+  State state = state_;
+  std::string tail = rest_;
   tail += '\x80';
   while (tail.size() % kBlock != kBlock - 8) tail += '\0';
-  const std::uint64_t bits = std::uint64_t{text.size()} * 8;
+  const std::uint64_t bits = bytes_ * 8;
   for (int shift = 56; shift >= 0; shift -= 8)
     tail += static_cast<char>((bits >> static_cast<unsigned>(shift)) & 0xFFU);
   for (std::size_t at = 0; at < tail.size(); at += kBlock)
@@ -77,6 +93,12 @@ std::string sha256(std::string_view text) {
   std::string digits;
   for (const std::uint32_t word : state) digits += fmt::format("{:08x}", word);
   return digits;
+}
+
+std::string sha256(std::string_view text) {
+  Sha256 hash;
+  hash.add(text);
+  return hash.digest();
 }
 
 }  // namespace oriel

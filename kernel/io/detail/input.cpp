@@ -58,6 +58,7 @@ bool Input::fill() {
 std::string_view Input::read_some() {
   if (at_ >= buffer_.size()) fill();
   const std::string_view bytes = std::string_view(buffer_).substr(at_);
+  if (hash_) hash_->add(bytes);
   at_ = buffer_.size();
   return bytes;
 }
@@ -66,6 +67,7 @@ std::string Input::read_all() {
   std::string text;
   do {
     text.append(buffer_, at_);
+    if (hash_) hash_->add(std::string_view(buffer_).substr(at_));
     at_ = buffer_.size();
     check_size(path_, text.size());
   } while (fill());
@@ -82,7 +84,9 @@ bool Input::read_line(std::string& line) {
     const std::size_t end = newline == std::string::npos ? buffer_.size() : newline;
     line.append(buffer_, at_, end - at_);
     check_size(path_, line.size());
-    at_ = newline == std::string::npos ? end : end + 1;
+    const std::size_t next = newline == std::string::npos ? end : end + 1;
+    if (hash_) hash_->add(std::string_view(buffer_).substr(at_, next - at_));
+    at_ = next;
     if (newline != std::string::npos) break;
   }
   if (line.ends_with('\r')) line.pop_back();

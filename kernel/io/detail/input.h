@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernel/model/sha256.h"
+
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,6 +13,11 @@ class Input {
  public:
   /// The most bytes that one record may have: simdjson counts in 32 bits.
   static constexpr std::size_t kMaxBytes = 4'000'000'000;
+
+  /// From now on the bytes that are given are hashed, too.
+  void hash() { hash_.emplace(); }
+  /// The SHA-256 of the bytes that were given; empty without `hash`.
+  [[nodiscard]] std::string digest() const { return hash_ ? hash_->digest() : std::string(); }
 
   /// Opens `path`. Throws InputError E101 with the system's reason if that fails.
   explicit Input(std::string path);
@@ -40,6 +48,7 @@ class Input {
   std::string buffer_;
   std::size_t at_ = 0;
   std::size_t bytes_read_ = 0;
+  std::optional<Sha256> hash_;
 };
 
 }  // namespace oriel::detail
