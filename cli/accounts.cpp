@@ -1,20 +1,19 @@
 #include "cli/accounts.h"
 
-#include "kernel/io/output_file.h"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace oriel::cli {
 
-void Accounts::clear() {
-  deeds_.clear();
-  figures_.clear();
+void Accounts::begin(bool is_rehearsal) {
+  if (is_rehearsal) return;
+  if (!deeds_ && !explain_.empty()) deeds_ = std::make_unique<OutputFile>(explain_);
+  if (!figures_ && !metrics_.empty()) figures_ = std::make_unique<OutputFile>(metrics_);
 }
 
 void Accounts::add(const std::string& building, const std::string& target,
                    const std::vector<Deed>& deeds) {
-  if (explain_.empty()) return;
+  if (!deeds_) return;
   const bool is_json = explain_.ends_with(".jsonl");
   for (const Deed& deed : deeds) {
     if (is_json) {
@@ -28,20 +27,20 @@ void Accounts::add(const std::string& building, const std::string& target,
       line["rule"] = deed.rule;
       line["code"] = deed.code;
       line["reason"] = deed.reason;
-      deeds_ += line.dump() + "\n";
+      deeds_->append(line.dump() + "\n");
       continue;
     }
-    deeds_ += fmt::format("{} {} {} {}: {}", target, building, deed.feature,
-                          deed.label.empty() ? "unknown" : deed.label, deed.outcome);
-    if (!deed.operation.empty()) deeds_ += fmt::format(", {} by {}", deed.operation, deed.rule);
-    if (!deed.reason.empty()) deeds_ += fmt::format(" ({} {})", deed.code, deed.reason);
-    deeds_ += '\n';
+    std::string text = fmt::format("{} {} {} {}: {}", target, building, deed.feature,
+                                   deed.label.empty() ? "unknown" : deed.label, deed.outcome);
+    if (!deed.operation.empty()) text += fmt::format(", {} by {}", deed.operation, deed.rule);
+    if (!deed.reason.empty()) text += fmt::format(" ({} {})", deed.code, deed.reason);
+    deeds_->append(text + '\n');
   }
 }
 
 void Accounts::add(const std::string& building, const std::string& target, double least_edge_m,
                    const SolidFigures& before, const SolidFigures& after) {
-  if (metrics_.empty()) return;
+  if (!figures_) return;
   nlohmann::ordered_json line;
   line["building"] = building;
   line["target"] = target;
@@ -55,12 +54,12 @@ void Accounts::add(const std::string& building, const std::string& target, doubl
   both("short_edges", [](const SolidFigures& f) { return f.short_edges; });
   both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
   both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
-  figures_ += line.dump() + "\n";
+  figures_->append(line.dump() + "\n");
 }
 
 void Accounts::commit() const {
-  if (!explain_.empty()) write_file(explain_, deeds_);
-  if (!metrics_.empty()) write_file(metrics_, figures_);
+  if (deeds_) deeds_->commit();
+  if (figures_) figures_->commit();
 }
 
 }  // namespace oriel::cli

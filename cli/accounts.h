@@ -1,7 +1,9 @@
 #pragma once
 
 #include "generalise/account.h"
+#include "kernel/io/output_file.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +19,8 @@ class Accounts {
       : explain_(std::move(explain)), metrics_(std::move(metrics)) {}
 
   [[nodiscard]] bool has_any() const { return !explain_.empty() || !metrics_.empty(); }
-  /// Another run begins: what was added is forgotten.
-  void clear();
+  /// An input begins. What follows is kept unless it is a rehearsal.
+  void begin(bool is_rehearsal);
   void add(const std::string& building, const std::string& target, const std::vector<Deed>& deeds);
   void add(const std::string& building, const std::string& target, double least_edge_m,
            const SolidFigures& before, const SolidFigures& after);
@@ -26,7 +28,7 @@ class Accounts {
 
  private:
   std::string explain_, metrics_;
-  std::string deeds_, figures_;
+  std::unique_ptr<OutputFile> deeds_, figures_;
 };
 
 }  // namespace oriel::cli

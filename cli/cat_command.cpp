@@ -37,8 +37,10 @@ class Cat {
       run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
     };
     visitor.end = [&](std::size_t) { has_ended_ = true; };
+    visitor.commit = [&] {
+      if (out_ && has_ended_) out_->commit();
+    };
     const ExitCode code = run_.go(visitor);
-    if (out_ && has_ended_) out_->commit();
     run_.tell_summary("passed on", {});
     return code;
   }

@@ -39,8 +39,10 @@ class Collect {
       run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
     };
     visitor.end = [&](std::size_t) { has_ended_ = true; };
+    visitor.commit = [&] {
+      if (has_ended_) write_file(arguments_.out, collector_.text());
+    };
     const ExitCode code = run_.go(visitor);
-    if (has_ended_) write_file(arguments_.out, collector_.text());
     run_.tell_summary("collected", {});
     return code;
   }

@@ -93,6 +93,14 @@ std::string Destination::path_for(std::size_t input) const {
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
+bool Destination::is_streaming() const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const Format to = to_ ? *to_ : format_of(path_for(i)).value_or(format_of_input(i));
+    if (to != Format::cityjson_seq || format_of_input(i) != Format::cityjson_seq) return false;
+  }
+  return true;
+}
+
 void Destination::begin(std::size_t input, bool is_rehearsal) {
   path_ = path_for(input);
   const Format from = format_of_input(input);

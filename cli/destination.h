@@ -25,6 +25,10 @@ class Destination {
   Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
               std::optional<Format> from);
 
+  /// Lines of streams become lines of streams, and nothing else.
+  [[nodiscard]] bool is_streaming() const;
+  [[nodiscard]] bool is_stdout() const { return out_ == "-"; }
+
   /// With `is_rehearsal` the bytes go to nowhere.
   void begin(std::size_t input, bool is_rehearsal);
   void add(const Document& document, const std::vector<LabelledBuilding>& labelled,

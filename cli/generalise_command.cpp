@@ -106,8 +106,8 @@ class Generaliser {
   ExitCode go() {
     Run::Visitor visitor;
     visitor.begin = [&](std::size_t input) {
-      if (input == 0) removed_.clear();
-      if (input == 0) accounts_.clear();
+      if (input == 0 && arguments_.repeat > 1) removed_.clear();
+      accounts_.begin(!run_.is_last_run());
       outputs_.begin(input, !run_.is_last_run());
     };
     visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
@@ -116,10 +116,15 @@ class Generaliser {
     visitor.end = [&](std::size_t) {
       run_.timings().measure(Stage::write, [&] { outputs_.end(); });
     };
+    visitor.commit = [&] {
+      outputs_.commit();
+      accounts_.commit();
+    };
+    visitor.is_streaming = outputs_.is_streaming();
+    visitor.counts = &removed_;
     const ExitCode code = run_.go(visitor);
-    outputs_.commit();
-    accounts_.commit();
-    run_.tell_summary("generalised to " + targets_.text(), removed_, " left out");
+    if (!run_.was_done())
+      run_.tell_summary("generalised to " + targets_.text(), removed_, " left out");
     return code;
   }
 

@@ -4,9 +4,29 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace oriel::cli {
 
 std::shared_ptr<Arrival> Intake::next() {
+  const bool is_at_start = input_ == start_.input;
+  auto arrival = next_unchecked();
+  if (!arrival || !is_at_start) return arrival;
+  const bool has_changed =
+      arrival->kind == Arrival::Kind::record
+          ? arrival->number == start_.records && arrival->sha256 != start_.sha256
+          : arrival->kind != Arrival::Kind::begin && arrival->number < start_.records;
+  if (!has_changed) return arrival;
+  Issue issue;
+  issue.code = "E117";
+  issue.sentence =
+      fmt::format("does not begin as it did when the run began; delete {}.journal to begin anew",
+                  arguments_.status_stem);
+  issue.place.file = arrival->input_name;
+  throw InputError(std::move(issue));
+}
+
+std::shared_ptr<Arrival> Intake::next_unchecked() {
   try {
     if (!reader_) return input_ < arguments_.inputs.size() ? open() : nullptr;
     return read();
@@ -22,12 +42,16 @@ std::shared_ptr<Arrival> Intake::arrival(Arrival::Kind kind) const {
   arrival->kind = kind;
   arrival->input = input_;
   arrival->input_name = arguments_.inputs[input_];
+  arrival->number = records_;
   return arrival;
 }
 
 std::shared_ptr<Arrival> Intake::open() {
   const std::string& input = arguments_.inputs[input_];
-  reader_ = std::make_unique<Reader>(input, arguments_.read_options(input));
+  ReadOptions options = arguments_.read_options(input);
+  options.wants_sha256 = !arguments_.status_stem.empty();
+  reader_ = std::make_unique<Reader>(input, options);
+  records_ = 0;
   is_first_ = is_readable_ = true;
   return arrival(Arrival::Kind::begin);
 }
@@ -36,10 +60,15 @@ std::shared_ptr<Arrival> Intake::read() {
   auto here = arrival(Arrival::Kind::record);
   auto record = here->timings.measure(Stage::read, [&] { return reader_->next(); });
   if (!record) {
+    const std::string sha256 = reader_->sha256();
     auto end = finish(Arrival::Kind::end);
     end->is_whole = is_readable_;
+    end->sha256 = sha256;
     return end;
   }
+  here->number = ++records_;
+  here->was_done = is_before_start();
+  if (arguments_.is_resumable) here->sha256 = reader_->sha256();
   const bool is_stream = reader_->format() == Format::cityjson_seq;
   if (is_stream) here->line = reader_->line();
   // A line of a stream costs that line; a file as a whole, or a stream's header, costs the input.
@@ -55,6 +84,7 @@ std::shared_ptr<Arrival> Intake::read() {
 std::shared_ptr<Arrival> Intake::finish(Arrival::Kind kind) {
   auto last = arrival(kind);
   ++input_;
+  records_ = 0;
   reader_.reset();
   return last;
 }

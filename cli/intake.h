@@ -2,6 +2,7 @@
 
 #include "cli/line.h"
 #include "cli/options.h"
+#include "cli/resume.h"
 #include "kernel/io/document.h"
 #include "kernel/io/reader.h"
 
@@ -21,6 +22,12 @@ struct Arrival {
   std::string input_name{};
   /// Of a record of a stream, where it stands, from 1; else 0.
   int line = 0;
+  /// The records of its input up to here, this one counted.
+  std::size_t number = 0;
+  /// With --resume of the input up to here; with --status of an input that was read to its end.
+  std::string sha256{};
+  /// An earlier run has done it.
+  bool was_done = false;
   /// Of a record. Without a value it could not be read.
   Checked<Document> record{};
   /// The line of a CityJSONSeq that has no value.
@@ -43,19 +50,29 @@ struct Arrival {
 /// Reads the inputs of a command, in their order.
 class Intake {
  public:
-  explicit Intake(const LineArguments& arguments) : arguments_(arguments) {}
+  /// Begins at `start`: inputs before it do not come, records before it come as done.
+  explicit Intake(const LineArguments& arguments, Resume::Position start = {})
+      : arguments_(arguments), start_(std::move(start)), input_(start_.input) {}
 
-  /// The next arrival, or null after the last.
+  /// The next arrival, or null after the last. Throws InputError E117 if what stands before the
+  /// start is not what was read then.
   std::shared_ptr<Arrival> next();
 
  private:
+  std::shared_ptr<Arrival> next_unchecked();
   std::shared_ptr<Arrival> open();
   std::shared_ptr<Arrival> read();
   std::shared_ptr<Arrival> finish(Arrival::Kind kind);
   [[nodiscard]] std::shared_ptr<Arrival> arrival(Arrival::Kind kind) const;
 
   const LineArguments& arguments_;
+  [[nodiscard]] bool is_before_start() const {
+    return input_ == start_.input && records_ <= start_.records;
+  }
+
+  Resume::Position start_;
   std::size_t input_ = 0;
+  std::size_t records_ = 0;  ///< of the input
   std::unique_ptr<Reader> reader_;
   bool is_first_ = true;     ///< record of its input
   bool is_readable_ = true;  ///< as a whole, so far

@@ -131,9 +131,10 @@ ExitCode work(Arguments& arguments) {
     });
   };
   visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
+  visitor.commit = [&] { outputs.commit(); };
+  visitor.is_streaming = outputs.is_streaming();
   const ExitCode code = run.go(visitor);
-  outputs.commit();
-  run.tell_summary("labelled", run.labels());
+  if (!run.was_done()) run.tell_summary("labelled", run.labels());
   return code;
 }
 

@@ -19,6 +19,7 @@ void add_label_arguments(CLI::App& command, LabelArguments& a) {
   command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
   add_features_argument(command, a.features);
+  add_resume_argument(command, a);
   command
       .add_option("--codelist", a.codelist,
                   "Code list of installations that the pack has codes for")
@@ -47,6 +48,8 @@ LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rule
   if (!arguments.out.empty())
     destination_.emplace(arguments.out, arguments.to, arguments.inputs,
                          arguments.read_options().format);
+  if (arguments.is_resumable && (!has_any() || (destination_ && destination_->is_stdout())))
+    throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
 }
 
 LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine& line) const {
@@ -55,6 +58,8 @@ LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine&
   options.attributes.emplace_back("oriel_config_sha256", sha256(arguments_.configuration()));
   return cli::annotated(building, line, rules_, options);
 }
+
+bool LabelOutputs::is_streaming() const { return !destination_ || destination_->is_streaming(); }
 
 void LabelOutputs::begin(std::size_t input, bool is_rehearsal) {
   if (destination_) destination_->begin(input, is_rehearsal);

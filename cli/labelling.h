@@ -43,6 +43,9 @@ class LabelOutputs {
   [[nodiscard]] bool has_buildings() const { return destination_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
+  /// What was added is written by the next flush: nothing waits for the end of the input.
+  [[nodiscard]] bool is_streaming() const;
+
   /// The same with the options of the command.
   [[nodiscard]] LabelledBuilding annotated(const Building& building, const OnLine& line) const;
 

@@ -1,5 +1,6 @@
 #include "cli/ledger.h"
 
+#include "cli/resume.h"
 #include "kernel/model/version.h"
 
 #include <sys/resource.h>
@@ -79,12 +80,25 @@ void Ledger::append(const std::string& input, int line, const std::vector<Issue>
   quarantine_.append(dumped(entry, -1));
 }
 
+ordered_json Ledger::state() const { return {{"codes", codes_}, {"records", records_}}; }
+
+void Ledger::restore(const ordered_json& state) {
+  codes_ = state.at("codes").get<std::map<std::string, int>>();
+  records_ = state.at("records");
+}
+
 void Ledger::commit(const Account& account) {
-  quarantine_.commit();
   ordered_json status{{"oriel_version", kVersion},
+                      {"program_sha256", program_sha256()},
                       {"inputs", account.inputs},
+                      {"input_sha256", account.input_sha256},
                       {"rules_sha256", account.rules_sha256},
                       {"config_sha256", account.config_sha256},
+                      {"records",
+                       {{"read", account.records.read},
+                        {"passed_on", account.records.passed_on},
+                        {"refused", account.records.refused},
+                        {"not_selected", account.records.not_selected}}},
                       {"buildings", account.buildings},
                       {"done", account.buildings - account.set_aside},
                       {"set_aside", account.set_aside},
@@ -93,6 +107,8 @@ void Ledger::commit(const Account& account) {
                       {"features", ordered_json::object()},
                       {"exit_code", account.exit_code},
                       {"peak_memory_bytes", peak_memory_bytes()}};
+  if (!account.command_sha256.empty()) status["command_sha256"] = account.command_sha256;
+  status["outputs"] = to_json(account.outputs);
   for (const auto& [label, count] : account.labels)
     status["features"][label.empty() ? "unknown" : label] = count;
   write_file(status_file_, dumped(status, 2));

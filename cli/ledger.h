@@ -1,7 +1,9 @@
 #pragma once
 
 #include "cli/intake.h"
+#include "cli/journal.h"
 #include "kernel/io/output_file.h"
+#include "kernel/io/partial_files.h"
 #include "kernel/model/issue.h"
 
 #include <map>
@@ -10,11 +12,23 @@
 
 namespace oriel::cli {
 
+/// Where records went: read = passed on + refused + not selected.
+struct Records {
+  std::size_t read = 0, refused = 0, not_selected = 0;
+  std::size_t passed_on = 0;
+};
+
 /// What a status file says beside the counts of failures.
 struct Account {
   std::vector<std::string> inputs;
   std::string rules_sha256;  ///< empty without rules
   std::string config_sha256;
+  std::string command_sha256;  ///< empty without --resume
+  /// By name, of inputs that were read to their end.
+  std::map<std::string, std::string> input_sha256;
+  FileMarks outputs;
+  /// Records of streams, and of other inputs those that Reader gives.
+  Records records;
   int buildings = 0;
   int set_aside = 0;
   /// Features by label ("" = unknown).
@@ -34,6 +48,13 @@ class Ledger {
   /// An input that could not be read.
   void add_unread(const std::string& input, const Issue& error);
 
+  /// What the ledger knows beside its file, there and back.
+  [[nodiscard]] nlohmann::ordered_json state() const;
+  void restore(const nlohmann::ordered_json& state);
+
+  /// Puts the quarantine in its place.
+  void close() { quarantine_.commit(); }
+  /// Behind all other outputs, which the status names.
   void commit(const Account& account);
 
  private:

@@ -152,6 +152,15 @@ void add_run_arguments(CLI::App& command, LineArguments& a) {
   command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
 }
 
+void add_resume_argument(CLI::App& command, LineArguments& a) {
+  command
+      .add_flag(
+          "--resume", a.is_resumable,
+          "Go on after the last whole record when the same command was killed; needs --status")
+      ->needs(command.get_option("--status"))
+      ->excludes(command.get_option("--repeat"));
+}
+
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   add_input_arguments(command, a, has_many);
   command

@@ -33,6 +33,8 @@ struct LineArguments {
   Selection selection;
   /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
   std::string status_stem;
+  /// The run may be killed and goes on when the command is given again.
+  bool is_resumable = false;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";
   /// What is asked for is what was read: buildings do not go down the line.
@@ -63,6 +65,9 @@ void add_solid_arguments(CLI::App& command, LineArguments& arguments);
 
 /// Adds the arguments that say how the command goes about its work.
 void add_run_arguments(CLI::App& command, LineArguments& arguments);
+
+/// Adds `--resume`, for commands that can go on where a run was killed. Behind add_run_arguments.
+void add_resume_argument(CLI::App& command, LineArguments& arguments);
 
 /// Adds all of them to a command. `has_many`: it takes more than one input.
 void add_line_arguments(CLI::App& command, LineArguments& arguments, bool has_many);

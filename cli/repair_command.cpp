@@ -97,8 +97,10 @@ class Repairer {
       has_ended_ = true;
       run_.timings().measure(Stage::write, [&] { destination_.end(); });
     };
+    visitor.commit = [&] {
+      if (report_ && has_ended_) report_->commit();
+    };
     const ExitCode code = run_.go(visitor);
-    if (report_ && has_ended_) report_->commit();
     run_.tell_summary(fmt::format("repaired {}, found closed {}, together", repaired_, closed_),
                       {});
     return code;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oriel::cli {
@@ -16,6 +17,9 @@ class Report {
 
   void tell(const std::vector<Issue>& issues);
   void tell(const Issue& issue);
+
+  /// What an earlier part of the run has told.
+  void restore(std::map<std::string, int> errors) { errors_ = std::move(errors); }
 
   /// Errors so far, by code.
   [[nodiscard]] const std::map<std::string, int>& errors() const { return errors_; }

@@ -31,30 +31,23 @@ ExitCode Run::go(const Visitor& visitor) {
   const auto stdins = std::ranges::count(arguments_.inputs, "-");
   if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
     throw CLI::ValidationError("input", "stdin can be read only once");
-  if (!arguments_.status_stem.empty()) ledger_.emplace(arguments_.status_stem);
+  if (!begin_books(visitor)) return code_;
   for (run_ = 1; run_ <= arguments_.repeat; ++run_) {
     timings_.emplace_back();
-    buildings_ = set_aside_ = open_ = 0;
-    labels_.clear();
+    if (!resume_) {
+      buildings_ = set_aside_ = open_ = 0;
+      labels_.clear();
+      records_ = {};
+    }
     run_inputs(visitor);
   }
+  visitor.commit();
   if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, to_json(timings_));
   if (code_ == ExitCode::set_aside && arguments_.allows(set_aside_, buildings_))
     code_ = ExitCode::clean;
   if (ledger_) close_books();
+  if (resume_) resume_->remove();
   return code_;
-}
-
-void Run::close_books() {
-  Account account;
-  account.inputs = arguments_.inputs;
-  if (rules_ != nullptr) account.rules_sha256 = rules_->sha256();
-  account.config_sha256 = sha256(arguments_.configuration());
-  account.buildings = buildings_;
-  account.set_aside = set_aside_;
-  account.labels = labels_;
-  account.exit_code = static_cast<int>(code_);
-  ledger_->commit(account);
 }
 
 void Run::keep_errors(const std::vector<Issue>& issues) {
@@ -75,7 +68,7 @@ void Run::set_aside(const Issue& why) {
 
 void Run::run_inputs(const Visitor& visitor) {
   Progress progress(arguments_.inputs.size());
-  Intake intake(arguments_);
+  Intake intake(arguments_, resume_ ? resume_->position() : Resume::Position{});
   if (arguments_.jobs == 1) {
     while (const auto arrival = intake.next()) {
       work_on(*arrival);
@@ -129,7 +122,7 @@ bool Run::came_to_end(const OnLine& line) const {
 
 /// Touches nothing but the arrival.
 void Run::work_on(Arrival& arrival) const {
-  if (!arrival.record.value) return;
+  if (!arrival.record.value || arrival.was_done) return;
   for (const Building& building : arrival.record.value->buildings) {
     if (arguments_.selection.takes(building))
       arrival.lines.push_back(on_line(building, arrival.timings));
@@ -145,6 +138,7 @@ void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
     case Arrival::Kind::begin:
       return visitor.begin(arrival.input);
     case Arrival::Kind::record:
+      if (arrival.was_done) return;
       errors_.clear();
       tell(arrival.record.issues);
       keep_errors(arrival.record.issues);
@@ -153,19 +147,26 @@ void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
       else
         settle_refused(arrival);
       if (ledger_ && is_last_run()) ledger_->add(arrival, errors_);
+      if (visitor.is_streaming && arrival.line > 0) note(arrival, visitor);
       return progress.show(arrival.input, buildings_);
     case Arrival::Kind::end:
       if (arrival.is_whole) visitor.end(arrival.input);
-      return;
+      records_.read += arrival.number;
+      if (!arrival.sha256.empty()) input_sha256_[arrival.input_name] = arrival.sha256;
+      if (resume_) resume_->note_read(arrival.input_name, arrival.sha256);
+      return note(arrival, visitor);
     case Arrival::Kind::failure:
       tell({*arrival.issue});
       if (ledger_ && is_last_run()) ledger_->add_unread(arrival.input_name, *arrival.issue);
-      return raise(ExitCode::input);
+      raise(ExitCode::input);
+      records_.read += arrival.number;
+      return note(arrival, visitor);
   }
 }
 
 /// A line that cannot be read counts as one building.
 void Run::settle_refused(const Arrival& arrival) {
+  ++records_.refused;
   raise(arrival.is_one_of_many ? ExitCode::set_aside : ExitCode::input);
   if (!arrival.is_one_of_many) return;
   ++buildings_;
@@ -195,7 +196,11 @@ void Run::drop_unselected(Arrival& arrival) const {
 }
 
 void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
-  if (is_passed_over(arrival)) return;
+  if (is_passed_over(arrival)) {
+    ++records_.not_selected;
+    return;
+  }
+  ++records_.passed_on;
   const Checked<Document>& record = arrival.record;
   // Errors beside a document are buildings that could not be read.
   const auto unread = std::ranges::count(record.issues, Severity::error, &Issue::severity);

@@ -7,6 +7,7 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/resume.h"
 #include "kernel/io/document.h"
 
 #include <functional>
@@ -32,6 +33,13 @@ class Run {
     /// A record was read; `lines` are its buildings on the line, in their order.
     std::function<void(const Document&, std::vector<OnLine>& lines)> record =
         [](const Document&, std::vector<OnLine>&) {};
+    /// All inputs are done: outputs that are not yet in their place come there. Before the status
+    /// is written.
+    std::function<void()> commit = [] {};
+    /// What was visited needs nothing but its outputs, so that the run can go on behind any record.
+    bool is_streaming = false;
+    /// Counts that belong to what was visited; kept and restored with the run.
+    std::map<std::string, int>* counts = nullptr;
     /// After the last record. Not called for an input that could not be read as a whole.
     std::function<void(std::size_t input)> end = [](std::size_t) {};
   };
@@ -39,6 +47,9 @@ class Run {
   /// All inputs, as often as --repeat says; issues are told the first time, results are for the
   /// last. Returns the gravest thing that happened.
   ExitCode go(const Visitor& visitor);
+
+  /// With --resume: the same command did all this before. Nothing was visited.
+  [[nodiscard]] bool was_done() const { return was_done_; }
 
   /// Other runs are for the clock: what they write goes to nowhere.
   [[nodiscard]] bool is_last_run() const { return run_ >= arguments_.repeat; }
@@ -70,6 +81,10 @@ class Run {
   void settle_refused(const Arrival& arrival);
   void keep_errors(const std::vector<Issue>& issues);
   void close_books();
+  [[nodiscard]] bool begin_books(const Visitor& visitor);
+  void note(const Arrival& arrival, const Visitor& visitor);
+  [[nodiscard]] nlohmann::ordered_json state(const Visitor& visitor) const;
+  void restore(const nlohmann::ordered_json& state, const Visitor& visitor);
   void tell(const std::vector<Issue>& issues);
   void raise(ExitCode code) { code_ = graver(code_, code); }
 
@@ -84,6 +99,10 @@ class Run {
   int open_ = 0;  ///< buildings that came to the end without a solid
   std::map<std::string, int> labels_;
   std::optional<Ledger> ledger_;
+  std::optional<Resume> resume_;
+  bool was_done_ = false;
+  Records records_;
+  std::map<std::string, std::string> input_sha256_;
   std::vector<Issue> errors_;  ///< of the record at hand
 };
 

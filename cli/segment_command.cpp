@@ -100,8 +100,10 @@ ExitCode work(const Arguments& arguments) {
     });
   };
   visitor.end = [&](std::size_t) { has_ended = true; };
+  visitor.commit = [&] {
+    if (has_ended) outputs.commit();
+  };
   const ExitCode code = run.go(visitor);
-  if (has_ended) outputs.commit();
   run.tell_summary("segmented", {});
   return code;
 }

@@ -52,14 +52,15 @@ int stdout_of(const Surroundings& around) {
   return ends[1];
 }
 
-bool has_temporary(const fs::path& folder) {
-  return std::ranges::any_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
-    return entry.path().filename().string().find(".tmp-") != std::string::npos;
+bool has_file(const fs::path& folder, const std::string& part) {
+  return std::ranges::any_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.find(part) != std::string::npos && !name.ends_with(".new");
   });
 }
 
 void send_signal(pid_t child, const Surroundings& around) {
-  for (int i = 0; i < 5000 && !has_temporary(around.watched); ++i)
+  for (int i = 0; i < 5000 && !has_file(around.watched, around.watched_name); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ::kill(child, around.signal);
 }

@@ -30,9 +30,10 @@ struct Surroundings {
   std::vector<std::string> environment{};
   /// stderr is a terminal.
   bool has_terminal = false;
-  /// It is sent this signal as soon as a file named `…tmp-…` appears in `watched`.
+  /// It is sent this signal as soon as a file with `watched_name` in its name appears in `watched`.
   int signal = 0;
   std::filesystem::path watched{};
+  std::string watched_name = ".tmp-";
 };
 
 /// Runs the built `oriel` as a process and waits for its end.

@@ -1,0 +1,137 @@
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+std::string city(int count) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < count; ++i) ids.push_back(fmt::format("cube-{}", i));
+  return cube_lines(ids);
+}
+
+/// `text` with one in a hundred lines cut off, from the 50th on.
+std::string with_broken_lines(const std::string& text) {
+  std::string broken;
+  std::size_t number = 0;
+  for (std::size_t from = 0; from < text.size(); ++number) {
+    const std::size_t to = text.find('\n', from) + 1;
+    broken += number % 100 == 50 ? text.substr(from, 40) + "\n" : text.substr(from, to - from);
+    from = to;
+  }
+  return broken;
+}
+
+std::vector<std::string> label(const Folder& folder, const std::string& input) {
+  return {"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "s", "--resume"};
+}
+
+/// Labels until there is something in the output, and is killed.
+void kill_at_work(const std::vector<std::string>& arguments, const Folder& folder) {
+  const Outcome outcome =
+      run(arguments, {.signal = SIGKILL, .watched = folder.path(), .watched_name = "s.journal"});
+  REQUIRE(outcome.exit == 128 + SIGKILL);
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("of a city with one broken record in a hundred all others are labelled") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", with_broken_lines(city(1000)));
+    const Outcome outcome =
+        run({"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "s", "-j", "2"});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("labelled 990 of 1000 buildings"));
+    const json status = json::parse(bytes_of(folder / "s.status.json"));
+    CHECK(status["records"] ==
+          json{{"read", 1001}, {"passed_on", 991}, {"refused", 10}, {"not_selected", 0}});
+    CHECK(status["quarantined_records"] == 10);
+    CHECK(status["quarantined_by_code"] == json{{"E105", 10}});
+    const json& out = status["outputs"][folder / "out.city.jsonl"];
+    CHECK(out["lines"] == 991);
+    CHECK(out["bytes"] == bytes_of(folder / "out.city.jsonl").size());
+    CHECK(status["outputs"][folder / "s.quarantine.jsonl"]["lines"] == 10);
+    CHECK(status["input_sha256"][input].get<std::string>().size() == 64);
+    CHECK(status["program_sha256"].get<std::string>().size() == 64);
+  }
+
+  TEST_CASE("the hashes of a status are those of the files") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", city(3));
+    run({"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "a"});
+    run({"cat", folder / "out.city.jsonl", "-o", folder / "again.city.jsonl", "--status",
+         folder / "b"});
+    const json a = json::parse(bytes_of(folder / "a.status.json")),
+               b = json::parse(bytes_of(folder / "b.status.json"));
+    const std::string out = folder / "out.city.jsonl";
+    CHECK(a["outputs"][out]["sha256"] == b["input_sha256"][out]);
+    CHECK(a["outputs"][out] == b["outputs"][folder / "again.city.jsonl"]);
+  }
+
+  TEST_CASE("a run that was killed goes on and its files are those of a whole run") {
+    const Folder folder, whole;
+    const std::string input = folder.write("in.city.jsonl", with_broken_lines(city(3000)));
+    auto arguments = label(folder, input);
+    kill_at_work(arguments, folder);
+    CHECK(!std::filesystem::exists(folder / "out.city.jsonl"));
+    const Outcome again = run(arguments);
+    CHECK(again.exit == 3);
+    CHECK(run(label(whole, input)).exit == 3);
+    CHECK(bytes_of(folder / "out.city.jsonl") == bytes_of(whole / "out.city.jsonl"));
+    CHECK(bytes_of(folder / "s.quarantine.jsonl") == bytes_of(whole / "s.quarantine.jsonl"));
+    CHECK(folder.names() == std::vector<std::string>{"in.city.jsonl", "out.city.jsonl",
+                                                     "s.quarantine.jsonl", "s.status.json"});
+  }
+
+  TEST_CASE("a run that is over is not run again unless an input or output has changed") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", city(5));
+    const auto arguments = label(folder, input);
+    CHECK(run(arguments).says("labelled 5 of 5"));
+    CHECK(run(arguments).says("all of it was done before"));
+    folder.write("out.city.jsonl", "changed");
+    CHECK(run(arguments).says("labelled 5 of 5"));
+    folder.write("in.city.jsonl", city(6));
+    CHECK(run(arguments).says("labelled 6 of 6"));
+  }
+
+  TEST_CASE("a run does not go on with another command or another input") {
+    const Folder folder;
+    const std::string text = city(3000), input = folder.write("in.city.jsonl", text);
+    auto arguments = label(folder, input);
+    kill_at_work(arguments, folder);
+    // At least one record was done.
+    REQUIRE(bytes_of(folder / "s.journal").find("\"records\":1") != std::string::npos);
+    auto other = arguments;
+    other.insert(other.end(), {"--weld", "0.002"});
+    const Outcome refused = run(other);
+    CHECK(refused.exit == 5);
+    CHECK(refused.says("s.journal: E117 is of another command"));
+    folder.write("in.city.jsonl", replaced(text, "4000", "4001"));
+    const Outcome changed = run(arguments);
+    CHECK(changed.exit == 5);
+    CHECK(changed.says("E117 does not begin as it did"));
+    std::filesystem::remove(folder / "s.journal");
+    CHECK(run(arguments).exit == 0);
+  }
+
+  TEST_CASE("resuming needs a status and outputs that are files") {
+    const std::string input = sample("hip");
+    CHECK(run({"label", input, "--resume"}).exit == 2);
+    const Folder folder;
+    CHECK(run({"label", input, "--resume", "--status", folder / "s"}).exit == 2);
+    CHECK(run({"label", input, "--resume", "--status", folder / "s", "-o", "-"}).exit == 2);
+  }
+}
