@@ -23,6 +23,8 @@ void add_repair(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_score(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);
+void add_split(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
 void add_rules(CLI::App& app, Action& action);
 
 }  // namespace oriel::cli

@@ -46,6 +46,8 @@ int run(int argc, char** argv) {
   add_explain(app, action);
   add_score(app, action);
   add_validate(app, action);
+  add_split(app, action);
+  add_merge(app, action);
   add_rules(app, action);
   try {
     app.parse(argc, argv);
