@@ -1,15 +1,13 @@
 #include "cli/accounts.h"
 #include "cli/commands.h"
 #include "cli/labelling.h"
+#include "cli/series.h"
 #include "generalise/generalise.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
 #include "interpret/profile.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -22,24 +20,12 @@ namespace {
 struct Arguments : LabelArguments {
   std::string scale;
   std::vector<std::string> lods;
+  std::vector<std::string> series;
+  std::string at;
   std::string profile;
   std::string explain;
   std::string metrics;
 };
-
-/// N of "1:N", "1 : N" or "N".
-double denominator_of(const std::string& text) {
-  std::string number;
-  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
-  if (number.starts_with("1:")) number.erase(0, 2);
-  double value = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
-      !std::isfinite(value))
-    throw CLI::ValidationError(
-        "--scale", fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
-  return value;
-}
 
 /// CityJSON's closed list.
 bool is_lod(const std::string& text) {
@@ -69,7 +55,7 @@ std::optional<Targets> targets_of(const Arguments& arguments, const RuleBase& ru
   Targets targets;
   std::vector<std::string> names;
   if (arguments.lods.empty()) {
-    targets.scale = denominator_of(arguments.scale);
+    targets.scale = denominator_of(arguments.scale, "--scale");
     if (!arguments.profile.empty()) names.push_back(arguments.profile);
   }
   std::vector<std::string> lods = arguments.lods;
@@ -226,7 +212,7 @@ class Generaliser {
   /// The least length that the target shows: the profile's c, else 0.125 mm on the map.
   [[nodiscard]] double least_edge(const Profile* profile) const {
     const auto sizes = profile != nullptr ? profile->thresholds(targets_.scale) : std::nullopt;
-    return sizes ? sizes->c_m : 0.000125 * targets_.scale.value_or(0);
+    return sizes ? sizes->c_m : kGapOnMap_m * targets_.scale.value_or(0);
   }
 
   /// False if there is an error: the building is set aside.
@@ -250,14 +236,59 @@ class Generaliser {
   std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 
+/// Ascending; none stands twice.
+std::vector<double> scales_of(const std::vector<std::string>& texts) {
+  std::vector<double> scales;
+  for (const std::string& text : texts) scales.push_back(denominator_of(text, "--series"));
+  std::ranges::sort(scales);
+  if (std::ranges::adjacent_find(scales) != scales.end())
+    throw CLI::ValidationError("--series", "a scale stands twice");
+  return scales;
+}
+
+/// The profile of a series; nothing if it cannot be used, which is told.
+std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& rules,
+                                    Report& report) {
+  if (arguments.series.empty()) return std::nullopt;
+  if (!arguments.explain.empty() || !arguments.metrics.empty())
+    throw CLI::ValidationError("--series", "--explain and --metrics are of one scale");
+  const std::vector<double> scales = scales_of(arguments.series);
+  if (arguments.profile.empty()) return write_series(arguments, scales, nullptr, rules, report);
+  const auto profile = load_profile_file(arguments.profile);
+  report.tell(profile.issues);
+  if (!profile.value) return ExitCode::rules;
+  report.tell(check_profile(*profile.value, rules));
+  return write_series(arguments, scales, &*profile.value, rules, report);
+}
+
+/// With --at the option --from names a series, else the format of the inputs.
+void check_source(const Arguments& arguments) {
+  if (!arguments.at.empty()) {
+    if (!arguments.inputs.empty())
+      throw CLI::ValidationError("--at", "has no input but the series that --from names");
+    if (arguments.from.empty())
+      throw CLI::ValidationError("--at", "--from says the NAME of the series");
+    return;
+  }
+  if (arguments.inputs.empty()) throw CLI::RequiredError("input");
+  const std::string wrong = input_formats()(arguments.from);
+  if (!arguments.from.empty() && !wrong.empty()) throw CLI::ValidationError("--from", wrong);
+}
+
 ExitCode work(Arguments& arguments) {
   if (arguments.out.empty()) {
-    if (!arguments.is_piped_stream()) throw CLI::RequiredError("--output");
+    if (!arguments.is_piped_stream() || !arguments.series.empty())
+      throw CLI::RequiredError("--output");
     arguments.out = "-";
   }
   Report report(arguments.is_verbose);
+  check_source(arguments);
+  if (!arguments.at.empty())
+    return write_level_at(arguments.from, denominator_of(arguments.at, "--at"), arguments.out,
+                          report);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
+  if (const auto code = make_series(arguments, *rules, report)) return *code;
   const auto targets = targets_of(arguments, *rules, report);
   if (!targets) return ExitCode::rules;
   Run run(arguments, &*rules, report);
@@ -273,12 +304,23 @@ void add_generalise(CLI::App& app, Action& action) {
                                          "Redraw buildings for a target scale or level of detail: "
                                          "a closed solid with what it can show");
   add_label_arguments(*command, *arguments);
+  command->get_option("input")->required(false);
+  CLI::Option* from = command->get_option("--from");
+  from->get_validator(0)->active(false);
+  from->description(from->get_description() + "; with --at the NAME of a series");
   CLI::Option_group* target = command->add_option_group("Target");
   target->add_option("--scale", arguments->scale, "Target scale, such as 1:2000");
   target
       ->add_option("--to-lod", arguments->lods,
                    "Levels of detail to make, such as 2.0,1.2; they share a file")
       ->delimiter(',');
+  target
+      ->add_option("--series", arguments->series,
+                   "Scales such as 1:500,1:2000: a file for each, NAME.1-2000.city.json, and the "
+                   "log of all operations, NAME.oplog.jsonl; -o is NAME")
+      ->delimiter(',');
+  target->add_option("--at", arguments->at,
+                     "The level at this scale, of the series --from NAME, without any input");
   target->require_option(1);
   command->add_option("--explain", arguments->explain,
                       "File for what became of each feature, by which rule, and what was refused "

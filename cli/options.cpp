@@ -72,6 +72,10 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
 
 }  // namespace
 
+CLI::Validator input_formats() {
+  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"});
+}
+
 void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin, a CityJSONSeq";
   if (has_many) {
@@ -86,7 +90,7 @@ void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   command
       .add_option("--from", a.from,
                   "Format of the input (default: by its name; of stdin: cityjsonseq)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"}));
+      ->check(input_formats());
   if (has_many) add_selection_arguments(command, a.selection);
 }
 

@@ -56,6 +56,9 @@ struct LineArguments {
   [[nodiscard]] bool allows(int set_aside, int buildings) const;
 };
 
+/// What `--from` may be.
+CLI::Validator input_formats();
+
 /// Adds what says which buildings are read: inputs, `--lod`, `--from` and, if the command takes
 /// more than one input (`has_many`), the selection.
 void add_input_arguments(CLI::App& command, LineArguments& arguments, bool has_many);

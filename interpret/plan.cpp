@@ -105,8 +105,20 @@ void keep_whole_groups(const std::string& kind, const Interpretation& interpreta
   }
 }
 
-Step step_of(const rules::Pack& pack, const Entry& entry, FeatureId feature, double scale) {
+/// The group of the entry's kind that the feature is in; empty if the entry is not for groups.
+std::string group_of(const rules::Pack& pack, const Entry& entry, FeatureId feature,
+                     const Interpretation& interpretation) {
+  if (entry.group < 0) return {};
+  const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
+  for (const Group& group : interpretation.groups)
+    if (group.kind == kind && std::ranges::binary_search(group.members, feature)) return group.id;
+  return {};
+}
+
+Step step_of(const rules::Pack& pack, const Entry& entry, FeatureId feature, double scale,
+             const Interpretation& interpretation) {
   Step step{feature, entry.operation, entry.id};
+  step.group = group_of(pack, entry, feature, interpretation);
   for (const Entry::Argument& argument : entry.arguments)
     if (argument.value == rules::kNoExpr)
       step.words[argument.name] = argument.word;
@@ -147,9 +159,19 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   result.scale = scale_denominator;
   for (std::size_t row = 0; row < chosen.size(); ++row)
     if (chosen[row] != nullptr)
-      result.steps.push_back(
-          step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)}, scale_denominator));
+      result.steps.push_back(step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)},
+                                     scale_denominator, interpretation));
   return result;
+}
+
+std::vector<double> plan_bounds(const RuleBase& base) {
+  std::vector<double> bounds;
+  for (const Entry& entry : base.pack().entries)
+    for (const double bound : {entry.scale_from, entry.scale_to})
+      if (std::isfinite(bound)) bounds.push_back(bound);
+  std::ranges::sort(bounds);
+  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+  return bounds;
 }
 
 }  // namespace oriel

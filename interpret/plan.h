@@ -6,6 +6,8 @@
 #include "kernel/model/interpretation.h"
 #include "kernel/model/plan.h"
 
+#include <vector>
+
 namespace oriel {
 
 /// What the pack's `generalise:` entries ask for at the scale 1 : scale_denominator. For every
@@ -15,5 +17,8 @@ namespace oriel {
 /// Throws InputError (R250) if the denominator is not a number of at least 1.
 Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
           const Interpretation& interpretation, double scale_denominator);
+
+/// The denominators at which entries of the pack begin or end, ascending.
+std::vector<double> plan_bounds(const RuleBase& base);
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #include "generalise/detail/steps.h"
 
+#include "generalise/detail/tasks.h"
 #include "generalise/operators/aggregate.h"
 #include "generalise/operators/collapse.h"
 #include "generalise/operators/enlarge.h"
@@ -9,34 +10,21 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace oriel::detail {
 
 namespace {
 
-/// Steps that are carried out together.
-struct Task {
-  std::string operation;
-  std::vector<Step> steps;
-};
-
-bool is_for_groups(const std::string& operation) {
-  return operation == "aggregate" || operation == "typify";
-}
-
-bool is_drawn_last(const std::string& operation) {
-  return operation == "collapse" || operation == "flatten";
-}
-
 class StepRunner {
  public:
   StepRunner(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
              const SegmentOptions& options)
-      : solid_(solid), segmentation_(segmentation), plan_(plan), options_(options) {
-    make_tasks();
-  }
+      : solid_(solid),
+        segmentation_(segmentation),
+        plan_(plan),
+        options_(options),
+        tasks_(tasks_of(plan, segmentation)) {}
 
   CarriedOut run() {
     while (true) {
@@ -54,53 +42,7 @@ class StepRunner {
     return segmentation_.features[step.feature.index()];
   }
 
-  void make_tasks() {
-    std::map<std::tuple<std::string, PlaneId>, std::vector<Step>> groups;
-    for (const Step& step : plan_.steps) {
-      if (step.operation == "omit") continue;
-      const auto& planes = feature(step).planes;
-      if (is_for_groups(step.operation) && !planes.empty())
-        groups[{step.rule, planes[0]}].push_back(step);
-      else
-        tasks_.push_back({step.operation, {step}});
-    }
-    for (auto& [key, members] : groups) make_rows(std::move(members));
-    std::ranges::sort(tasks_, {}, [](const Task& task) {
-      const auto first = std::ranges::min(task.steps, {}, &Step::feature).feature;
-      return std::pair{is_drawn_last(task.operation), first};
-    });
-  }
-
-  /// Features on one wall whose heights overlap by half of the lower one's are a row.
-  void make_rows(std::vector<Step> members) {
-    const auto box = [&](const Step& step) -> const Box& { return feature(step).box; };
-    std::ranges::sort(members, {}, [&](const Step& step) {
-      return std::pair{box(step).min.z, step.feature};
-    });
-    std::vector<Task> rows;
-    for (Step& step : members) {
-      const Box& mine = box(step);
-      const auto found = std::ranges::find_if(rows, [&](const Task& row) {
-        const Box& its = box(row.steps[0]);
-        const double common = std::min(mine.max.z, its.max.z) - std::max(mine.min.z, its.min.z);
-        return common >= 0.5 * std::min(mine.max.z - mine.min.z, its.max.z - its.min.z);
-      });
-      if (found == rows.end())
-        rows.push_back({step.operation, {std::move(step)}});
-      else
-        found->steps.push_back(std::move(step));
-    }
-    for (Task& row : rows) {
-      const Vec3 normal = segmentation_.planes[feature(row.steps[0]).planes[0].index()].normal;
-      const Vec3 along = cross({0, 0, 1}, normal);
-      std::ranges::sort(row.steps, {}, [&](const Step& step) {
-        return std::pair{dot(along, box(step).min + box(step).max), step.feature};
-      });
-      tasks_.push_back(std::move(row));
-    }
-  }
-
-  void fail(const Task& task, const std::string& code, const std::string& reason) {
+  void fail(const PlanTask& task, const std::string& code, const std::string& reason) {
     for (const Step& step : task.steps)
       failed_.try_emplace(step.feature, CarriedOut::Refused{step.feature, code, reason});
   }
@@ -115,22 +57,22 @@ class StepRunner {
     }
     Remainder remainder = omit(solid_, segmentation_, off, options_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
-    for (const Task& task : tasks_) fail_if_refused(task, remainder.refused);
+    for (const PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
     for (const Refusal& refusal : remainder.refused)
       if (!failed_.contains(refusal.feature))
         out.refused.push_back({refusal.feature, "G401", refusal.reason});
-    for (const Task& task : tasks_) put_back(task, out);
+    for (const PlanTask& task : tasks_) put_back(task, out);
     return out;
   }
 
-  void fail_if_refused(const Task& task, const std::vector<Refusal>& refused) {
+  void fail_if_refused(const PlanTask& task, const std::vector<Refusal>& refused) {
     for (const Step& step : task.steps) {
       const auto found = std::ranges::find(refused, step.feature, &Refusal::feature);
       if (found != refused.end()) return fail(task, "G401", found->reason);
     }
   }
 
-  void put_back(const Task& task, CarriedOut& out) {
+  void put_back(const PlanTask& task, CarriedOut& out) {
     const bool is_gone = std::ranges::all_of(task.steps, [&](const Step& step) {
       return !failed_.contains(step.feature) &&
              std::ranges::binary_search(out.removed, step.feature);
@@ -162,7 +104,7 @@ class StepRunner {
   }
 
   /// How many members of a group stand for it afterwards.
-  [[nodiscard]] static std::size_t represented(const Task& task) {
+  [[nodiscard]] static std::size_t represented(const PlanTask& task) {
     if (task.operation == "aggregate") return 1;
     if (task.operation != "typify") return task.steps.size();
     const auto ratio = task.steps[0].numbers.find("ratio");
@@ -175,7 +117,7 @@ class StepRunner {
   const Segmentation& segmentation_;
   const Plan& plan_;
   const SegmentOptions& options_;
-  std::vector<Task> tasks_;
+  std::vector<PlanTask> tasks_;
   std::map<FeatureId, CarriedOut::Refused> failed_;
 };
 

@@ -11,7 +11,7 @@ detail::Placed enlarge(const Redrawing& task) {
   const detail::Extents now = extents_of(*host, task.segmentation, feature);
   if (feature.sense != Sense::hole || !is_box(feature, now))
     return {std::nullopt, "only recesses that are boxes can be enlarged"};
-  const double to_m = task.number("to", 0.0005 * task.scale);
+  const double to_m = task.to_m();
   const double more_u = std::max(0.0, to_m - now.width());
   const double more_v = std::max(0.0, to_m - now.height());
   if (more_u == 0 && more_v == 0) return {std::nullopt, "it is large enough"};

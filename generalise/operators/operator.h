@@ -30,9 +30,10 @@ struct Redrawing {
     const auto found = steps[0].words.find(name);
     return found == steps[0].words.end() ? fallback : found->second;
   }
-  /// The least distance to what is beside: 0.125 mm on the map (the profile `map`'s c), unless the
-  /// pack says `gap`.
-  [[nodiscard]] double gap_m() const { return number("gap", 0.000125 * scale); }
+  /// The least distance to what is beside, unless the pack says `gap`.
+  [[nodiscard]] double gap_m() const { return number("gap", kGapOnMap_m * scale); }
+  /// The least size, unless the pack says `to`.
+  [[nodiscard]] double to_m() const { return number("to", kToOnMap_m * scale); }
   /// The host of a member on the solid as it is.
   [[nodiscard]] std::optional<detail::Host> host(std::size_t member = 0) const {
     const Feature& f = feature(member);

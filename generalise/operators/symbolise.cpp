@@ -32,7 +32,7 @@ class OnRoof {
   }
 
   Placed chimney() const {
-    const double to_m = task_.number("to", 0.0005 * task_.scale);
+    const double to_m = task_.to_m();
     const auto [u0, u1] = widened(u_, to_m);
     const auto [f0, f1] = widened(f_, to_m);
     return placed(
@@ -42,7 +42,7 @@ class OnRoof {
   Placed dormer() const {
     if (std::hypot(host_.n.x, host_.n.y) < kFlat)
       return {std::nullopt, "a dormer box needs a sloping roof"};
-    const double to_m = task_.number("to", 0.0005 * task_.scale);
+    const double to_m = task_.to_m();
     const auto [u0, u1] = widened(u_, to_m);
     const double front = *std::ranges::max_element(f_);
     return placed({side(-host_.u, u0), side(host_.u, u1), side(fall_, front), top()});
@@ -79,7 +79,7 @@ class OnRoof {
 Placed balcony(const Redrawing& task, const Host& host) {
   const Feature& feature = task.feature();
   Extents where = extents_of(host, task.segmentation, feature);
-  const double to_m = task.number("to", 0.0005 * task.scale);
+  const double to_m = task.to_m();
   const double more = std::max(0.0, to_m - where.width());
   where.u0 -= more / 2;
   where.u1 += more / 2;

@@ -42,6 +42,15 @@ void set_members(RawNode& node, std::string_view key, const Members& members) {
   node.set(key, object.text());
 }
 
+/// Takes members out of the object under `key`.
+void drop_members(RawNode& node, std::string_view key, const std::vector<std::string>& names) {
+  const std::string_view existing = node.value_of(key);
+  if (names.empty() || !RawNode::is_object(existing)) return;
+  RawNode object(existing);
+  for (const std::string& name : names) object.erase(name);
+  node.set(key, object.text());
+}
+
 /// Adds to the array of ids under `key` those that are not in it.
 void add_ids(RawNode& node, std::string_view key, const std::vector<Installation>& added) {
   const std::string_view existing = node.value_of(key);
@@ -80,8 +89,9 @@ bool remove_ids(RawNode& node, std::string_view key, const std::unordered_set<st
 class CityJsonWriter {
  public:
   CityJsonWriter(const detail::CityJsonSource& source, const Document& document,
-                 ExistingSemantics existing)
-      : existing_(existing),
+                 const WriteOptions& options)
+      : existing_(options.existing),
+        least_digits_(options.finer_digits),
         source_(source),
         document_(document),
         root_(root_of(source.text)),
@@ -119,7 +129,7 @@ class CityJsonWriter {
   /// Starts the exchange of vertices if a geometry is replaced.
   void make_pool(const std::vector<LabelledBuilding>& labelled) {
     std::vector<detail::PlacedSolid> solids;
-    int asked_for = 0;
+    int asked_for = least_digits_;
     for (const LabelledBuilding& building : labelled) {
       if (!building.geometry) continue;
       asked_for = std::max(asked_for, building.digits);
@@ -147,6 +157,7 @@ class CityJsonWriter {
     geometries.set(number, geometry.text());
     object.set("geometry", geometries.text());
     if (labelled.geometry) object.erase("geographicalExtent");
+    drop_members(object, "attributes", labelled.dropped_attributes);
     set_members(object, "attributes", labelled.attributes);
     add_ids(object, "children", labelled.installations);
     objects_.set(place.object, object.text());
@@ -300,6 +311,7 @@ class CityJsonWriter {
   }
 
   ExistingSemantics existing_;
+  int least_digits_ = 0;
   const detail::CityJsonSource& source_;
   const Document& document_;
   RawNode root_;
@@ -321,10 +333,9 @@ std::string write_cityjson(const Document& document, const std::vector<LabelledB
                            const WriteOptions& options) {
   if (!document.source && document.format == Format::citygml) return {};
   if (document.source)
-    return CityJsonWriter(*document.source, document, options.existing)
-        .write(labelled, options.removed);
+    return CityJsonWriter(*document.source, document, options).write(labelled, options.removed);
   const detail::CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
-  return CityJsonWriter(fresh, document, options.existing).write(labelled, options.removed);
+  return CityJsonWriter(fresh, document, options).write(labelled, options.removed);
 }
 
 }  // namespace oriel

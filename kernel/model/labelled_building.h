@@ -48,6 +48,8 @@ struct LabelledBuilding {
   std::vector<Installation> installations;
   /// Attributes added to the building: oriel_version, oriel_pack, …
   Members attributes;
+  /// Attributes that leave the building.
+  std::vector<std::string> dropped_attributes{};
   /// Replaces the input geometry, in the input's frame; missing: the input's polygons stay as they
   /// are.
   std::optional<Solid> geometry;

@@ -9,6 +9,11 @@
 
 namespace oriel {
 
+/// On the map, the least size that can be seen, and the least distance: the profile `map`'s d and
+/// c. What operators go by where the pack does not say `to` or `gap`.
+inline constexpr double kToOnMap_m = 0.0005;
+inline constexpr double kGapOnMap_m = 0.000125;
+
 /// One decision: what is to be done to one feature at a target scale, and because of what.
 struct Step {
   FeatureId feature;
@@ -19,6 +24,8 @@ struct Step {
   /// The operator's arguments: lengths in metres and ratios.
   std::map<std::string, double> numbers{};
   std::map<std::string, std::string> words{};
+  /// Id of the group of the pack that the entry is for; empty: it is for single features.
+  std::string group{};
 };
 
 /// The decisions for one building at one scale, in feature order; at most one step a feature.

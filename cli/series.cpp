@@ -1,0 +1,215 @@
+#include "cli/series.h"
+
+#include "cli/destination.h"
+#include "cli/run.h"
+#include "generalise/scale_series.h"
+#include "generalise/series_levels.h"
+#include "interpret/plan.h"
+#include "kernel/io/operation_log.h"
+#include "kernel/io/written_grid.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <exception>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+/// One building with its levels, before the grid of the file is known.
+struct Staged {
+  const Building* building = nullptr;
+  const OnLine* line = nullptr;
+  LabelledBuilding labelled;
+  std::vector<SeriesLevel> levels;
+  std::unique_ptr<FiringScales> firing;
+};
+
+class SeriesWriter {
+ public:
+  SeriesWriter(const LabelArguments& arguments, const std::vector<double>& scales,
+               const Profile* profile, const RuleBase& rules, Run& run, Report& report)
+      : arguments_(arguments),
+        scales_(scales),
+        profile_(profile),
+        rules_(rules),
+        run_(run),
+        report_(report),
+        labels_(labels_only(arguments)),
+        outputs_(labels_, rules),
+        bounds_(plan_bounds(rules)) {
+    for (const double scale : scales)
+      levels_.push_back(std::make_unique<Destination>(
+          fmt::format("{}.1-{}.city.json", arguments.out, scale), "cityjson", arguments.inputs,
+          arguments.read_options().format));
+  }
+
+  ExitCode go() {
+    Run::Visitor visitor;
+    visitor.begin = [&](std::size_t input) {
+      for (const auto& level : levels_) level->begin(input, !run_.is_last_run());
+      log_.clear();
+      operations_ = 0;
+    };
+    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+      add_record(document, lines);
+    };
+    visitor.end = [&](std::size_t) {
+      run_.timings().measure(Stage::write, [&] {
+        for (const auto& level : levels_) level->end();
+        if (run_.is_last_run()) write_file(arguments_.out + ".oplog.jsonl", log_);
+      });
+    };
+    const ExitCode code = run_.go(visitor);
+    run_.tell_summary(fmt::format("made {} levels of", scales_.size()),
+                      {{"operation", operations_}}, " in the log");
+    return code;
+  }
+
+ private:
+  /// What the files of a series are called is no file to be written.
+  static LabelArguments labels_only(LabelArguments arguments) {
+    arguments.out.clear();
+    return arguments;
+  }
+
+  void add_record(const Document& document, const std::vector<OnLine>& lines) {
+    std::vector<Staged> staged;
+    std::vector<const LabelledBuilding*> solids;
+    run_.timings().measure(Stage::generalise, [&] {
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].is_done()) stage(document.buildings[i], lines[i], staged);
+    });
+    for (const Staged& one : staged)
+      for (const SeriesLevel& level : one.levels) solids.push_back(&level.redrawn.labelled);
+    const WrittenGrid grid(document, solids);
+    std::vector<std::vector<LabelledBuilding>> labelled(scales_.size());
+    std::vector<WriteOptions> options(scales_.size());
+    for (WriteOptions& one : options) one.finer_digits = grid.finer_digits();
+    run_.timings().measure(Stage::generalise, [&] {
+      for (const Staged& one : staged) add_building(one, grid, labelled, options);
+    });
+    run_.timings().measure(Stage::write, [&] {
+      for (std::size_t i = 0; i < levels_.size(); ++i)
+        levels_[i]->add(document, labelled[i], options[i]);
+    });
+  }
+
+  [[nodiscard]] SeriesInput input_of(const Staged& one) const {
+    SeriesInput input{*one.building,
+                      one.labelled,
+                      *one.line->solid,
+                      *one.line->segmentation,
+                      one.line->description.table,
+                      one.line->interpretation,
+                      arguments_.segment_options(),
+                      {}};
+    if (profile_ != nullptr)
+      input.invariants = {profile_->footprint_pct, profile_->volume_pct, profile_->top_m};
+    return input;
+  }
+
+  void stage(const Building& building, const OnLine& line, std::vector<Staged>& staged) {
+    if (line.is_open) {
+      run_.set_aside(building_issue(Severity::error, "G404", building.id,
+                                    "is open: there is no solid to redraw"));
+      return;
+    }
+    Staged one{&building, &line, outputs_.annotated(building, line), {}, {}};
+    const auto& [table, graph] = line.description;
+    const PlanAt plan_at = [&](double scale) {
+      Plan asked = plan(rules_, table, graph, line.interpretation, scale);
+      if (profile_ != nullptr)
+        asked = plan_by_profile(std::move(asked), *profile_, rules_, *line.segmentation, table,
+                                line.interpretation, scale);
+      return asked;
+    };
+    auto levels = series_levels(input_of(one), scales_, plan_at);
+    bool is_good = levels.value.has_value();
+    for (const Issue& issue : levels.issues) {
+      is_good = is_good && issue.severity != Severity::error;
+      if (issue.severity == Severity::error)
+        run_.set_aside(issue);
+      else
+        report_.tell(issue);
+    }
+    if (!is_good) return;
+    one.levels = std::move(*levels.value);
+    one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
+    staged.push_back(std::move(one));
+  }
+
+  /// Its levels and its lines of the log, or nothing of it.
+  void add_building(const Staged& one, const WrittenGrid& grid,
+                    std::vector<std::vector<LabelledBuilding>>& labelled,
+                    std::vector<WriteOptions>& options) {
+    const Frame& frame = one.building->frame;
+    ScaleSeries series;
+    try {
+      series = scale_series(input_of(one), one.levels, *one.firing,
+                            [&](Vec3 local_m) { return grid.place(local_m, frame); });
+    } catch (const GeometryError& fault) {
+      run_.set_aside(building_issue(Severity::error, "E901", one.building->id,
+                                    fmt::format("a fault of oriel's own: {}", fault.what())));
+      return;
+    }
+    for (const SeriesOperation& operation : series.operations) log_ += operation_line(operation);
+    operations_ += static_cast<int>(series.operations.size());
+    for (std::size_t i = 0; i < scales_.size(); ++i) {
+      const LevelState state = state_at(series, scales_[i]);
+      LabelledBuilding level = labelled_building(state, frame);
+      for (const Installation& installation : one.labelled.installations)
+        if (!state.installations.contains(installation.id))
+          options[i].removed.push_back(installation.id);
+      level.attributes.insert(level.attributes.begin(), one.labelled.attributes.begin(),
+                              one.labelled.attributes.end());
+      labelled[i].push_back(std::move(level));
+    }
+  }
+
+  const LabelArguments& arguments_;
+  const std::vector<double>& scales_;
+  const Profile* profile_;
+  const RuleBase& rules_;
+  Run& run_;
+  Report& report_;
+  LabelArguments labels_;
+  LabelOutputs outputs_;
+  std::vector<double> bounds_;
+  std::vector<std::unique_ptr<Destination>> levels_;  ///< by scale
+  std::string log_;
+  int operations_ = 0;
+};
+
+}  // namespace
+
+double denominator_of(const std::string& text, const std::string& option) {
+  std::string number;
+  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
+  if (number.starts_with("1:")) number.erase(0, 2);
+  double value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
+      !std::isfinite(value))
+    throw CLI::ValidationError(
+        option, fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
+  return value;
+}
+
+ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
+                      const Profile* profile, const RuleBase& rules, Report& report) {
+  if (arguments.inputs.size() != 1)
+    throw CLI::ValidationError("--series", "a series is made of one input");
+  if (arguments.out == "-" || arguments.out.ends_with('/'))
+    throw CLI::ValidationError("-o", "the files of a series need a name: -o NAME");
+  Run run(arguments, &rules, report);
+  return SeriesWriter(arguments, scales, profile, rules, run, report).go();
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "cli/exit_code.h"
+#include "cli/labelling.h"
+#include "interpret/profile.h"
+#include "interpret/rule_base.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// N of "1:N", "1 : N" or "N"; throws CLI::ValidationError for `option`.
+double denominator_of(const std::string& text, const std::string& option);
+
+/// `generalise --series`: NAME.1-N.city.json for each scale, which ascend, and NAME.oplog.jsonl,
+/// for the one input. `profile` may be null.
+ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
+                      const Profile* profile, const RuleBase& rules, Report& report);
+
+/// `generalise --at 1:N --from NAME`: the level at a scale, from the stored level that is nearest
+/// and the log. E101 (InputError) if there is no log or no level; G409 and exit code 5 if they do
+/// not fit each other.
+ExitCode write_level_at(const std::string& name, double scale, const std::string& out,
+                        Report& report);
+
+}  // namespace oriel::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "kernel/model/solid.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Calls `visit(facet, from, to)` with each directed edge of each facet.
+void for_each_edge(const Solid& solid, const std::function<void(int, int, int)>& visit);
+
+/// The plane in doubles of a loop that is not a line: its normal by Newell, through its first
+/// vertex.
+Plane plane_of(std::span<const Vertex> vertices, const Loop& outer);
+
+/// The shells of facets that hang together by edges. One whose facets look inwards is a cavity; it
+/// belongs to the lump with the smallest box around its box, of those that have one.
+std::vector<Shell> shells_of(const Solid& solid);
+
+}  // namespace oriel::detail

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "kernel/model/plan.h"
+#include "kernel/model/segmentation.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Steps that are carried out together: one, or those of a group.
+struct PlanTask {
+  std::string operation;
+  std::vector<Step> steps;
+};
+
+/// True of operators that leave something in the place of several features.
+bool is_for_groups(const std::string& operation);
+
+/// The steps of a plan as tasks, in the order in which they are carried out: of their first
+/// features, outlines last; those that only take off (omit) are left out. Steps for groups
+/// (aggregate, typify) of one rule and wall plane are together if they are of one group of the pack
+/// (Step::group), else if their heights overlap by half of the lower one's; they are ordered along
+/// the wall.
+std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation);
+
+}  // namespace oriel::detail

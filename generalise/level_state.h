@@ -1,0 +1,35 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/labelled_building.h"
+#include "kernel/model/scale_series.h"
+
+#include <functional>
+#include <string>
+
+namespace oriel {
+
+/// Where a point of the building's frame comes to lie in the file.
+using Placer = std::function<GridPoint(Vec3 local_m)>;
+
+/// The state of a building that has a geometry of its own, with vertices where the file has them.
+/// Vertices that become one are one; facets of which less than a triangle is left vanish. Of the
+/// attributes only counts (`oriel_removed_…`) belong to it. Throws GeometryError if two facets have
+/// the same outer ring.
+LevelState level_state(const LabelledBuilding& labelled, const Placer& place);
+
+/// The building of a state, to be written: facets in the order of the state. Facets with the same
+/// `oriel_id` have one semantic surface, others each their own; the parent of an opening is the
+/// surface other than an opening that it shares most of its edges with, by length. Shells are what
+/// hangs together by edges; one that encloses no volume but is turned inwards is a cavity of the
+/// smallest body around it.
+LabelledBuilding labelled_building(const LevelState& state, const Frame& frame);
+
+/// What does not fit CityJSON's way of writing numbers is brought into it: a whole double is an
+/// integer.
+MemberValue as_written(MemberValue value);
+
+/// The SHA-256 of all that belongs to the state.
+std::string hash_of(const LevelState& state);
+
+}  // namespace oriel

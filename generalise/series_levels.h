@@ -1,0 +1,52 @@
+#pragma once
+
+#include "generalise/generalise.h"
+#include "kernel/model/plan.h"
+
+#include <functional>
+#include <vector>
+
+namespace oriel {
+
+/// A building on its way through the line; all of one building, made with the same options.
+struct SeriesInput {
+  const Building& building;
+  const LabelledBuilding& labelled;
+  const Solid& solid;
+  const Segmentation& segmentation;
+  const FeatureTable& table;
+  const Interpretation& interpretation;
+  SegmentOptions options{};
+  Invariants invariants{};
+};
+
+/// What is asked for at 1 : scale.
+using PlanAt = std::function<Plan(double scale)>;
+
+/// A level of a series.
+struct SeriesLevel {
+  double scale = 0;  ///< 0: the building as it came
+  /// The steps that were carried out, of this and of finer levels.
+  std::vector<Step> steps{};
+  Generalised generalised{};
+  Redrawn redrawn{};
+};
+
+/// The levels for `scales`, which ascend, after the building as it came: each has all that the one
+/// before lost taken off too, whatever its own plan says, so that a series never goes back.
+///
+/// - What is omitted stays omitted, what has another operator keeps it until the plan of a coarser
+///   level says otherwise; arguments that are left out (`to`, `gap`) are those of the scale at
+///   which the step came. Rows (aggregate, typify) change only as a whole.
+/// - A step that is refused where an older one was carried out leaves that one in force.
+/// - A step by which an older one would no longer be carried out is undone (G408, a warning).
+/// Issues as of generalise(); no value after G402.
+Checked<std::vector<SeriesLevel>> series_levels(const SeriesInput& input,
+                                                const std::vector<double>& scales,
+                                                const PlanAt& plan_at);
+
+/// What generalise and redraw make of some steps, drawn anew; nothing if nothing closed is left.
+std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std::vector<Step> steps,
+                                    std::vector<Issue>& issues);
+
+}  // namespace oriel

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kernel/io/document.h"
+#include "kernel/model/labelled_building.h"
+#include "kernel/model/scale_series.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace oriel {
+
+/// Where a CityJSON file has the points of its vertices: on the grid that its transform makes.
+class WrittenGrid {
+ public:
+  /// The grid of write_cityjson for a document, fine enough for the geometries of all of
+  /// `labelled`, which need not go into one file.
+  WrittenGrid(const Document& document, const std::vector<const LabelledBuilding*>& labelled);
+
+  /// The grid of a file that can state all points of `states`, no finer than a micrometre.
+  WrittenGrid(const Document& document, const std::vector<LevelState>& states);
+
+  /// By how many powers of ten it is finer than the document's: WriteOptions::finer_digits.
+  [[nodiscard]] int finer_digits() const { return digits_; }
+
+  /// Where a point of a building's frame is written.
+  [[nodiscard]] GridPoint place(Vec3 local_m, const Frame& frame) const;
+
+ private:
+  Vec3 scale_, translate_;
+  int digits_ = 0;
+};
+
+/// The point of a file's vertex: translate + scale × integer, to the micrometre.
+GridPoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate);
+
+}  // namespace oriel

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "kernel/model/labelled_building.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+/// A vertex as it stands in a file: whole micrometres in the input's coordinates.
+using GridPoint = std::array<std::int64_t, 3>;
+/// A closed ring that starts at its smallest point.
+using GridRing = std::vector<GridPoint>;
+
+/// A facet of a level and what it is.
+struct LevelFacet {
+  /// Inner rings, sorted.
+  std::vector<GridRing> holes;
+  /// The semantic surface: its type and members. Facets with the same `oriel_id` are one.
+  std::string type;
+  Members members;
+  /// The installations that have it, sorted.
+  std::vector<std::string> installations;
+  /// The input polygons it is made of; neither compared nor written.
+  std::vector<int> polygons;
+
+  friend bool operator==(const LevelFacet& a, const LevelFacet& b) {
+    return a.holes == b.holes && a.type == b.type && a.members == b.members &&
+           a.installations == b.installations;
+  }
+};
+
+/// A building at one level of a series, as its file has it.
+struct LevelState {
+  std::string building;
+  /// By outer ring, of which no two are the same.
+  std::map<GridRing, LevelFacet> facets;
+  /// The attributes of installations, by id.
+  std::map<std::string, Members> installations;
+  /// The building's counts `oriel_removed_…`.
+  std::map<std::string, MemberValue> attributes;
+
+  friend bool operator==(const LevelState&, const LevelState&) = default;
+};
+
+/// A step from one state to another. It fits a state that has all that it takes away.
+struct Change {
+  /// The holes that a facet loses and gains; its outer ring stays.
+  struct Holes {
+    std::vector<GridRing> removed, added;
+  };
+  std::vector<std::pair<GridRing, LevelFacet>> removed, added;
+  std::map<GridRing, Holes> holes;
+  /// What there is afterwards; nothing: it is gone.
+  std::map<std::string, std::optional<Members>> installations;
+  std::map<std::string, std::optional<MemberValue>> attributes;
+};
+
+/// One elementary operation of a series.
+struct SeriesOperation {
+  std::string building;
+  std::string oriel_id;  ///< of the feature
+  std::string label;     ///< empty: unknown
+  std::string operation;
+  std::string rule;
+  /// It has happened at all 1:N with N of at least this.
+  double scale = 0;
+  /// Of all that changes, in the input's coordinates.
+  Box aabb_m;
+  /// Features that changed or went with it.
+  std::vector<std::string> with;
+  Change forward, inverse;
+};
+
+/// A building from fine to coarse: the state at a scale is the finest one with all operations
+/// applied whose scale is no larger.
+struct ScaleSeries {
+  LevelState finest;
+  /// In the order in which they happen: ascending scale, what is nested before what carries it.
+  std::vector<SeriesOperation> operations;
+};
+
+}  // namespace oriel
