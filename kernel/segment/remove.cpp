@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace oriel {
 
@@ -181,10 +182,10 @@ class FeatureRemover {
       const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
         return "its cut does not close any more";
-      Boundary trial = body;
+      Boundary& trial = copy_of(body);
       std::vector<int> touched;
       const auto caps = imprint(trial, section, lump, touched);
-      return take(body, std::move(trial), caps, f);
+      return take(body, trial, caps, f);
     }
     return "its cut is not found any more";
   }
@@ -214,7 +215,7 @@ class FeatureRemover {
                 detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg)},
                work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
-        return take(body, Boundary(body), patch.caps, f);
+        return take(body, copy_of(body), patch.caps, f);
       }
     return "its cut is not found any more";
   }
@@ -236,13 +237,22 @@ class FeatureRemover {
     });
   }
 
+  /// A body to try a cut on, in the memory of the one before.
+  Boundary& copy_of(const Boundary& body) {
+    if (trial_)
+      *trial_ = body;
+    else
+      trial_.emplace(body);
+    return *trial_;
+  }
+
   /// Carries out the cut on `trial` and keeps it if nothing goes that is to stay.
-  std::optional<std::string> take(Boundary& body, Boundary trial,
+  std::optional<std::string> take(Boundary& body, Boundary& trial,
                                   const std::vector<detail::Cap>& caps, const Feature& f) {
     const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
     if (!is_within(carved.lump, f)) return "its cut would take more than the feature";
     if (takes_others_along(carved.lump, trial, f)) return "a feature that stays would go with it";
-    body = std::move(trial);
+    std::swap(body, trial);
     return std::nullopt;
   }
 
@@ -264,20 +274,21 @@ class FeatureRemover {
   /// The input polygons that have a share in the boundary.
   [[nodiscard]] std::set<int> polygons_of(const Boundary& body) const {
     std::set<int> polygons;
-    for (const int facet : body.living_facets())
-      for (const int source : body.facet(facet).sources) {
-        const auto& of_facet = solid_.facets[at(source)].polygons;
-        polygons.insert(of_facet.begin(), of_facet.end());
-      }
+    for_each_polygon(body, [&](int polygon) { polygons.insert(polygon); });
     return polygons;
+  }
+  template <class Visit>
+  void for_each_polygon(const Boundary& body, const Visit& visit) const {
+    for (const int facet : body.living_facets())
+      for (const int source : body.facet(facet).sources)
+        for (const int polygon : solid_.facets[at(source)].polygons) visit(polygon);
   }
 
   /// A feature that is to stay would lose all its surface with the lump, or lies inside it.
   [[nodiscard]] bool takes_others_along(const Boundary& lump, const Boundary& rest,
                                         const Feature& f) const {
-    const std::set<int> kept = polygons_of(rest);
     std::set<int> lost = polygons_of(lump);
-    std::erase_if(lost, [&](int polygon) { return kept.contains(polygon); });
+    for_each_polygon(rest, [&](int polygon) { lost.erase(polygon); });
     for (std::size_t i = 0; i < segmentation_.features.size(); ++i) {
       const Feature& other = segmentation_.features[i];
       if (!go_[i] && other.sense == Sense::cavity && f.sense == Sense::protrusion &&
@@ -320,6 +331,7 @@ class FeatureRemover {
   const SegmentOptions& options_;
   detail::World world_;
   std::vector<Boundary> bodies_;
+  std::optional<Boundary> trial_;
   std::vector<char> wanted_;                     ///< by feature: asked for and not refused
   std::vector<char> go_;                         ///< by feature: wanted, or sits on what is
   std::vector<std::vector<FeatureId>> lodgers_;  ///< by feature: what it is the host of
