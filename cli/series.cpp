@@ -161,8 +161,11 @@ class SeriesWriter {
     }
     for (const SeriesOperation& operation : series.operations) log_ += operation_line(operation);
     operations_ += static_cast<int>(series.operations.size());
+    LevelState state = series.finest;
     for (std::size_t i = 0; i < scales_.size(); ++i) {
-      const LevelState state = state_at(series, scales_[i]);
+      const double before = i == 0 ? 0 : scales_[i - 1];
+      if (!move_state(state, series.operations, before, scales_[i]))
+        throw GeometryError("an operation of a series does not fit the state before it");
       LabelledBuilding level = labelled_building(state, frame);
       for (const Installation& installation : one.labelled.installations)
         if (!state.installations.contains(installation.id))

@@ -19,7 +19,8 @@ bool is_same(const Step& a, const Step& b) {
 /// Arguments that depend on the map are those of its scale from now on.
 Step fixed(Step step, double scale) {
   if (step.operation == "omit") return step;
-  step.numbers.try_emplace("to", kToOnMap_m * scale);
+  if (step.operation == "enlarge" || step.operation == "symbolise")
+    step.numbers.try_emplace("to", kToOnMap_m * scale);
   step.numbers.try_emplace("gap", kGapOnMap_m * scale);
   return step;
 }
@@ -97,6 +98,11 @@ class Levels {
                                   std::vector<Issue>& issues) {
     const Steps old = by_feature(before.steps);
     Steps steps = wanted(before, scale);
+    if (asks_nothing_new(before, steps)) {
+      SeriesLevel same = before;
+      same.scale = scale;
+      return same;
+    }
     while (true) {
       std::vector<Issue> found;
       auto level = level_of(input_, scale, listed(steps), found);
@@ -106,6 +112,16 @@ class Levels {
         return level;
       }
     }
+  }
+
+  /// All steps were carried out, or refused, at the level before.
+  static bool asks_nothing_new(const SeriesLevel& before, const Steps& steps) {
+    return std::ranges::all_of(steps, [&](const auto& asked) {
+      const auto is_it = [&](const Step& old) {
+        return old.feature == asked.first && is_same(old, asked.second);
+      };
+      return std::ranges::any_of(before.steps, is_it) || std::ranges::any_of(before.refused, is_it);
+    });
   }
 
   /// Steps that were refused give way to those that they were to take the place of. True if there
@@ -194,6 +210,8 @@ std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std:
   for (const Step& step : plan.steps)
     if (std::ranges::find(refused, step.feature, &CarriedOut::Refused::feature) == refused.end())
       level.steps.push_back(step);
+    else
+      level.refused.push_back(step);
   level.generalised = *made.value;
   made.value->is_drawn_anew = true;
   level.redrawn = redraw(input.building, input.labelled, input.segmentation, input.table,

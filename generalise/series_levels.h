@@ -30,6 +30,8 @@ struct SeriesLevel {
   std::vector<Step> steps{};
   Generalised generalised{};
   Redrawn redrawn{};
+  /// Steps that were asked for and refused.
+  std::vector<Step> refused{};
 };
 
 /// The levels for `scales`, which ascend, after the building as it came: each has all that the one
