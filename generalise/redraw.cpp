@@ -118,7 +118,10 @@ class Redrawer {
         kept.polygons.push_back(f);
         kept.surfaces.push_back(out_.labelled.surface_of_polygon[at(f)]);
       }
-      if (!kept.polygons.empty()) out_.labelled.installations.push_back(std::move(kept));
+      if (kept.polygons.empty())  // merged into its host
+        out_.removed_ids.push_back(installation.id);
+      else
+        out_.labelled.installations.push_back(std::move(kept));
     }
   }
 

@@ -20,9 +20,6 @@ struct OperatorKind {
   std::string name;
   std::string meaning;
   std::vector<OperatorArgument> arguments;
-  /// False for the names that are kept for operators to come; a pack that uses one is refused
-  /// (R252).
-  bool is_built = false;
 };
 
 /// All operators by name.

@@ -210,12 +210,17 @@ class LevelOperations {
     std::vector<Step> done = before_.steps;
     for (std::size_t i = 0; i < drafts_.size(); ++i) {
       if (is_joined.contains(i)) continue;
+      if (joined_[i].empty()) {
+        if (!apply(state, drafts_[i].change)) throw GeometryError("a part of a level does not fit");
+        for (const Step& step : drafts_[i].steps) put(step, done);
+        ordered.push_back(std::move(drafts_[i]));
+        continue;
+      }
       std::vector<Draft> some;
       for (const std::size_t other : joined_[i]) some.push_back(drafts_[other]);
       some.push_back(drafts_[i]);
-      const Change whole = drafts_[i].change;
       LevelState next = state;
-      if (!apply(next, whole)) throw GeometryError("a part of a level does not fit it");
+      if (!apply(next, drafts_[i].change)) throw GeometryError("a part of a level does not fit");
       for (Draft& one : in_turn(std::move(some), state, next, done)) {
         for (const Step& step : one.steps) put(step, done);
         ordered.push_back(std::move(one));

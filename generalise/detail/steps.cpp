@@ -3,7 +3,9 @@
 #include "generalise/detail/tasks.h"
 #include "generalise/operators/aggregate.h"
 #include "generalise/operators/collapse.h"
+#include "generalise/operators/displace.h"
 #include "generalise/operators/enlarge.h"
+#include "generalise/operators/merge.h"
 #include "generalise/operators/omit.h"
 #include "generalise/operators/symbolise.h"
 #include "generalise/operators/typify.h"
@@ -51,7 +53,7 @@ class StepRunner {
   CarriedOut attempt() {
     Plan off{plan_.scale, {}, {}};
     for (const Step& step : plan_.steps) {
-      if (failed_.contains(step.feature)) continue;
+      if (failed_.contains(step.feature) || step.operation == "merge") continue;
       off.steps.push_back(step);
       off.steps.back().operation = "omit";
     }
@@ -72,7 +74,19 @@ class StepRunner {
     }
   }
 
+  /// What merges was not taken off; it may have gone with what carries it.
+  void merge_in(const PlanTask& task, CarriedOut& out) {
+    const FeatureId id = task.steps[0].feature;
+    if (failed_.contains(id) || std::ranges::binary_search(out.removed, id)) return;
+    Placed placed = merge({out.solid, segmentation_, task.steps, plan_.scale});
+    if (!placed.solid) return fail(task, "G403", placed.reason);
+    out.solid = std::move(*placed.solid);
+    out.changed.push_back(id);
+    std::ranges::sort(out.changed);
+  }
+
   void put_back(const PlanTask& task, CarriedOut& out) {
+    if (task.operation == "merge") return merge_in(task, out);
     const bool is_gone = std::ranges::all_of(task.steps, [&](const Step& step) {
       return !failed_.contains(step.feature) &&
              std::ranges::binary_search(out.removed, step.feature);
@@ -100,6 +114,7 @@ class StepRunner {
     if (operation == "symbolise") return symbolise(redrawing);
     if (operation == "aggregate") return aggregate(redrawing);
     if (operation == "typify") return typify(redrawing);
+    if (operation == "displace") return displace(redrawing);
     return collapse(redrawing);
   }
 

@@ -84,7 +84,7 @@ class TaskMaker {
 }  // namespace
 
 bool is_for_groups(const std::string& operation) {
-  return operation == "aggregate" || operation == "typify";
+  return operation == "aggregate" || operation == "typify" || operation == "displace";
 }
 
 std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation) {

@@ -94,9 +94,6 @@ void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
     loader.findings.error(
         "R251", name->span,
         "unknown operator '" + name->text + "'" + did_you_mean(name->text, names_of(table)));
-  else if (!found->is_built)
-    loader.findings.error("R252", name->span,
-                          "the operator '" + name->text + "' is not in this version");
   else if (node.kind == YamlNode::Kind::scalar)
     return;
   else if (!found->arguments.empty())

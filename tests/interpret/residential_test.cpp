@@ -75,7 +75,8 @@ TEST_SUITE("interpret") {
                                                     "balcony", "canopy", "loggia", "bay",
                                                     "stairs"});
     CHECK(base.codelists() == std::vector<std::string>{"plateau", "sig3d"});
-    CHECK(embedded_packs() == std::vector<std::string>{"residential", "surfaces-only"});
+    CHECK(embedded_packs() ==
+          std::vector<std::string>{"cartographic", "residential", "surfaces-only"});
     CHECK(load_pack_file("surfaces-only").issues.empty());
   }
 

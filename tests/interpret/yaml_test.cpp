@@ -173,7 +173,7 @@ TEST_SUITE("interpret") {
     REQUIRE(missing.issues.size() == 1);
     CHECK(to_string(missing.issues[0]) ==
           "no-such-pack.yaml: R200 there is no pack here that can be read; the packs built in are: "
-          "residential, surfaces-only");
+          "cartographic, residential, surfaces-only");
     CHECK_FALSE(load_pack_file(std::filesystem::temp_directory_path().string()).value);
   }
 }

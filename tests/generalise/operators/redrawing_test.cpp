@@ -1,13 +1,18 @@
 #include "generalise/generalise.h"
+#include "generalise/operators/displace.h"
 #include "interpret/plan.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <rapidcheck.h>
 
 using namespace oriel;
 using namespace oriel::test;
@@ -93,6 +98,63 @@ TEST_SUITE("generalise") {
     CHECK(volume_m3(out.solid) <= volume_m3(line.solid));
   }
 
+  TEST_CASE("windows too near to each other move apart in their order by the least shifts") {
+    BoxBody body;
+    body.add({0, 0, 0}, {10, 8, 6});
+    for (const double x : {1.0, 2.1, 3.2, 7.0}) body.remove({x, 0, 3}, {x + 1, 0.2, 4});
+    const Line line = line_of(body.build());
+    const auto out = carried(line, plan_for(line, step("displace", {{"gap", 0.5}}), is_any));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 4);
+    CHECK(volume_m3(out.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+    std::set<double> left;
+    for (const Vertex& v : out.solid.vertices)
+      if (v.point.z > 2.9 && v.point.z < 4.1 && v.point.y == 0) left.insert(v.point.x);
+    std::vector<double> sides(left.begin(), left.end());
+    REQUIRE(sides.size() == 8);
+    for (std::size_t i = 1; i + 1 < sides.size(); i += 2) CHECK(sides[i + 1] - sides[i] >= 0.5);
+    CHECK(sides[2] == doctest::Approx(2.1).epsilon(0.01));
+    CHECK(sides[6] == doctest::Approx(7).epsilon(1e-6));
+  }
+
+  TEST_CASE("the least shifts keep order and distances and move nothing that need not move") {
+    CHECK(rc::check([] {
+      const auto steps = *rc::gen::container<std::vector<int>>(5, rc::gen::inRange(0, 200));
+      std::vector<double> wished{0};
+      for (const int one : steps) wished.push_back(wished.back() + one * 0.01);
+      const std::vector<double> apart(steps.size(), 1.0);
+      const auto places = least_shifts(wished, apart, -1, 20);
+      RC_ASSERT(places.size() == wished.size());
+      for (std::size_t i = 1; i < places.size(); ++i)
+        RC_ASSERT(places[i] - places[i - 1] >= 1 - 1e-9);
+      const bool is_good = std::ranges::all_of(steps, [](int one) { return one >= 100; });
+      for (std::size_t i = 0; is_good && i < places.size(); ++i)
+        RC_ASSERT(std::abs(places[i] - wished[i]) < 1e-9);
+    }));
+  }
+
+  TEST_CASE("a row that its wall has no room for is not displaced") {
+    const Line line = line_of(facade().build());
+    const auto out =
+        carried(line, plan_for(line, step("displace", {{"to", 2}, {"gap", 1}}), is_high));
+    REQUIRE(out.refused.size() == 4);
+    CHECK(out.refused[0].reason == "its wall has no room for the row");
+  }
+
+  TEST_CASE("a balcony that merges keeps its shape and is named by its slopes") {
+    const Line line =
+        line_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).add({2, -1.2, 3}, {5, 0, 3.2}).build());
+    const auto is_balcony = [](const Feature& f) { return f.box.min.y < 0; };
+    auto out = carried(line, plan_for(line, step("merge"), is_balcony));
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 1);
+    CHECK(out.removed.empty());
+    CHECK(volume_m3(out.solid) == volume_m3(line.solid));
+    const Redrawn redrawn = redraw(line.building(), line.labelled, line.segmentation, line.table(),
+                                   line.interpretation, std::move(out));
+    CHECK(redrawn.labelled.installations.empty());
+  }
+
   TEST_CASE("a chimney becomes a block and a balcony a slab") {
     const Line line = line_of(BoxBody()
                                   .add({0, 0, 0}, {10, 8, 6})
@@ -132,6 +194,8 @@ TEST_SUITE("generalise") {
         step("aggregate", {{"gap", 0.1}}),
         step("typify", {{"ratio", 0.5}, {"gap", 0.1}}),
         step("flatten"),
+        step("displace", {{"to", 1.2}, {"gap", 0.1}}),
+        step("merge"),
     };
     std::size_t changed = 0;
     for (const char* name : {"house", "row"}) {
