@@ -21,6 +21,8 @@ void add_label(CLI::App& app, Action& action);
 void add_generalise(CLI::App& app, Action& action);
 void add_repair(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
+void add_interpret(CLI::App& app, Action& action);
+void add_diff(CLI::App& app, Action& action);
 void add_score(CLI::App& app, Action& action);
 void add_validate(CLI::App& app, Action& action);
 void add_split(CLI::App& app, Action& action);

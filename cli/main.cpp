@@ -44,6 +44,8 @@ int run(int argc, char** argv) {
   add_generalise(app, action);
   add_repair(app, action);
   add_explain(app, action);
+  add_interpret(app, action);
+  add_diff(app, action);
   add_score(app, action);
   add_validate(app, action);
   add_split(app, action);

@@ -119,14 +119,9 @@ void add_solid_arguments(CLI::App& command, LineArguments& a) {
       ->capture_default_str();
 }
 
-void add_run_arguments(CLI::App& command, LineArguments& a) {
-  command.add_option("--timings", a.timings_file,
-                     "Write the milliseconds of each stage to this file, as JSON");
-  command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+void add_jobs_argument(CLI::App& command, int& jobs) {
   command
-      .add_option("-j,--jobs", a.jobs,
+      .add_option("-j,--jobs", jobs,
                   "Buildings to work on at the same time; 0: one for each core. The output is the "
                   "same")
       ->check(CLI::Range(0, 1024))
@@ -135,6 +130,15 @@ void add_run_arguments(CLI::App& command, LineArguments& a) {
                            : text;
       })
       ->capture_default_str();
+}
+
+void add_run_arguments(CLI::App& command, LineArguments& a) {
+  command.add_option("--timings", a.timings_file,
+                     "Write the milliseconds of each stage to this file, as JSON");
+  command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_jobs_argument(command, a.jobs);
   command.add_option("--status", a.status_stem,
                      "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
                      "record with something set aside, and why)");
@@ -188,11 +192,16 @@ void add_rules_argument(CLI::App& command, std::string& pack) {
 }
 
 void add_features_argument(CLI::App& command, std::string& file) {
-  command.add_option("--features", file, "Write one record per feature: .csv, .json or .jsonl")
-      ->check([](const std::string& name) {
-        return record_format_of(name) ? std::string()
-                                      : "'" + name + "' does not end in .csv, .json or .jsonl";
-      });
+  add_records_output(command, "--features", file,
+                     "Write one record per feature: .csv, .json or .jsonl");
+}
+
+void add_records_output(CLI::App& command, const std::string& option, std::string& file,
+                        const std::string& what) {
+  command.add_option(option, file, what)->check([](const std::string& name) {
+    return record_format_of(name) ? std::string()
+                                  : "'" + name + "' does not end in .csv, .json or .jsonl";
+  });
 }
 
 }  // namespace oriel::cli

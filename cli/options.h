@@ -66,6 +66,9 @@ void add_input_arguments(CLI::App& command, LineArguments& arguments, bool has_m
 /// Adds the arguments that say how polygons become a solid.
 void add_solid_arguments(CLI::App& command, LineArguments& arguments);
 
+/// Adds `--jobs N`.
+void add_jobs_argument(CLI::App& command, int& jobs);
+
 /// Adds the arguments that say how the command goes about its work.
 void add_run_arguments(CLI::App& command, LineArguments& arguments);
 
@@ -80,5 +83,9 @@ void add_rules_argument(CLI::App& command, std::string& pack);
 
 /// Adds `--features FILE`; a name without the ending of a format is wrong usage.
 void add_features_argument(CLI::App& command, std::string& file);
+
+/// Adds an option for a file of records, checked in the same way.
+void add_records_output(CLI::App& command, const std::string& option, std::string& file,
+                        const std::string& what);
 
 }  // namespace oriel::cli

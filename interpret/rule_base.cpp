@@ -51,6 +51,7 @@ Checked<RuleBase> load(std::string text, std::string file, const rules::PackFind
 const std::string& RuleBase::name() const { return pack_->name; }
 const std::string& RuleBase::version() const { return pack_->version; }
 const std::string& RuleBase::file() const { return pack_->source.file(); }
+std::vector<std::string> RuleBase::files() const { return pack_->source.files(); }
 const std::string& RuleBase::sha256() const { return pack_->sha256; }
 std::size_t RuleBase::rule_count() const { return pack_->rules.size(); }
 

@@ -26,6 +26,8 @@ class RuleBase {
   [[nodiscard]] const std::string& version() const;
   /// The name it was loaded under, as places show it.
   [[nodiscard]] const std::string& file() const;
+  /// That one and the packs that it extends, the nearest first.
+  [[nodiscard]] std::vector<std::string> files() const;
   /// Of the pack's text, 64 hexadecimal digits; of a pack that extends others of theirs, too: with
   /// d the digest so far and t the next text, sha256(d + sha256(t)).
   [[nodiscard]] const std::string& sha256() const;

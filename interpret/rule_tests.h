@@ -1,20 +1,13 @@
 #pragma once
 
 #include "interpret/rule_base.h"
-#include "kernel/model/feature_graph.h"
-#include "kernel/model/feature_table.h"
+#include "kernel/model/described_building.h"
 
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace oriel {
-
-/// A building as rules see it.
-struct DescribedBuilding {
-  FeatureTable table;
-  FeatureGraph graph;
-};
 
 /// Reads the buildings of a file for `given: {building: FILE}`; what cannot be read is an issue.
 using BuildingReader =

@@ -73,6 +73,12 @@ const Source::Part& Source::part_of(std::size_t offset) const {
 
 bool Source::is_in_first(std::size_t offset) const { return &part_of(offset) == parts_.data(); }
 
+std::vector<std::string> Source::files() const {
+  std::vector<std::string> names;
+  for (const Part& part : parts_) names.push_back(part.file);
+  return names;
+}
+
 std::string_view Source::text_of(Span span) const {
   return std::string_view(text_).substr(span.begin, span.end - span.begin);
 }

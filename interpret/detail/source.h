@@ -27,6 +27,8 @@ class Source {
 
   /// Of the first file.
   [[nodiscard]] const std::string& file() const { return parts_.front().file; }
+  /// Of all files, in the order of their texts.
+  [[nodiscard]] std::vector<std::string> files() const;
   /// Of all files, one after the other.
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] std::string_view text_of(Span span) const;

@@ -15,15 +15,6 @@ namespace oriel {
 
 namespace {
 
-const std::vector<RelationKind>& relations() {
-  static const std::vector<RelationKind> without_host = [] {
-    std::vector<RelationKind> all = relation_schema();
-    std::erase_if(all, [](const RelationKind& relation) { return relation.name == "host"; });
-    return all;
-  }();
-  return without_host;
-}
-
 std::string id_of(const FeatureTable& table, FeatureId feature) {
   return feature.is_valid() ? table.id(feature) : "";
 }
@@ -51,30 +42,21 @@ RecordFormat format_to_use(const std::string& path) {
                   ".jsonl"}));
 }
 
-/// The parts of a list joined by ';'.
 std::vector<std::string> split(std::string_view list) {
   std::vector<std::string> parts;
-  while (!list.empty()) {
-    const std::size_t end = std::min(list.find(';'), list.size());
-    parts.emplace_back(list.substr(0, end));
-    list.remove_prefix(std::min(end + 1, list.size()));
-  }
+  detail::for_each_part(list, [&](std::string_view part) { parts.emplace_back(part); });
   return parts;
 }
 
-std::string no_number(std::string_view field, std::string_view cell) {
-  return fmt::format("'{}' is {}; expected a number", field, detail::in_quotes(cell));
-}
-
-std::optional<std::string> set_number(std::optional<double>& value, std::string_view field,
-                                      const std::string& cell) {
+std::optional<std::string> set_number(std::optional<double>& value, std::size_t field,
+                                      std::string_view cell) {
   if (cell.empty()) return std::nullopt;
   value = detail::as_double(cell);
-  if (!value) return no_number(field, cell);
+  if (!value) return detail::no_number(record_fields()[field], cell);
   return std::nullopt;
 }
 
-std::optional<std::string> set_box(FeatureRecord& record, const std::string& cell) {
+std::optional<std::string> set_box(FeatureRecord& record, std::string_view cell) {
   if (cell.empty()) return std::nullopt;
   const std::vector<std::string> parts = split(cell);
   for (std::size_t i = 0; i < record.aabb_m.size(); ++i) {
@@ -86,8 +68,7 @@ std::optional<std::string> set_box(FeatureRecord& record, const std::string& cel
   return std::nullopt;
 }
 
-std::optional<std::string> set_polygons(FeatureRecord& record, const std::string& cell) {
-  record.source_polygons.clear();
+std::optional<std::string> set_polygons(FeatureRecord& record, std::string_view cell) {
   for (const std::string& part : split(cell)) {
     const auto number = detail::as_whole(part);
     if (!number || *number < 0 || *number > std::numeric_limits<int>::max())
@@ -98,17 +79,39 @@ std::optional<std::string> set_polygons(FeatureRecord& record, const std::string
   return std::nullopt;
 }
 
-std::optional<std::string> set_attribute(RecordValue& value, const Attribute& attribute,
-                                         const std::string& cell) {
-  value = std::monostate();
+std::optional<std::string> add_attribute(FeatureRecord& record, const Attribute& attribute,
+                                         std::string_view cell) {
+  RecordValue& value = record.attributes.emplace_back();
   if (cell.empty()) return std::nullopt;
   if (attribute.unit == Unit::text) {
-    value = cell;
+    value = std::string(cell);
     return std::nullopt;
   }
   const auto number = detail::as_double(cell);
-  if (!number) return no_number(record_name(attribute), cell);
+  if (!number) return detail::no_number(record_name(attribute), cell);
   value = *number;
+  return std::nullopt;
+}
+
+std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells& cells) {
+  namespace field = detail::record_field;
+  record.building = cells[field::building];
+  record.id = cells[field::id];
+  record.label = cells[field::label];
+  record.rule = cells[field::rule];
+  record.runner_up = cells[field::runner_up];
+  record.parent = cells[field::parent];
+  record.host = cells[field::host];
+  if (auto fault = set_number(record.score, field::score, cells[field::score])) return fault;
+  if (auto fault = set_number(record.margin, field::margin, cells[field::margin])) return fault;
+  if (auto fault = set_box(record, cells[field::aabb_m])) return fault;
+  if (auto fault = set_polygons(record, cells[field::source_polygons])) return fault;
+  std::size_t at = field::first_attribute;
+  for (const Attribute& attribute : feature_schema())
+    if (auto fault = add_attribute(record, attribute, cells[at++])) return fault;
+  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
+    record.relations.push_back(split(cells[at++]));
+  record.groups = split(cells[at]);
   return std::nullopt;
 }
 
@@ -120,7 +123,8 @@ const std::vector<std::string>& record_fields() {
                                    "margin",   "rule",   "runner_up",      "parent",
                                    "host",     "aabb_m", "source_polygons"};
     for (const Attribute& attribute : feature_schema()) names.push_back(record_name(attribute));
-    for (const RelationKind& relation : relations()) names.push_back("rel_" + relation.name);
+    for (const RelationKind& relation : detail::recorded_relations())
+      names.push_back("rel_" + relation.name);
     names.emplace_back("groups");
     return names;
   }();
@@ -144,7 +148,7 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     record.aabb_m = {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
     record.source_polygons = feature.source_polygons;
     record.attributes = attributes_of(table, row);
-    for (const RelationKind& relation : relations()) {
+    for (const RelationKind& relation : detail::recorded_relations()) {
       record.relations.emplace_back();
       for (const auto& [self, other] : graph.of(relation.name, row))
         record.relations.back().push_back(table.id(other));
@@ -152,16 +156,18 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     records.push_back(std::move(record));
   }
   if (interpretation == nullptr) return records;
-  for (const Verdict& verdict : interpretation->verdicts) {
-    FeatureRecord& record = records.at(verdict.feature.index());
-    record.label = verdict.label;
-    record.score = verdict.score;
-    record.margin = verdict.margin;
-    record.rule = verdict.rule;
-    record.runner_up = verdict.runner_up;
-    record.groups = verdict.groups;
-  }
+  for (const Verdict& verdict : interpretation->verdicts)
+    set_verdict(records.at(verdict.feature.index()), verdict);
   return records;
+}
+
+void set_verdict(FeatureRecord& record, const Verdict& verdict) {
+  record.label = verdict.label;
+  record.score = verdict.score;
+  record.margin = verdict.margin;
+  record.rule = verdict.rule;
+  record.runner_up = verdict.runner_up;
+  record.groups = verdict.groups;
 }
 
 std::optional<RecordFormat> record_format_of(std::string_view path) {
@@ -199,46 +205,53 @@ void FeatureRecordWriter::commit() {
   file_.commit();
 }
 
+std::vector<Issue> visit_feature_records(const std::string& path,
+                                         const std::function<void(FeatureRecord)>& visit) {
+  std::vector<Issue> issues;
+  const auto take = [&](const detail::RecordCells& cells) {
+    FeatureRecord record;
+    auto fault = fill(record, cells);
+    if (!fault) visit(std::move(record));
+    return fault;
+  };
+  detail::visit_records(path, take, issues);
+  return issues;
+}
+
 Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path) {
-  const RecordFormat format = format_to_use(path);
-  const std::string text = detail::Input(path).read_all();
-  const std::string_view bare = detail::without_bom(text);
-  if (format == RecordFormat::csv) return detail::read_csv_records(bare, {path, 0});
-  return detail::read_json_records(bare, {path, 0}, format == RecordFormat::jsonl);
+  Checked<std::vector<FeatureRecord>> result;
+  std::vector<FeatureRecord> records;
+  const auto take = [&](const detail::RecordCells& cells) {
+    FeatureRecord record;
+    auto fault = fill(record, cells);
+    if (!fault) records.push_back(std::move(record));
+    return fault;
+  };
+  if (detail::visit_records(path, take, result.issues)) result.value = std::move(records);
+  return result;
 }
 
 namespace detail {
 
-FeatureRecord empty_record() {
-  FeatureRecord record;
-  record.attributes.resize(feature_schema().size());
-  record.relations.resize(relations().size());
-  return record;
+bool visit_records(const std::string& path, const RecordTaker& take, std::vector<Issue>& issues) {
+  const RecordFormat format = format_to_use(path);
+  const std::string text = Input(path).read_all();
+  const std::string_view bare = without_bom(text);
+  if (format == RecordFormat::csv) return visit_csv_records(bare, {path, 0}, take, issues);
+  return visit_json_records(bare, {path, 0}, format == RecordFormat::jsonl, take, issues);
 }
 
-std::optional<std::string> set_field(FeatureRecord& record, std::string_view field,
-                                     const std::string& cell) {
-  using Text = std::pair<std::string_view, std::string FeatureRecord::*>;
-  static constexpr std::array<Text, 7> kTexts{{{"building", &FeatureRecord::building},
-                                               {"id", &FeatureRecord::id},
-                                               {"label", &FeatureRecord::label},
-                                               {"rule", &FeatureRecord::rule},
-                                               {"runner_up", &FeatureRecord::runner_up},
-                                               {"parent", &FeatureRecord::parent},
-                                               {"host", &FeatureRecord::host}}};
-  for (const auto& [name, text] : kTexts)
-    if (name == field) record.*text = cell;
-  if (field == "score") return set_number(record.score, field, cell);
-  if (field == "margin") return set_number(record.margin, field, cell);
-  if (field == "aabb_m") return set_box(record, cell);
-  if (field == "source_polygons") return set_polygons(record, cell);
-  if (field == "groups") record.groups = split(cell);
-  for (std::size_t c = 0; c < feature_schema().size(); ++c)
-    if (record_name(feature_schema()[c]) == field)
-      return set_attribute(record.attributes[c], feature_schema()[c], cell);
-  for (std::size_t r = 0; r < relations().size(); ++r)
-    if (field == "rel_" + relations()[r].name) record.relations[r] = split(cell);
-  return std::nullopt;
+const std::vector<RelationKind>& recorded_relations() {
+  static const std::vector<RelationKind> without_host = [] {
+    std::vector<RelationKind> all = relation_schema();
+    std::erase_if(all, [](const RelationKind& relation) { return relation.name == "host"; });
+    return all;
+  }();
+  return without_host;
+}
+
+std::string no_number(std::string_view field, std::string_view cell) {
+  return fmt::format("'{}' is {}; expected a number", field, in_quotes(cell));
 }
 
 }  // namespace detail

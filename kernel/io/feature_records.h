@@ -8,6 +8,7 @@
 #include "kernel/model/segmentation.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,6 +59,9 @@ std::vector<FeatureRecord> feature_records(const Building& building,
                                            const FeatureTable& table, const FeatureGraph& graph,
                                            const Interpretation* interpretation);
 
+/// Puts a verdict into a record in place of what it says.
+void set_verdict(FeatureRecord& record, const Verdict& verdict);
+
 /// The formats of records, by extension: .csv, .json (an array), .jsonl (an object a line).
 enum class RecordFormat { csv, json, jsonl };
 std::optional<RecordFormat> record_format_of(std::string_view path);
@@ -83,5 +87,9 @@ class FeatureRecordWriter {
 /// number) for a record that cannot be read, which is left out; E102 to E105 where the text is not
 /// even CSV or JSON. Throws InputError: E101 the file cannot be read, E106 unknown extension.
 Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path);
+
+/// The same for tables that are large: `visit` gets one record after the other. Returns the issues.
+std::vector<Issue> visit_feature_records(const std::string& path,
+                                         const std::function<void(FeatureRecord)>& visit);
 
 }  // namespace oriel

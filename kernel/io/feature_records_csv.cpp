@@ -1,6 +1,8 @@
 #include "kernel/io/detail/json_text.h"
 #include "kernel/io/detail/record_text.h"
 
+#include <algorithm>
+#include <deque>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,15 +38,19 @@ class CsvReader {
  public:
   explicit CsvReader(std::string_view text) : text_(text) {}
 
-  /// The cells of the next line; false at the end. `fault` is set where a quote does not fit.
-  bool next_line(std::vector<std::string>& cells, std::optional<std::string>& fault) {
+  /// The cells of the next line, valid until the next call; false at the end. `fault` is set where
+  /// a quote does not fit.
+  bool next_line(std::vector<std::string_view>& cells, std::optional<std::string>& fault) {
     cells.clear();
+    unquoted_.clear();
     if (at_ >= text_.size()) return false;
     start_ = at_;
+    if (read_plain_line(cells)) return true;
     bool is_more = true;
     while (is_more && !fault) {
-      cells.emplace_back();
-      is_more = read_cell(cells.back(), fault);
+      const Cell cell = read_cell(fault);
+      cells.push_back(cell.text);
+      is_more = cell.is_more;
     }
     return true;
   }
@@ -53,20 +59,47 @@ class CsvReader {
   [[nodiscard]] std::size_t start() const { return start_; }
 
  private:
-  /// Reads one cell and what ends it; true if a comma does.
-  bool read_cell(std::string& cell, std::optional<std::string>& fault) {
-    if (at_ < text_.size() && text_[at_] == '"')
-      read_quoted(cell, fault);
-    else
-      while (at_ < text_.size() && !is_end(text_[at_])) cell += text_[at_++];
-    if (fault || at_ >= text_.size()) return false;
+  struct Cell {
+    std::string_view text;
+    /// A comma ends it.
+    bool is_more = false;
+  };
+
+  /// A line without quotes, the usual one; false if it is none.
+  bool read_plain_line(std::vector<std::string_view>& cells) {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view line = text_.substr(at_, end - at_);
+    if (line.ends_with('\r') && end < text_.size()) line.remove_suffix(1);
+    if (line.find('"') != std::string_view::npos || line.find('\r') != std::string_view::npos)
+      return false;
+    at_ = std::min(end + 1, text_.size());
+    while (true) {
+      const std::size_t comma = line.find(',');
+      cells.push_back(line.substr(0, comma));
+      if (comma == std::string_view::npos) return true;
+      line.remove_prefix(comma + 1);
+    }
+  }
+
+  Cell read_cell(std::optional<std::string>& fault) {
+    Cell cell;
+    if (at_ < text_.size() && text_[at_] == '"') {
+      cell.text = read_quoted(fault);
+    } else {
+      const std::size_t begin = at_;
+      while (at_ < text_.size() && !is_end(text_[at_])) ++at_;
+      cell.text = text_.substr(begin, at_ - begin);
+    }
+    if (fault || at_ >= text_.size()) return cell;
     if (text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ++at_;
     const char end = text_[at_++];
     if (!is_end(end)) fault = "text follows a closing quote";
-    return end == ',';
+    cell.is_more = end == ',';
+    return cell;
   }
 
-  void read_quoted(std::string& cell, std::optional<std::string>& fault) {
+  std::string_view read_quoted(std::optional<std::string>& fault) {
+    std::string& cell = unquoted_.emplace_back();
     for (++at_; at_ < text_.size(); ++at_) {
       if (text_[at_] != '"') {
         cell += text_[at_];
@@ -74,10 +107,11 @@ class CsvReader {
         cell += text_[at_++];
       } else {
         ++at_;
-        return;
+        return cell;
       }
     }
     fault = "a quote is not closed";
+    return cell;
   }
 
   static bool is_end(char c) { return c == ',' || c == '\n' || c == '\r'; }
@@ -85,18 +119,30 @@ class CsvReader {
   std::string_view text_;
   std::size_t at_ = 0;
   std::size_t start_ = 0;
+  /// The cells of the line that stood in quotes; they stay where they are when more come.
+  std::deque<std::string> unquoted_;
 };
 
-/// The record of one line; says what is wrong with it.
-std::optional<std::string> read_record(const std::vector<std::string>& fields,
-                                       const std::vector<std::string>& cells,
-                                       FeatureRecord& record) {
-  if (cells.size() != fields.size())
-    return fmt::format("the line has {} cells; the header names {}", cells.size(), fields.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    if (auto fault = set_field(record, fields[i], cells[i])) return fault;
-  if (record.building.empty() || record.id.empty()) return "'building' or 'id' is empty";
-  return std::nullopt;
+/// For each column its position in record_fields(), or that of none.
+std::vector<std::size_t> fields_of(const std::vector<std::string_view>& header) {
+  const auto& known = record_fields();
+  std::vector<std::size_t> fields;
+  for (const std::string_view name : header)
+    fields.push_back(static_cast<std::size_t>(std::ranges::find(known, name) - known.begin()));
+  return fields;
+}
+
+/// Gives the record of one line away; says what is wrong with it.
+std::optional<std::string> take_line(const std::vector<std::size_t>& fields,
+                                     const std::vector<std::string_view>& line, RecordCells& record,
+                                     const RecordTaker& take) {
+  if (line.size() != fields.size())
+    return fmt::format("the line has {} cells; the header names {}", line.size(), fields.size());
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (fields[i] < record.size()) record[fields[i]] = line[i];
+  if (record[record_field::building].empty() || record[record_field::id].empty())
+    return "'building' or 'id' is empty";
+  return take(record);
 }
 
 }  // namespace
@@ -133,34 +179,30 @@ void append_csv_record(std::string& out, const FeatureRecord& record) {
   append_csv_line(out, cells);
 }
 
-Checked<std::vector<FeatureRecord>> read_csv_records(std::string_view text, const TextName& name) {
-  Checked<std::vector<FeatureRecord>> result;
+bool visit_csv_records(std::string_view text, const TextName& name, const RecordTaker& take,
+                       std::vector<Issue>& issues) {
   CsvReader reader(text);
-  std::vector<std::string> fields;
+  std::vector<std::string_view> line;
   std::optional<std::string> fault;
-  if (!reader.next_line(fields, fault)) {
-    result.issues.push_back(
+  if (!reader.next_line(line, fault)) {
+    issues.push_back(
         error_in(name, {"E102", "the file is empty; expected a header line of field names"}));
-    return result;
+    return false;
   }
   for (const std::string_view needed : {"building", "id"})
-    if (!fault && std::ranges::find(fields, needed) == fields.end())
+    if (!fault && std::ranges::find(line, needed) == line.end())
       fault = fmt::format("the header names no field '{}'", needed);
   if (fault) {
-    result.issues.push_back(error_at(name, text, 0, {"E111", *fault}));
-    return result;
+    issues.push_back(error_at(name, text, 0, {"E111", *fault}));
+    return false;
   }
-  result.value.emplace();
-  std::vector<std::string> cells;
-  while (!fault && reader.next_line(cells, fault)) {
-    FeatureRecord record = empty_record();
-    const auto wrong = fault ? fault : read_record(fields, cells, record);
-    if (wrong)
-      result.issues.push_back(error_at(name, text, reader.start(), {"E111", *wrong}));
-    else
-      result.value->push_back(std::move(record));
+  const std::vector<std::size_t> fields = fields_of(line);
+  RecordCells record(record_fields().size());
+  while (!fault && reader.next_line(line, fault)) {
+    const auto wrong = fault ? fault : take_line(fields, line, record, take);
+    if (wrong) issues.push_back(error_at(name, text, reader.start(), {"E111", *wrong}));
   }
-  return result;
+  return true;
 }
 
 }  // namespace oriel::detail

@@ -38,27 +38,28 @@ std::optional<std::string> cell_of(const nlohmann::json& value) {
   return cell;
 }
 
-/// Reads one record; says what is wrong with it.
-std::optional<std::string> read_record(const nlohmann::json& object, FeatureRecord& record) {
+/// Gives one record away; says what is wrong with it.
+std::optional<std::string> take_object(const nlohmann::json& object, const RecordTaker& take) {
   if (!object.is_object())
     return fmt::format("a record is {}; expected an object", object.type_name());
+  const auto& fields = record_fields();
+  std::vector<std::string> values(fields.size());
   for (const auto& [key, value] : object.items()) {
-    if (!std::ranges::count(record_fields(), key)) continue;
-    const auto cell = cell_of(value);
+    const auto field = static_cast<std::size_t>(std::ranges::find(fields, key) - fields.begin());
+    if (field == fields.size()) continue;
+    auto cell = cell_of(value);
     if (!cell) return fmt::format("'{}' holds an object or nested arrays", key);
-    if (auto fault = set_field(record, key, *cell)) return fault;
+    values[field] = std::move(*cell);
   }
-  if (record.building.empty() || record.id.empty()) return "'building' or 'id' is missing";
-  return std::nullopt;
+  if (values[record_field::building].empty() || values[record_field::id].empty())
+    return "'building' or 'id' is missing";
+  return take(RecordCells(values.begin(), values.end()));
 }
 
-void add_record(const nlohmann::json& object, const TextName& name, const std::string& prefix,
-                Checked<std::vector<FeatureRecord>>& result) {
-  FeatureRecord record = empty_record();
-  if (const auto fault = read_record(object, record))
-    result.issues.push_back(error_in(name, {"E111", prefix + *fault}));
-  else
-    result.value->push_back(std::move(record));
+void take_record(const nlohmann::json& object, const TextName& name, const std::string& prefix,
+                 const RecordTaker& take, std::vector<Issue>& issues) {
+  if (const auto fault = take_object(object, take))
+    issues.push_back(error_in(name, {"E111", prefix + *fault}));
 }
 
 }  // namespace
@@ -100,24 +101,21 @@ void append_json_record(std::string& out, const FeatureRecord& record) {
   out += '}';
 }
 
-Checked<std::vector<FeatureRecord>> read_json_records(std::string_view text, const TextName& name,
-                                                      bool is_lines) {
-  Checked<std::vector<FeatureRecord>> result;
+bool visit_json_records(std::string_view text, const TextName& name, bool is_lines,
+                        const RecordTaker& take, std::vector<Issue>& issues) {
   if (!is_lines) {
-    const auto root = parse_slowly(name, text, result.issues);
-    if (!root) return result;
+    const auto root = parse_slowly(name, text, issues);
+    if (!root) return false;
     if (!root->is_array()) {
-      result.issues.push_back(
+      issues.push_back(
           error_in(name, {"E111", fmt::format("the file holds {}; expected an array of records",
                                               root->type_name())}));
-      return result;
+      return false;
     }
-    result.value.emplace();
     for (std::size_t i = 0; i < root->size(); ++i)
-      add_record((*root)[i], name, fmt::format("record {}: ", i), result);
-    return result;
+      take_record((*root)[i], name, fmt::format("record {}: ", i), take, issues);
+    return true;
   }
-  result.value.emplace();
   TextName line{name.file, 0};
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -125,10 +123,10 @@ Checked<std::vector<FeatureRecord>> read_json_records(std::string_view text, con
     text.remove_prefix(std::min(end + 1, text.size()));
     ++line.line;
     if (record.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    if (const auto object = parse_slowly(line, record, result.issues))
-      add_record(*object, line, "", result);
+    if (const auto object = parse_slowly(line, record, issues))
+      take_record(*object, line, "", take, issues);
   }
-  return result;
+  return true;
 }
 
 }  // namespace oriel::detail

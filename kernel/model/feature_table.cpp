@@ -21,13 +21,12 @@ std::size_t require_column(std::string_view name, bool is_text) {
 }  // namespace
 
 FeatureTable::FeatureTable(std::string building, std::size_t rows)
-    : building_(std::move(building)), ids_(rows), columns_(feature_schema().size()) {
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (feature_schema()[c].unit == Unit::text)
-      columns_[c].texts.resize(rows);
-    else
-      columns_[c].numbers.resize(rows, kMissing);
-  }
+    : building_(std::move(building)),
+      ids_(rows),
+      columns_(feature_schema().size()),
+      missing_(rows, kMissing) {
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    if (feature_schema()[c].unit == Unit::text) columns_[c].texts.resize(rows);
 }
 
 FeatureId FeatureTable::find(std::string_view id) const {
@@ -36,7 +35,7 @@ FeatureId FeatureTable::find(std::string_view id) const {
 }
 
 std::optional<double> FeatureTable::number(FeatureId row, std::size_t column) const {
-  const double value = columns_[column].numbers[row.index()];
+  const double value = numbers(column)[row.index()];
   if (std::isnan(value)) return std::nullopt;
   return value;
 }
@@ -49,12 +48,18 @@ const std::string& FeatureTable::text(FeatureId row, std::string_view name) cons
   return columns_[require_column(name, true)].texts[row.index()];
 }
 
+void FeatureTable::set(FeatureId row, std::size_t column, double value) {
+  auto& numbers = columns_[column].numbers;
+  if (numbers.empty()) numbers = missing_;
+  numbers[row.index()] = value;
+}
+
 void FeatureTable::set(FeatureId row, std::string_view name, double value) {
-  columns_[require_column(name, false)].numbers[row.index()] = value;
+  set(row, require_column(name, false), value);
 }
 
 void FeatureTable::set(FeatureId row, std::string_view name, std::string value) {
-  columns_[require_column(name, true)].texts[row.index()] = std::move(value);
+  set(row, require_column(name, true), std::move(value));
 }
 
 }  // namespace oriel

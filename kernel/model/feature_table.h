@@ -63,7 +63,8 @@ class FeatureTable {
 
   /// The whole column, NaN where missing; empty for a column of texts.
   [[nodiscard]] const std::vector<double>& numbers(std::size_t column) const {
-    return columns_[column].numbers;
+    const Column& c = columns_[column];
+    return c.numbers.empty() && c.texts.empty() ? missing_ : c.numbers;
   }
   /// The whole column, "" where missing; empty for a column of numbers.
   [[nodiscard]] const std::vector<std::string>& texts(std::size_t column) const {
@@ -76,15 +77,23 @@ class FeatureTable {
   /// Sets a value. `name` must stand in the schema with a fitting type.
   void set(FeatureId row, std::string_view name, double value);
   void set(FeatureId row, std::string_view name, std::string value);
+  /// The same by the column's position, whose type must fit.
+  void set(FeatureId row, std::size_t column, double value);
+  void set(FeatureId row, std::size_t column, std::string value) {
+    columns_[column].texts[row.index()] = std::move(value);
+  }
 
  private:
   struct Column {
+    /// Empty before the first value is set.
     std::vector<double> numbers;
     std::vector<std::string> texts;
   };
   std::string building_;
   std::vector<std::string> ids_;
   std::vector<Column> columns_;
+  /// What a column of numbers is in which nothing was set.
+  std::vector<double> missing_;
 };
 
 }  // namespace oriel

@@ -60,7 +60,7 @@ bool has_file(const fs::path& folder, const std::string& part) {
 }
 
 void send_signal(pid_t child, const Surroundings& around) {
-  for (int i = 0; i < 5000 && !has_file(around.watched, around.watched_name); ++i)
+  for (int i = 0; i < 30000 && !has_file(around.watched, around.watched_name); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ::kill(child, around.signal);
 }

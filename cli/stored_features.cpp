@@ -1,0 +1,119 @@
+#include "cli/stored_features.h"
+
+#include "interpret/interpret.h"
+#include "kernel/io/feature_records.h"
+#include "kernel/io/feature_tables.h"
+
+#include <iterator>
+#include <map>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+/// The verdicts of a run in the order of the records, each with the names of its feature.
+class Verdicts {
+ public:
+  Verdicts(const std::vector<DescribedBuilding>& buildings, const std::vector<Interpretation>& run)
+      : buildings_(buildings), run_(run) {}
+
+  /// The verdict of a record behind those that were found so far, or null.
+  const Verdict* find(const FeatureRecord& record) {
+    std::size_t row = row_;
+    for (std::size_t b = building_; b < buildings_.size(); ++b, row = 0) {
+      const FeatureTable& table = buildings_[b].table;
+      if (table.building() != record.building) continue;
+      for (; row < table.rows(); ++row) {
+        const FeatureId feature{static_cast<int>(row)};
+        if (table.id(feature) != record.id) continue;
+        building_ = b;
+        row_ = row + 1;
+        return &run_[b].verdicts[row];
+      }
+    }
+    return nullptr;
+  }
+
+ private:
+  const std::vector<DescribedBuilding>& buildings_;
+  const std::vector<Interpretation>& run_;
+  std::size_t building_ = 0;
+  std::size_t row_ = 0;
+};
+
+}  // namespace
+
+StoredFeatures::StoredFeatures(std::vector<std::string> files, Report& report)
+    : files_(std::move(files)), report_(report) {
+  for (const std::string& file : files_) {
+    auto tables = read_feature_tables(file);
+    report_.tell(tables.issues);
+    if (has_errors(tables.issues))
+      code_ = graver(code_, tables.value ? ExitCode::set_aside : ExitCode::input);
+    if (tables.value)
+      buildings_.insert(buildings_.end(), std::make_move_iterator(tables.value->begin()),
+                        std::make_move_iterator(tables.value->end()));
+  }
+}
+
+std::vector<Interpretation> StoredFeatures::interpret(const RuleBase& rules, int jobs) const {
+  std::vector<Interpretation> run(buildings_.size());
+  const auto interpret_one = [&](std::size_t i) {
+    run[i] = oriel::interpret(rules, buildings_[i].table, buildings_[i].graph);
+  };
+  tbb::task_arena arena(jobs);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, buildings_.size(), interpret_one); });
+  for (const Interpretation& interpretation : run) report_.tell(interpretation.issues);
+  return run;
+}
+
+std::string StoredFeatures::listing(const std::vector<Interpretation>& run) {
+  std::map<std::pair<std::string, std::string>, std::size_t> counts;
+  for (const Interpretation& interpretation : run)
+    for (const Verdict& verdict : interpretation.verdicts) ++counts[{verdict.label, verdict.rule}];
+  std::vector<std::vector<std::string>> rows{{"label", "rule", "features"}};
+  for (const auto& [naming, count] : counts)
+    rows.push_back({naming.first.empty() ? "unknown" : naming.first,
+                    naming.second.empty() ? "-" : naming.second, fmt::format("{}", count)});
+  return table(rows);
+}
+
+LabelDiff StoredFeatures::compare(const std::vector<Interpretation>& before,
+                                  const std::vector<Interpretation>& after,
+                                  std::size_t most_examples) const {
+  LabelDiff diff(most_examples);
+  for (std::size_t b = 0; b < buildings_.size(); ++b)
+    for (std::size_t row = 0; row < before[b].verdicts.size(); ++row) {
+      const Verdict& p = before[b].verdicts[row];
+      const Verdict& q = after[b].verdicts[row];
+      const FeatureTable& table = buildings_[b].table;
+      diff.add(table.building(), table.id(p.feature), {p.label, p.rule}, {q.label, q.rule});
+    }
+  return diff;
+}
+
+void StoredFeatures::write(const std::string& path, const std::vector<Interpretation>& run) {
+  FeatureRecordWriter writer(path);
+  Verdicts verdicts(buildings_, run);
+  for (const std::string& file : files_) {
+    const auto issues = visit_feature_records(file, [&](FeatureRecord record) {
+      const Verdict* verdict = verdicts.find(record);
+      if (verdict == nullptr) return;
+      set_verdict(record, *verdict);
+      writer.append({std::move(record)});
+    });
+    // What the tables could be read without was not told yet: boxes, polygons.
+    if (has_errors(issues) && code_ == ExitCode::clean) {
+      report_.tell(issues);
+      code_ = ExitCode::set_aside;
+    }
+  }
+  writer.commit();
+}
+
+}  // namespace oriel::cli
