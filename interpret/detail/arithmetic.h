@@ -3,7 +3,9 @@
 #include "interpret/detail/expr.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <span>
 
 namespace oriel::rules {
 
@@ -49,6 +51,66 @@ inline Truth compare(Op op, double x, double y) {
       return truth_of(x == y);
     default:
       return truth_of(x != y);
+  }
+}
+
+/// Calls `f` for each element of spans of the same size. Compiled for each `f`, so that what is the
+/// same for all elements is decided outside the loop.
+template <class F, class... Spans>
+void for_each(std::size_t size, F f, Spans... spans) {
+  for (std::size_t i = 0; i < size; ++i) f(spans[i]...);
+}
+
+/// The same operators for a block: of x, and of x and y, into x.
+inline void apply(Op op, std::span<double> x) {
+  const auto run = [&](auto f) { for_each(x.size(), f, x); };
+  if (op == Op::negate) return run([](double& v) { v = -v; });
+  if (op == Op::absolute) return run([](double& v) { v = std::abs(v); });
+  run([](double& v) { v = std::sqrt(v); });
+}
+
+inline void apply(Op op, std::span<double> x, std::span<const double> y) {
+  const auto run = [&](auto f) { for_each(x.size(), f, x, y); };
+  switch (op) {
+    case Op::add:
+      return run([](double& p, double q) { p = p + q; });
+    case Op::subtract:
+      return run([](double& p, double q) { p = p - q; });
+    case Op::multiply:
+      return run([](double& p, double q) { p = p * q; });
+    case Op::divide:
+      return run([](double& p, double q) { p = p / q; });
+    default:
+      return run([op](double& p, double q) { p = apply(op, p, q); });
+  }
+}
+
+/// The same comparisons for a block. No comparison holds for NaN, so that what does not hold is
+/// either no or, where one is NaN, unknown.
+inline void compare(Op op, std::span<const double> x, std::span<const double> y,
+                    std::span<Truth> out) {
+  const auto run = [&](auto holds) {
+    for_each(
+        out.size(),
+        [holds](Truth& truth, double p, double q) {
+          const int is_unknown = static_cast<int>(p != p) | static_cast<int>(q != q);
+          truth = static_cast<Truth>(2 * static_cast<int>(holds(p, q)) + is_unknown);
+        },
+        out, x, y);
+  };
+  switch (op) {
+    case Op::less:
+      return run([](double p, double q) { return p < q; });
+    case Op::less_equal:
+      return run([](double p, double q) { return p <= q; });
+    case Op::greater:
+      return run([](double p, double q) { return p > q; });
+    case Op::greater_equal:
+      return run([](double p, double q) { return p >= q; });
+    case Op::equal:
+      return run([](double p, double q) { return p == q; });
+    default:
+      return run([](double p, double q) { return static_cast<bool>((p < q) | (p > q)); });
   }
 }
 

@@ -41,7 +41,9 @@ void Evaluator::forget() {
 void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
   const Expr& expr = at(id);
   if (is_constant(expr)) {
-    std::ranges::fill(out, fold(*pack_, id, facts_->scale).value_or(kUnknown));
+    const double value =
+        expr.op == Op::constant ? expr.number : fold(*pack_, id, facts_->scale).value_or(kUnknown);
+    std::ranges::fill(out, value);
     return;
   }
   if (expr.op == Op::attribute)
@@ -57,19 +59,21 @@ void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
 void Evaluator::gather(const Expr& expr, const Frame& frame, std::span<double> out) const {
   const auto column = facts_->columns[static_cast<std::size_t>(expr.index)];
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
+  if (frame.is_run) {
+    std::ranges::copy(column.subspan(static_cast<std::size_t>(rows[0]), out.size()), out.begin());
+    return;
+  }
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = column[static_cast<std::size_t>(rows[i])];
 }
 
 void Evaluator::apply_all(const Expr& expr, const Frame& frame, std::span<double> out) {
   numbers(expr.args[0], frame, out);
-  if (expr.args.size() == 1) {
-    for (double& value : out) value = apply(expr.op, value);
-    return;
-  }
-  NumberBlock right;
+  if (expr.args.size() == 1) return apply(expr.op, out);
+  NumberBlock block;
+  const auto right = std::span(block).first(out.size());
   for (std::size_t k = 1; k < expr.args.size(); ++k) {
-    numbers(expr.args[k], frame, std::span(right).first(out.size()));
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = apply(expr.op, out[i], right[i]);
+    numbers(expr.args[k], frame, right);
+    apply(expr.op, out, right);
   }
 }
 
@@ -110,37 +114,49 @@ void Evaluator::truths(ExprId id, const Frame& frame, std::span<Truth> out) {
 }
 
 void Evaluator::flag(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
-  NumberBlock values;
-  gather(expr, frame, std::span(values).first(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = rules::compare(Op::not_equal, values[i], 0);
+  NumberBlock block, zeros;
+  const auto values = std::span(block).first(out.size());
+  const auto zero = std::span(zeros).first(out.size());
+  gather(expr, frame, values);
+  std::ranges::fill(zero, 0.0);
+  rules::compare(Op::not_equal, values, zero, out);
 }
 
 void Evaluator::compare(const Expr& expr, const Frame& frame, std::span<Truth> out) {
-  NumberBlock left, right;
-  numbers(expr.args[0], frame, std::span(left).first(out.size()));
-  numbers(expr.args[1], frame, std::span(right).first(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = rules::compare(expr.op, left[i], right[i]);
+  NumberBlock first, second;
+  const auto left = std::span(first).first(out.size());
+  const auto right = std::span(second).first(out.size());
+  numbers(expr.args[0], frame, left);
+  numbers(expr.args[1], frame, right);
+  rules::compare(expr.op, left, right, out);
 }
 
 void Evaluator::in_range(const Expr& expr, const Frame& frame, std::span<Truth> out) {
-  NumberBlock value, bound;
-  numbers(expr.args[0], frame, std::span(value).first(out.size()));
-  numbers(expr.args[1], frame, std::span(bound).first(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = rules::compare(Op::greater_equal, value[i], bound[i]);
-  numbers(expr.args[2], frame, std::span(bound).first(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = std::min(out[i], rules::compare(Op::less_equal, value[i], bound[i]));
+  NumberBlock first, second;
+  TruthBlock third;
+  const auto value = std::span(first).first(out.size());
+  const auto bound = std::span(second).first(out.size());
+  const auto is_below = std::span(third).first(out.size());
+  numbers(expr.args[0], frame, value);
+  numbers(expr.args[1], frame, bound);
+  rules::compare(Op::greater_equal, value, bound, out);
+  numbers(expr.args[2], frame, bound);
+  rules::compare(Op::less_equal, value, bound, is_below);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::min(out[i], is_below[i]);
 }
 
 void Evaluator::in_list(const Expr& expr, const Frame& frame, std::span<Truth> out) {
-  NumberBlock value, member;
-  numbers(expr.args[0], frame, std::span(value).first(out.size()));
+  NumberBlock first, second;
+  TruthBlock third;
+  const auto value = std::span(first).first(out.size());
+  const auto member = std::span(second).first(out.size());
+  const auto is_member = std::span(third).first(out.size());
+  numbers(expr.args[0], frame, value);
   std::ranges::fill(out, Truth::no);
   for (std::size_t k = 1; k < expr.args.size(); ++k) {
-    numbers(expr.args[k], frame, std::span(member).first(out.size()));
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = std::max(out[i], rules::compare(Op::equal, value[i], member[i]));
+    numbers(expr.args[k], frame, member);
+    rules::compare(Op::equal, value, member, is_member);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], is_member[i]);
   }
 }
 

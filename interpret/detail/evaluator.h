@@ -3,6 +3,7 @@
 #include "interpret/detail/facts.h"
 #include "interpret/detail/pack.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -17,10 +18,21 @@ inline constexpr std::size_t kBlock = 512;
 struct Frame {
   std::array<const int*, kMostLevels> rows{};
   std::size_t size = 0;
+  /// The features of every level that is read follow each other.
+  bool is_run = false;
   /// Where an entry is Truth::no the answer is not needed and may be anything; null: all are
   /// needed.
   const Truth* needed = nullptr;
 };
+
+/// The features from `begin` on, so many as a block takes, on the given level.
+inline Frame block_of(const Facts& facts, std::size_t begin, int level = 0) {
+  Frame frame;
+  frame.size = std::min(kBlock, facts.rows - begin);
+  frame.rows[static_cast<std::size_t>(level)] = facts.row_numbers.data() + begin;
+  frame.is_run = true;
+  return frame;
+}
 
 /// What a facet of that inclination is.
 HostKind kind_of_facet(const Hosts& hosts, double inclination_deg);
@@ -41,11 +53,11 @@ class Evaluator {
   void numbers(ExprId id, const Frame& frame, std::span<double> out);
   void truths(ExprId id, const Frame& frame, std::span<Truth> out);
 
-  /// How the others of a quantifier answer.
+  /// How the others of a quantifier answer; filled by tally().
   struct Tally {
-    int yes = 0;
-    int unknown = 0;
-    int total = 0;
+    int yes;
+    int unknown;
+    int total;
   };
   /// The answers for each slot of `frame`.
   void tally(ExprId id, const Frame& frame, std::span<Tally> out);

@@ -42,7 +42,9 @@ double descend(Ends ends, double x) {
 /// Weighted means of the known terms; a feature for which none is known makes the rule unknown.
 void score(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
            Judgement& judgement) {
-  std::array<double, kBlock> sum{}, weight{}, term;
+  std::array<double, kBlock> sum, weight, term;
+  std::fill_n(sum.begin(), frame.size, 0.0);
+  std::fill_n(weight.begin(), frame.size, 0.0);
   for (const ScoreTerm& t : rule.score) {
     judge_term(pack, t, evaluator, frame, std::span(term).first(frame.size));
     for (std::size_t i = 0; i < frame.size; ++i) {

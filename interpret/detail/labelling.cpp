@@ -74,12 +74,10 @@ void Labelling::run_predicates(const Step& step) {
 bool Labelling::apply_predicate(const Rule& rule) {
   evaluator_.forget();
   bool has_changed = false;
-  Frame frame;
   Judgement judgement;
   std::vector<Truth> truths(facts_->rows);
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
-    frame.size = std::min(kBlock, facts_->rows - begin);
-    frame.rows[0] = facts_->row_numbers.data() + begin;
+    const Frame frame = block_of(*facts_, begin);
     judge(*pack_, rule, evaluator_, frame, judgement);
     std::copy_n(judgement.truth.begin(), frame.size,
                 truths.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -126,13 +124,11 @@ bool Labelling::is_open(std::size_t row, ClassId label) const {
 
 void Labelling::collect(int id) {
   std::array<Truth, kBlock> open;
-  Frame frame;
-  frame.needed = open.data();
   Judgement judgement;
   const ClassId label = rule(id).label;
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
-    frame.size = std::min(kBlock, facts_->rows - begin);
-    frame.rows[0] = facts_->row_numbers.data() + begin;
+    Frame frame = block_of(*facts_, begin);
+    frame.needed = open.data();
     for (std::size_t i = 0; i < frame.size; ++i) open[i] = truth_of(is_open(begin + i, label));
     judge(*pack_, rule(id), evaluator_, frame, judgement);
     for (std::size_t i = 0; i < frame.size; ++i) {
@@ -179,13 +175,16 @@ void Labelling::decide(std::size_t row) {
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.
 void Labelling::settle_membership(const Step& step) {
-  for (std::size_t row = 0; row < facts_->rows; ++row) {
-    const int winner = choices_[row].rule;
-    if (winner >= 0) raise_membership(rule(winner).label, row, Truth::yes);
-    for (const int id : step.rules) {
-      const ClassId label = rule(id).label;
-      if (is_unknown_[index(label)][row] && is_open(row, label))
-        raise_membership(label, row, Truth::unknown);
+  for (std::size_t row = 0; row < facts_->rows; ++row)
+    if (const int winner = choices_[row].rule; winner >= 0)
+      raise_membership(rule(winner).label, row, Truth::yes);
+  for (const int id : step.rules) {
+    const ClassId label = rule(id).label;
+    const std::vector<bool>& unknown = is_unknown_[index(label)];
+    for (auto at = std::ranges::find(unknown, true); at != unknown.end();
+         at = std::find(at + 1, unknown.end(), true)) {
+      const auto row = static_cast<std::size_t>(at - unknown.begin());
+      if (is_open(row, label)) raise_membership(label, row, Truth::unknown);
     }
   }
 }

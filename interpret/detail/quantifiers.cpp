@@ -23,10 +23,8 @@ const std::vector<Truth>& Evaluator::column(ExprId id, int level) {
   auto& answers = columns_[static_cast<std::size_t>(id)];
   if (!answers.empty()) return answers;
   std::vector<Truth> computed(facts_->rows);
-  Frame frame;
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
-    frame.size = std::min(kBlock, facts_->rows - begin);
-    frame.rows[static_cast<std::size_t>(level)] = facts_->row_numbers.data() + begin;
+    const Frame frame = block_of(*facts_, begin, level);
     truths(id, frame, std::span(computed).subspan(begin, frame.size));
   }
   kept_.push_back(id);
@@ -42,7 +40,7 @@ void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out) {
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
   Pairs pairs;
   for (std::size_t slot = 0; slot < out.size(); ++slot) {
-    out[slot] = {};
+    out[slot] = {0, 0, 0};
     if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
     const std::size_t end = links.begin_of(rows[slot] + 1);
     out[slot].total = static_cast<int>(end - links.begin_of(rows[slot]));

@@ -10,31 +10,73 @@ namespace oriel::rules {
 
 namespace {
 
-/// Goes through the pairs of a relation block by block and keeps those that fit.
+/// What levels a condition of a relation reads: bit 0 self, bit 1 other.
+constexpr unsigned kSelf = 1, kOther = 2;
+
+/// Goes through the pairs of a relation block by block and keeps those that fit. Conditions on one
+/// of the two alone are evaluated once for every feature, and only pairs that they leave are looked
+/// at.
 class Narrowing {
  public:
   Narrowing(const Pack& pack, const Facts& facts, const Relation& relation)
-      : evaluator_(pack, facts), where_(relation.where), rows_(facts.rows) {}
+      : facts_(facts), evaluator_(pack, facts) {
+    const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
+    const std::vector<ExprId> whole{relation.where};
+    for (const ExprId id : where.op == Op::all_of ? where.args : whole) sort(pack, id);
+  }
 
   Links run(const Links& from) {
-    links_.starts.assign(rows_ + 1, 0);
-    for (int row = 0; row < static_cast<int>(rows_); ++row) {
-      for (std::size_t link = from.begin_of(row); link < from.begin_of(row + 1); ++link)
-        add(row, from.others[link], from.is_other(link));
+    const auto selves = answers_of(of_self_, 0), others = answers_of(of_other_, 1);
+    links_.starts.assign(facts_.rows + 1, 0);
+    for (const int row : facts_.row_numbers) {
+      const Truth self = selves[static_cast<std::size_t>(row)];
+      if (self == Truth::no) continue;
+      for (std::size_t link = from.begin_of(row); link < from.begin_of(row + 1); ++link) {
+        const int other = from.others[link];
+        const Truth truth =
+            std::min({self, from.is_other(link), others[static_cast<std::size_t>(other)]});
+        if (truth != Truth::no) add(row, other, truth);
+      }
     }
     flush();
-    for (std::size_t row = 0; row < rows_; ++row) links_.starts[row + 1] += links_.starts[row];
+    for (std::size_t row = 0; row < facts_.rows; ++row)
+      links_.starts[row + 1] += links_.starts[row];
     if (std::ranges::find(links_.certain, Truth::unknown) == links_.certain.end())
       links_.certain.clear();
     return std::move(links_);
   }
 
  private:
-  void add(int self, int other, Truth is_other) {
+  void sort(const Pack& pack, ExprId id) {
+    const unsigned levels = pack.code[static_cast<std::size_t>(id)].levels;
+    auto& list = (levels & kOther) == 0 ? of_self_ : (levels & kSelf) == 0 ? of_other_ : of_both_;
+    list.push_back(id);
+  }
+
+  /// For every feature whether all of the conditions hold, which read that level only.
+  std::vector<Truth> answers_of(const std::vector<ExprId>& conditions, int level) {
+    std::vector<Truth> all(facts_.rows, Truth::yes);
+    for (std::size_t begin = 0; begin < facts_.rows; begin += kBlock) {
+      const Frame frame = block_of(facts_, begin, level);
+      narrow(conditions, frame, std::span(all).subspan(begin, frame.size));
+    }
+    return all;
+  }
+
+  void narrow(const std::vector<ExprId>& conditions, const Frame& frame, std::span<Truth> all) {
+    std::array<Truth, kBlock> block;
+    const auto answers = std::span(block).first(all.size());
+    for (const ExprId id : conditions) {
+      evaluator_.truths(id, frame, answers);
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::min(all[i], answers[i]);
+    }
+  }
+
+  void add(int self, int other, Truth truth) {
     if (size_ == kBlock) flush();
     selves_[size_] = self;
     others_[size_] = other;
-    known_[size_++] = is_other;
+    truths_[size_++] = truth;
   }
 
   void flush() {
@@ -42,26 +84,24 @@ class Narrowing {
     frame.size = size_;
     frame.rows[0] = selves_.data();
     frame.rows[1] = others_.data();
-    std::array<Truth, kBlock> answers;
-    evaluator_.truths(where_, frame, std::span(answers).first(size_));
+    narrow(of_both_, frame, std::span(truths_).first(size_));
     for (std::size_t i = 0; i < size_; ++i) {
-      const Truth truth = std::min(known_[i], answers[i]);
-      if (truth == Truth::no) continue;
+      if (truths_[i] == Truth::no) continue;
       ++links_.starts[static_cast<std::size_t>(selves_[i]) + 1];
       links_.others.push_back(others_[i]);
-      links_.certain.push_back(truth);
+      links_.certain.push_back(truths_[i]);
     }
     size_ = 0;
   }
 
+  const Facts& facts_;
   Evaluator evaluator_;
-  ExprId where_;
-  std::size_t rows_;
+  std::vector<ExprId> of_self_, of_other_, of_both_;
   Links links_;
   std::size_t size_ = 0;
   std::array<int, kBlock> selves_;
   std::array<int, kBlock> others_;
-  std::array<Truth, kBlock> known_;
+  std::array<Truth, kBlock> truths_;
 };
 
 }  // namespace
