@@ -66,6 +66,7 @@ void add_rules(CLI::App& app, Action& action) {
   check->footer("Example:\n  oriel rules check my_rules.yaml");
   check->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
   add_rules_test(*rules, action);
+  add_rules_text(*rules, action);
 }
 
 }  // namespace oriel::cli

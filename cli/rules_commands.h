@@ -4,7 +4,9 @@
 
 namespace oriel::cli {
 
-/// Each adds one command under `oriel rules`.
+/// Each adds its commands under `oriel rules`.
 void add_rules_test(CLI::App& rules, Action& action);
+/// fmt and show
+void add_rules_text(CLI::App& rules, Action& action);
 
 }  // namespace oriel::cli

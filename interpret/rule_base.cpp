@@ -1,13 +1,17 @@
 #include "interpret/rule_base.h"
 
 #include "interpret/detail/embedded.h"
+#include "interpret/detail/extend.h"
+#include "interpret/detail/findings.h"
 #include "interpret/detail/load.h"
 #include "interpret/detail/pack.h"
 #include "interpret/detail/read_file.h"
 #include "interpret/detail/suggest.h"
+#include "interpret/detail/yaml_text.h"
 
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 namespace oriel {
 
@@ -37,6 +41,45 @@ std::optional<rules::FoundPack> find_beside(const std::string& pack, const std::
   auto text = rules::read_file(file.string());
   if (!text) return std::nullopt;
   return rules::FoundPack{file.string(), std::move(*text)};
+}
+
+/// The embedded pack called `path`, else the file.
+std::optional<rules::FoundPack> find_pack(const std::string& path) {
+  if (auto embedded = find_embedded(path)) return embedded;
+  auto text = rules::read_file(path);
+  if (!text) return std::nullopt;
+  return rules::FoundPack{path, std::move(*text)};
+}
+
+/// Finds what the pack at `path` extends.
+rules::PackFinder finder_for(const std::string& path) {
+  if (embedded_pack(path)) return find_embedded;
+  return [path](const std::string& name) {
+    auto embedded = find_embedded(name);
+    return embedded ? embedded : find_beside(path, name);
+  };
+}
+
+/// Prints a pack that can be loaded; `printed` gives a tree and its text, of which it is certain
+/// that it says the same.
+template <class Print>
+Checked<std::string> print(const std::string& path, const Print& printed) {
+  auto loaded = load_pack_file(path);
+  Checked<std::string> result{std::nullopt, std::move(loaded.issues)};
+  if (!loaded.value) return result;
+  auto found = find_pack(path);
+  if (!found) return result;
+  rules::drop_byte_order_mark(found->text);
+  rules::Source source(std::move(found->file), std::move(found->text));
+  rules::Findings findings(source);
+  auto [tree, text] = printed(source, findings);
+  const rules::Source again(path, text);
+  rules::Findings none(again);
+  const auto read_again = rules::parse_yaml({0, text.size()}, none);
+  if (!read_again || !rules::is_same(*tree, *read_again))
+    throw std::logic_error("the printed pack does not say the same");
+  result.value = std::move(text);
+  return result;
 }
 
 Checked<RuleBase> load(std::string text, std::string file, const rules::PackFinder& find) {
@@ -75,14 +118,23 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
 }
 
 Checked<RuleBase> load_pack_file(const std::string& path) {
-  if (const auto text = embedded_pack(path)) return load_pack(std::string(*text), path + ".yaml");
-  auto text = rules::read_file(path);
-  if (!text)
-    return refuse(path, "there is no pack here that can be read; the packs built in are: " +
-                            rules::join(embedded_packs()));
-  return load(std::move(*text), path, [&](const std::string& name) {
-    auto embedded = find_embedded(name);
-    return embedded ? embedded : find_beside(path, name);
+  auto found = find_pack(path);
+  if (found) return load(std::move(found->text), std::move(found->file), finder_for(path));
+  return refuse(path, "there is no pack here that can be read; the packs built in are: " +
+                          rules::join(embedded_packs()));
+}
+
+Checked<std::string> format_pack_file(const std::string& path) {
+  return print(path, [](rules::Source& source, rules::Findings& findings) {
+    const auto tree = rules::parse_yaml({0, source.text().size()}, findings);
+    return std::pair(tree, rules::to_yaml(tree.value(), source.text()));
+  });
+}
+
+Checked<std::string> merge_pack_file(const std::string& path) {
+  return print(path, [&](rules::Source& source, rules::Findings& findings) {
+    const auto tree = rules::read_tree(source, finder_for(path), findings);
+    return std::pair(tree, rules::to_yaml(tree.value()));
   });
 }
 

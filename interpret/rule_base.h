@@ -54,6 +54,15 @@ Checked<RuleBase> load_pack(std::string text, std::string file);
 /// It may extend files in its own folder. Nothing else is read.
 Checked<RuleBase> load_pack_file(const std::string& path);
 
+/// The pack that load_pack_file would load, in canonical form with its comments: read again it says
+/// the same, and in the same form. Findings are those of loading it; with an error among them there
+/// is no text.
+Checked<std::string> format_pack_file(const std::string& path);
+
+/// The same pack with those that it extends put into one, without comments: what comes of
+/// overriding and removing.
+Checked<std::string> merge_pack_file(const std::string& path);
+
 /// The text of a pack that was built into the library ("residential"), or nothing.
 std::optional<std::string_view> embedded_pack(std::string_view name);
 

@@ -137,12 +137,12 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   add_default_emissions(pack);
 }
 
+}  // namespace
+
 void drop_byte_order_mark(std::string& text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
 }
-
-}  // namespace
 
 std::shared_ptr<const Pack> load(std::string text, std::string file, const PackFinder& find,
                                  std::vector<Issue>& issues) {

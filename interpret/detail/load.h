@@ -15,4 +15,7 @@ namespace oriel::rules {
 std::shared_ptr<const Pack> load(std::string text, std::string file, const PackFinder& find,
                                  std::vector<Issue>& issues);
 
+/// Takes the mark away that some editors put before UTF-8.
+void drop_byte_order_mark(std::string& text);
+
 }  // namespace oriel::rules

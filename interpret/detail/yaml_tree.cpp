@@ -119,19 +119,6 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-/// The offset of the quote that closes the one at `begin`, or npos.
-std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
-  const char quote = text[begin];
-  for (std::size_t i = begin + 1; i < text.size(); ++i) {
-    const bool is_escape = quote == '"' ? text[i] == '\\' : text.substr(i, 2) == "''";
-    if (is_escape)
-      ++i;
-    else if (text[i] == quote)
-      return i;
-  }
-  return std::string_view::npos;
-}
-
 YamlNode TreeBuilder::make_scalar(const YAML::Mark& mark, const std::string& tag,
                                   const std::string& value) {
   const std::string_view text = std::string_view(findings_->source().text()).substr(0, where_.end);
@@ -212,6 +199,18 @@ void report(Span where, Findings& findings, const YAML::Exception& problem) {
 }
 
 }  // namespace
+
+std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  for (std::size_t i = begin + 1; i < text.size(); ++i) {
+    const bool is_escape = quote == '"' ? text[i] == '\\' : text.substr(i, 2) == "''";
+    if (is_escape)
+      ++i;
+    else if (text[i] == quote)
+      return i;
+  }
+  return std::string_view::npos;
+}
 
 std::optional<YamlNode> parse_yaml(Span where, Findings& findings) {
   if (where.end - where.begin > kMostBytes) {

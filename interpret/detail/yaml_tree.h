@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel::rules {
@@ -42,5 +43,8 @@ struct YamlEntry {
 /// is no text, R213 for a text beyond the limits above. A repeated key is an error R202 and both
 /// stay.
 std::optional<YamlNode> parse_yaml(Span where, Findings& findings);
+
+/// The offset of the quote that closes the one at `begin`, or npos.
+std::size_t find_closing_quote(std::string_view text, std::size_t begin);
 
 }  // namespace oriel::rules

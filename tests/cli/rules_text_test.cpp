@@ -1,0 +1,51 @@
+#include "tests/cli/command.h"
+
+#include <doctest/doctest.h>
+
+using namespace oriel::test;
+
+namespace {
+
+const std::string kPack =
+    "schema:  oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
+    "rules: [{id: w, label: window, require: natural}]   # all of it\n";
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("rules fmt prints and checks and writes the canonical form") {
+    const Folder folder;
+    const std::string pack = folder.write("p.yaml", kPack);
+    const Outcome printed = run({"rules", "fmt", pack});
+    CHECK(printed.exit == 0);
+    CHECK(printed.out.starts_with("schema: oriel/1\n"));
+    CHECK(printed.out.ends_with("  # all of it\n"));
+    CHECK(bytes_of(pack) == kPack);
+    CHECK(run({"rules", "fmt", "--check", pack}).exit == 4);
+    CHECK(run({"rules", "fmt", "-w", pack}).exit == 0);
+    CHECK(bytes_of(pack) == printed.out);
+    CHECK(run({"rules", "fmt", "--check", pack}).exit == 0);
+    CHECK(run({"rules", "fmt", "-w", "--check", pack}).exit == 2);
+    CHECK(run({"rules", "fmt", "-w", "residential"}).exit == 2);
+    const Outcome wrong = run({"rules", "fmt", folder.write("bad.yaml", "rules: []\n")});
+    CHECK(wrong.exit == 4);
+    CHECK(wrong.out.empty());
+    CHECK(wrong.says("R210"));
+  }
+
+  TEST_CASE("rules show prints a pack as it is or merged") {
+    const Folder folder;
+    CHECK(run({"rules", "show", "residential"}).out ==
+          bytes_of(std::string(ORIEL_SOURCE_DIR) + "/rules/residential.yaml"));
+    folder.write("base.yaml", kPack);
+    const std::string upper = folder.write(
+        "upper.yaml", "schema: oriel/1\npack: {name: u, version: 1.0.0}\nextends: base.yaml\n");
+    const Outcome merged = run({"rules", "show", "--merged", upper});
+    CHECK(merged.exit == 0);
+    CHECK(merged.out.find("extends") == std::string::npos);
+    const std::string alone = folder.write("alone.yaml", merged.out);
+    CHECK(run({"rules", "check", alone}).exit == 0);
+    CHECK(run({"rules", "show", "--merged", alone}).out == merged.out);
+    CHECK(run({"rules", "show", folder / "none.yaml"}).exit == 4);
+  }
+}
