@@ -1,5 +1,6 @@
 #include "cli/report.h"
 #include "cli/rules_commands.h"
+#include "interpret/pack_schema.h"
 #include "interpret/rule_base.h"
 #include "kernel/io/output_file.h"
 
@@ -85,9 +86,22 @@ void add_show(CLI::App& rules, Action& action) {
   command->callback([arguments, &action] { action = [arguments] { return show(*arguments); }; });
 }
 
+void add_schema(CLI::App& rules, Action& action) {
+  CLI::App* command = rules.add_subcommand(
+      "schema", "Print the JSON Schema of rule packs, from which editors complete");
+  command->footer("Example:\n  oriel rules schema > oriel-1.schema.json");
+  command->callback([&action] {
+    action = [] {
+      std::fputs(pack_schema().c_str(), stdout);
+      return ExitCode::clean;
+    };
+  });
+}
+
 }  // namespace
 
 void add_rules_text(CLI::App& rules, Action& action) {
+  add_schema(rules, action);
   add_format(rules, action);
   add_show(rules, action);
 }
