@@ -39,7 +39,7 @@ void Accounts::add(const std::string& building, const std::string& target,
 }
 
 void Accounts::add(const std::string& building, const std::string& target, double least_edge_m,
-                   const SolidFigures& before, const SolidFigures& after) {
+                   const SolidFigures& before, const SolidFigures& after, double hausdorff_m) {
   if (!figures_) return;
   nlohmann::ordered_json line;
   line["building"] = building;
@@ -54,6 +54,7 @@ void Accounts::add(const std::string& building, const std::string& target, doubl
   both("short_edges", [](const SolidFigures& f) { return f.short_edges; });
   both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
   both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
+  line["hausdorff_m"] = hausdorff_m;
   figures_->append(line.dump() + "\n");
 }
 

@@ -18,12 +18,13 @@ class Accounts {
   Accounts(std::string explain, std::string metrics)
       : explain_(std::move(explain)), metrics_(std::move(metrics)) {}
 
+  [[nodiscard]] bool has_metrics() const { return !metrics_.empty(); }
   [[nodiscard]] bool has_any() const { return !explain_.empty() || !metrics_.empty(); }
   /// An input begins. What follows is kept unless it is a rehearsal.
   void begin(bool is_rehearsal);
   void add(const std::string& building, const std::string& target, const std::vector<Deed>& deeds);
   void add(const std::string& building, const std::string& target, double least_edge_m,
-           const SolidFigures& before, const SolidFigures& after);
+           const SolidFigures& before, const SolidFigures& after, double hausdorff_m);
   void commit() const;
 
  private:

@@ -2,10 +2,12 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "cli/series.h"
+#include "cli/written_proof.h"
 #include "generalise/generalise.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
 #include "interpret/profile.h"
+#include "kernel/compare/hausdorff.h"
 
 #include <algorithm>
 #include <map>
@@ -118,6 +120,7 @@ class Generaliser {
   void redraw_record(const Document& document, std::vector<OnLine>& lines) {
     std::vector<LabelledBuilding> labelled;
     WriteOptions options;
+    std::vector<Drawn> drawn;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!lines[i].is_done()) continue;
       if (lines[i].is_open) {
@@ -126,11 +129,41 @@ class Generaliser {
         continue;
       }
       outputs_.add_features(document.buildings[i], lines[i]);
-      auto redrawn = run_.timings().measure(
-          Stage::generalise, [&] { return redraw_building(document.buildings[i], lines[i]); });
-      add(std::move(redrawn), labelled, options);
+      drawn.push_back({i, run_.timings().measure(Stage::generalise, [&] {
+                         return redraw_building(document.buildings[i], lines[i]);
+                       })});
+    }
+    for (Drawn& one : drawn) {
+      run_.timings().measure(Stage::write, [&] { keep_valid(document, lines[one.building], one); });
+      add(std::move(one.all), labelled, options);
     }
     run_.timings().measure(Stage::write, [&] { outputs_.add(document, labelled, options); });
+  }
+
+  /// What became of a building of the record; nothing if it was set aside.
+  struct Drawn {
+    std::size_t building = 0;
+    std::vector<Redrawn> all;
+  };
+
+  /// Says how fine the file has to be for a building to be valid in it. What is valid at no scale
+  /// stays as it came; levels of detail are set aside.
+  void keep_valid(const Document& document, const OnLine& line, Drawn& drawn) {
+    const Building& building = document.buildings[drawn.building];
+    std::optional<Issue> fault;
+    for (Redrawn& redrawn : drawn.all) {
+      if (!redrawn.labelled.geometry) continue;
+      WrittenProof proof = prove_redrawn(document, building, *redrawn.labelled.geometry);
+      redrawn.labelled.digits = proof.digits;
+      if (proof.fault) fault = std::move(proof.fault);
+    }
+    if (!fault) return;
+    drawn.all.clear();
+    if (targets_.has_lods()) return run_.set_aside(*fault);
+    fault->severity = Severity::warning;
+    fault->sentence += "; it stays as it came";
+    report_.tell(*fault);
+    drawn.all.push_back({outputs_.annotated(building, line), {}, {}});
   }
 
   /// Of several levels of detail the first says what is gone from the building; an installation
@@ -189,11 +222,12 @@ class Generaliser {
       accounts_.add(building.id, target,
                     account(plan, *generalised.value, table, line.interpretation));
     const double least_edge_m = least_edge(profile);
-    const SolidFigures before = figures_of(*line.solid, least_edge_m);
     const auto keep_figures = [&](const Redrawn& redrawn) {
+      if (!accounts_.has_metrics()) return;
       const auto& solid = redrawn.labelled.geometry;
-      accounts_.add(building.id, target, least_edge_m, before,
-                    solid ? figures_of(*solid, least_edge_m) : before);
+      const Solid& after = solid ? *solid : *line.solid;
+      accounts_.add(building.id, target, least_edge_m, figures_of(*line.solid, least_edge_m),
+                    figures_of(after, least_edge_m), hausdorff_m(*line.solid, after));
     };
     const Tolerances& tolerances = arguments_.segment_options().tolerances;
     if (!targets_.has_lods()) {

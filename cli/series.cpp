@@ -2,6 +2,7 @@
 
 #include "cli/destination.h"
 #include "cli/run.h"
+#include "cli/written_proof.h"
 #include "generalise/scale_series.h"
 #include "generalise/series_levels.h"
 #include "interpret/plan.h"
@@ -86,6 +87,9 @@ class SeriesWriter {
       for (std::size_t i = 0; i < lines.size(); ++i)
         if (lines[i].is_done()) stage(document.buildings[i], lines[i], staged);
     });
+    run_.timings().measure(Stage::write, [&] {
+      std::erase_if(staged, [&](Staged& one) { return !is_valid(document, one); });
+    });
     for (const Staged& one : staged)
       for (const SeriesLevel& level : one.levels) solids.push_back(&level.redrawn.labelled);
     const WrittenGrid grid(document, solids);
@@ -143,6 +147,25 @@ class SeriesWriter {
     one.levels = std::move(*levels.value);
     one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
     staged.push_back(std::move(one));
+  }
+
+  /// False if a level is valid at no scale of the file: the building is set aside. Levels say how
+  /// fine the file has to be.
+  bool is_valid(const Document& document, Staged& one) {
+    for (std::size_t i = 1; i < one.levels.size(); ++i) {
+      SeriesLevel& level = one.levels[i];
+      LabelledBuilding& labelled = level.redrawn.labelled;
+      labelled.digits = one.levels[i - 1].redrawn.labelled.digits;
+      if (level.generalised.removed == one.levels[i - 1].generalised.removed &&
+          level.generalised.changed.empty())
+        continue;
+      const WrittenProof proof = prove_redrawn(document, *one.building, *labelled.geometry);
+      labelled.digits = std::max(labelled.digits, proof.digits);
+      if (!proof.fault) continue;
+      run_.set_aside(*proof.fault);
+      return false;
+    }
+    return true;
   }
 
   /// Its levels and its lines of the log, or nothing of it.

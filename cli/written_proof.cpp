@@ -3,6 +3,7 @@
 #include "kernel/io/as_written.h"
 #include "kernel/validate/validate.h"
 
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,6 +22,16 @@ WrittenProof prove_written(const Document& document, const Building& building, c
                                              findings[0].code, findings[0].sentence));
     return proof;
   }
+}
+
+WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& solid) {
+  WrittenProof proof = prove_written(document, building, solid);
+  if (!proof.fault) return proof;
+  if (!validate(building).empty()) return {};
+  const std::string& why = proof.fault->sentence;
+  proof.fault->code = "G410";
+  proof.fault->sentence = "would not be valid as it is written: " + why.substr(why.find(": ") + 2);
+  return proof;
 }
 
 }  // namespace oriel::cli

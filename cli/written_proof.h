@@ -18,4 +18,8 @@ struct WrittenProof {
 /// what as_written() makes of it, first at the scale that the document has.
 WrittenProof prove_written(const Document& document, const Building& building, const Solid& solid);
 
+/// The same of a solid that was redrawn. Its fault is a G410, and none if the building was not
+/// valid as it was read.
+WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& solid);
+
 }  // namespace oriel::cli

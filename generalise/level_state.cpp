@@ -34,7 +34,7 @@ GridRing ring_of(const Loop& loop, const std::vector<GridPoint>& places) {
 bool is_count(const std::string& name) { return name.starts_with("oriel_removed_"); }
 
 Members all_as_written(Members members) {
-  for (auto& [name, value] : members) value = as_written(std::move(value));
+  for (auto& [name, value] : members) value = as_written(value);
   return members;
 }
 
@@ -158,12 +158,12 @@ class Builder {
 
 }  // namespace
 
-MemberValue as_written(MemberValue value) {
+MemberValue as_written(const MemberValue& value) {
   constexpr double kLargestExact = 9007199254740992;  // 2^53
-  if (const auto* number = std::get_if<double>(&value))
-    if (std::abs(*number) < kLargestExact && *number == std::floor(*number))
-      return static_cast<std::int64_t>(*number);
-  return value;
+  if (!std::holds_alternative<double>(value)) return value;
+  const double number = std::get<double>(value);
+  if (std::abs(number) >= kLargestExact || number != std::floor(number)) return value;
+  return static_cast<std::int64_t>(number);
 }
 
 LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
@@ -205,6 +205,25 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
 
 LabelledBuilding labelled_building(const LevelState& state, const Frame& frame) {
   return Builder(state, frame).run();
+}
+
+Building building_of(const LevelState& state, const Frame& frame) {
+  const LabelledBuilding labelled = labelled_building(state, frame);
+  Building building;
+  building.id = state.building;
+  building.frame = frame;
+  for (const Vertex& vertex : labelled.geometry->vertices)
+    building.vertices.push_back(vertex.point);
+  int shell_number = 0;
+  for (const Shell& shell : labelled.geometry->shells) {
+    shell_number = shell.is_cavity ? shell_number + 1 : 0;
+    for (const FacetId id : shell.facets) {
+      const int source = static_cast<int>(building.polygons.size());
+      building.polygons.push_back(
+          {labelled.geometry->facets[id.index()].loops, source, shell.lump, shell_number, {}});
+    }
+  }
+  return building;
 }
 
 std::string hash_of(const LevelState& state) {

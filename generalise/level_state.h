@@ -25,9 +25,12 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place);
 /// smallest body around it.
 LabelledBuilding labelled_building(const LevelState& state, const Frame& frame);
 
+/// The state as a building that was read: its facets are the polygons of solids.
+Building building_of(const LevelState& state, const Frame& frame);
+
 /// What does not fit CityJSON's way of writing numbers is brought into it: a whole double is an
 /// integer.
-MemberValue as_written(MemberValue value);
+MemberValue as_written(const MemberValue& value);
 
 /// The SHA-256 of all that belongs to the state.
 std::string hash_of(const LevelState& state);

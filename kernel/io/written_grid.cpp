@@ -51,9 +51,12 @@ WrittenGrid::WrittenGrid(const Document& document,
   const Grid grid = grid_of(document);
   std::vector<detail::PlacedSolid> solids;
   for (const LabelledBuilding* building : labelled)
+    if (!grid.is_fixed) digits_ = std::max(digits_, building->digits);
+  for (const LabelledBuilding* building : labelled)
     if (const Frame* frame = frame_of(document, building->building); frame && building->geometry)
       solids.push_back({&*building->geometry, frame});
-  if (!grid.is_fixed && !solids.empty()) digits_ = detail::finer_digits(grid.transform, solids);
+  if (!grid.is_fixed && !solids.empty())
+    digits_ = std::max(digits_, detail::finer_digits(grid.transform, solids));
   const detail::Transform transform = detail::finer(grid.transform, digits_);
   scale_ = transform.scale;
   translate_ = transform.translate;

@@ -14,7 +14,7 @@ namespace oriel {
 class WrittenGrid {
  public:
   /// The grid of write_cityjson for a document, fine enough for the geometries of all of
-  /// `labelled`, which need not go into one file.
+  /// `labelled` (and for LabelledBuilding::digits), which need not go into one file.
   WrittenGrid(const Document& document, const std::vector<const LabelledBuilding*>& labelled);
 
   /// The grid of a file that can state all points of `states`, no finer than a micrometre.

@@ -68,6 +68,9 @@ TEST_SUITE("cli") {
     const json figures = json::parse(bytes_of(folder / "figures.jsonl"));
     CHECK(figures["facets_after"] < figures["facets_before"]);
     CHECK(figures["normals_after"] <= figures["normals_before"]);
+    // The chimney that went is the furthest from what is left.
+    CHECK(figures["hausdorff_m"] > 0.5);
+    CHECK(figures["hausdorff_m"] < 3);
   }
 
   TEST_CASE("a map profile decides of what the pack has no entry for") {

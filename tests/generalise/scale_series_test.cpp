@@ -41,25 +41,6 @@ ScaleSeries series_of(const Line& line) {
                       [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
 }
 
-/// The building of a state as the input's polygons.
-Building as_read(const LevelState& state, const Frame& frame) {
-  const LabelledBuilding labelled = labelled_building(state, frame);
-  Building building;
-  building.frame = frame;
-  for (const Vertex& vertex : labelled.geometry->vertices)
-    building.vertices.push_back(vertex.point);
-  std::vector<const Shell*> shells;
-  for (const Shell& shell : labelled.geometry->shells) shells.push_back(&shell);
-  int number = 0, source = 0;
-  for (const Shell* shell : shells) {
-    number = shell->is_cavity ? number + 1 : 0;
-    for (const FacetId id : shell->facets)
-      building.polygons.push_back(
-          {labelled.geometry->facets[id.index()].loops, source++, shell->lump, number, {}});
-  }
-  return building;
-}
-
 /// Every prefix is a valid closed solid; all the way back gives the same states.
 void check_both_ways(const Line& line, const ScaleSeries& series) {
   LevelState state = series.finest;
@@ -72,7 +53,7 @@ void check_both_ways(const Line& line, const ScaleSeries& series) {
     hashes.push_back(hash_of(state));
     CAPTURE(operation.oriel_id);
     CHECK(is_closed(*labelled_building(state, line.building().frame).geometry));
-    CHECK(validate(as_read(state, line.building().frame)).empty());
+    CHECK(validate(building_of(state, line.building().frame)).empty());
   }
   for (auto operation = series.operations.rbegin(); operation != series.operations.rend();
        ++operation) {

@@ -1,0 +1,136 @@
+#include "examples/generator/cityjson.h"
+#include "examples/generator/generate.h"
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+#include "tests/support/shared.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace oriel::test;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+const std::vector<Names> kTargets{
+    {"--scale", "1:500"},   {"--scale", "1:1000"}, {"--scale", "1:2500"}, {"--scale", "1:5000"},
+    {"--scale", "1:10000"}, {"--to-lod", "2.0"},   {"--to-lod", "1.2"},   {"--to-lod", "1.0"}};
+
+Names joined(Names arguments, const Names& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// The buildings that `validate` calls valid solids.
+std::set<std::string> valid_in(const Names& files, const Names& options = {}) {
+  std::set<std::string> ids;
+  std::istringstream lines(run(joined(joined({"validate"}, files), options)).out);
+  const std::string ending = ": valid";
+  for (std::string line; std::getline(lines, line);)
+    if (line.ends_with(ending)) ids.insert(line.substr(0, line.size() - ending.size()));
+  return ids;
+}
+
+/// What the command said of buildings: those set aside, and those with something refused.
+struct Said {
+  std::set<std::string> set_aside, refused;
+};
+
+Said said_in(const std::string& text) {
+  Said said;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind, id;
+    words >> kind >> id;
+    while (id.ends_with(':')) id.pop_back();
+    if (kind == "error:") said.set_aside.insert(id);
+    const bool is_refusal = std::ranges::any_of(
+        Names{"G401", "G403", "G405", "G408", "G410"},
+        [&](const std::string& code) { return line.find(code) != std::string::npos; });
+    if (kind == "warning:" && is_refusal) said.refused.insert(id);
+  }
+  return said;
+}
+
+/// Every building that is valid as it was read is valid in what is written of it, or set aside with
+/// its reason told. Returns how many solids were judged, over all targets.
+std::size_t check_valid(const std::string& data, const Names& files) {
+  const std::set<std::string> before = valid_in(files);
+  CHECK_FALSE(before.empty());
+  std::size_t judged = 0;
+  for (const Names& target : kTargets) {
+    const Folder folder;
+    const std::string& level = target[1];
+    CAPTURE(data);
+    CAPTURE(level);
+    const Outcome made = run(joined(joined({"generalise"}, files),
+                                    {target[0], level, "-j", "2", "-o", folder.path() / ""}));
+    REQUIRE((made.exit == 0 || made.exit == 3));
+    const Said said = said_in(made.err);
+    Names written;
+    for (const std::string& name : folder.names()) written.push_back(folder / name);
+    const bool is_lod = target[0] == "--to-lod";
+    const std::set<std::string> after = valid_in(written, is_lod ? Names{"--lod", level} : Names{});
+    for (const std::string& id : before) {
+      if (said.set_aside.contains(id)) continue;
+      CAPTURE(id);
+      CHECK(after.contains(id));
+      ++judged;
+    }
+    MESSAGE(data << " at " << level << ": " << before.size() << " valid as read, " << after.size()
+                 << " valid as written, " << said.set_aside.size() << " set aside, "
+                 << said.refused.size() << " with something refused");
+  }
+  return judged;
+}
+
+/// Houses of the generator, with noise of 0, 1 and 2 mm in turn.
+Names generated(int count, const Folder& folder) {
+  oriel::generator::Options options;
+  Names files;
+  for (int i = 0; i < count; ++i) {
+    options.noise = 1000 * (i % 3);
+    const std::string id = "house-" + std::to_string(i);
+    files.push_back(
+        folder.write(id + ".city.json",
+                     oriel::generator::cityjson({id, oriel::generator::generate(options, i), {}},
+                                                oriel::generator::Content::stripped)));
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("what is generalised of valid buildings is valid in the file at every target") {
+    const Folder folder;
+    Names files = generated(6, folder);
+    for (const char* name : {"house", "row", "l-house", "block"}) files.push_back(sample(name));
+    CHECK(check_valid("samples", files) > 60);
+  }
+
+  TEST_CASE("slow: what is generalised of all data and of generated houses is valid in the file" *
+            doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
+    const Folder folder;
+    CHECK(check_valid("generated", generated(1000, folder)) > 6000);
+    ORIEL_NEEDS_SHARED(shared);
+    std::map<std::string, Names> data{
+        {"3dbag", {(shared / "data/3dbag/tile_5910.city.jsonl").string()}}};
+    for (const std::string& file : city_files(shared))
+      if (file.ends_with(".stripped.city.json"))
+        data[std::filesystem::path(file).parent_path().filename()].push_back(file);
+    CHECK(data.size() == 4);
+    for (const auto& [name, files] : data)
+      if (name != "ogc-simple-house")  // not valid as it comes
+        CHECK(check_valid(name, files) > 40);
+  }
+}
