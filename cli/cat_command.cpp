@@ -7,6 +7,8 @@
 
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 namespace oriel::cli {
 
 namespace {

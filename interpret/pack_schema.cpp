@@ -162,7 +162,6 @@ std::string argument_schema(const OperatorArgument& argument) {
 std::string operations_schema() {
   std::string names, calls;
   for (const OperatorKind& kind : operator_table()) {
-    if (!kind.is_built) continue;
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", kind.name);
     if (kind.arguments.empty()) continue;
     std::string arguments;
