@@ -105,6 +105,10 @@ class Generaliser {
     visitor.end = [&](std::size_t) {
       run_.timings().measure(Stage::write, [&] { outputs_.end(); });
     };
+    visitor.reopen = [&] {
+      accounts_.begin(false);
+      outputs_.reopen();
+    };
     visitor.commit = [&] {
       outputs_.commit();
       accounts_.commit();

@@ -132,6 +132,7 @@ ExitCode work(Arguments& arguments) {
     });
   };
   visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
+  visitor.reopen = [&] { outputs.reopen(); };
   visitor.commit = [&] { outputs.commit(); };
   visitor.is_streaming = outputs.is_streaming();
   const ExitCode code = run.go(visitor);

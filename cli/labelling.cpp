@@ -64,7 +64,16 @@ bool LabelOutputs::is_streaming() const { return !destination_ || destination_->
 
 void LabelOutputs::begin(std::size_t input, bool is_rehearsal) {
   if (destination_) destination_->begin(input, is_rehearsal);
-  if (!is_rehearsal && !features_ && !arguments_.features.empty())
+  if (!is_rehearsal) open_features();
+}
+
+void LabelOutputs::reopen() {
+  open_features();
+  has_ended_ = true;
+}
+
+void LabelOutputs::open_features() {
+  if (!features_ && !arguments_.features.empty())
     features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
 }
 

@@ -51,6 +51,8 @@ class LabelOutputs {
 
   /// `is_rehearsal`: what follows is not to be kept.
   void begin(std::size_t input, bool is_rehearsal);
+  /// All inputs were done by an earlier run; only `commit` is to come.
+  void reopen();
   void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
            const WriteOptions& options);
   void add_features(const Building& building, const OnLine& line);
@@ -61,6 +63,8 @@ class LabelOutputs {
   void commit();
 
  private:
+  void open_features();
+
   const LabelArguments& arguments_;
   const RuleBase& rules_;
   std::optional<Destination> destination_;

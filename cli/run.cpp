@@ -33,6 +33,9 @@ ExitCode Run::go(const Visitor& visitor) {
   if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
     throw CLI::ValidationError("input", "stdin can be read only once");
   if (!begin_books(visitor)) return code_;
+  const bool is_all_read =
+      resume_ && resume_->state() && resume_->position().input >= arguments_.inputs.size();
+  if (is_all_read && code_ != ExitCode::input) visitor.reopen();
   for (run_ = 1; run_ <= arguments_.repeat; ++run_) {
     timings_.emplace_back();
     if (!resume_) {

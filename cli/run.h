@@ -36,6 +36,9 @@ class Run {
     /// All inputs are done: outputs that are not yet in their place come there. Before the status
     /// is written.
     std::function<void()> commit = [] {};
+    /// All inputs were done when an earlier run was killed: outputs of all of them together, which
+    /// `begin` opens else, are to be opened for `commit`.
+    std::function<void()> reopen = [] {};
     /// What was visited needs nothing but its outputs, so that the run can go on behind any record.
     bool is_streaming = false;
     /// Counts that belong to what was visited; kept and restored with the run.

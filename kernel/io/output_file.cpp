@@ -1,5 +1,6 @@
 #include "kernel/io/output_file.h"
 
+#include "kernel/io/detail/resolved_path.h"
 #include "kernel/io/detail/text.h"
 #include "kernel/io/partial_files.h"
 #include "kernel/model/issue.h"
@@ -27,12 +28,7 @@ constexpr std::size_t kBuffer = 1 << 20;
 /// Leftovers of crashed runs that may stand in the way of a temporary name.
 constexpr int kMaxTries = 1000;
 
-/// `path` with links at its end resolved; `path` itself if there is no such file yet.
-std::string resolved(const std::string& path) {
-  std::error_code error;
-  const auto target = std::filesystem::canonical(path, error);
-  return error ? path : target.string();
-}
+using detail::resolved;
 
 /// A temporary file that is open. Signal handlers may only read plain memory, hence no string.
 struct Listed {

@@ -1,5 +1,7 @@
 #include "kernel/io/partial_files.h"
 
+#include "kernel/io/detail/resolved_path.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -40,11 +42,7 @@ Left left_in(const std::string& path, std::uint64_t bytes) {
 
 FileMark mark_of_left(const Left& left) { return {left.bytes, left.lines, left.hash.digest()}; }
 
-std::string resolved(const std::string& path) {
-  std::error_code error;
-  const auto target = std::filesystem::canonical(path, error);
-  return error ? path : target.string();
-}
+using detail::resolved;
 
 }  // namespace
 

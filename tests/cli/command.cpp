@@ -55,7 +55,8 @@ int stdout_of(const Surroundings& around) {
 bool has_file(const fs::path& folder, const std::string& part) {
   return std::ranges::any_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
-    return name.find(part) != std::string::npos && !name.ends_with(".new");
+    return name.find(part) != std::string::npos && !name.ends_with(".new") &&
+           !name.ends_with(".partial");
   });
 }
 

@@ -107,13 +107,38 @@ TEST_SUITE("cli") {
     CHECK(run(arguments).says("labelled 6 of 6"));
   }
 
+  TEST_CASE("a run that was killed while its files came to their places loses nothing") {
+    const std::string text = with_broken_lines(city(120));
+    const auto label_in = [&](const Folder& folder) {
+      auto arguments = label(folder, folder.write("in.city.jsonl", text));
+      arguments.insert(arguments.end(), {"--features", folder / "parts.csv"});
+      return arguments;
+    };
+    const Folder whole;
+    CHECK(run(label_in(whole)).exit == 3);
+    // At each of them something else is in its place already.
+    for (const char* name : {"out.city.jsonl", "parts.csv", "s.quarantine.jsonl"})
+      for (int i = 0; i < 5; ++i) {
+        CAPTURE(name);
+        const Folder folder;
+        const auto arguments = label_in(folder);
+        run(arguments, {.signal = SIGKILL, .watched = folder.path(), .watched_name = name});
+        CHECK(run(arguments).exit == 3);
+        CHECK(folder.names() == whole.names());
+        for (const char* file : {"out.city.jsonl", "parts.csv"})
+          CHECK(bytes_of(folder / file) == bytes_of(whole / file));
+        CHECK(json::parse(bytes_of(folder / "s.status.json"))["quarantined_records"] == 1);
+        CHECK(bytes_of(folder / "s.quarantine.jsonl").size() > 100);
+      }
+  }
+
   TEST_CASE("a run does not go on with another command or another input") {
     const Folder folder;
     const std::string text = city(3000), input = folder.write("in.city.jsonl", text);
     auto arguments = label(folder, input);
-    // Until at least one record was done by then.
+    // Until the header and at least one feature were done by then.
     const auto is_begun = [&] {
-      return bytes_of(folder / "s.journal").find("\"records\":1") != std::string::npos;
+      return bytes_of(folder / "s.journal").find("\"records\":2") != std::string::npos;
     };
     for (int i = 0; i == 0 || (i < 50 && !is_begun()); ++i) {
       std::filesystem::remove(folder / "s.journal");
