@@ -22,9 +22,11 @@ namespace oriel {
 /// an imprint if it lies in it within plane_offset_m, or if there is nothing.
 ///
 /// A ring that has a feature already (the cap of a feature of the tree fills 0.8 of its rectangle)
-/// makes none. An outer ring owns what is in it: `host` is the smallest ring feature that has the
-/// ring's polygon, else the feature or body that owns the facet; features of the tree whose largest
-/// cap lies in the ring are hosted by it, and its box holds theirs.
+/// makes none, and neither does the other side of a wall or frame: a parallel ring with the same
+/// outline (0.95 of it) at most half a metre off, behind one that came before it. An outer ring
+/// owns what is in it: `host` is the smallest ring feature that has the ring's polygon, else the
+/// feature or body that owns the facet; features of the tree whose largest cap lies in the ring are
+/// hosted by it, and its box holds theirs.
 ///
 /// Features are appended, the largest ring first, then by its place. `solid` is what `segmentation`
 /// was made of. Takes time linear in the polygons and what their rings hold.
