@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 examples/install_packages.sh
 mkdir -p build
 log=build/quickstart.log
-cmake --preset release -DORIEL_TESTS=OFF >"$log" 2>&1 || { cat "$log"; exit 1; }
+cmake --preset release -DORIEL_TESTS=OFF -DORIEL_UNITY=ON >"$log" 2>&1 || { cat "$log"; exit 1; }
 echo "building oriel (some minutes the first time)"
 cmake --build --preset release --target oriel >"$log" 2>&1 || { tail -n 40 "$log"; exit 1; }
 

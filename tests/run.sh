@@ -10,7 +10,7 @@ find bench cli examples generalise interpret kernel tests \( -name '*.h' -o -nam
   xargs -0 clang-format --dry-run -Werror
 
 echo "== build"
-cmake --preset release -DORIEL_TESTS=ON -DORIEL_BENCH=ON
+cmake --preset release -DORIEL_TESTS=ON -DORIEL_BENCH=ON -DORIEL_UNITY=ON
 cmake --build --preset release
 
 echo "== tests"

@@ -20,7 +20,7 @@ struct Mixed {
 };
 
 /// Twenty cubes: one line is cut off, one has a byte that is no UTF-8, one cube lacks a face.
-Mixed mixed_stream() {
+Mixed stream_with_faults() {
   std::vector<std::string> ids;
   for (int i = 0; i < 20; ++i) ids.push_back(fmt::format("cube-{}", i));
   Mixed mixed;
@@ -58,7 +58,7 @@ std::string bytes_of_hex(const std::string& digits) {
 TEST_SUITE("cli") {
   TEST_CASE("every record that failed is in quarantine with its line and its code") {
     const Folder folder;
-    const Mixed mixed = mixed_stream();
+    const Mixed mixed = stream_with_faults();
     const std::string input = folder.write("in.city.jsonl", text_of(mixed.lines));
     const Outcome outcome =
         run({"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "out", "-j2"});
@@ -83,7 +83,7 @@ TEST_SUITE("cli") {
 
   TEST_CASE("the counts of a status file add up") {
     const Folder folder;
-    const std::string input = folder.write("in.city.jsonl", text_of(mixed_stream().lines));
+    const std::string input = folder.write("in.city.jsonl", text_of(stream_with_faults().lines));
     run({"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "out"});
     const json status = json::parse(bytes_of(folder / "out.status.json"));
     CHECK(status["buildings"] == 20);
@@ -122,7 +122,7 @@ TEST_SUITE("cli") {
   }
 
   TEST_CASE("as many failures as are allowed leave the exit code at 0") {
-    const std::string text = text_of(mixed_stream().lines);
+    const std::string text = text_of(stream_with_faults().lines);
     const auto exit_with = [&](const std::string& allowed) {
       return run({"label", "-", "--from", "cityjsonseq", "-o", "-", "--allow-bad", allowed},
                  {.in = text})

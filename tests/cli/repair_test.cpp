@@ -1,6 +1,7 @@
 #include "examples/generator/cityjson.h"
 #include "examples/generator/generate.h"
 #include "tests/cli/command.h"
+#include "tests/cli/json_lines.h"
 #include "tests/support/shared.h"
 
 #include <algorithm>
@@ -16,16 +17,6 @@ using namespace oriel::test;
 using nlohmann::json;
 
 namespace {
-
-std::vector<json> lines_of(const std::string& text) {
-  std::vector<json> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = text.find('\n', at);
-    lines.push_back(json::parse(text.substr(at, end - at)));
-    at = end + 1;
-  }
-  return lines;
-}
 
 std::vector<std::string> files_of(const std::filesystem::path& folder, const std::string& end) {
   std::vector<std::string> files;
@@ -43,7 +34,7 @@ int solids_of(const std::vector<std::string>& inputs, const std::vector<std::str
   arguments.insert(arguments.end(), options.begin(), options.end());
   const Outcome repaired = run(arguments);
   std::map<std::string, bool> is_solid;
-  for (const json& report : lines_of(bytes_of(folder / "r")))
+  for (const json& report : json_lines(bytes_of(folder / "r")))
     is_solid[report["id"].get<std::string>()] = report["is_solid"].get<bool>();
   const auto solids = std::ranges::count(is_solid, true, [](const auto& e) { return e.second; });
   if (solids < std::ssize(is_solid)) CHECK(repaired.exit == 3);
@@ -52,7 +43,7 @@ int solids_of(const std::vector<std::string>& inputs, const std::vector<std::str
   for (const std::string& file : files_of(folder / "out", "")) judge.push_back(file);
   if (std::ranges::find(options, "--lod") != options.end())
     judge.insert(judge.end(), std::ranges::find(options, "--lod"), options.end());
-  for (const json& line : lines_of(run(judge).out)) {
+  for (const json& line : json_lines(run(judge).out)) {
     const std::string id = line["id"].get<std::string>();
     CAPTURE(id);
     if (is_solid.contains(id) && is_solid[id]) CHECK(line["findings"] == json::array());

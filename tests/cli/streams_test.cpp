@@ -1,5 +1,6 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/cli/json_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +16,6 @@ using nlohmann::json;
 namespace {
 
 using Names = std::vector<std::string>;
-
-/// The objects of a text with one on each line.
-std::vector<json> lines_of(const std::string& text) {
-  std::vector<json> objects;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) objects.push_back(json::parse(line));
-  return objects;
-}
 
 }  // namespace
 
@@ -42,7 +35,7 @@ TEST_SUITE("cli") {
     const Outcome outcome =
         run({"label", "-", "--from", "cityjsonseq", "-o", "-"}, {.in = cube_lines({"a", "b"})});
     CHECK(outcome.exit == 0);
-    const auto lines = lines_of(outcome.out);
+    const auto lines = json_lines(outcome.out);
     REQUIRE(lines.size() == 3);
     CHECK(lines[0]["type"] == "CityJSON");
     CHECK(lines[2]["CityObjects"]["b"]["attributes"].contains("oriel_pack"));
@@ -138,7 +131,7 @@ TEST_SUITE("cli") {
   TEST_CASE("segment --json has one building on each line") {
     const Folder folder;
     const std::string input = folder.write("in.city.json", cubes({"a", "b", "c"}).dump());
-    const auto lines = lines_of(run({"segment", input, sample("hip"), "--json"}).out);
+    const auto lines = json_lines(run({"segment", input, sample("hip"), "--json"}).out);
     REQUIRE(lines.size() == 4);
     CHECK(lines[0]["id"] == "a");
     CHECK(lines[2]["id"] == "c");

@@ -13,7 +13,7 @@ using namespace oriel::test;
 
 namespace {
 
-const std::vector<double> kScales{1, 1000, 2500, 5000, 20000};
+const std::vector<double> kRedrawnScales{1, 1000, 2500, 5000, 20000};
 
 bool is_opening(const SemanticSurface& surface) {
   return surface.type == "Window" || surface.type == "Door";
@@ -94,7 +94,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("labels of a generalised building are consistent") {
     for (const std::string& name : samples()) {
       const Line line = line_of_sample(name);
-      for (const double scale : kScales) {
+      for (const double scale : kRedrawnScales) {
         CAPTURE(name);
         CAPTURE(scale);
         check_consistent(generalised(line, scale));
@@ -115,7 +115,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("what stays keeps its label and what goes has none left") {
     for (const std::string& name : samples()) {
       const Line line = line_of_sample(name);
-      for (const double scale : kScales) {
+      for (const double scale : kRedrawnScales) {
         CAPTURE(name);
         CAPTURE(scale);
         const Coarser coarser = generalised(line, scale);

@@ -23,7 +23,7 @@ using namespace oriel::test;
 
 namespace {
 
-const std::vector<double> kScales{500, 1000, 2500, 5000, 10000};
+const std::vector<double> kSeriesScales{500, 1000, 2500, 5000, 10000};
 
 ScaleSeries series_of(const Line& line) {
   const SeriesInput input{line.building(), line.labelled,       line.solid, line.segmentation,
@@ -31,13 +31,13 @@ ScaleSeries series_of(const Line& line) {
   const PlanAt plan_at = [&](double scale) {
     return plan(residential(), line.table(), line.description.graph, line.interpretation, scale);
   };
-  const auto levels = series_levels(input, kScales, plan_at);
+  const auto levels = series_levels(input, kSeriesScales, plan_at);
   REQUIRE(levels.value);
   std::vector<const LabelledBuilding*> all;
   for (const SeriesLevel& level : *levels.value) all.push_back(&level.redrawn.labelled);
   const WrittenGrid grid(line.document, all);
   return scale_series(input, *levels.value,
-                      FiringScales(kScales, plan_bounds(residential()), plan_at),
+                      FiringScales(kSeriesScales, plan_bounds(residential()), plan_at),
                       [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
 }
 
@@ -115,7 +115,7 @@ TEST_SUITE("generalise") {
     REQUIRE(log.value);
     CHECK(log_of({{}, *log.value}) == log_of(series));
     const WrittenGrid grid(line.document, {state_at(series, 500)});
-    for (const double from : kScales) {
+    for (const double from : kSeriesScales) {
       const LabelledBuilding level =
           labelled_building(state_at(series, from), line.building().frame);
       const std::string text = write_cityjson(line.document, {level},
@@ -147,7 +147,7 @@ TEST_SUITE("generalise") {
       gone.insert(operation.oriel_id);
       gone.insert(operation.with.begin(), operation.with.end());
     }
-    for (const double scale : kScales) {
+    for (const double scale : kSeriesScales) {
       const std::set<std::string> coarser = ids(state_at(series, scale));
       CHECK(std::ranges::includes(finer, coarser));
       for (const std::string& id : finer)

@@ -5,10 +5,12 @@ using namespace oriel::test;
 
 namespace {
 
-/// A pack whose only fault is in `line`, which is line 4.
-std::string fault(const std::string& line) { return findings(pack_with(line + "\nrules: []\n")); }
+/// A pack whose only line_fault is in `line`, which is line 4.
+std::string line_fault(const std::string& line) {
+  return findings(pack_with(line + "\nrules: []\n"));
+}
 
-/// A pack whose only fault is in its one rule, which begins on line 5.
+/// A pack whose only line_fault is in its one rule, which begins on line 5.
 std::string fault_in_rule(const std::string& lines) {
   return findings(pack_with("rules:\n" + lines));
 }
@@ -36,7 +38,7 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("an unknown key is named with what was probably meant") {
-    CHECK(fault("clases: {}") ==
+    CHECK(line_fault("clases: {}") ==
           "t.yaml:4:1: R209 unknown key 'clases' in a pack; did you mean 'classes'? (keys: schema, "
           "pack, extends, params, hosts, classes, relations, macros, rules, decide, iterate, "
           "groups, emit, surfaces, generalise)\n"
@@ -46,7 +48,7 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("the rest of a text after a comma gets advice") {
     CHECK(
-        fault("params: {p: {value: 1 m, why: small, but not too small}}")
+        line_fault("params: {p: {value: 1 m, why: small, but not too small}}")
             .starts_with("t.yaml:4:38: R209 unknown key 'but not too small' in a param; inside { } "
                          "a text with a comma must be quoted (keys: value, range, why)\n"));
   }
@@ -58,7 +60,7 @@ TEST_SUITE("interpret") {
           "    ^\n");
     CHECK(fault_in_rule("  - {id: w, label: window, require: []}\n")
               .starts_with("t.yaml:5:37: R210 a rule needs a condition under 'require'\n"));
-    CHECK(fault("params: {p: {why: because}}") ==
+    CHECK(line_fault("params: {p: {why: because}}") ==
           "t.yaml:4:13: R210 a param needs the key 'value'\n"
           "params: {p: {why: because}}\n"
           "            ^\n");
@@ -84,16 +86,16 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("a value outside its bounds is refused") {
-    CHECK(fault("params: {p: {value: 6 m, range: 0.3 m .. 1 m}}")
+    CHECK(line_fault("params: {p: {value: 6 m, range: 0.3 m .. 1 m}}")
               .starts_with("t.yaml:4:21: R212 the value is outside its range\n"));
     CHECK(
-        fault("params: {p: {value: 6 m, range: 1 m .. 0.3 m}}")
+        line_fault("params: {p: {value: 6 m, range: 1 m .. 0.3 m}}")
             .starts_with("t.yaml:4:33: R212 an empty range: its low end is above its high end\n"));
-    CHECK(fault("decide: {min_score: 1.5}")
+    CHECK(line_fault("decide: {min_score: 1.5}")
               .starts_with("t.yaml:4:21: R212 'min_score' lies in 0 .. 1\n"));
-    CHECK(fault("decide: {otherwise: window}")
+    CHECK(line_fault("decide: {otherwise: window}")
               .starts_with("t.yaml:4:21: R212 'otherwise' is one of unknown, not 'window'\n"));
-    CHECK(fault("hosts: {wall: 60 deg .. 120 deg, roof: 0 deg .. 75 deg}")
+    CHECK(line_fault("hosts: {wall: 60 deg .. 120 deg, roof: 0 deg .. 75 deg}")
               .starts_with("t.yaml:4:8: R212 wall, roof and ground overlap\n"));
     CHECK(findings("schema: oriel/1\npack: {name: t, version: 1.0}\nrules: []\n")
               .starts_with(
@@ -107,7 +109,7 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("entries for groups name one that is declared") {
-    CHECK(fault("generalise: [{id: r, scale: \"1:1000 ..\", for: group row, do: omit}]")
+    CHECK(line_fault("generalise: [{id: r, scale: \"1:1000 ..\", for: group row, do: omit}]")
               .starts_with("t.yaml:4:47: R253 unknown group 'row'\n"));
   }
 
@@ -124,7 +126,7 @@ TEST_SUITE("interpret") {
           "t.yaml:3:33: R216 a class cannot be called 'in': this is a word of the language\n"
           "classes: {wall: {}, Window: {}, in: {}}\n"
           "                                ^~\n");
-    CHECK(fault("macros: {depth: sense = hole}")
+    CHECK(line_fault("macros: {depth: sense = hole}")
               .starts_with("t.yaml:4:10: R216 a macro cannot be called 'depth': there is an "
                            "attribute of this name\n"));
     CHECK(fault_in_rule("  - {id: Window 1, label: window, require: sense = hole}\n")
@@ -138,8 +140,8 @@ TEST_SUITE("interpret") {
           "t.yaml:6:10: R240 there is a rule 'w' already\n"
           "  - {id: w, label: door, require: sense = hole}\n"
           "         ^\n");
-    CHECK(fault("generalise: [{id: a, scale: \"1:5 ..\", for: any, do: omit}, "
-                "{id: a, scale: \"1:9 ..\", for: any, do: omit}]")
+    CHECK(line_fault("generalise: [{id: a, scale: \"1:5 ..\", for: any, do: omit}, "
+                     "{id: a, scale: \"1:9 ..\", for: any, do: omit}]")
               .starts_with("t.yaml:4:65: R240 there is an entry 'a' already\n"));
   }
 
@@ -160,7 +162,7 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("a macro that nothing uses is checked all the same") {
-    CHECK(fault("macros: {deep: depth > 1}")
+    CHECK(line_fault("macros: {deep: depth > 1}")
               .find("t.yaml:4:24: R231 'depth' is a length: write 1 m") != std::string::npos);
   }
 
@@ -186,7 +188,7 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("scales are checked") {
     const auto found = [](const std::string& scale) {
-      return fault("generalise: [{id: a, scale: " + scale + ", for: any, do: omit}]");
+      return line_fault("generalise: [{id: a, scale: " + scale + ", for: any, do: omit}]");
     };
     CHECK(found("\"1:1000 .. 1:2500\"").empty());
     CHECK(found("\"1:1000 ..\"").empty());
@@ -204,7 +206,8 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("operators are known by name and take their own arguments") {
     const auto found = [](const std::string& operation) {
-      return fault("generalise: [{id: a, scale: \"1:9 ..\", for: any, do: " + operation + "}]");
+      return line_fault("generalise: [{id: a, scale: \"1:9 ..\", for: any, do: " + operation +
+                        "}]");
     };
     CHECK(found("omit").empty());
     CHECK(found("omitt").starts_with(
@@ -224,14 +227,14 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("codes and types of what is written are checked") {
-    CHECK(fault("emit: {window: {type: Windo}}")
+    CHECK(line_fault("emit: {window: {type: Windo}}")
               .starts_with("t.yaml:4:23: R212 an emitted type is one of Window, Door, "
                            "BuildingInstallation, not 'Windo'; did you mean 'Window'?\n"));
-    CHECK(fault("emit: {window: {type: BuildingInstallation, function: {sig3d: 1070}}}") ==
+    CHECK(line_fault("emit: {window: {type: BuildingInstallation, function: {sig3d: 1070}}}") ==
           "t.yaml:4:63: R211 a code is a text: write \"1070\"\n"
           "emit: {window: {type: BuildingInstallation, function: {sig3d: 1070}}}\n"
           "                                                              ^~~~\n");
-    CHECK(fault("emit: {windw: {type: Window}}")
+    CHECK(line_fault("emit: {windw: {type: Window}}")
               .starts_with("t.yaml:4:8: R205 unknown class 'windw'; did you mean 'window'?\n"));
   }
 }

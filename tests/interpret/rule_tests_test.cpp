@@ -12,7 +12,7 @@ using namespace oriel::test;
 
 namespace {
 
-constexpr const char* kPack =
+constexpr const char* kWindowsAndDoors =
     "schema: oriel/1\n"
     "pack: {name: t, version: 1.0.0}\n"
     "params: {low: {value: 0.6 m}}\n"
@@ -42,7 +42,7 @@ Checked<RuleTestReport> run(const std::string& tests, const BuildingReader& read
   const auto folder = std::filesystem::temp_directory_path() /
                       fmt::format("oriel-rule-tests-{}-{}", ::getpid(), ++count);
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "t.yaml") << kPack;
+  std::ofstream(folder / "t.yaml") << kWindowsAndDoors;
   std::ofstream(folder / "t.test.yaml") << kFixture << tests;
   auto report = run_rule_tests((folder / "t.test.yaml").string(), read);
   std::filesystem::remove_all(folder);
@@ -58,7 +58,7 @@ std::vector<std::string> failures(const std::string& test) {
   return checked.value->tests[0].failures;
 }
 
-std::string findings_of(const std::string& test) {
+std::string findings_of_test(const std::string& test) {
   std::string printed;
   const auto checked = run("  - {name: t, " + test + "}\n");
   CHECK_FALSE(checked.value);
@@ -94,8 +94,9 @@ TEST_SUITE("interpret") {
     CHECK(failures("given: front, expect: {x.*: window}") == Failures{"nothing is called 'x.*'"});
     CHECK(failures("given: {building: none.json}, expect: {counts: {window: 0}}") ==
           Failures{"nothing was found in 'none.json'"});
-    CHECK(findings_of("given: front").find("R270 this test expects nothing") != std::string::npos);
-    CHECK(findings_of("given: front, because: {w: holds}").find("R270") != std::string::npos);
+    CHECK(findings_of_test("given: front").find("R270 this test expects nothing") !=
+          std::string::npos);
+    CHECK(findings_of_test("given: front, because: {w: holds}").find("R270") != std::string::npos);
   }
 
   TEST_CASE("reasons are those that explain gives") {
@@ -120,16 +121,16 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("what a file of tests gets wrong is found with its place") {
-    CHECK(findings_of("given: frond, expect: {d: door}").find("did you mean 'front'?") !=
+    CHECK(findings_of_test("given: frond, expect: {d: door}").find("did you mean 'front'?") !=
           std::string::npos);
-    CHECK(findings_of("given: front, expect: {d: dor}").find("R205") != std::string::npos);
-    CHECK(findings_of("given: {front: {x.a: 1 m}}, expect: {d: door}").find("R212") !=
+    CHECK(findings_of_test("given: front, expect: {d: dor}").find("R205") != std::string::npos);
+    CHECK(findings_of_test("given: {front: {x.a: 1 m}}, expect: {d: door}").find("R212") !=
           std::string::npos);
-    CHECK(findings_of("given: {front: {d.heigth: 1 m}}, expect: {d: door}").find("R204") !=
+    CHECK(findings_of_test("given: {front: {d.heigth: 1 m}}, expect: {d: door}").find("R204") !=
           std::string::npos);
-    CHECK(findings_of("given: {front: {d.height: 1}}, expect: {d: door}").find("R231") !=
+    CHECK(findings_of_test("given: {front: {d.height: 1}}, expect: {d: door}").find("R231") !=
           std::string::npos);
-    CHECK(findings_of("given: front, expects: {d: door}").find("R209") != std::string::npos);
+    CHECK(findings_of_test("given: front, expects: {d: door}").find("R209") != std::string::npos);
   }
 
   TEST_CASE("coverage counts rules that held and conditions that held and failed") {

@@ -3,6 +3,7 @@
 #include "kernel/describe/describe.h"
 #include "tests/support/segmented.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -37,6 +38,12 @@ inline Described described(Building building, const SegmentOptions& options = {}
   Described out{test::segmented(std::move(building), options), {}};
   out.description = describe(out.segmented.building, out.segmented.segmentation);
   return out;
+}
+
+/// Whether a relation holds from self to other.
+inline bool holds(const Described& d, const std::string& name, FeatureId self, FeatureId other) {
+  const auto found = d.graph().of(name, self);
+  return std::ranges::find(found, FeatureGraph::Pair{self, other}) != found.end();
 }
 
 /// Compares several numbers of a feature, each to a tenth of a millimetre or so.

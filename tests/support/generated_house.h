@@ -9,7 +9,7 @@
 namespace oriel::test {
 
 /// A house of the generator as a building; polygons are numbered as in the body.
-inline Building building_of(const generator::Body& body) {
+inline Building generated_building(const generator::Body& body) {
   Building building;
   building.id = "house";
   for (const generator::Point& p : body.vertices)

@@ -18,11 +18,6 @@ Described with_imprints(Building building) {
   return d;
 }
 
-bool holds(const Described& d, const std::string& name, FeatureId self, FeatureId other) {
-  const auto found = d.graph().of(name, self);
-  return std::ranges::find(found, FeatureGraph::Pair{self, other}) != found.end();
-}
-
 /// The block with recesses, one of which gets a flush twin.
 Building recess_and_twin() {
   Building building = test::in_whole_facets(

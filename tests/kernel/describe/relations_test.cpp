@@ -19,11 +19,6 @@ Pairs pairs(const Described& d, const std::string& name) {
   return {span.begin(), span.end()};
 }
 
-bool holds(const Described& d, const std::string& name, FeatureId self, FeatureId other) {
-  const auto found = d.graph().of(name, self);
-  return std::ranges::find(found, FeatureGraph::Pair{self, other}) != found.end();
-}
-
 /// Windows 1.2 × 1.5 m on a grid of 2 × 2.4 m in the front; a wide one far off; one round the
 /// corner.
 Described facade() {

@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 /// Reads a file that is broken as a whole and gives the issue that says so.
-Issue refusal_of(const std::string& text) {
+Issue gml_refusal(const std::string& text) {
   const TemporaryFolder folder;
   const auto records = read_all(folder.write("a.gml", text));
   REQUIRE(!records.empty());
@@ -55,30 +55,30 @@ std::string lod2_polygon(const std::string& ring_content, const std::string& att
 
 TEST_SUITE("kernel/io") {
   TEST_CASE("an empty CityGML file is told from a broken one") {
-    CHECK(refusal_of("").code == "E102");
-    CHECK(refusal_of(" \n").code == "E102");
-    CHECK(refusal_of("<?xml version=\"1.0\"?>\n<!-- no model -->\n").code == "E102");
+    CHECK(gml_refusal("").code == "E102");
+    CHECK(gml_refusal(" \n").code == "E102");
+    CHECK(gml_refusal("<?xml version=\"1.0\"?>\n<!-- no model -->\n").code == "E102");
   }
 
   TEST_CASE("a file that is not XML is refused as CityGML") {
     for (const std::string text :
          {"{\"type\":\"CityJSON\"}", "\x89PNG\r\n", "v 0 0 0\n", "\xFF\xD8\xFF\xE0JFIF"}) {
       CAPTURE(text);
-      const Issue issue = refusal_of(text);
+      const Issue issue = gml_refusal(text);
       CHECK(issue.code == "E107");
       CHECK(issue.place.line == 1);
     }
   }
 
   TEST_CASE("XML that is not CityGML and other versions of it are refused") {
-    CHECK(refusal_of("<html><body/></html>").code == "E107");
-    CHECK(refusal_of("<CityModel/>").code == "E107");
+    CHECK(gml_refusal("<html><body/></html>").code == "E107");
+    CHECK(gml_refusal("<CityModel/>").code == "E107");
     CHECK(
-        refusal_of("<c:Building xmlns:c=\"http://www.opengis.net/citygml/building/2.0\"/>").code ==
+        gml_refusal("<c:Building xmlns:c=\"http://www.opengis.net/citygml/building/2.0\"/>").code ==
         "E107");
     for (const std::string space :
          {"http://www.opengis.net/citygml/1.0", "http://www.citygml.org/citygml/1/0/0"}) {
-      const Issue issue = refusal_of(fmt::format("\n<CityModel xmlns=\"{}\"></CityModel>", space));
+      const Issue issue = gml_refusal(fmt::format("\n<CityModel xmlns=\"{}\"></CityModel>", space));
       CHECK(issue.code == "E115");
       CHECK(issue.place.line == 2);
       CHECK(issue.sentence.find(space.substr(0, 30)) != std::string::npos);
@@ -90,7 +90,7 @@ TEST_SUITE("kernel/io") {
                                                     building("b", box_by_links("2.0", "q"))}
                                  .text();
     const std::string whole = text.substr(0, text.size() - 1);
-    CHECK(refusal_of(whole.substr(0, whole.size() - 1)).code == "E105");
+    CHECK(gml_refusal(whole.substr(0, whole.size() - 1)).code == "E105");
     const TemporaryFolder folder;
     const auto records = read_all(folder.write("a.gml", text.substr(0, text.find("gml:id=\"q3"))));
     REQUIRE(records.size() == 3);
@@ -100,28 +100,28 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("XML that is not well-formed has line and column and a caret") {
-    const Issue issue = refusal_of("<a>\n <b></c>\n</a>");
+    const Issue issue = gml_refusal("<a>\n <b></c>\n</a>");
     // The root comes first.
     CHECK(issue.code == "E107");
     CityGmlFile file{"2.0", "<x>\n <y></z>\n</x>"};
-    const Issue mismatch = refusal_of(file.text());
+    const Issue mismatch = gml_refusal(file.text());
     CHECK(mismatch.code == "E113");
     CHECK(mismatch.place.line == 4);
     CHECK(mismatch.place.column == 7);
     CHECK(mismatch.excerpt == "   <y></z>\n        ^");
     file.members = "&unknown;";
-    CHECK(refusal_of(file.text()).code == "E113");
+    CHECK(gml_refusal(file.text()).code == "E113");
     file.members = "<x/></c:CityModel><y/><c:CityModel>";
-    CHECK(refusal_of(file.text()).code == "E113");
+    CHECK(gml_refusal(file.text()).code == "E113");
   }
 
   TEST_CASE("bytes and encodings that are not read are refused") {
     CityGmlFile file{"2.0", element("gml:name", "caf\xE9")};
-    const Issue issue = refusal_of(file.text());
+    const Issue issue = gml_refusal(file.text());
     CHECK(issue.code == "E103");
     CHECK(issue.place.line == 3);
     file.declaration = "<?xml version=\"1.0\" encoding=\"KOI8-R\"?>";
-    CHECK(refusal_of(file.text()).code == "E103");
+    CHECK(gml_refusal(file.text()).code == "E103");
   }
 
   TEST_CASE("entities are refused before they are looked at") {
@@ -133,24 +133,24 @@ TEST_SUITE("kernel/io") {
       entities += fmt::format("<!ENTITY lol{} \"{}\">\n", i + 1, ten);
     }
     file.declaration = fmt::format("<?xml version=\"1.0\"?>\n<!DOCTYPE bomb [{}]>\n", entities);
-    const Issue bomb = refusal_of(file.text());
+    const Issue bomb = gml_refusal(file.text());
     CHECK(bomb.code == "E114");
     CHECK(bomb.place.line == 2);
     file.declaration = "<!DOCTYPE x [<!ENTITY lol9 SYSTEM \"file:///etc/passwd\">]>";
-    CHECK(refusal_of(file.text()).code == "E114");
+    CHECK(gml_refusal(file.text()).code == "E114");
     file.declaration = "<!DOCTYPE x SYSTEM \"http://localhost/x.dtd\">";
-    CHECK(refusal_of(file.text()).code == "E114");
+    CHECK(gml_refusal(file.text()).code == "E114");
   }
 
   TEST_CASE("nesting and markup without end are refused") {
     std::string deep;
     for (int i = 0; i < 5000; ++i) deep += "<x>";
-    CHECK(refusal_of(CityGmlFile{"2.0", deep}.text()).code == "E503");
+    CHECK(gml_refusal(CityGmlFile{"2.0", deep}.text()).code == "E503");
     std::string open;
     for (int i = 0; i < 5000; ++i) open += "<bldg:consistsOfBuildingPart><bldg:BuildingPart>";
-    CHECK(refusal_of(CityGmlFile{"2.0", building("a", open)}.text()).code == "E503");
+    CHECK(gml_refusal(CityGmlFile{"2.0", building("a", open)}.text()).code == "E503");
     CHECK(
-        refusal_of(CityGmlFile{"2.0", fmt::format("<!--{}-->", std::string(40 << 20, 'x'))}.text())
+        gml_refusal(CityGmlFile{"2.0", fmt::format("<!--{}-->", std::string(40 << 20, 'x'))}.text())
             .code == "E505");
   }
 

@@ -70,7 +70,7 @@ std::vector<std::string> hints_of(const Building& building) {
 }
 
 /// A property of level 2 that holds a surface of one triangle, written as `surface`.
-std::string lod2(const std::string& surface) {
+std::string lod2_surface(const std::string& surface) {
   return element("bldg:lod2MultiSurface", multi_surface(surface_member(surface)));
 }
 
@@ -113,7 +113,7 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("several buildings of a CityGML file are written into one file") {
     const Read read = read_gml(
         CityGmlFile{"2.0", building("a", box_by_links("2.0", "p")) +
-                               building("b", lod2(polygon("", "9.00001 9 9 8 9 9 8 8 9"))) +
+                               building("b", lod2_surface(polygon("", "9.00001 9 9 8 9 9 8 8 9"))) +
                                building("c", box_by_links("2.0", "q"))}
             .text());
     CHECK(read.buildings.size() == 3);
@@ -260,7 +260,7 @@ TEST_SUITE("kernel/io") {
     const std::vector<std::vector<std::vector<Vec3>>> expected{{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}}};
     for (const std::string& surface : surfaces) {
       CAPTURE(surface);
-      auto places = places_of(read_building(lod2(surface)).buildings[0]);
+      auto places = places_of(read_building(lod2_surface(surface)).buildings[0]);
       REQUIRE(places.size() == 1);
       auto& corners = places[0][0];
       std::ranges::rotate(corners, std::ranges::find(corners, Vec3{0, 0, 0}));

@@ -35,7 +35,7 @@ const char* const kCity = R"({"type":"CityJSON","version":"2.0","x-own":[1],
  "vertices":[[0,0,0],[1000,0,0],[1000,1000,0],[2000,0,0],[3000,0,0],[3000,1000,0],[2000,1000,0],
   [0,0,9000],[1000,0,9000]]})";
 
-Document document_of(const std::string& text) {
+Document split_document(const std::string& text) {
   const test::TemporaryFolder folder;
   Reader reader(folder.write("city.city.json", text));
   auto record = reader.next();
@@ -47,7 +47,7 @@ Document document_of(const std::string& text) {
 
 TEST_SUITE("kernel/io") {
   TEST_CASE("a file is taken apart into features of what hangs together") {
-    const Document city = document_of(kCity);
+    const Document city = split_document(kCity);
     const CityJsonSplitter splitter(city);
     REQUIRE(splitter.size() == 3);
     CHECK(splitter.ids(0) == std::vector<std::string>{"house", "part"});
@@ -67,7 +67,7 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("a feature has the materials and textures that it uses") {
-    const Document city = document_of(kCity);
+    const Document city = split_document(kCity);
     const json tower = json::parse(CityJsonSplitter(city).feature(2));
     const json& geometry = tower["CityObjects"]["tower"]["geometry"][0];
     CHECK(geometry["material"]["day"]["values"] == json::parse("[0,null]"));
@@ -77,7 +77,7 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("features that are collected again have the geometry and appearance of the file") {
-    const Document city = document_of(kCity);
+    const Document city = split_document(kCity);
     const CityJsonSplitter splitter(city);
     CityJsonCollector collector;
     collector.add(splitter.header());
@@ -103,7 +103,7 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("a CityObject that an earlier line had is not collected twice") {
-    const Document city = document_of(kCity);
+    const Document city = split_document(kCity);
     const CityJsonSplitter splitter(city);
     CityJsonCollector collector;
     collector.add(splitter.header());
@@ -116,7 +116,7 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("a vertex number that the file does not have stays wrong in the feature") {
     std::string text = kCity;
     text.replace(text.find("[[[0,1,2]]]"), 11, "[[[0,1,9]]]");
-    const Document city = document_of(text);
+    const Document city = split_document(text);
     const json road = json::parse(CityJsonSplitter(city).feature(1));
     CHECK(road["CityObjects"]["road"]["geometry"][0]["boundaries"] == json::parse("[[[0,1,9]]]"));
     CHECK(road["vertices"].size() == 2);

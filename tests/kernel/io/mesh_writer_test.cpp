@@ -15,7 +15,7 @@ namespace {
 
 using test::BoxFile;
 
-Document document_of(const std::string& text, const std::string& name = "house.city.json") {
+Document house_of(const std::string& text, const std::string& name = "house.city.json") {
   auto record = test::read_text(text, name);
   REQUIRE(record.value);
   return std::move(*record.value);
@@ -65,19 +65,19 @@ TEST_SUITE("kernel/io") {
     const std::string obj =
         "v 678114.444 5403766.115 414.03\nv 678115.4440001 5403766.115 414.03\n"
         "v 678114.444 5403767.115 414.03\nf 1 2 3\n";
-    const Document document = document_of(obj, "a.obj");
+    const Document document = house_of(obj, "a.obj");
     const std::string text = write_obj(mesh_of(document));
     CHECK(text.find("v 678114.444 5403766.115 414.03\n") != std::string::npos);
     CHECK(text.find("v 678115.4440001 5403766.115 414.03\n") != std::string::npos);
-    CHECK(input_points(document_of(text, "a.obj")) == input_points(document));
+    CHECK(input_points(house_of(text, "a.obj")) == input_points(document));
     const std::string off = write_off(mesh_of(document));
-    CHECK(input_points(document_of(off, "a.off")) == input_points(document));
+    CHECK(input_points(house_of(off, "a.off")) == input_points(document));
     CHECK(write_stl(mesh_of(document)).find("vertex 678115.4440001 5403766.115 414.03\n") !=
           std::string::npos);
   }
 
   TEST_CASE("faces with holes are triangulated and simple ones kept in OBJ") {
-    const Document again = document_of(write_obj(mesh_of(document_of(walls()))), "a.obj");
+    const Document again = house_of(write_obj(mesh_of(house_of(walls()))), "a.obj");
     const auto& polygons = again.buildings.at(0).polygons;
     CHECK(polygons.size() == 9);
     CHECK(std::ranges::count_if(polygons,
@@ -85,15 +85,15 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("faces that are not convex are triangulated in OFF") {
-    const Document again = document_of(write_off(mesh_of(document_of(walls()))), "a.off");
+    const Document again = house_of(write_off(mesh_of(house_of(walls()))), "a.off");
     const auto& polygons = again.buildings.at(0).polygons;
     CHECK(polygons.size() == 12);
     CHECK(std::ranges::all_of(polygons, [](const Polygon& p) { return p.rings[0].size() == 3; }));
   }
 
   TEST_CASE("OBJ groups are the labels and survive reading") {
-    const Document document = document_of(BoxFile().text());
-    const Document again = document_of(write_obj(mesh_of(document, {box_labels()})), "a.obj");
+    const Document document = house_of(BoxFile().text());
+    const Document again = house_of(write_obj(mesh_of(document, {box_labels()})), "a.obj");
     std::vector<std::string> hints;
     for (const Polygon& polygon : again.buildings.at(0).polygons) hints.push_back(polygon.hint);
     CHECK(hints == std::vector<std::string>{"house/unlabelled", "house/wall", "house/wall",
@@ -103,7 +103,7 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("STL has one solid for each label") {
-    const Document document = document_of(BoxFile().text());
+    const Document document = house_of(BoxFile().text());
     const std::string text = write_stl(mesh_of(document, {box_labels()}));
     for (const char* name : {"chimney", "unlabelled", "wall", "window"}) {
       CHECK(text.find("solid " + std::string(name) + "\n") != std::string::npos);
@@ -122,7 +122,7 @@ TEST_SUITE("kernel/io") {
     test::add_box(*labelled.geometry, {0, 0, 0}, {1, 1, 1}, 0);
     labelled.surfaces = {{"RoofSurface", -1, {}}};
     labelled.surface_of_polygon = {-1, 0};
-    const LabelledMesh mesh = mesh_of(document_of(BoxFile().text()), {labelled});
+    const LabelledMesh mesh = mesh_of(house_of(BoxFile().text()), {labelled});
     CHECK(mesh.vertices.size() == 8);
     CHECK(mesh.vertices[0] == Vec3{1000, 2000, 10});
     CHECK(mesh.faces.size() == 6);
@@ -134,7 +134,7 @@ TEST_SUITE("kernel/io") {
     const std::string obj =
         "v 678114.4441 5403766.115 414.03\nv 678115.444 5403766.115 414.03\nv 678114.444 "
         "5403767.115 414.03\nv 678114.444 5403766.115 415.03\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-    const Document document = document_of(obj, "my \"house\".obj");
+    const Document document = house_of(obj, "my \"house\".obj");
     LabelledBuilding labelled;
     labelled.building = "my \"house\"";
     labelled.surfaces = {{"RoofSurface", -1, {}}};
@@ -148,15 +148,15 @@ TEST_SUITE("kernel/io") {
     CHECK(geometry["lod"] == "3");
     CHECK(geometry["semantics"]["values"] == nlohmann::json::parse("[[null,null,0,null]]"));
     const auto before = input_points(document);
-    const auto after = input_points(document_of(text));
+    const auto after = input_points(house_of(text));
     REQUIRE(before.size() == after.size());
     for (std::size_t i = 0; i < before.size(); ++i)
       CHECK(length(before[i] - after[i]) == doctest::Approx(0).epsilon(1e-8));
-    CHECK(write_cityjson(document_of(text), {labelled}) == text);
+    CHECK(write_cityjson(house_of(text), {labelled}) == text);
   }
 
   TEST_CASE("coordinates in whole millimetres are written in millimetres") {
-    const Document document = document_of(
+    const Document document = house_of(
         "v 678114.444 5403766.115 414.03\nv 678115.444 5403766.115 414.03\nv 678114.444 "
         "5403767.115 414.03\nf 1 2 3\n",
         "a.obj");

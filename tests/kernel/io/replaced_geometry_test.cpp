@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using test::BoxFile;
 
-Document document_of(const std::string& text) {
+Document read_document(const std::string& text) {
   auto record = test::read_text(text);
   REQUIRE(record.value);
   return std::move(*record.value);
@@ -32,7 +32,7 @@ LabelledBuilding replaced(Vec3 min, Vec3 max) {
   return labelled;
 }
 
-void check_valid(const std::string& text) {
+void check_solids_valid(const std::string& text) {
   for (const std::string& fault : test::structural_faults(json::parse(text))) FAIL_CHECK(fault);
 }
 
@@ -50,9 +50,9 @@ BoxFile with_neighbour() {
 
 TEST_SUITE("kernel/io") {
   TEST_CASE("a replaced geometry is a Solid with semantics by facet and unused vertices leave") {
-    const Document document = document_of(with_neighbour().text());
+    const Document document = read_document(with_neighbour().text());
     const std::string out = write_cityjson(document, {replaced({0.5, 0.25, 0}, {4.5, 3.25, 1.5})});
-    check_valid(out);
+    check_solids_valid(out);
     const json file = json::parse(out);
     const json& geometry = file["CityObjects"]["house"]["geometry"][0];
     CHECK(geometry["type"] == "Solid");
@@ -76,9 +76,9 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("what is written reads back to the same solid") {
-    const Document document = document_of(BoxFile().text());
+    const Document document = read_document(BoxFile().text());
     const std::string out = write_cityjson(document, {replaced({0.5, 0.25, 0}, {4.5, 3.25, 1.5})});
-    const Document again = document_of(out);
+    const Document again = read_document(out);
     Box box;
     for (const Vec3 p : again.buildings.at(0).vertices)
       box.grow(p + again.buildings[0].frame.origin_m);
@@ -94,8 +94,8 @@ TEST_SUITE("kernel/io") {
     // Shells may come in any order.
     std::swap(labelled.geometry->shells[0], labelled.geometry->shells[1]);
     labelled.surface_of_polygon.resize(18, 0);
-    const std::string out = write_cityjson(document_of(BoxFile().text()), {labelled});
-    check_valid(out);
+    const std::string out = write_cityjson(read_document(BoxFile().text()), {labelled});
+    check_solids_valid(out);
     const json geometry = json::parse(out)["CityObjects"]["house"]["geometry"][0];
     CHECK(geometry["type"] == "MultiSolid");
     CHECK(geometry["boundaries"].size() == 2);
@@ -103,7 +103,7 @@ TEST_SUITE("kernel/io") {
     CHECK(geometry["semantics"]["values"] ==
           json::parse("[[[0,1,null,null,null,null],[0,0,0,0,0,0]],[[0,0,0,0,0,0]]]"));
     labelled.geometry->shells.erase(labelled.geometry->shells.begin() + 2);
-    CHECK(json::parse(write_cityjson(document_of(BoxFile().text()),
+    CHECK(json::parse(write_cityjson(read_document(BoxFile().text()),
                                      {labelled}))["CityObjects"]["house"]["geometry"][0]["type"] ==
           "Solid");
   }
@@ -111,10 +111,10 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("a coarse scale becomes finer for the whole file and old coordinates stay exact") {
     BoxFile file = with_neighbour();
     file.transform = R"({"scale":[0.01,0.01,0.01],"translate":[1000.5,2000.25,10.0]})";
-    const Document document = document_of(file.text());
+    const Document document = read_document(file.text());
     LabelledBuilding labelled = replaced({0.5, 0.25, 0}, {4.5, 3.25, 1.503});
     const std::string out = write_cityjson(document, {labelled});
-    check_valid(out);
+    check_solids_valid(out);
     const json written = json::parse(out);
     CHECK(written["transform"]["scale"] == json::parse("[0.001,0.001,0.001]"));
     CHECK(written["vertices"].dump().find("[90000,0,0]") != std::string::npos);
@@ -123,7 +123,7 @@ TEST_SUITE("kernel/io") {
 
   TEST_CASE("vertices that rounding would make one ask for a finer scale") {
     LabelledBuilding labelled = replaced({0.5, 0.25, 0}, {4.5, 3.25, 0.0004});
-    const json written = json::parse(write_cityjson(document_of(BoxFile().text()), {labelled}));
+    const json written = json::parse(write_cityjson(read_document(BoxFile().text()), {labelled}));
     CHECK(written["transform"]["scale"] == json::parse("[0.0001,0.0001,0.0001]"));
     CHECK(written["vertices"].size() == 8);
   }
@@ -150,8 +150,8 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("an installation of a replaced geometry is made of its facets") {
     LabelledBuilding labelled = replaced({0.5, 0.25, 0}, {4.5, 3.25, 1.5});
     labelled.installations = {{"i1", {}, {1, 3}, {1, -1}}};
-    const std::string out = write_cityjson(document_of(with_neighbour().text()), {labelled});
-    check_valid(out);
+    const std::string out = write_cityjson(read_document(with_neighbour().text()), {labelled});
+    check_solids_valid(out);
     const json file = json::parse(out);
     CHECK(file["CityObjects"]["i1"]["geometry"][0]["boundaries"][0] ==
           file["CityObjects"]["house"]["geometry"][0]["boundaries"][0][1]);

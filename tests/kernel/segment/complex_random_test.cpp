@@ -16,7 +16,7 @@ using test::Segmented;
 constexpr int kMin = -3, kMax = 13;
 
 /// A block with up to six boxes added or taken away, all of whole metres.
-Building random_body(std::uint64_t seed) {
+Building random_complex_body(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto below = [&](int n) {
     return static_cast<double>(random() % static_cast<std::uint64_t>(n));
@@ -72,7 +72,7 @@ TEST_SUITE("kernel/segment") {
       for (const Order order : {Order::natural, Order::paper}) {
         CAPTURE(seed);
         CAPTURE(to_string(order));
-        const Building body = random_body(seed);
+        const Building body = random_complex_body(seed);
         if (!solidify(body, {}).value) continue;
         const Segmented s = test::segmented(body, order);
         const CellComplex complex = cell_complex(s.segmentation);

@@ -17,7 +17,7 @@ using test::check_complex;
 using test::segmented;
 using test::Segmented;
 
-doctest::Approx near(double value) { return doctest::Approx(value).epsilon(1e-9); }
+doctest::Approx nearly(double value) { return doctest::Approx(value).epsilon(1e-9); }
 
 constexpr CellId kOutside;
 
@@ -25,7 +25,7 @@ constexpr CellId kOutside;
 CellId cell_of(const Segmentation& s, double volume) {
   CellId found;
   for (int c = 0; c < std::ssize(s.cells); ++c)
-    if (s.cells[static_cast<std::size_t>(c)].volume_m3 == near(volume)) {
+    if (s.cells[static_cast<std::size_t>(c)].volume_m3 == nearly(volume)) {
       REQUIRE_FALSE(found.is_valid());
       found = CellId{c};
     }
@@ -66,26 +66,26 @@ TEST_SUITE("kernel/segment") {
     CHECK(complex.neighbours(slab).size() == 3);
     for (const Contact& contact : complex.neighbours(slab)) {
       if (contact.cell == kOutside) continue;
-      CHECK(contact.area_m2 == near(2));
-      CHECK(complex.contact_area_m2(contact.cell, kOutside) == near(8));
+      CHECK(contact.area_m2 == nearly(2));
+      CHECK(complex.contact_area_m2(contact.cell, kOutside) == nearly(8));
     }
     // Nothing overlaps here: the faces around a cell are the cell's surface.
     for (const CellId cell : cells_of(s.segmentation, {}))
-      CHECK(area_around(complex, cell) == near(surface_of(s.segmentation, cell)));
+      CHECK(area_around(complex, cell) == nearly(surface_of(s.segmentation, cell)));
   }
 
   TEST_CASE("T2 the wall around a pocket meets its air in five faces and the cap is the air's") {
     const Segmented s = segmented(test::pocket(), Order::paper);
     const CellComplex complex = cell_complex(s.segmentation);
     const CellId wall = cell_of(s.segmentation, 32), air = cell_of(s.segmentation, 1);
-    CHECK(complex.contact_area_m2(wall, air) == near(5));
-    CHECK(complex.contact_area_m2(air, kOutside) == near(1));
-    CHECK(complex.contact_area_m2(wall, kOutside) == near(surface_of(s.segmentation, wall) - 1));
-    CHECK(area_around(complex, wall) == near(surface_m2(s.solid)));
+    CHECK(complex.contact_area_m2(wall, air) == nearly(5));
+    CHECK(complex.contact_area_m2(air, kOutside) == nearly(1));
+    CHECK(complex.contact_area_m2(wall, kOutside) == nearly(surface_of(s.segmentation, wall) - 1));
+    CHECK(area_around(complex, wall) == nearly(surface_m2(s.solid)));
     // With its pocket the wall is its leaf again.
     const std::array both{wall, air};
-    CHECK(complex.boundary_area_m2(both) == near(surface_of(s.segmentation, wall)));
-    CHECK(test::volume_m3(s.segmentation, complex, both) == near(32));
+    CHECK(complex.boundary_area_m2(both) == nearly(surface_of(s.segmentation, wall)));
+    CHECK(test::volume_m3(s.segmentation, complex, both) == nearly(32));
   }
 
   TEST_CASE("a block in a terrace's air meets the air and the floor and not the outside") {
@@ -93,15 +93,15 @@ TEST_SUITE("kernel/segment") {
     const CellComplex complex = cell_complex(s.segmentation);
     const CellId house = cell_of(s.segmentation, 480), air = cell_of(s.segmentation, 48);
     const CellId block = cell_of(s.segmentation, 9);
-    CHECK(complex.contact_area_m2(block, air) == near(6 + 2 * 4.5 + 2 * 3));
-    CHECK(complex.contact_area_m2(block, house) == near(6));
+    CHECK(complex.contact_area_m2(block, air) == nearly(6 + 2 * 4.5 + 2 * 3));
+    CHECK(complex.contact_area_m2(block, house) == nearly(6));
     CHECK(complex.contact_area_m2(block, kOutside) == 0);
-    CHECK(complex.contact_area_m2(air, house) == near(24 - 6 + 2 * (6 + 4) * 2));
+    CHECK(complex.contact_area_m2(air, house) == nearly(24 - 6 + 2 * (6 + 4) * 2));
     // The terrace as a feature is its air and the block in it.
     const FeatureId terrace = test::feature_in(s.segmentation, {2, 2, 4}, {8, 6, 6});
     const auto cells = cells_of(s.segmentation, terrace);
     CHECK(cells.size() == 2);
-    CHECK(complex.boundary_area_m2(cells) == near(2 * 24 + 2 * (6 + 4) * 2));
+    CHECK(complex.boundary_area_m2(cells) == nearly(2 * 24 + 2 * (6 + 4) * 2));
   }
 
   TEST_CASE("a cavity is closed in by its cell and never meets the outside") {
@@ -110,8 +110,8 @@ TEST_SUITE("kernel/segment") {
     const CellId cavity = cell_of(s.segmentation, 64), shell = cell_of(s.segmentation, 216);
     const CellId inside = cell_of(s.segmentation, 8);
     CHECK(complex.contact_area_m2(cavity, kOutside) == 0);
-    CHECK(complex.contact_area_m2(cavity, shell) == near(96));
-    CHECK(complex.contact_area_m2(cavity, inside) == near(24));
+    CHECK(complex.contact_area_m2(cavity, shell) == nearly(96));
+    CHECK(complex.contact_area_m2(cavity, inside) == nearly(24));
     CHECK(complex.neighbours(inside).size() == 1);
   }
 
@@ -126,7 +126,7 @@ TEST_SUITE("kernel/segment") {
     const CellId air = cell_of(s.segmentation, 1);
     CHECK(s.segmentation.cells[air.index()].sign == -1);
     const CellId block = cell_of(s.segmentation, 160), step = cell_of(s.segmentation, 12);
-    CHECK(complex.contact_area_m2(block, step) == near(2 * 2 - 0.5));
+    CHECK(complex.contact_area_m2(block, step) == nearly(2 * 2 - 0.5));
     CHECK(complex.contact_area_m2(block, air) == complex.contact_area_m2(step, air));
     check_complex(s, complex);
   }
@@ -178,7 +178,7 @@ TEST_SUITE("kernel/segment") {
       const CellComplex complex = cell_complex(s.segmentation, options.tolerances);
       CHECK(complex.open_edge_count() == 0);
       CHECK(complex.boundary_area_m2(cells_of_sign(s.segmentation, 1)) ==
-            near(surface_m2(s.solid)));
+            nearly(surface_m2(s.solid)));
       const Segmented plain = segmented(test::full_house(), Order::natural);
       CHECK(complex.faces().size() == cell_complex(plain.segmentation).faces().size());
     }

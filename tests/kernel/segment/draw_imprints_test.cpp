@@ -14,7 +14,7 @@ namespace {
 using test::features_of;
 using test::Segmented;
 
-Segmented with_imprints(Building building) {
+Segmented with_imprint_features(Building building) {
   Segmented s = test::segmented(std::move(building));
   add_imprints(s.building, s.solid, s.segmentation);
   return s;
@@ -54,7 +54,7 @@ TEST_SUITE("kernel/segment") {
   TEST_CASE("a pane gets a facet and its wall a hole") {
     Building building = test::plain_block();
     const int pane = test::add_pane(building, 2, 1, 3, 2.25);
-    const Segmented s = with_imprints(std::move(building));
+    const Segmented s = with_imprint_features(std::move(building));
     REQUIRE(s.solid.facets.size() == 6);
     const Solid solid = drawn(s);
     check_same_body(solid, s.solid);
@@ -64,7 +64,7 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("a door that meets the edge of its wall gets a facet and the ground its corners") {
-    const Segmented s = with_imprints(test::block_with_door());
+    const Segmented s = with_imprint_features(test::block_with_door());
     REQUIRE(s.solid.facets.size() == 6);
     const Solid solid = drawn(s);
     check_same_body(solid, s.solid);
@@ -76,7 +76,7 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("a door as high as its wall parts it") {
-    const Segmented s = with_imprints(
+    const Segmented s = with_imprint_features(
         test::building_of({{{0, 0, 0}, {4, 0, 0}, {4, 0, 6}, {0, 0, 6}},
                            {{5, 0, 0}, {10, 0, 0}, {10, 0, 6}, {5, 0, 6}},
                            {{10, 0, 0}, {10, 8, 0}, {10, 8, 6}, {10, 0, 6}},
@@ -109,7 +109,7 @@ TEST_SUITE("kernel/segment") {
     Building building = test::block_with_sashes();
     const int frame = test::add_pane(building, 6, 1, 9, 3);
     const int pane = test::add_pane(building, 6.25, 1.25, 8.75, 2.75, frame);
-    const Segmented s = with_imprints(std::move(building));
+    const Segmented s = with_imprint_features(std::move(building));
     const Solid solid = drawn(s);
     check_same_body(solid, s.solid);
     CHECK(solid.facets.size() == s.solid.facets.size() + 3);
@@ -123,7 +123,7 @@ TEST_SUITE("kernel/segment") {
     std::size_t imprints = 0;
     for (const Building& building : test::samples().buildings) {
       CAPTURE(building.id);
-      const Segmented s = with_imprints(building);
+      const Segmented s = with_imprint_features(building);
       const Solid solid = drawn(s);
       check_same_body(solid, s.solid);
       const std::size_t count = features_of(s.segmentation, Sense::imprint).size();
@@ -136,14 +136,14 @@ TEST_SUITE("kernel/segment") {
   TEST_CASE("an imprint whose facet is gone is not drawn") {
     Building building = test::plain_block();
     test::add_pane(building, 2, 1, 3, 2.25);
-    Segmented s = with_imprints(std::move(building));
+    Segmented s = with_imprint_features(std::move(building));
     const Solid other = test::solid_of(test::BoxBody().add({20, 5, 0}, {30, 8, 6}).build());
     const Solid solid = draw_imprints(other, s.segmentation, {FeatureId{0}});
     CHECK(solid.facets.size() == other.facets.size());
   }
 
   TEST_CASE("an imprint comes off without a cut and its sashes with it") {
-    const Segmented s = with_imprints(test::block_with_sashes());
+    const Segmented s = with_imprint_features(test::block_with_sashes());
     const auto frames = features_of(s.segmentation, Sense::imprint);
     REQUIRE(frames.size() == 1);
     const Remainder rest = remove_features(s.solid, s.segmentation, frames);
@@ -163,7 +163,7 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("an imprint whose sash cannot go stays and the sash stays") {
-    Segmented s = with_imprints(test::block_with_sashes());
+    Segmented s = with_imprint_features(test::block_with_sashes());
     const auto frames = features_of(s.segmentation, Sense::imprint);
     // A cut that is not found any more.
     s.segmentation.features[0].cap_point = {8, 0, 5};

@@ -17,8 +17,8 @@
 namespace oriel {
 namespace {
 
-using test::building_of;
 using test::features_of;
+using test::generated_building;
 using test::Segmented;
 
 Segmented with_imprints(Building building, const SegmentOptions& options = {}) {
@@ -362,7 +362,7 @@ TEST_SUITE("kernel/segment") {
     options.flush = 1;
     options.triangulate = true;
     for (int i = 0; i < 10; ++i) {
-      const Segmented s = with_imprints(building_of(generator::generate(options, i)));
+      const Segmented s = with_imprints(generated_building(generator::generate(options, i)));
       CHECK(features_of(s.segmentation, Sense::imprint).empty());
     }
   }
@@ -376,7 +376,7 @@ TEST_SUITE("kernel/segment") {
     for (int i = 0; i < 30; ++i) {
       CAPTURE(i);
       const generator::Body body = generator::generate(options, i);
-      const Segmented s = with_imprints(building_of(body));
+      const Segmented s = with_imprints(generated_building(body));
       check_imprints(s);
       std::map<int, std::set<int>> of_object;
       for (int p = 0; p < std::ssize(body.polygons); ++p)

@@ -17,12 +17,12 @@ namespace {
 using detail::Boundary;
 using detail::World;
 
-struct Counts {
+struct ChainCounts {
   int slots = 0, natural = 0, refused = 0;
 };
 
 /// Where a section has a natural region, the chains say that there may be one.
-Counts compare(const Building& building) {
+ChainCounts compare(const Building& building) {
   const Solid solid = test::solid_of(building, {});
   World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
   const Boundary body = boundary_of(solid, 0, world);
@@ -33,7 +33,7 @@ Counts compare(const Building& building) {
   CHECK(chains.refresh());
   CHECK_FALSE(chains.refresh());
   const detail::EdgeIndex edges(body, planes);
-  Counts counts;
+  ChainCounts counts;
   for (std::size_t slot = 0; slot < 2 * planes.size(); ++slot) {
     detail::Section section{planes[slot / 2], slot % 2 == 0 ? 1 : -1};
     section_at(body, section, edges.edges_at(slot / 2), {ground, 0.001});
@@ -56,12 +56,12 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("on houses chains say of most planes that nothing natural is there") {
-    Counts all;
+    ChainCounts all;
     generator::Options options;
     for (int seed = 1; seed <= 6; ++seed) {
       options.seed = static_cast<std::uint64_t>(seed);
       options.noise = 1'000 * (seed % 3);
-      const Counts counts = compare(test::generated(options, seed).building);
+      const ChainCounts counts = compare(test::generated(options, seed).building);
       all.slots += counts.slots;
       all.natural += counts.natural;
       all.refused += counts.refused;

@@ -1,5 +1,6 @@
 #include "tests/kernel/segment/invariants.h"
 #include "tests/support/houses.h"
+#include "tests/support/near.h"
 #include "tests/support/segmented.h"
 
 #include <doctest/doctest.h>
@@ -7,18 +8,15 @@
 namespace oriel {
 namespace {
 
-using doctest::Approx;
 using test::feature_in;
 using test::features_of;
+using test::near;
 using test::Segmented;
 using test::splits_of;
 
 Segmented natural(Building building) {
   return test::segmented(std::move(building), Order::natural);
 }
-
-/// Exact to what the grid of 2^-20 m leaves of decimal coordinates.
-Approx near(double value) { return Approx(value).epsilon(1e-5); }
 
 Vec3 normal_of(const Segmentation& s, PlaneId plane) { return s.planes[plane.index()].normal; }
 

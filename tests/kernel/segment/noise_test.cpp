@@ -93,7 +93,7 @@ Building random_block() {
 
 /// Windows and doors that the truth has and the segmentation without noise finds, and those of them
 /// that it finds with noise.
-struct Recall {
+struct NoisyRecall {
   std::size_t without = 0, with = 0, buildings = 0, set_aside = 0;
   std::set<std::string> lost;
 };
@@ -118,7 +118,7 @@ std::set<std::string> openings_found(const Building& building, const Tolerances&
 }
 
 void count(const Building& building, const Truth& truth, double noise_m,
-           const Tolerances& tolerances, Recall& recall) {
+           const Tolerances& tolerances, NoisyRecall& recall) {
   const auto clean = solidify(building, {});
   if (!clean.value) return;
   ++recall.buildings;
@@ -137,11 +137,11 @@ void count(const Building& building, const Truth& truth, double noise_m,
 }
 
 /// Of all buildings of the files whose truth is there.
-Recall recall_of(const std::vector<std::string>& files, const std::vector<Truth>& truths,
-                 double noise_m, const Tolerances& tolerances) {
+NoisyRecall recall_of(const std::vector<std::string>& files, const std::vector<Truth>& truths,
+                      double noise_m, const Tolerances& tolerances) {
   std::map<std::string, const Truth*> truth_of;
   for (const Truth& truth : truths) truth_of[truth.building] = &truth;
-  Recall recall;
+  NoisyRecall recall;
   for (const std::string& file : files) {
     Reader reader(file);
     while (const auto record = reader.next())
@@ -155,8 +155,8 @@ Recall recall_of(const std::vector<std::string>& files, const std::vector<Truth>
   return recall;
 }
 
-Recall recall_of(const std::filesystem::path& folder, double noise_m,
-                 const Tolerances& tolerances) {
+NoisyRecall recall_of(const std::filesystem::path& folder, double noise_m,
+                      const Tolerances& tolerances) {
   std::vector<Truth> truths;
   for (const std::string& file : test::files_in(folder, ".truth.json"))
     truths.push_back(read_truth(file).value.value());
@@ -164,8 +164,8 @@ Recall recall_of(const std::filesystem::path& folder, double noise_m,
 }
 
 /// Houses of the generator with every feature there is.
-Recall recall_of_generated(std::vector<const char*> more, double noise_m,
-                           const Tolerances& tolerances) {
+NoisyRecall recall_of_generated(std::vector<const char*> more, double noise_m,
+                                const Tolerances& tolerances) {
   const std::filesystem::path folder =
       std::filesystem::path(ORIEL_BINARY_DIR) / "tests" / "noise-houses";
   std::filesystem::create_directories(folder);
@@ -178,7 +178,8 @@ Recall recall_of_generated(std::vector<const char*> more, double noise_m,
   std::ostringstream out, err;
   REQUIRE(generator::run_command(static_cast<int>(arguments.size()), arguments.data(), out, err) ==
           0);
-  const Recall recall = recall_of({houses}, read_truths(truths).value.value(), noise_m, tolerances);
+  const NoisyRecall recall =
+      recall_of({houses}, read_truths(truths).value.value(), noise_m, tolerances);
   std::filesystem::remove_all(folder);
   return recall;
 }
@@ -190,14 +191,14 @@ Tolerances for_5_mm() {
   return tolerances;
 }
 
-void check_all_found(const Recall& recall, std::size_t at_least) {
+void check_all_found(const NoisyRecall& recall, std::size_t at_least) {
   for (const std::string& lost : recall.lost) MESSAGE("lost: " << lost);
   CHECK(recall.set_aside == 0);
   CHECK(recall.without >= at_least);
   CHECK(recall.with == recall.without);
 }
 
-void check_nearly_all_found(const Recall& recall, std::size_t at_least) {
+void check_nearly_all_found(const NoisyRecall& recall, std::size_t at_least) {
   CHECK(recall.set_aside == 0);
   CHECK(recall.without >= at_least);
   CHECK(static_cast<double>(recall.with) >= 0.98 * static_cast<double>(recall.without));

@@ -1,4 +1,5 @@
 #include "tests/support/houses.h"
+#include "tests/support/near.h"
 #include "tests/support/segmented.h"
 
 #include <doctest/doctest.h>
@@ -8,11 +9,9 @@ namespace {
 
 using doctest::Approx;
 using test::in_paper_order;
+using test::near;
 using test::Segmented;
 using test::splits_of;
-
-/// Exact to what the grid of 2^-20 m leaves of decimal coordinates.
-Approx near(double value) { return Approx(value).epsilon(1e-5); }
 
 void check_counts(const Segmentation& s, std::size_t leaves, std::size_t inner) {
   CHECK(s.stats.leaves == leaves);

@@ -93,7 +93,7 @@ TEST_SUITE("kernel/segment") {
     std::size_t openings = 0, found = 0;
     for (int i = 0; i < 20; ++i) {
       const generator::Body body = generator::generate(options, i);
-      const Building whole = test::building_of(body);
+      const Building whole = test::generated_building(body);
       const Segmented open = opened(whole, {ground_of(whole)});
       std::set<std::vector<int>> sets;
       for (const Feature& f : open.segmentation.features) sets.insert(f.source_polygons);

@@ -1,4 +1,5 @@
 #include "tests/support/houses.h"
+#include "tests/support/near.h"
 #include "tests/support/segmented.h"
 
 #include <doctest/doctest.h>
@@ -6,12 +7,9 @@
 namespace oriel {
 namespace {
 
-using doctest::Approx;
 using test::feature_in;
+using test::near;
 using test::Segmented;
-
-/// Exact to what the grid of 2^-20 m leaves of decimal coordinates.
-Approx near(double value) { return Approx(value).epsilon(1e-5); }
 
 Vec3 normal_of(const Segmentation& s, const Feature& f) {
   return s.planes[f.planes.at(0).index()].normal;

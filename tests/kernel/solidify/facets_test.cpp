@@ -153,7 +153,7 @@ TEST_SUITE("kernel/solidify") {
     options.noise = 2000;
     for (int i = 2; i < 8; ++i) {
       CAPTURE(i);
-      const Building building = test::building_of(generator::generate(options, i));
+      const Building building = test::generated_building(generator::generate(options, i));
       double furthest = 0;
       for (const Vertex& vertex : solid_of(building).vertices) {
         double nearest = 1;
