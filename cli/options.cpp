@@ -36,14 +36,17 @@ SegmentOptions LineArguments::segment_options() const {
   return options;
 }
 
-RepairOptions LineArguments::repair_options() const { return {*parse_closing(close), cap_area_m2}; }
+RepairOptions LineArguments::repair_options() const {
+  return {*parse_closing(close), cap_area_m2,
+          crossings == "cut" ? Crossings::cut : Crossings::leave};
+}
 
 std::string LineArguments::configuration() const {
   return fmt::format(
              "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={} "
-             "close={} close_area_m2={}",
+             "close={} close_area_m2={} crossings={}",
              lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
-             tolerances.value_rel, budget, close, cap_area_m2) +
+             tolerances.value_rel, budget, close, cap_area_m2, crossings) +
          (ignores_semantics ? " ignore_semantics" : "");
 }
 
@@ -117,6 +120,13 @@ void add_solid_arguments(CLI::App& command, LineArguments& a) {
       ->capture_default_str();
   command.add_option("--close-area", a.cap_area_m2, "... with --close planar, in m2")
       ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      .add_option(
+          "--crossings", a.crossings,
+          "Where a building is no closed shell, polygons that run through each other: leave "
+          "them, or cut them along where they meet")
+      ->check(CLI::IsMember({"leave", "cut"}))
       ->capture_default_str();
 }
 

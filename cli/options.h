@@ -25,6 +25,7 @@ struct LineArguments {
   Tolerances tolerances;
   std::string close = "planar";
   double cap_area_m2 = RepairOptions{}.cap_area_m2;
+  std::string crossings = "leave";
   std::int64_t budget = SegmentOptions{}.budget;
   /// What the input calls its polygons is not looked at.
   bool ignores_semantics = false;

@@ -157,6 +157,7 @@ ExitCode work(const Arguments& arguments) {
 void add_repair(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
   arguments->ends_at_solid = true;
+  arguments->crossings = "cut";
   CLI::App* command = app.add_subcommand(
       "repair", "Make valid solids of buildings: closed, oriented, with plane faces");
   add_input_arguments(*command, *arguments, true);

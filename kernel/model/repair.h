@@ -19,12 +19,21 @@ enum class Closing {
   any
 };
 
+/// What becomes of polygons that run through each other, or lie on each other with crossing edges.
+enum class Crossings {
+  /// They stay whole: what leaks there stays open.
+  leave,
+  /// They are cut along the lines in which they meet, where the building is open without that.
+  cut
+};
+
 /// How much of a building that is no solid may be changed.
 struct RepairOptions {
   Closing close = Closing::planar;
   /// 10 m²: what windows, garage doors and shop fronts measure whose panes stand loose behind
   /// unfilled holes; a missing wall, roof or ground is larger.
   double cap_area_m2 = 10;
+  Crossings crossings = Crossings::leave;
 };
 
 /// An edge of one polygon only, in metres of the frame, as the polygon goes along it.

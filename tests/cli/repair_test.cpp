@@ -114,15 +114,21 @@ TEST_SUITE("cli") {
     CHECK(run(judge).says("72 of 76 buildings are valid"));
   }
 
-  TEST_CASE("holes that are closed across other walls make no solid") {
+  TEST_CASE("holes that are closed across other walls make no solid unless what crosses is cut") {
     ORIEL_NEEDS_SHARED(shared);
     const Folder folder;
     const std::string house = shared / "data/ingolstadt/ingolstadt__4018154.labelled.city.json";
-    const Outcome outcome = run({"repair", house, "--ignore-semantics", "--close", "any", "-o",
-                                 folder / "out.city.json", "--report", folder / "r"});
+    const std::vector<std::string> repair{"repair",    house, "--ignore-semantics",     "--close",
+                                          "any",       "-o",  folder / "out.city.json", "--report",
+                                          folder / "r"};
+    auto leaving = repair;
+    leaving.insert(leaving.end(), {"--crossings", "leave"});
+    const Outcome outcome = run(leaving);
     CHECK(outcome.exit == 3);
     CHECK(outcome.says("E318 the repaired solid is not valid: E352 "));
     CHECK(json::parse(bytes_of(folder / "r"))["is_solid"] == false);
+    CHECK(run(repair).exit == 0);
+    CHECK(json::parse(bytes_of(folder / "r"))["is_solid"] == true);
   }
 }
 

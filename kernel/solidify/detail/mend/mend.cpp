@@ -4,6 +4,7 @@
 #include "kernel/solidify/detail/mend/caps.h"
 #include "kernel/solidify/detail/mend/cells.h"
 #include "kernel/solidify/detail/mend/contacts.h"
+#include "kernel/solidify/detail/mend/crossings.h"
 #include "kernel/solidify/detail/mend/duplicates.h"
 #include "kernel/solidify/detail/mend/nesting.h"
 #include "kernel/solidify/detail/mend/soup_builder.h"
@@ -80,14 +81,36 @@ Soup with_caps(const Stage& stage, double reach, double max_area) {
   return builder.finish();
 }
 
-/// The polygons with caps as far as they are needed and allowed.
-Stage close_holes(Stage stage, const Tolerances& tolerances, const RepairOptions& options) {
+/// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
+Stage close_holes(Stage stage, const Tolerances& tolerances, double cap_area_m2) {
+  if (cap_area_m2 <= 0 || !stage.is_open()) return stage;
   const double grid_m = stage.soup.grid_m;
   const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
-  if (options.close == Closing::none || !stage.is_open()) return stage;
-  Stage closed(with_caps(stage, reach, options.cap_area_m2 / (grid_m * grid_m)));
-  if (options.close == Closing::planar || !closed.is_open()) return closed;
-  return Stage(with_caps(stage, reach, std::numeric_limits<double>::infinity()));
+  return Stage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
+}
+
+/// The polygons cut where others run through them or lie on them.
+Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairReport& report) {
+  const double weld = tolerances.weld_m / soup.grid_m;
+  const auto [parted, cut] = cut_at_crossings(soup, tolerances.plane_offset_m / soup.grid_m, weld);
+  auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
+  report.cut += cut;
+  report.t_vertices += inserted;
+  return std::move(joined);
+}
+
+/// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
+/// the options allow. Each only if what came before was not enough.
+Stage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
+            RepairReport& report) {
+  const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
+  Stage stage = close_holes(Stage(soup), tolerances, area_m2);
+  if (stage.is_open() && options.crossings == Crossings::cut) {
+    soup = without_crossings(soup, tolerances, report);
+    stage = close_holes(Stage(soup), tolerances, area_m2);
+  }
+  if (options.close != Closing::any || !stage.is_open()) return stage;
+  return close_holes(Stage(std::move(soup)), tolerances, std::numeric_limits<double>::infinity());
 }
 
 std::vector<OpenEdge> open_edges_of(const Soup& soup) {
@@ -171,7 +194,7 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
       cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
-  const Stage stage = close_holes(Stage(std::move(whole)), tolerances, options);
+  Stage stage = close(std::move(whole), tolerances, options, report);
   mended.is_open = stage.is_open();
   if (mended.is_open)
     report.open_edges = std::move(open);

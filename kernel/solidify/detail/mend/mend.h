@@ -21,11 +21,11 @@ struct Mended {
 /// 2. vertices on the edge of a neighbour are put into it (t_vertices.h);
 /// 3. polygons are cut where the edges of others lie on them (contacts.h);
 /// 4. the cells between the polygons are found, polygons sorted round the edges (cells.h);
-/// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h);
+/// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h); before larger
+///    ones, polygons are cut where they run through each other, if asked for (crossings.h);
 /// 6. shells in the material of others are dropped or become cavities (nesting.h);
 /// 7. what has the outer cell on one side only stays.
-/// `is_solid`: Building::is_solid. Polygons that cross each other without a common edge are not
-/// looked for.
+/// `is_solid`: Building::is_solid.
 Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
             const RepairOptions& options);
 

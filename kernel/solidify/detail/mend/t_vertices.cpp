@@ -16,42 +16,41 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vec3 place(const Soup& soup, int point) { return exact::to_metres(soup.points[at(point)], 1); }
 
-/// Every edge once, and the ends of those with an odd number of polygons.
+/// Every edge once, and the ends that are asked for.
 struct Edges {
   std::vector<std::pair<int, int>> all;
-  std::vector<int> odd_ends;
+  std::vector<int> ends;
 };
 
-Edges edges_of(const Soup& soup) {
+Edges edges_of(const Soup& soup, Inserted inserted) {
   Edges edges;
   const ShellMesh mesh = linked_rings(soup);
   EdgeGroups(soup, mesh).for_each([&](EdgeGroup group) {
     const auto h = at(group[0]);
     const auto edge = std::minmax({soup.corners[h], soup.corners[at(mesh.next[h])]});
     if (edges.all.empty() || edges.all.back() != edge) edges.all.push_back(edge);
-    if (group.size() % 2 == 1)
-      edges.odd_ends.insert(edges.odd_ends.end(), {edge.first, edge.second});
+    if (inserted == Inserted::all || group.size() % 2 == 1)
+      edges.ends.insert(edges.ends.end(), {edge.first, edge.second});
   });
-  std::ranges::sort(edges.odd_ends);
-  edges.odd_ends.erase(std::unique(edges.odd_ends.begin(), edges.odd_ends.end()),
-                       edges.odd_ends.end());
+  std::ranges::sort(edges.ends);
+  edges.ends.erase(std::unique(edges.ends.begin(), edges.ends.end()), edges.ends.end());
   return edges;
 }
 
 /// By edge (the smaller point first) the points between its ends, in order.
 using Between = std::map<std::pair<int, int>, std::vector<int>>;
 
-Between find_between(const Soup& soup, double reach) {
-  const Edges edges = edges_of(soup);
+Between find_between(const Soup& soup, double reach, Inserted inserted) {
+  const Edges edges = edges_of(soup, inserted);
   std::map<std::pair<int, int>, std::vector<std::pair<double, int>>> found;
-  if (!edges.odd_ends.empty()) {
+  if (!edges.ends.empty()) {
     std::vector<Box> boxes(edges.all.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].grow(place(soup, edges.all[i].first));
       boxes[i].grow(place(soup, edges.all[i].second));
     }
     const BoxTree tree(std::move(boxes));
-    for (const int v : edges.odd_ends) {
+    for (const int v : edges.ends) {
       const Vec3 point = place(soup, v);
       tree.search([&](const Box& box) { return comes_near(box, point, point, reach); },
                   [&](int i) {
@@ -75,8 +74,8 @@ Between find_between(const Soup& soup, double reach) {
 
 }  // namespace
 
-SoupWithTVertices insert_t_vertices(const Soup& soup, double reach) {
-  const Between between = find_between(soup, reach);
+SoupWithTVertices insert_t_vertices(const Soup& soup, double reach, Inserted which) {
+  const Between between = find_between(soup, reach, which);
   SoupBuilder builder(soup);
   int inserted = 0;
   for (const auto& [edge, points] : between) inserted += static_cast<int>(points.size());

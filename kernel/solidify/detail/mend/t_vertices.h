@@ -4,6 +4,9 @@
 
 namespace oriel::detail {
 
+/// Which vertices are put into the edges that they lie on.
+enum class Inserted { odd_ends, all };
+
 /// A soup in which no edge runs past the end of an odd one.
 struct SoupWithTVertices {
   Soup soup;
@@ -12,8 +15,9 @@ struct SoupWithTVertices {
 };
 
 /// Puts the vertices that lie within `reach` (grid units) of an edge, between its ends, into that
-/// edge: of all its polygons. Only the ends of edges with an odd number of polygons are put in:
-/// where the numbers are even nothing is missing.
-SoupWithTVertices insert_t_vertices(const Soup& soup, double reach);
+/// edge: of all its polygons. Only the ends of edges with an odd number of polygons are put in, if
+/// not all are asked for: where the numbers are even nothing is missing in what was drawn to meet.
+SoupWithTVertices insert_t_vertices(const Soup& soup, double reach,
+                                    Inserted inserted = Inserted::odd_ends);
 
 }  // namespace oriel::detail

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "kernel/geometry/planar.h"
+#include "kernel/solidify/detail/mend/soup_builder.h"
+#include "kernel/solidify/detail/polygon_shape.h"
+#include "kernel/solidify/detail/soup.h"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Two points of a soup, the smaller first.
+using Edge = std::pair<int, int>;
+
+/// A polygon of a soup and what cuts it.
+struct CutPolygon {
+  int polygon = -1;
+  /// The outer ring, then the holes; they may have more points than in the soup.
+  std::vector<std::vector<int>> rings;
+  /// Edges on the polygon, none of them one of the rings', that meet each other and the rings in
+  /// common points only.
+  std::vector<Edge> edges;
+};
+
+/// A ring of a polygon as points of the soup.
+std::vector<std::vector<int>> rings_of(const Soup& soup, int polygon);
+
+/// The rings of a polygon as places in grid units.
+std::vector<Outline> outlines_of(const Soup& soup, int polygon);
+
+/// Adds the faces into which the edges part a polygon to the builder, or the polygon as its rings
+/// say where there is one face only, or where the faces' area differs from the polygon's by more
+/// than `slack` (grid units squared): then edges cross. True if it was parted. Edges that lead into
+/// a face and part nothing of it are left out. The builder is like `soup`.
+bool add_faces(const Soup& soup, const PolygonShape& shape, const CutPolygon& cut, double slack,
+               SoupBuilder& builder);
+
+}  // namespace oriel::detail
