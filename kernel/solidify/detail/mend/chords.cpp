@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/mend/chords.h"
 
 #include "kernel/solidify/detail/mend/box_tree.h"
+#include "kernel/solidify/detail/shell_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,44 +16,37 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Tolerances::coplanar_deg.
 constexpr double kParallelSine = 0.0087;
 
-/// Where the line that two planes share is in a polygon: from point to point of the soup.
+/// Up to so many corners both polygons of a pair are asked where they have their common line: more
+/// would make a wall with many windows quadratic.
+constexpr std::size_t kFewCorners = 32;
+
+/// Where a polygon has the line that it shares with another one's plane.
 struct Stretch {
   double from = 0, to = 0;  ///< along the line
   int from_point = -1, to_point = -1;
 };
 
+bool is_near(const Box& a, const Box& b, double reach) {
+  return a.min.x <= b.max.x + reach && b.min.x <= a.max.x + reach && a.min.y <= b.max.y + reach &&
+         b.min.y <= a.max.y + reach && a.min.z <= b.max.z + reach && b.min.z <= a.max.z + reach;
+}
+
 class ChordFinder {
  public:
   ChordFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, double reach,
               GrowingPoints& points)
-      : soup_(soup),
-        shapes_(shapes),
-        reach_(reach),
-        points_(points),
-        chords_(soup.polygons.size()) {
-    boxes_.resize(soup.polygons.size());
-    middles_.resize(soup.polygons.size());
-    own_.resize(soup.polygons.size());
-    for (int p = 0; p < soup.polygon_count(); ++p) {
-      const auto corners = soup.corners_of(p);
-      for (const int v : corners) {
-        boxes_[at(p)].grow(points_.place(v));
-        middles_[at(p)] = middles_[at(p)] + points_.place(v);
-      }
-      own_[at(p)].assign(corners.begin(), corners.end());
-      std::ranges::sort(own_[at(p)]);
-      middles_[at(p)] = 1.0 / static_cast<double>(corners.size()) * middles_[at(p)];
-    }
+      : soup_(soup), shapes_(shapes), reach_(reach), points_(points) {
+    const std::size_t count = soup.polygons.size();
+    boxes_.resize(count);
+    middles_.resize(count);
+    own_.resize(count);
+    chords_.resize(count);
+    for (int p = 0; p < soup.polygon_count(); ++p) measure(p);
   }
 
   std::vector<std::vector<Edge>> run() {
-    const BoxTree tree(boxes_);
-    for (int p = 0; p < soup_.polygon_count(); ++p)
-      tree.search([&](const Box& box) { return is_near(box, boxes_[at(p)]); },
-                  [&](int q) {
-                    if (q > p && soup_.polygons[at(q)].body == soup_.polygons[at(p)].body)
-                      add_pair(p, q);
-                  });
+    add_edges_on_planes();
+    add_crossings();
     for (auto& chords : chords_) {
       std::ranges::sort(chords);
       chords.erase(std::unique(chords.begin(), chords.end()), chords.end());
@@ -61,10 +55,15 @@ class ChordFinder {
   }
 
  private:
-  [[nodiscard]] bool is_near(const Box& a, const Box& b) const {
-    return a.min.x <= b.max.x + reach_ && b.min.x <= a.max.x + reach_ &&
-           a.min.y <= b.max.y + reach_ && b.min.y <= a.max.y + reach_ &&
-           a.min.z <= b.max.z + reach_ && b.min.z <= a.max.z + reach_;
+  void measure(int p) {
+    const auto corners = soup_.corners_of(p);
+    for (const int v : corners) {
+      boxes_[at(p)].grow(points_.place(v));
+      middles_[at(p)] = middles_[at(p)] + points_.place(v);
+    }
+    middles_[at(p)] = 1.0 / static_cast<double>(corners.size()) * middles_[at(p)];
+    own_[at(p)].assign(corners.begin(), corners.end());
+    std::ranges::sort(own_[at(p)]);
   }
 
   /// How far a point is in front of a polygon's plane; its own corners lie on it, though published
@@ -74,34 +73,64 @@ class ChordFinder {
     return dot(shapes_[at(polygon)].unit, points_.place(point) - middles_[at(polygon)]);
   }
 
-  void add_pair(int p, int q) {
-    add_edges_on(p, q);
-    add_edges_on(q, p);
-    const Vec3 line = cross(shapes_[at(p)].unit, shapes_[at(q)].unit);
-    if (length(line) < kParallelSine) return;
-    const auto in_p = stretches(p, q, normalised(line)), in_q = stretches(q, p, normalised(line));
-    for (const Stretch& a : in_p)
-      for (const Stretch& b : in_q) add_common(p, q, a, b);
+  [[nodiscard]] bool is_same_body(int p, int q) const {
+    return soup_.polygons[at(p)].body == soup_.polygons[at(q)].body;
   }
 
-  /// The edges of q that lie on p's plane become chords of p.
-  void add_edges_on(int p, int q) {
-    for (const int r : soup_.rings_of(q)) {
-      const auto ring = soup_.ring(r);
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const int from = ring[i], to = ring[(i + 1) % ring.size()];
-        if (std::abs(height(from, p)) > reach_ || std::abs(height(to, p)) > reach_) continue;
-        if (comes_near(boxes_[at(p)], points_.place(from), points_.place(to), reach_))
-          add_chord(p, from, to);
-      }
-    }
+  /// Edges of others that lie on a polygon's plane, near the polygon, are chords of it.
+  void add_edges_on_planes() {
+    const ShellMesh mesh = linked_rings(soup_);
+    std::vector<Box> boxes(soup_.corners.size());
+    for (std::size_t h = 0; h < boxes.size(); ++h)
+      for (const int v : {soup_.corners[h], soup_.corners[at(mesh.next[h])]})
+        boxes[h].grow(points_.place(v));
+    const BoxTree edges(std::move(boxes));
+    for (int p = 0; p < soup_.polygon_count(); ++p)
+      edges.search([&](const Box& box) { return is_near(box, boxes_[at(p)], reach_); },
+                   [&](int h) {
+                     const int q = mesh.polygon_of[at(h)];
+                     if (q == p || !is_same_body(p, q)) return;
+                     const int from = soup_.corners[at(h)],
+                               to = soup_.corners[at(mesh.next[at(h)])];
+                     if (std::abs(height(from, p)) <= reach_ && std::abs(height(to, p)) <= reach_)
+                       add_chord(p, from, to);
+                   });
   }
 
   void add_chord(int p, int from, int to) {
     if (from != to) chords_[at(p)].emplace_back(std::minmax(from, to));
   }
 
-  /// Where polygon p has the line in which its plane meets that of q, in order along the line.
+  /// Where two polygons cross they get a chord each.
+  void add_crossings() {
+    const BoxTree tree(boxes_);
+    for (int p = 0; p < soup_.polygon_count(); ++p)
+      tree.search([&](const Box& box) { return is_near(box, boxes_[at(p)], reach_); },
+                  [&](int q) {
+                    if (q > p && is_same_body(p, q)) add_pair(p, q);
+                  });
+  }
+
+  /// The line that two planes share, as far as it runs in both polygons. Of one with many corners
+  /// its subdivision finds out where the line leaves it.
+  void add_pair(int p, int q) {
+    const Vec3 across = cross(shapes_[at(p)].unit, shapes_[at(q)].unit);
+    if (length(across) < kParallelSine) return;
+    const Vec3 line = normalised(across);
+    const bool is_p_smaller = own_[at(p)].size() <= own_[at(q)].size();
+    const int small = is_p_smaller ? p : q, large = is_p_smaller ? q : p;
+    auto found = stretches(small, large, line);
+    if (found.empty()) return;
+    if (own_[at(large)].size() <= kFewCorners) found = common(found, stretches(large, small, line));
+    for (const Stretch& stretch : found) {
+      const Edge chord = std::minmax(stretch.from_point, stretch.to_point);
+      if (is_ring_edge(small, chord) || !reaches(large, chord)) continue;
+      add_chord(small, chord.first, chord.second);
+      add_chord(large, chord.first, chord.second);
+    }
+  }
+
+  /// Where polygon p has the line in which its plane meets that of q.
   std::vector<Stretch> stretches(int p, int q, Vec3 line) {
     std::vector<std::pair<double, int>> ends;
     for (const int r : soup_.rings_of(p)) {
@@ -117,7 +146,22 @@ class ChordFinder {
     std::ranges::sort(ends);
     std::vector<Stretch> found;
     for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
-      found.push_back({ends[i].first, ends[i + 1].first, ends[i].second, ends[i + 1].second});
+      if (ends[i].second != ends[i + 1].second)
+        found.push_back({ends[i].first, ends[i + 1].first, ends[i].second, ends[i + 1].second});
+    return found;
+  }
+
+  /// What stretches of one line have in common with others.
+  [[nodiscard]] static std::vector<Stretch> common(const std::vector<Stretch>& first,
+                                                   const std::vector<Stretch>& second) {
+    std::vector<Stretch> found;
+    for (const Stretch& a : first)
+      for (const Stretch& b : second) {
+        const Stretch& begins = a.from < b.from ? b : a;
+        const Stretch& ends = a.to > b.to ? b : a;
+        if (begins.from < ends.to)
+          found.push_back({begins.from, ends.to, begins.from_point, ends.to_point});
+      }
     return found;
   }
 
@@ -129,15 +173,17 @@ class ChordFinder {
     return points_.point_at(from + (low / (low - high)) * (to - from));
   }
 
-  /// What two stretches have in common becomes a chord of both polygons.
-  void add_common(int p, int q, const Stretch& a, const Stretch& b) {
-    const bool is_a_first = a.from<b.from, is_a_last = a.to> b.to;
-    const double from = is_a_first ? b.from : a.from, to = is_a_last ? b.to : a.to;
-    if (to <= from) return;
-    const int first = is_a_first ? b.from_point : a.from_point;
-    const int last = is_a_last ? b.to_point : a.to_point;
-    add_chord(p, first, last);
-    add_chord(q, first, last);
+  [[nodiscard]] bool is_ring_edge(int p, const Edge& edge) const {
+    for (const int r : soup_.rings_of(p)) {
+      const auto ring = soup_.ring(r);
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (Edge(std::minmax(ring[i], ring[(i + 1) % ring.size()])) == edge) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool reaches(int p, const Edge& edge) const {
+    return comes_near(boxes_[at(p)], points_.place(edge.first), points_.place(edge.second), reach_);
   }
 
   const Soup& soup_;

@@ -1,5 +1,7 @@
 #include "kernel/solidify/detail/mend/faces.h"
 
+#include "kernel/solidify/detail/mend/box_tree.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -73,11 +75,15 @@ class FaceWalk {
 std::vector<int> faces_around(const Loops& loops, const std::vector<Outline>& outlines,
                               const std::vector<double>& areas, Vec3 normal) {
   std::vector<int> face_of(loops.size(), -1);
+  std::vector<Box> boxes(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (const Vec3 p : outlines[i]) boxes[i].grow(p);
   for (std::size_t j = 0; j < loops.size(); ++j) {
     if (areas[j] >= 0) continue;
     for (std::size_t i = 0; i < loops.size(); ++i) {
       const int best = face_of[j];
       if (areas[i] <= 0 || (best >= 0 && areas[at(best)] <= areas[i])) continue;
+      if (!comes_near(boxes[i], outlines[j].front(), outlines[j].front(), 0)) continue;
       const bool is_own_side = std::ranges::find(loops[i], loops[j][0]) != loops[i].end();
       if (!is_own_side && contains({&outlines[i], 1}, normal, outlines[j].front()))
         face_of[j] = static_cast<int>(i);
