@@ -56,15 +56,16 @@ TEST_SUITE("cli") {
     ORIEL_NEEDS_SHARED(shared);
     const std::filesystem::path data = shared / "data";
     const auto ingolstadt = files_of(data / "ingolstadt", ".labelled.city.json");
-    CHECK(solids_of(ingolstadt, {"--ignore-semantics"}) >= 14);
-    CHECK(solids_of(ingolstadt, {"--ignore-semantics", "--close", "any"}) >= 14);
+    CHECK(solids_of(ingolstadt, {"--ignore-semantics"}) >= 17);
+    CHECK(solids_of(ingolstadt, {"--ignore-semantics", "--close", "any"}) >= 17);
     const auto houses = files_of(data / "random3dcity", ".labelled.city.json");
     CHECK(solids_of(houses, {"--ignore-semantics"}) == std::ssize(houses));
     const std::string tile = data / "3dbag/tile_5910.city.jsonl";
     for (const char* lod : {"1.2", "1.3", "2.2"}) CHECK(solids_of({tile}, {"--lod", lod}) >= 208);
   }
 
-  TEST_CASE("what repair says is a solid is valid when it is read again: generated houses") {
+  TEST_CASE(
+      "what repair says is a solid is valid when it is read again: a thousand generated houses") {
     for (const double noise_mm : {0.0, 2.0}) {
       const Folder folder;
       oriel::generator::Options options;
@@ -72,14 +73,16 @@ TEST_SUITE("cli") {
       options.flush = 0.3;
       options.noise = std::lround(1000 * noise_mm);
       std::vector<std::string> houses;
-      for (int i = 0; i < 60; ++i) {
+      for (int i = 0; i < 500; ++i) {
         const std::string name = fmt::format("h{}", i);
         const oriel::generator::Building house{name, oriel::generator::generate(options, i), {}};
         houses.push_back(
             folder.write(name + ".city.json",
                          oriel::generator::cityjson(house, oriel::generator::Content::stripped)));
       }
-      CHECK(solids_of(houses, {}) >= 59);
+      // With noise a facet of one in twenty is folded where it is narrow (E345): no solid then.
+      CHECK(solids_of(houses, {}) >= (noise_mm > 0 ? 475 : 500));
+      CHECK(solids_of({houses.begin(), houses.begin() + 60}, {}) >= 59);
     }
   }
 
