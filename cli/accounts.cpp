@@ -11,9 +11,10 @@ void Accounts::begin(bool is_rehearsal) {
   if (!figures_ && !metrics_.empty()) figures_ = std::make_unique<OutputFile>(metrics_);
 }
 
-void Accounts::add(const std::string& building, const std::string& target,
-                   const std::vector<Deed>& deeds) {
-  if (!deeds_) return;
+std::string Accounts::text(const std::string& building, const std::string& target,
+                           const std::vector<Deed>& deeds) const {
+  std::string all;
+  if (explain_.empty()) return all;
   const bool is_json = explain_.ends_with(".jsonl");
   for (const Deed& deed : deeds) {
     if (is_json) {
@@ -27,20 +28,22 @@ void Accounts::add(const std::string& building, const std::string& target,
       line["rule"] = deed.rule;
       line["code"] = deed.code;
       line["reason"] = deed.reason;
-      deeds_->append(line.dump() + "\n");
+      all += line.dump() + "\n";
       continue;
     }
     std::string text = fmt::format("{} {} {} {}: {}", target, building, deed.feature,
                                    deed.label.empty() ? "unknown" : deed.label, deed.outcome);
     if (!deed.operation.empty()) text += fmt::format(", {} by {}", deed.operation, deed.rule);
     if (!deed.reason.empty()) text += fmt::format(" ({} {})", deed.code, deed.reason);
-    deeds_->append(text + '\n');
+    all += text + '\n';
   }
+  return all;
 }
 
-void Accounts::add(const std::string& building, const std::string& target, double least_edge_m,
-                   const SolidFigures& before, const SolidFigures& after, double hausdorff_m) {
-  if (!figures_) return;
+std::string Accounts::text(const std::string& building, const std::string& target,
+                           double least_edge_m, const SolidFigures& before,
+                           const SolidFigures& after, double hausdorff_m) const {
+  if (metrics_.empty()) return {};
   nlohmann::ordered_json line;
   line["building"] = building;
   line["target"] = target;
@@ -55,7 +58,12 @@ void Accounts::add(const std::string& building, const std::string& target, doubl
   both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
   both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
   line["hausdorff_m"] = hausdorff_m;
-  figures_->append(line.dump() + "\n");
+  return line.dump() + "\n";
+}
+
+void Accounts::take(const Product& product) {
+  if (deeds_) deeds_->append(product[Part::deeds]);
+  if (figures_) figures_->append(product[Part::figures]);
 }
 
 void Accounts::commit() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/outcome.h"
 #include "generalise/account.h"
 #include "kernel/io/output_file.h"
 
@@ -22,9 +23,13 @@ class Accounts {
   [[nodiscard]] bool has_any() const { return !explain_.empty() || !metrics_.empty(); }
   /// An input begins. What follows is kept unless it is a rehearsal.
   void begin(bool is_rehearsal);
-  void add(const std::string& building, const std::string& target, const std::vector<Deed>& deeds);
-  void add(const std::string& building, const std::string& target, double least_edge_m,
-           const SolidFigures& before, const SolidFigures& after, double hausdorff_m);
+  /// What is written of a building. Several threads may call them; empty if it is not asked for.
+  [[nodiscard]] std::string text(const std::string& building, const std::string& target,
+                                 const std::vector<Deed>& deeds) const;
+  [[nodiscard]] std::string text(const std::string& building, const std::string& target,
+                                 double least_edge_m, const SolidFigures& before,
+                                 const SolidFigures& after, double hausdorff_m) const;
+  void take(const Product& product);
   void commit() const;
 
  private:

@@ -93,6 +93,18 @@ std::string Destination::path_for(std::size_t input) const {
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
+Format Destination::format_of_output(std::size_t input) const {
+  if (to_) return *to_;
+  const Format from = format_of_input(input);
+  return format_of(path_for(input))
+      .value_or(from == Format::cityjson_seq ? from : Format::cityjson);
+}
+
+bool Destination::is_gathering(std::size_t input) const {
+  const Format format = format_of_output(input);
+  return format != Format::cityjson && format != Format::cityjson_seq;
+}
+
 bool Destination::is_streaming() const {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const Format to = to_ ? *to_ : format_of(path_for(i)).value_or(format_of_input(i));
@@ -102,10 +114,8 @@ bool Destination::is_streaming() const {
 }
 
 void Destination::begin(std::size_t input, bool is_rehearsal) {
+  input_ = input;
   path_ = path_for(input);
-  const Format from = format_of_input(input);
-  format_ = to_ ? *to_
-                : format_of(path_).value_or(from == Format::cityjson_seq ? from : Format::cityjson);
   mesh_ = {};
   collector_ = {};
   if (is_rehearsal) path_ = "/dev/null";
@@ -116,21 +126,33 @@ void Destination::begin(std::size_t input, bool is_rehearsal) {
   file_ = std::make_unique<OutputFile>(path_);
 }
 
+std::string Destination::text(std::size_t input, const Document& document,
+                              const std::vector<LabelledBuilding>& labelled,
+                              const WriteOptions& options) const {
+  return is_gathering(input) ? std::string() : write_cityjson(document, labelled, options);
+}
+
+void Destination::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                       const std::string& text) {
+  if (is_gathering(input_))
+    append_mesh(mesh_, document, labelled);
+  else if (format_of_output(input_) == Format::cityjson && document.format == Format::citygml)
+    collector_.add(text);
+  else
+    file_->append(text);
+}
+
 void Destination::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
                       const WriteOptions& options) {
-  if (format_ == Format::cityjson && document.format == Format::citygml)
-    collector_.add(write_cityjson(document, labelled, options));
-  else if (format_ == Format::cityjson || format_ == Format::cityjson_seq)
-    file_->append(write_cityjson(document, labelled, options));
-  else
-    append_mesh(mesh_, document, labelled);
+  take(document, labelled, text(input_, document, labelled, options));
 }
 
 std::string Destination::end() {
   if (collector_.has_lines()) file_->append(collector_.text());
-  if (format_ == Format::obj) file_->append(write_obj(mesh_));
-  if (format_ == Format::off) file_->append(write_off(mesh_));
-  if (format_ == Format::stl) file_->append(write_stl(mesh_));
+  const Format format = format_of_output(input_);
+  if (format == Format::obj) file_->append(write_obj(mesh_));
+  if (format == Format::off) file_->append(write_off(mesh_));
+  if (format == Format::stl) file_->append(write_stl(mesh_));
   file_->commit();
   file_.reset();
   return path_;

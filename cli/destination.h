@@ -31,6 +31,16 @@ class Destination {
 
   /// With `is_rehearsal` the bytes go to nowhere.
   void begin(std::size_t input, bool is_rehearsal);
+  /// What a record of an input adds, as bytes; empty for formats that are written when all records
+  /// are there. Several threads may call it.
+  [[nodiscard]] std::string text(std::size_t input, const Document& document,
+                                 const std::vector<LabelledBuilding>& labelled,
+                                 const WriteOptions& options) const;
+  /// Such formats: `add` needs the buildings.
+  [[nodiscard]] bool is_gathering(std::size_t input) const;
+  /// Puts a record of the input at hand into its place, whose `text` it was.
+  void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+            const std::string& text);
   void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
            const WriteOptions& options);
   /// Puts the file in its place and returns its path.
@@ -38,6 +48,7 @@ class Destination {
 
  private:
   [[nodiscard]] Format format_of_input(std::size_t input) const;
+  [[nodiscard]] Format format_of_output(std::size_t input) const;
   [[nodiscard]] std::string path_for(std::size_t input) const;
   void check(std::size_t input) const;
 
@@ -46,7 +57,7 @@ class Destination {
   std::optional<Format> from_, to_;
   bool is_folder_ = false;
 
-  Format format_ = Format::cityjson;
+  std::size_t input_ = 0;
   std::string path_;
   std::unique_ptr<OutputFile> file_;
   LabelledMesh mesh_;

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "cli/series.h"
+#include "cli/work_place.h"
 #include "cli/written_proof.h"
 #include "generalise/generalise.h"
 #include "generalise/to_lod.h"
@@ -82,13 +83,11 @@ std::optional<Targets> targets_of(const Arguments& arguments, const RuleBase& ru
 
 class Generaliser {
  public:
-  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules, Run& run,
-              Report& report)
+  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules, Run& run)
       : arguments_(arguments),
         targets_(targets),
         rules_(rules),
         run_(run),
-        report_(report),
         outputs_(arguments, rules),
         accounts_(arguments.explain, arguments.metrics) {}
 
@@ -99,8 +98,12 @@ class Generaliser {
       accounts_.begin(!run_.is_last_run());
       outputs_.begin(input, !run_.is_last_run());
     };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-      redraw_record(document, lines);
+    visitor.make = [&](std::size_t input, const Document& document,
+                       const std::vector<OnLine>& lines,
+                       Timings& timings) { return redraw_record(input, document, lines, timings); };
+    visitor.take = [&](const Document& document, const Product& product) {
+      outputs_.take(document, product);
+      accounts_.take(product);
     };
     visitor.end = [&](std::size_t) {
       run_.timings().measure(Stage::write, [&] { outputs_.end(); });
@@ -122,27 +125,36 @@ class Generaliser {
   }
 
  private:
-  void redraw_record(const Document& document, std::vector<OnLine>& lines) {
+  Product redraw_record(std::size_t input, const Document& document,
+                        const std::vector<OnLine>& lines, Timings& timings) const {
+    Product product;
     std::vector<LabelledBuilding> labelled;
     WriteOptions options;
     std::vector<Drawn> drawn;
     for (std::size_t i = 0; i < lines.size(); ++i) {
+      now_at_building(i);
       if (!lines[i].is_done()) continue;
       if (lines[i].is_open) {
-        run_.set_aside(building_issue(Severity::error, "G404", document.buildings[i].id,
-                                      "is open: there is no solid to redraw"));
+        product.issues.push_back(building_issue(Severity::error, "G404", document.buildings[i].id,
+                                                "is open: there is no solid to redraw"));
         continue;
       }
-      outputs_.add_features(document.buildings[i], lines[i]);
-      drawn.push_back({i, run_.timings().measure(Stage::generalise, [&] {
-                         return redraw_building(document.buildings[i], lines[i]);
+      outputs_.make_features(document.buildings[i], lines[i], product);
+      drawn.push_back({i, timings.measure(Stage::generalise, [&] {
+                         return redraw_building(document.buildings[i], lines[i], product);
                        })});
     }
     for (Drawn& one : drawn) {
-      run_.timings().measure(Stage::write, [&] { keep_valid(document, lines[one.building], one); });
-      add(std::move(one.all), labelled, options);
+      now_at_building(one.building);
+      timings.measure(Stage::write,
+                      [&] { keep_valid(document, lines[one.building], one, product); });
+      add(std::move(one.all), labelled, options, product);
     }
-    run_.timings().measure(Stage::write, [&] { outputs_.add(document, labelled, options); });
+    now_at_building(kNoBuilding);
+    timings.measure(Stage::write, [&] {
+      outputs_.make_buildings(input, document, std::move(labelled), options, product);
+    });
+    return product;
   }
 
   /// What became of a building of the record; nothing if it was set aside.
@@ -153,7 +165,8 @@ class Generaliser {
 
   /// Says how fine the file has to be for a building to be valid in it. What is valid at no scale
   /// stays as it came; levels of detail are set aside.
-  void keep_valid(const Document& document, const OnLine& line, Drawn& drawn) {
+  void keep_valid(const Document& document, const OnLine& line, Drawn& drawn,
+                  Product& product) const {
     const Building& building = document.buildings[drawn.building];
     std::optional<Issue> fault;
     for (Redrawn& redrawn : drawn.all) {
@@ -164,24 +177,27 @@ class Generaliser {
     }
     if (!fault) return;
     drawn.all.clear();
-    if (targets_.has_lods()) return run_.set_aside(*fault);
+    if (targets_.has_lods()) {
+      product.issues.push_back(*fault);
+      return;
+    }
     fault->severity = Severity::warning;
     fault->sentence += "; it stays as it came";
-    report_.tell(*fault);
+    product.issues.push_back(*fault);
     drawn.all.push_back({outputs_.annotated(building, line), {}, {}});
   }
 
   /// Of several levels of detail the first says what is gone from the building; an installation
   /// leaves the file if no level has it.
-  void add(std::vector<Redrawn> all, std::vector<LabelledBuilding>& labelled,
-           WriteOptions& options) {
+  void add(std::vector<Redrawn> all, std::vector<LabelledBuilding>& labelled, WriteOptions& options,
+           Product& product) const {
     for (std::size_t i = 0; i < all.size(); ++i) {
       Redrawn& redrawn = all[i];
       for (const std::string& id : redrawn.removed_ids)
         if (std::ranges::none_of(all, [&](const Redrawn& other) { return has(other, id); }))
           options.removed.push_back(id);
       if (i == 0)
-        for (const auto& [label, count] : redrawn.removed) removed_[label] += count;
+        for (const auto& [label, count] : redrawn.removed) product.counts[label] += count;
       else
         redrawn.labelled.attributes.clear();
     }
@@ -193,13 +209,14 @@ class Generaliser {
   }
 
   /// One for each target; none if one of them cannot be had.
-  std::vector<Redrawn> redraw_building(const Building& building, const OnLine& line) {
+  std::vector<Redrawn> redraw_building(const Building& building, const OnLine& line,
+                                       Product& product) const {
     std::vector<Redrawn> all;
     const LabelledBuilding labelled = outputs_.annotated(building, line);
     const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
       auto redrawn = redraw_for(i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr,
-                                building, labelled, line);
+                                building, labelled, line, product);
       if (!redrawn) return {};
       all.push_back(std::move(*redrawn));
     }
@@ -207,7 +224,8 @@ class Generaliser {
   }
 
   std::optional<Redrawn> redraw_for(const Profile* profile, const Building& building,
-                                    const LabelledBuilding& labelled, const OnLine& line) {
+                                    const LabelledBuilding& labelled, const OnLine& line,
+                                    Product& product) const {
     const auto& [table, graph] = line.description;
     Plan plan;
     if (targets_.scale)
@@ -215,24 +233,25 @@ class Generaliser {
     if (profile != nullptr)
       plan = plan_by_profile(std::move(plan), *profile, rules_, *line.segmentation, table,
                              line.interpretation, targets_.scale);
-    report_.tell(plan.issues);
+    keep(plan.issues, product);
     Invariants invariants;
     if (profile != nullptr)
       invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m};
     auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
                                   arguments_.segment_options(), invariants);
-    if (!tell(generalised.issues) || !generalised.value) return std::nullopt;
+    if (!keep(generalised.issues, product) || !generalised.value) return std::nullopt;
     const std::string target = targets_.has_lods() ? "LoD " + profile->level : targets_.text();
     if (accounts_.has_any())
-      accounts_.add(building.id, target,
-                    account(plan, *generalised.value, table, line.interpretation));
+      product[Part::deeds] += accounts_.text(
+          building.id, target, account(plan, *generalised.value, table, line.interpretation));
     const double least_edge_m = least_edge(profile);
     const auto keep_figures = [&](const Redrawn& redrawn) {
       if (!accounts_.has_metrics()) return;
       const auto& solid = redrawn.labelled.geometry;
       const Solid& after = solid ? *solid : *line.solid;
-      accounts_.add(building.id, target, least_edge_m, figures_of(*line.solid, least_edge_m),
-                    figures_of(after, least_edge_m), hausdorff_m(*line.solid, after));
+      product[Part::figures] +=
+          accounts_.text(building.id, target, least_edge_m, figures_of(*line.solid, least_edge_m),
+                         figures_of(after, least_edge_m), hausdorff_m(*line.solid, after));
     };
     const Tolerances& tolerances = arguments_.segment_options().tolerances;
     if (!targets_.has_lods()) {
@@ -241,11 +260,11 @@ class Generaliser {
       keep_figures(redrawn);
       return redrawn;
     }
-    auto product = to_lod(building, labelled, *line.segmentation, table, line.interpretation,
-                          *profile, std::move(*generalised.value), tolerances);
-    if (!tell(product.issues)) return std::nullopt;
-    keep_figures(*product.value);
-    return std::move(product.value);
+    auto drawn = to_lod(building, labelled, *line.segmentation, table, line.interpretation,
+                        *profile, std::move(*generalised.value), tolerances);
+    if (!keep(drawn.issues, product)) return std::nullopt;
+    keep_figures(*drawn.value);
+    return std::move(drawn.value);
   }
 
   /// The least length that the target shows: the profile's c, else 0.125 mm on the map.
@@ -255,13 +274,8 @@ class Generaliser {
   }
 
   /// False if there is an error: the building is set aside.
-  bool tell(const std::vector<Issue>& issues) {
-    for (const Issue& issue : issues) {
-      if (issue.severity == Severity::error)
-        run_.set_aside(issue);
-      else
-        report_.tell(issue);
-    }
+  static bool keep(const std::vector<Issue>& issues, Product& product) {
+    product.issues.insert(product.issues.end(), issues.begin(), issues.end());
     return !has_errors(issues);
   }
 
@@ -269,7 +283,6 @@ class Generaliser {
   const Targets& targets_;
   const RuleBase& rules_;
   Run& run_;
-  Report& report_;
   LabelOutputs outputs_;
   Accounts accounts_;
   std::map<std::string, int> removed_;  ///< features that are gone, by label
@@ -331,7 +344,7 @@ ExitCode work(Arguments& arguments) {
   const auto targets = targets_of(arguments, *rules, report);
   if (!targets) return ExitCode::rules;
   Run run(arguments, &*rules, report);
-  Generaliser generaliser(arguments, *targets, *rules, run, report);
+  Generaliser generaliser(arguments, *targets, *rules, run);
   return generaliser.go();
 }
 

@@ -2,10 +2,12 @@
 
 #include "cli/line.h"
 #include "cli/options.h"
+#include "cli/outcome.h"
 #include "cli/resume.h"
 #include "kernel/io/document.h"
 #include "kernel/io/reader.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,7 +43,11 @@ struct Arrival {
   /// Of a failure: the input could not be opened, or reading failed half-way. Nothing more of it
   /// comes.
   std::optional<Issue> issue{};
-  /// The record's buildings on the line, in their order; filled by the one who runs them.
+  /// With --isolate, of the record's buildings by number: working on it ended a worker.
+  std::map<std::size_t, Issue> lost{};
+  /// What came of the record; filled by the one who works on it.
+  RecordOutcome outcome{};
+  /// Its buildings on the line, in their order, for commands that visit them.
   std::vector<OnLine> lines{};
   /// What this record has taken so far.
   Timings timings{};

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
+#include "cli/work_place.h"
 #include "cli/written_proof.h"
 #include "generalise/generalise.h"
 #include "interpret/surface_score.h"
@@ -49,10 +50,11 @@ std::string listing(const Building& building, const OnLine& line) {
 /// --repaired: the labels on the facets of the building's solid. Without one that is valid they
 /// stay on the polygons as they came, and the building counts as set aside.
 LabelledBuilding on_solid(const Document& document, const Building& building, const OnLine& line,
-                          LabelledBuilding labelled, const Tolerances& tolerances, Run& run) {
+                          LabelledBuilding labelled, const Tolerances& tolerances,
+                          std::vector<Issue>& issues) {
   if (line.is_open) {
-    run.set_aside(building_issue(Severity::error, "G404", building.id,
-                                 "is open: its polygons are labelled as they came"));
+    issues.push_back(building_issue(Severity::error, "G404", building.id,
+                                    "is open: its polygons are labelled as they came"));
     return labelled;
   }
   Generalised whole{*line.solid, {}};
@@ -62,7 +64,7 @@ LabelledBuilding on_solid(const Document& document, const Building& building, co
                                .labelled;
   const WrittenProof proof = prove_written(document, building, *drawn.geometry);
   if (proof.fault) {
-    run.set_aside(*proof.fault);
+    issues.push_back(*proof.fault);
     return labelled;
   }
   drawn.digits = proof.digits;
@@ -100,6 +102,28 @@ ExitCode audit(const Arguments& arguments) {
   return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
 }
 
+Product made_of(std::size_t input, const Document& document, const std::vector<OnLine>& lines,
+                const Arguments& arguments, const LabelOutputs& outputs) {
+  Product product;
+  std::vector<LabelledBuilding> labelled;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    now_at_building(i);
+    const Building& building = document.buildings[i];
+    if (outputs.has_buildings() && lines[i].has_surfaces()) {
+      labelled.push_back(outputs.annotated(building, lines[i]));
+      if (arguments.is_repaired && lines[i].is_done())
+        labelled.back() = on_solid(document, building, lines[i], std::move(labelled.back()),
+                                   arguments.segment_options().tolerances, product.issues);
+    }
+    if (!lines[i].is_done()) continue;
+    outputs.make_features(building, lines[i], product);
+    if (!outputs.has_any()) product[Part::listing] += listing(building, lines[i]);
+  }
+  now_at_building(kNoBuilding);
+  outputs.make_buildings(input, document, std::move(labelled), arguments.write_options(), product);
+  return product;
+}
+
 ExitCode work(Arguments& arguments) {
   if (arguments.existing == "audit") return audit(arguments);
   if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
@@ -113,24 +137,14 @@ ExitCode work(Arguments& arguments) {
   LabelOutputs outputs(arguments, *rules);
   Run::Visitor visitor;
   visitor.begin = [&](std::size_t input) { outputs.begin(input, !run.is_last_run()); };
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-    run.timings().measure(Stage::write, [&] {
-      std::vector<LabelledBuilding> labelled;
-      for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (outputs.has_buildings() && lines[i].has_surfaces()) {
-          labelled.push_back(outputs.annotated(document.buildings[i], lines[i]));
-          if (arguments.is_repaired && lines[i].is_done())
-            labelled.back() =
-                on_solid(document, document.buildings[i], lines[i], std::move(labelled.back()),
-                         arguments.segment_options().tolerances, run);
-        }
-        if (!lines[i].is_done()) continue;
-        outputs.add_features(document.buildings[i], lines[i]);
-        if (!outputs.has_any() && run.is_last_run())
-          outputs.print(listing(document.buildings[i], lines[i]));
-      }
-      outputs.add(document, labelled, arguments.write_options());
-    });
+  visitor.make = [&](std::size_t input, const Document& document, const std::vector<OnLine>& lines,
+                     Timings& timings) {
+    return timings.measure(Stage::write,
+                           [&] { return made_of(input, document, lines, arguments, outputs); });
+  };
+  visitor.take = [&](const Document& document, Product product) {
+    if (!run.is_last_run()) product[Part::listing].clear();
+    outputs.take(document, product);
   };
   visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
   visitor.reopen = [&] { outputs.reopen(); };

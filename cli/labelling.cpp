@@ -21,6 +21,7 @@ void add_label_arguments(CLI::App& command, LabelArguments& a) {
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
   add_features_argument(command, a.features);
   add_resume_argument(command, a);
+  add_isolate_argument(command, a);
   command
       .add_option("--codelist", a.codelist,
                   "Code list of installations that the pack has codes for")
@@ -49,6 +50,8 @@ LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rule
   if (!arguments.out.empty())
     destination_.emplace(arguments.out, arguments.to, arguments.inputs,
                          arguments.read_options().format);
+  if (arguments.is_isolated && destination_ && destination_->is_gathering(0))
+    throw CLI::ValidationError("--isolate", "needs an output that is CityJSON or CityJSONSeq");
   if (arguments.is_resumable && (!has_any() || (destination_ && destination_->is_stdout())))
     throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
 }
@@ -77,18 +80,31 @@ void LabelOutputs::open_features() {
     features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
 }
 
-void LabelOutputs::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
-                       const WriteOptions& options) {
-  if (destination_) destination_->add(document, labelled, options);
+void LabelOutputs::make_buildings(std::size_t input, const Document& document,
+                                  std::vector<LabelledBuilding> labelled,
+                                  const WriteOptions& options, Product& product) const {
+  if (!destination_) return;
+  product[Part::buildings] = destination_->text(input, document, labelled, options);
+  if (destination_->is_gathering(input)) product.labelled = std::move(labelled);
 }
 
-void LabelOutputs::add_features(const Building& building, const OnLine& line) {
-  if (features_)
-    features_->append(feature_records(building, *line.segmentation, line.description.table,
-                                      line.description.graph, &line.interpretation));
+void LabelOutputs::make_features(const Building& building, const OnLine& line,
+                                 Product& product) const {
+  if (arguments_.features.empty()) return;
+  const RecordFormat format = *record_format_of(arguments_.features);
+  std::string& text = product[Part::features];
+  const std::string more = FeatureRecordWriter::text(
+      format, feature_records(building, *line.segmentation, line.description.table,
+                              line.description.graph, &line.interpretation));
+  if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
+  text += more;
 }
 
-void LabelOutputs::print(const std::string& text) const { std::fputs(text.c_str(), stdout); }
+void LabelOutputs::take(const Document& document, const Product& product) {
+  if (destination_) destination_->take(document, product.labelled, product[Part::buildings]);
+  if (features_) features_->append(product[Part::features]);
+  std::fputs(product[Part::listing].c_str(), stdout);
+}
 
 void LabelOutputs::end() {
   has_ended_ = true;

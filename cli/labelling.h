@@ -2,6 +2,7 @@
 
 #include "cli/destination.h"
 #include "cli/options.h"
+#include "cli/outcome.h"
 #include "cli/run.h"
 #include "interpret/annotate.h"
 #include "interpret/rule_base.h"
@@ -53,10 +54,14 @@ class LabelOutputs {
   void begin(std::size_t input, bool is_rehearsal);
   /// All inputs were done by an earlier run; only `commit` is to come.
   void reopen();
-  void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
-           const WriteOptions& options);
-  void add_features(const Building& building, const OnLine& line);
-  void print(const std::string& text) const;
+  /// Adds to `product` what the labelled buildings of a record, and the features of a building,
+  /// become in the outputs. Several threads may call them.
+  void make_buildings(std::size_t input, const Document& document,
+                      std::vector<LabelledBuilding> labelled, const WriteOptions& options,
+                      Product& product) const;
+  void make_features(const Building& building, const OnLine& line, Product& product) const;
+  /// Puts a product into the outputs.
+  void take(const Document& document, const Product& product);
   /// An input is done: its file is put in its place.
   void end();
   /// All inputs are done. Records are written if one of them could be read.

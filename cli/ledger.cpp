@@ -3,6 +3,7 @@
 #include "cli/resume.h"
 #include "kernel/model/version.h"
 
+#include <algorithm>
 #include <sys/resource.h>
 
 #include <fmt/format.h>
@@ -36,10 +37,13 @@ std::string dumped(const ordered_json& value, int indent) {
   return value.dump(indent, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// Of this process or of its largest worker.
 std::int64_t peak_memory_bytes() {
-  struct rusage usage {};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss * std::int64_t{1024};
+  struct rusage own {
+  }, workers{};
+  ::getrusage(RUSAGE_SELF, &own);
+  ::getrusage(RUSAGE_CHILDREN, &workers);
+  return std::max(own.ru_maxrss, workers.ru_maxrss) * std::int64_t{1024};
 }
 
 }  // namespace

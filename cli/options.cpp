@@ -180,6 +180,12 @@ void add_resume_argument(CLI::App& command, LineArguments& a) {
       ->excludes(command.get_option("--repeat"));
 }
 
+void add_isolate_argument(CLI::App& command, LineArguments& a) {
+  command.add_flag("--isolate", a.is_isolated,
+                   "Work in forked processes: a hard crash (a signal) costs one building, which is "
+                   "set aside");
+}
+
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   add_input_arguments(command, a, has_many);
   command

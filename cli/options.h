@@ -34,6 +34,8 @@ struct LineArguments {
   int repeat = 1;
   /// Records on the line at the same time; results do not depend on it.
   int jobs = 1;
+  /// Buildings are worked on in forked processes.
+  bool is_isolated = false;
   Selection selection;
   /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
   std::string status_stem;
@@ -78,6 +80,9 @@ void add_run_arguments(CLI::App& command, LineArguments& arguments);
 
 /// Adds `--resume`, for commands that can go on where a run was killed. Behind add_run_arguments.
 void add_resume_argument(CLI::App& command, LineArguments& arguments);
+
+/// Adds `--isolate`.
+void add_isolate_argument(CLI::App& command, LineArguments& arguments);
 
 /// Adds all of them to a command. `has_many`: it takes more than one input.
 void add_line_arguments(CLI::App& command, LineArguments& arguments, bool has_many);

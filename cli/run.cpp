@@ -1,6 +1,6 @@
 #include "cli/run.h"
 
-#include "cli/line_surfaces.h"
+#include "cli/isolation.h"
 #include "kernel/io/output_file.h"
 #include "kernel/model/sha256.h"
 
@@ -16,15 +16,6 @@
 
 namespace oriel::cli {
 
-namespace {
-
-Building without_hints(Building building) {
-  for (Polygon& polygon : building.polygons) polygon.hint.clear();
-  return building;
-}
-
-}  // namespace
-
 Run::Run(const LineArguments& arguments, const RuleBase* rules, Report& report)
     : arguments_(arguments), rules_(rules), report_(report) {}
 
@@ -32,6 +23,8 @@ ExitCode Run::go(const Visitor& visitor) {
   const auto stdins = std::ranges::count(arguments_.inputs, "-");
   if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
     throw CLI::ValidationError("input", "stdin can be read only once");
+  if (arguments_.is_isolated && !visitor.make)
+    throw CLI::ValidationError("--isolate", "goes with commands that write record by record");
   if (!begin_books(visitor)) return code_;
   const bool is_all_read =
       resume_ && resume_->state() && resume_->position().input >= arguments_.inputs.size();
@@ -73,9 +66,10 @@ void Run::set_aside(const Issue& why) {
 void Run::run_inputs(const Visitor& visitor) {
   Progress progress(arguments_.inputs.size());
   Intake intake(arguments_, resume_ ? resume_->position() : Resume::Position{});
+  if (arguments_.is_isolated) return run_isolated(intake, visitor, progress);
   if (arguments_.jobs == 1) {
     while (const auto arrival = intake.next()) {
-      work_on(*arrival);
+      work_on(*arrival, visitor);
       settle(*arrival, visitor, progress);
     }
     return;
@@ -93,7 +87,7 @@ void Run::run_inputs(const Visitor& visitor) {
     return arrival;
   };
   const auto work = [&](Item arrival) {
-    work_on(*arrival);
+    work_on(*arrival, visitor);
     return arrival;
   };
   const auto end = [&](const Item& arrival) { settle(*arrival, visitor, progress); };
@@ -105,35 +99,17 @@ void Run::run_inputs(const Visitor& visitor) {
   });
 }
 
-OnLine Run::on_line(const Building& building, Timings& timings) const {
-  const RepairOptions repair = arguments_.repair_options();
-  if (arguments_.ends_at_reading) return {};
-  if (arguments_.ends_at_solid)
-    return run_to_solid(building, arguments_.tolerances, repair, timings);
-  const SegmentOptions options = arguments_.segment_options();
-  OnLine line = arguments_.ignores_semantics
-                    ? run_line(without_hints(building), options, repair, rules_, timings)
-                    : run_line(building, options, repair, rules_, timings);
-  if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
-  return line;
-}
-
-/// As far as the command asks for.
-bool Run::came_to_end(const OnLine& line) const {
-  if (arguments_.ends_at_reading) return true;
-  return arguments_.ends_at_solid ? line.solid.has_value() : line.is_done();
-}
-
-/// Touches nothing but the arrival.
-void Run::work_on(Arrival& arrival) const {
-  if (!arrival.record.value || arrival.was_done) return;
-  for (const Building& building : arrival.record.value->buildings) {
-    if (arguments_.selection.takes(building))
-      arrival.lines.push_back(on_line(building, arrival.timings));
-    else
-      arrival.lines.emplace_back().is_passed_over = true;
-  }
-  drop_unselected(arrival);
+/// Workers have worked on a copy: issues that they dropped are still here.
+void Run::run_isolated(Intake& intake, const Visitor& visitor, Progress& progress) {
+  Isolation isolation(arguments_.jobs,
+                      {.next = [&] { return intake.next(); },
+                       .work = [&](Arrival& arrival) { work_on(arrival, visitor); },
+                       .settle =
+                           [&](Arrival& arrival) {
+                             drop_unselected(arrival);
+                             settle(arrival, visitor, progress);
+                           }});
+  isolation.run();
 }
 
 void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
@@ -177,28 +153,6 @@ void Run::settle_refused(const Arrival& arrival) {
   ++set_aside_;
 }
 
-/// Of a file with many records those go on that have something selected; other files stay as they
-/// are.
-bool Run::is_passed_over(const Arrival& arrival) const {
-  return !arguments_.selection.is_all() && !arrival.is_header &&
-         arrival.record.value->format != Format::cityjson && arrival.record.issues.empty() &&
-         std::ranges::all_of(arrival.lines, &OnLine::is_passed_over);
-}
-
-/// What was found in buildings that are not asked for is not told.
-void Run::drop_unselected(Arrival& arrival) const {
-  const auto& lines = arrival.lines;
-  if (arguments_.selection.is_all() || !arrival.record.value) return;
-  const std::vector<Building>& buildings = arrival.record.value->buildings;
-  std::erase_if(arrival.record.issues, [&](const Issue& issue) {
-    if (issue.place.building.empty()) return false;
-    const auto read = std::ranges::find(buildings, issue.place.building, &Building::id);
-    if (read != buildings.end())
-      return lines[static_cast<std::size_t>(read - buildings.begin())].is_passed_over;
-    return !arguments_.selection.takes(issue.place.building);
-  });
-}
-
 void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
   if (is_passed_over(arrival)) {
     ++records_.not_selected;
@@ -211,19 +165,35 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
   buildings_ += static_cast<int>(unread);
   set_aside_ += static_cast<int>(unread);
   if (unread > 0) raise(ExitCode::set_aside);
-  for (const OnLine& line : arrival.lines) {
-    if (line.is_passed_over) continue;
+  for (const BuildingOutcome& building : arrival.outcome.buildings) {
+    if (building.is_passed_over) continue;
     ++buildings_;
-    tell(line.issues);
-    if (!came_to_end(line)) {
-      keep_errors(line.issues);
+    tell(building.issues);
+    if (!building.is_done) {
+      keep_errors(building.issues);
       ++set_aside_;
       raise(ExitCode::set_aside);
     }
-    if (line.is_open) ++open_;
-    for (const Verdict& verdict : line.interpretation.verdicts) ++labels_[verdict.label];
+    if (building.is_open) ++open_;
+    for (const auto& [label, count] : building.labels) labels_[label] += count;
   }
-  visitor.record(*record.value, arrival.lines);
+  if (visitor.make)
+    settle_product(arrival, visitor);
+  else
+    visitor.record(*record.value, arrival.lines);
+}
+
+void Run::settle_product(Arrival& arrival, const Visitor& visitor) {
+  Product& product = arrival.outcome.product;
+  for (const Issue& issue : product.issues) {
+    if (issue.severity == Severity::error)
+      set_aside(issue);
+    else
+      tell({issue});
+  }
+  if (visitor.counts != nullptr)
+    for (const auto& [name, count] : product.counts) (*visitor.counts)[name] += count;
+  timings().measure(Stage::write, [&] { visitor.take(*arrival.record.value, std::move(product)); });
 }
 
 void Run::tell_summary(const std::string& verb, const std::map<std::string, int>& counts,

@@ -33,6 +33,13 @@ class Run {
     /// A record was read; `lines` are its buildings on the line, in their order.
     std::function<void(const Document&, std::vector<OnLine>& lines)> record =
         [](const Document&, std::vector<OnLine>&) {};
+    /// In place of `record`, in two steps. The first makes of a record of input number `input` what
+    /// it adds to the outputs; it touches nothing else and may be called for several at the same
+    /// time. The second puts it there, in the order of the records.
+    std::function<Product(std::size_t input, const Document&, const std::vector<OnLine>& lines,
+                          Timings&)>
+        make{};
+    std::function<void(const Document&, Product)> take{};
     /// All inputs are done: outputs that are not yet in their place come there. Before the status
     /// is written.
     std::function<void()> commit = [] {};
@@ -74,11 +81,15 @@ class Run {
 
  private:
   void run_inputs(const Visitor& visitor);
+  void run_isolated(Intake& intake, const Visitor& visitor, Progress& progress);
   [[nodiscard]] OnLine on_line(const Building& building, Timings& timings) const;
-  [[nodiscard]] bool came_to_end(const OnLine& line) const;
-  void work_on(Arrival& arrival) const;
+  [[nodiscard]] BuildingOutcome outcome_of(OnLine& line) const;
+  void work_on(Arrival& arrival, const Visitor& visitor) const;
+  void set_all_aside(Arrival& arrival, const std::string& code, const std::string& sentence) const;
+  void make_product(Arrival& arrival, const Visitor& visitor) const;
   void settle(Arrival& arrival, const Visitor& visitor, Progress& progress);
   void settle_record(Arrival& arrival, const Visitor& visitor);
+  void settle_product(Arrival& arrival, const Visitor& visitor);
   [[nodiscard]] bool is_passed_over(const Arrival& arrival) const;
   void drop_unselected(Arrival& arrival) const;
   void settle_refused(const Arrival& arrival);

@@ -186,18 +186,29 @@ FeatureRecordWriter::FeatureRecordWriter(const std::string& path)
   file_.append(head);
 }
 
-void FeatureRecordWriter::append(const std::vector<FeatureRecord>& records) {
+std::string FeatureRecordWriter::text(RecordFormat format,
+                                      const std::vector<FeatureRecord>& records) {
   std::string text;
   for (const FeatureRecord& record : records) {
-    if (format_ == RecordFormat::csv) {
+    if (format == RecordFormat::csv) {
       detail::append_csv_record(text, record);
       continue;
     }
-    if (format_ == RecordFormat::json) text += std::exchange(is_empty_, false) ? "\n" : ",\n";
+    if (format == RecordFormat::json && !text.empty()) text += ",\n";
     detail::append_json_record(text, record);
-    if (format_ == RecordFormat::jsonl) text += '\n';
+    if (format == RecordFormat::jsonl) text += '\n';
   }
+  return text;
+}
+
+void FeatureRecordWriter::append(std::string_view text) {
+  if (text.empty()) return;
+  if (format_ == RecordFormat::json) file_.append(std::exchange(is_empty_, false) ? "\n" : ",\n");
   file_.append(text);
+}
+
+void FeatureRecordWriter::append(const std::vector<FeatureRecord>& records) {
+  append(text(format_, records));
 }
 
 void FeatureRecordWriter::commit() {

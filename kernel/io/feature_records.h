@@ -73,6 +73,10 @@ class FeatureRecordWriter {
  public:
   explicit FeatureRecordWriter(const std::string& path);
   void append(const std::vector<FeatureRecord>& records);
+  /// The same in two steps, of which several threads may do the first: records as the format has
+  /// them, without what stands before and between them; and putting such a text into the file.
+  static std::string text(RecordFormat format, const std::vector<FeatureRecord>& records);
+  void append(std::string_view text);
   /// Puts the file in its place, as OutputFile does.
   void commit();
 

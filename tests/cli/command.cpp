@@ -66,6 +66,19 @@ void send_signal(pid_t child, const Surroundings& around) {
   ::kill(child, around.signal);
 }
 
+void send_signal_to_worker(pid_t child, int signal) {
+  const std::string name = std::to_string(child);
+  const fs::path list = fs::path("/proc") / name / "task" / name / "children";
+  for (int i = 0; i < 30000; ++i) {
+    pid_t worker = 0;
+    if (std::ifstream(list) >> worker) {
+      ::kill(worker, signal);
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 [[noreturn]] void become_oriel(const std::vector<std::string>& arguments,
                                const Surroundings& around) {
   std::vector<char*> argv;
@@ -103,6 +116,7 @@ Outcome run(const std::vector<std::string>& arguments, const Surroundings& aroun
     become_oriel(arguments, around);
   }
   if (around.signal != 0) send_signal(child, around);
+  if (around.worker_signal != 0) send_signal_to_worker(child, around.worker_signal);
   int status = 0;
   ::waitpid(child, &status, 0);
   Outcome outcome;

@@ -34,6 +34,8 @@ struct Surroundings {
   int signal = 0;
   std::filesystem::path watched{};
   std::string watched_name = ".tmp-";
+  /// Its first forked worker is sent this signal as soon as it is there.
+  int worker_signal = 0;
 };
 
 /// Runs the built `oriel` as a process and waits for its end.

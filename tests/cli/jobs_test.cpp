@@ -1,10 +1,13 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 
+#include <csignal>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel::test;
 
@@ -28,18 +31,42 @@ std::string mixed_stream() {
   return text;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The sample house so many times, as a stream: each takes some milliseconds.
+std::string houses(int count) {
+  const auto lines = lines_of(run({"cat", sample("house")}).out);
+  REQUIRE(lines.size() == 2);
+  std::string text = lines[0] + "\n";
+  for (int i = 0; i < count; ++i) {
+    std::string line = lines[1];
+    const std::string id = "\"house-" + std::to_string(i) + "\"";
+    for (std::size_t at = 0; (at = line.find("\"house\"", at)) != std::string::npos;)
+      line.replace(at, 7, id);
+    text += line + "\n";
+  }
+  return text;
+}
+
 struct Written {
   int exit;
   std::string bytes, features, messages;
   bool operator==(const Written&) const = default;
 };
 
-Written label(const std::string& command, const std::string& jobs, const std::string& text) {
+Written label(const std::string& command, const std::string& jobs, const std::string& text,
+              const std::vector<std::string>& more = {}) {
   const Folder folder;
   const std::string input = folder.write("in.city.jsonl", text), out = folder / "out.city.jsonl",
                     features = folder / "features.csv";
   std::vector<std::string> arguments{command,  input, "-o", out, "--features",
                                      features, "-j",  jobs, "-v"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
   if (command == "generalise") arguments.insert(arguments.end(), {"--scale", "1:2000"});
   const Outcome outcome = run(arguments);
   std::string messages = outcome.err;
@@ -64,7 +91,50 @@ TEST_SUITE("cli") {
         CAPTURE(jobs);
         CHECK(label(command, jobs, text) == one);
       }
+      for (const std::string jobs : {"1", "3"})
+        CHECK(label(command, jobs, text, {"--isolate"}) == one);
     }
+  }
+
+  TEST_CASE("a worker that a signal ends costs the building it was at and nothing else") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", houses(24)),
+                      whole = folder / "whole.city.jsonl", out = folder / "out.city.jsonl";
+    REQUIRE(run({"label", input, "-o", whole}).exit == 0);
+    Outcome outcome;
+    // A signal may hit a worker that has just done its last record: that costs nothing.
+    for (int i = 0; i < 20 && outcome.exit != 3; ++i)
+      outcome = run({"label", input, "-o", out, "--status", folder / "s", "--isolate"},
+                    {.worker_signal = SIGSEGV});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("labelled 23 of 24 buildings"));
+    CHECK(outcome.says("1 set aside (E123 1)"));
+    CHECK(outcome.says("signal 11 (SIGSEGV)"));
+    const auto bad = lines_of(bytes_of(folder / "s.quarantine.jsonl"));
+    REQUIRE(bad.size() == 1);
+    const nlohmann::json entry = nlohmann::json::parse(bad[0]);
+    const std::size_t line = entry["line"].get<std::size_t>() - 1;
+    auto expected = lines_of(bytes_of(whole));
+    CHECK(lines_of(bytes_of(input)).at(line) == entry["record"]);
+    expected.at(line) = entry["record"];
+    CHECK(lines_of(bytes_of(out)) == expected);
+    CHECK(nlohmann::json::parse(bytes_of(folder / "s.status.json"))["set_aside"] == 1);
+  }
+
+  TEST_CASE("a signal ends a command with its workers and leaves no file") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", houses(24));
+    const Outcome outcome = run({"label", input, "-o", folder / "out.city.jsonl", "--isolate"},
+                                {.signal = SIGTERM, .watched = folder.path()});
+    CHECK(outcome.exit == 128 + SIGTERM);
+    CHECK(folder.names() == std::vector<std::string>{"in.city.jsonl"});
+  }
+
+  TEST_CASE("workers need an output that is written record by record") {
+    const Folder folder;
+    CHECK(run({"label", sample("hip"), "-o", folder / "a.obj", "--isolate"}).exit == 2);
+    CHECK(run({"label", sample("hip"), "--existing", "audit", "--isolate"}).exit == 2);
+    CHECK(run({"label", sample("hip"), "-o", folder / "a.city.json", "--isolate"}).exit == 0);
   }
 
   TEST_CASE("with several jobs files keep their order and a missing one costs itself only") {

@@ -1,0 +1,115 @@
+#include "cli/line_surfaces.h"
+#include "cli/run.h"
+#include "cli/work_place.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+Building without_hints(Building building) {
+  for (Polygon& polygon : building.polygons) polygon.hint.clear();
+  return building;
+}
+
+}  // namespace
+
+OnLine Run::on_line(const Building& building, Timings& timings) const {
+  const RepairOptions repair = arguments_.repair_options();
+  if (arguments_.ends_at_reading) return {};
+  if (arguments_.ends_at_solid)
+    return run_to_solid(building, arguments_.tolerances, repair, timings);
+  const SegmentOptions options = arguments_.segment_options();
+  OnLine line = arguments_.ignores_semantics
+                    ? run_line(without_hints(building), options, repair, rules_, timings)
+                    : run_line(building, options, repair, rules_, timings);
+  if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
+  return line;
+}
+
+/// The line keeps everything but its issues.
+BuildingOutcome Run::outcome_of(OnLine& line) const {
+  BuildingOutcome outcome;
+  outcome.is_passed_over = line.is_passed_over;
+  outcome.is_open = line.is_open;
+  outcome.is_done = arguments_.ends_at_reading ||
+                    (arguments_.ends_at_solid ? line.solid.has_value() : line.is_done());
+  for (const Verdict& verdict : line.interpretation.verdicts) ++outcome.labels[verdict.label];
+  outcome.issues = line.issues;
+  return outcome;
+}
+
+/// Touches nothing but the arrival.
+void Run::work_on(Arrival& arrival, const Visitor& visitor) const {
+  if (!arrival.record.value || arrival.was_done) return;
+  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  for (std::size_t i = 0; i < buildings.size(); ++i) {
+    now_at_building(i);
+    if (!arguments_.selection.takes(buildings[i]))
+      arrival.lines.emplace_back().is_passed_over = true;
+    else if (const auto lost = arrival.lost.find(i); lost != arrival.lost.end())
+      arrival.lines.emplace_back().issues.push_back(lost->second);
+    else
+      arrival.lines.push_back(on_line(buildings[i], arrival.timings));
+    arrival.outcome.buildings.push_back(outcome_of(arrival.lines.back()));
+  }
+  now_at_building(kNoBuilding);
+  drop_unselected(arrival);
+  if (visitor.make && !is_passed_over(arrival)) make_product(arrival, visitor);
+}
+
+/// As if none of its buildings had come to the end.
+void Run::set_all_aside(Arrival& arrival, const std::string& code,
+                        const std::string& sentence) const {
+  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  for (std::size_t i = 0; i < buildings.size(); ++i) {
+    BuildingOutcome& outcome = arrival.outcome.buildings[i];
+    if (outcome.is_passed_over) continue;
+    arrival.lines[i] = {};
+    if (std::exchange(outcome.is_done, false))
+      outcome.issues.push_back(building_issue(Severity::error, code, buildings[i].id, sentence));
+    outcome.is_open = false;
+    outcome.labels.clear();
+  }
+}
+
+/// A fault of ours costs the record's buildings; the record stays as it came.
+void Run::make_product(Arrival& arrival, const Visitor& visitor) const {
+  const Document& document = *arrival.record.value;
+  try {
+    arrival.outcome.product = visitor.make(arrival.input, document, arrival.lines, arrival.timings);
+  } catch (const std::exception& fault) {
+    set_all_aside(arrival, "E901", fmt::format("a fault of oriel's own: {}", fault.what()));
+    arrival.outcome.product = visitor.make(arrival.input, document, arrival.lines, arrival.timings);
+  }
+  arrival.lines = {};
+}
+
+/// Of a file with many records those go on that have something selected; other files stay as they
+/// are.
+bool Run::is_passed_over(const Arrival& arrival) const {
+  return !arguments_.selection.is_all() && !arrival.is_header &&
+         arrival.record.value->format != Format::cityjson && arrival.record.issues.empty() &&
+         std::ranges::all_of(arrival.outcome.buildings, &BuildingOutcome::is_passed_over);
+}
+
+/// What was found in buildings that are not asked for is not told.
+void Run::drop_unselected(Arrival& arrival) const {
+  const auto& outcomes = arrival.outcome.buildings;
+  if (arguments_.selection.is_all() || !arrival.record.value || arrival.was_done) return;
+  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  std::erase_if(arrival.record.issues, [&](const Issue& issue) {
+    if (issue.place.building.empty()) return false;
+    const auto read = std::ranges::find(buildings, issue.place.building, &Building::id);
+    if (read != buildings.end())
+      return outcomes[static_cast<std::size_t>(read - buildings.begin())].is_passed_over;
+    return !arguments_.selection.takes(issue.place.building);
+  });
+}
+
+}  // namespace oriel::cli
