@@ -66,6 +66,11 @@ void Accounts::take(const Product& product) {
   if (figures_) figures_->append(product[Part::figures]);
 }
 
+void Accounts::add_places(PartPlaces& places) const {
+  if (deeds_) places[static_cast<std::size_t>(Part::deeds)] = {explain_, deeds_->size()};
+  if (figures_) places[static_cast<std::size_t>(Part::figures)] = {metrics_, figures_->size()};
+}
+
 void Accounts::commit() const {
   if (deeds_) deeds_->commit();
   if (figures_) figures_->commit();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/earlier_run.h"
 #include "cli/outcome.h"
 #include "generalise/account.h"
 #include "kernel/io/output_file.h"
@@ -30,6 +31,8 @@ class Accounts {
                                  double least_edge_m, const SolidFigures& before,
                                  const SolidFigures& after, double hausdorff_m) const;
   void take(const Product& product);
+  /// Adds its outputs and what is in them so far.
+  void add_places(PartPlaces& places) const;
   void commit() const;
 
  private:

@@ -25,7 +25,7 @@ class Cat {
         run_(run),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { append(line); }},
-               !arguments.selection.is_all()) {}
+               arguments.selection) {}
 
   ExitCode go() {
     Run::Visitor visitor;

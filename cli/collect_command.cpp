@@ -27,7 +27,7 @@ class Collect {
         run_(run),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { add_feature(line); }},
-               !arguments.selection.is_all()) {}
+               arguments.selection) {}
 
   ExitCode go() {
     Run::Visitor visitor;

@@ -147,6 +147,8 @@ void Destination::add(const Document& document, const std::vector<LabelledBuildi
   take(document, labelled, text(input_, document, labelled, options));
 }
 
+PartPlace Destination::place() const { return {path_, file_ ? file_->size() : 0}; }
+
 std::string Destination::end() {
   if (collector_.has_lines()) file_->append(collector_.text());
   const Format format = format_of_output(input_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/earlier_run.h"
 #include "kernel/io/cityjson_collector.h"
 #include "kernel/io/document.h"
 #include "kernel/io/format.h"
@@ -29,6 +30,8 @@ class Destination {
   [[nodiscard]] bool is_streaming() const;
   [[nodiscard]] bool is_stdout() const { return out_ == "-"; }
 
+  /// The file at hand and its size so far.
+  [[nodiscard]] PartPlace place() const;
   /// With `is_rehearsal` the bytes go to nowhere.
   void begin(std::size_t input, bool is_rehearsal);
   /// What a record of an input adds, as bytes; empty for formats that are written when all records

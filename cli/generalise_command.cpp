@@ -2,12 +2,12 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "cli/series.h"
+#include "cli/targets.h"
 #include "cli/work_place.h"
 #include "cli/written_proof.h"
 #include "generalise/generalise.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
-#include "interpret/profile.h"
 #include "kernel/compare/hausdorff.h"
 
 #include <algorithm>
@@ -30,56 +30,6 @@ struct Arguments : LabelArguments {
   std::string explain;
   std::string metrics;
 };
-
-/// CityJSON's closed list.
-bool is_lod(const std::string& text) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '3'; };
-  return (text.size() == 1 && is_digit(text[0])) ||
-         (text.size() == 3 && is_digit(text[0]) && text[1] == '.' && is_digit(text[2]));
-}
-
-/// What is to be made of every building: redrawn for a scale, or at levels of detail.
-struct Targets {
-  std::optional<double> scale;
-  /// One for each level of detail; for a scale at most one.
-  std::vector<Profile> profiles;
-
-  [[nodiscard]] bool has_lods() const { return !scale; }
-  [[nodiscard]] std::string text() const {
-    if (scale) return fmt::format("1:{}", *scale);
-    std::string text;
-    for (const Profile& profile : profiles) text += (text.empty() ? "LoD " : ", ") + profile.level;
-    return text;
-  }
-};
-
-/// Nothing if a profile cannot be used, which is told.
-std::optional<Targets> targets_of(const Arguments& arguments, const RuleBase& rules,
-                                  Report& report) {
-  Targets targets;
-  std::vector<std::string> names;
-  if (arguments.lods.empty()) {
-    targets.scale = denominator_of(arguments.scale, "--scale");
-    if (!arguments.profile.empty()) names.push_back(arguments.profile);
-  }
-  std::vector<std::string> lods = arguments.lods;
-  std::ranges::sort(lods);
-  if (std::ranges::adjacent_find(lods) != lods.end())
-    throw CLI::ValidationError("--to-lod", "a level of detail stands twice");
-  for (const std::string& lod : arguments.lods) {
-    if (!is_lod(lod))
-      throw CLI::ValidationError("--to-lod", fmt::format("'{}' is no level of detail", lod));
-    names.push_back((arguments.profile.empty() ? "lod" : arguments.profile) + ":" + lod);
-  }
-  for (const std::string& name : names) {
-    auto profile = load_profile_file(name);
-    report.tell(profile.issues);
-    if (!profile.value) return std::nullopt;
-    report.tell(check_profile(*profile.value, rules));
-    targets.profiles.push_back(std::move(*profile.value));
-  }
-  return targets;
-}
 
 class Generaliser {
  public:
@@ -105,6 +55,15 @@ class Generaliser {
       outputs_.take(document, product);
       accounts_.take(product);
     };
+    visitor.places = [&] {
+      PartPlaces places = outputs_.places();
+      accounts_.add_places(places);
+      return places;
+    };
+    const bool is_json = arguments_.explain.ends_with(".jsonl");
+    visitor.recipe = fmt::format("generalise {} explain={} json={} metrics={} {}",
+                                 targets_.recipe(), !arguments_.explain.empty(), is_json,
+                                 accounts_.has_metrics(), outputs_.recipe());
     visitor.end = [&](std::size_t) {
       run_.timings().measure(Stage::write, [&] { outputs_.end(); });
     };
@@ -341,7 +300,8 @@ ExitCode work(Arguments& arguments) {
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
   if (const auto code = make_series(arguments, *rules, report)) return *code;
-  const auto targets = targets_of(arguments, *rules, report);
+  const auto targets =
+      targets_of(arguments.scale, arguments.lods, arguments.profile, *rules, report);
   if (!targets) return ExitCode::rules;
   Run run(arguments, &*rules, report);
   Generaliser generaliser(arguments, *targets, *rules, run);

@@ -1,6 +1,7 @@
 #include "cli/intake.h"
 
 #include "kernel/model/issue.h"
+#include "kernel/model/sha256.h"
 
 #include <utility>
 
@@ -43,6 +44,7 @@ std::shared_ptr<Arrival> Intake::arrival(Arrival::Kind kind) const {
   arrival->input = input_;
   arrival->input_name = arguments_.inputs[input_];
   arrival->number = records_;
+  arrival->bytes = bytes_before_ + (reader_ ? reader_->bytes_read() : 0);
   return arrival;
 }
 
@@ -67,6 +69,7 @@ std::shared_ptr<Arrival> Intake::read() {
     return end;
   }
   here->number = ++records_;
+  here->bytes = bytes_before_ + reader_->bytes_read();
   here->was_done = is_before_start();
   if (arguments_.is_resumable) here->sha256 = reader_->sha256();
   const bool is_stream = reader_->format() == Format::cityjson_seq;
@@ -78,6 +81,12 @@ std::shared_ptr<Arrival> Intake::read() {
   here->is_header = is_first_ && reader_->format() != Format::cityjson;
   is_first_ = false;
   here->record = std::move(*record);
+  if (!arguments_.reuse.empty() && is_stream && here->record.value) {
+    if (here->is_header)
+      header_sha256_ = sha256(source_line(*here->record.value));
+    else
+      here->header_sha256 = header_sha256_;
+  }
   return here;
 }
 
@@ -85,6 +94,7 @@ std::shared_ptr<Arrival> Intake::finish(Arrival::Kind kind) {
   auto last = arrival(kind);
   ++input_;
   records_ = 0;
+  bytes_before_ = last->bytes;
   reader_.reset();
   return last;
 }

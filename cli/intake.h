@@ -7,6 +7,7 @@
 #include "kernel/io/document.h"
 #include "kernel/io/reader.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,10 +27,18 @@ struct Arrival {
   int line = 0;
   /// The records of its input up to here, this one counted.
   std::size_t number = 0;
+  /// Read up to here, of all inputs.
+  std::uint64_t bytes = 0;
   /// With --resume of the input up to here; with --status of an input that was read to its end.
   std::string sha256{};
   /// An earlier run has done it.
   bool was_done = false;
+  /// With --reuse, of a record behind the header of a stream: the hash of that header.
+  std::string header_sha256{};
+  /// … and that of header and line, with which its outcome is kept for later runs.
+  std::string source_sha256{};
+  /// Its outcome is that of an earlier run: there is nothing to work on.
+  bool is_reused = false;
   /// Of a record. Without a value it could not be read.
   Checked<Document> record{};
   /// The line of a CityJSONSeq that has no value.
@@ -78,8 +87,10 @@ class Intake {
 
   Resume::Position start_;
   std::size_t input_ = 0;
-  std::size_t records_ = 0;  ///< of the input
+  std::size_t records_ = 0;         ///< of the input
+  std::uint64_t bytes_before_ = 0;  ///< of the inputs before it
   std::unique_ptr<Reader> reader_;
+  std::string header_sha256_;
   bool is_first_ = true;     ///< record of its input
   bool is_readable_ = true;  ///< as a whole, so far
 };

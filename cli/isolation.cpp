@@ -100,7 +100,8 @@ std::string cause_of(int status) {
 }
 
 bool is_work(const Arrival& arrival) {
-  return arrival.kind == Arrival::Kind::record && arrival.record.value && !arrival.was_done;
+  return arrival.kind == Arrival::Kind::record && arrival.record.value && !arrival.was_done &&
+         !arrival.is_reused;
 }
 
 std::size_t bytes_of(const Arrival& arrival) {

@@ -146,6 +146,9 @@ ExitCode work(Arguments& arguments) {
     if (!run.is_last_run()) product[Part::listing].clear();
     outputs.take(document, product);
   };
+  visitor.places = [&] { return outputs.places(); };
+  visitor.recipe = fmt::format("label existing={} repaired={} {}", arguments.existing,
+                               arguments.is_repaired, outputs.recipe());
   visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
   visitor.reopen = [&] { outputs.reopen(); };
   visitor.commit = [&] { outputs.commit(); };

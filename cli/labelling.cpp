@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ void add_label_arguments(CLI::App& command, LabelArguments& a) {
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
   add_features_argument(command, a.features);
   add_resume_argument(command, a);
+  add_reuse_argument(command, a);
   add_isolate_argument(command, a);
   command
       .add_option("--codelist", a.codelist,
@@ -52,6 +54,9 @@ LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rule
                          arguments.read_options().format);
   if (arguments.is_isolated && destination_ && destination_->is_gathering(0))
     throw CLI::ValidationError("--isolate", "needs an output that is CityJSON or CityJSONSeq");
+  if (!arguments.reuse.empty() && (recipe().empty() || (destination_ && destination_->is_stdout())))
+    throw CLI::ValidationError(
+        "--reuse", "needs outputs that are files: -o in .city.jsonl, --features in .csv or .jsonl");
   if (arguments.is_resumable && (!has_any() || (destination_ && destination_->is_stdout())))
     throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
 }
@@ -78,6 +83,22 @@ void LabelOutputs::reopen() {
 void LabelOutputs::open_features() {
   if (!features_ && !arguments_.features.empty())
     features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
+}
+
+PartPlaces LabelOutputs::places() const {
+  PartPlaces places;
+  if (destination_) places[static_cast<std::size_t>(Part::buildings)] = destination_->place();
+  if (features_)
+    places[static_cast<std::size_t>(Part::features)] = {arguments_.features, features_->size()};
+  return places;
+}
+
+std::string LabelOutputs::recipe() const {
+  if (!has_any() || !is_streaming() || arguments_.features.ends_with(".json")) return {};
+  return fmt::format("codelist={} buildings={} features={} ignores={}", arguments_.codelist,
+                     has_buildings(),
+                     std::filesystem::path(arguments_.features).extension().string(),
+                     arguments_.ignores_semantics);
 }
 
 void LabelOutputs::make_buildings(std::size_t input, const Document& document,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/destination.h"
+#include "cli/earlier_run.h"
 #include "cli/options.h"
 #include "cli/outcome.h"
 #include "cli/run.h"
@@ -54,6 +55,11 @@ class LabelOutputs {
   void begin(std::size_t input, bool is_rehearsal);
   /// All inputs were done by an earlier run; only `commit` is to come.
   void reopen();
+  /// The outputs and what is in them so far.
+  [[nodiscard]] PartPlaces places() const;
+  /// What a product depends on beside source, configuration and rules; empty if products are no
+  /// stretches of the outputs' bytes.
+  [[nodiscard]] std::string recipe() const;
   /// Adds to `product` what the labelled buildings of a record, and the features of a building,
   /// become in the outputs. Several threads may call them.
   void make_buildings(std::size_t input, const Document& document,

@@ -67,11 +67,13 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
       ->delimiter(',')
       ->expected(4)
       ->type_name("XMIN,YMIN,XMAX,YMAX");
+  command.add_option("--cotype", selection.cotype,
+                     "Only features of this type: Building, Road, Bridge ...");
   command.add_option("--random", selection.one_in, "Only one in N buildings, drawn by their ids")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   command.add_option("--seed", selection.seed, "Which ones --random draws")->capture_default_str();
   command.add_flag("--exclude", selection.is_exclusion,
-                   "All buildings but those that --id, --bbox and --random name");
+                   "All buildings but those that --id, --bbox, --cotype and --random name");
 }
 
 }  // namespace
@@ -150,6 +152,12 @@ void add_run_arguments(CLI::App& command, LineArguments& a) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_jobs_argument(command, a.jobs);
+  command
+      .add_option(
+          "--progress", a.progress,
+          "On stderr: a bar and a table at the end, JSON lines, or nothing (default: bar on "
+          "a terminal)")
+      ->check(CLI::IsMember({"bar", "json", "none"}));
   command.add_option("--status", a.status_stem,
                      "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
                      "record with something set aside, and why)");
@@ -176,6 +184,16 @@ void add_resume_argument(CLI::App& command, LineArguments& a) {
       .add_flag(
           "--resume", a.is_resumable,
           "Go on after the last whole record when the same command was killed; needs --status")
+      ->needs(command.get_option("--status"))
+      ->excludes(command.get_option("--repeat"));
+}
+
+void add_reuse_argument(CLI::App& command, LineArguments& a) {
+  command
+      .add_option(
+          "--reuse", a.reuse,
+          "STEM.status.json of an earlier run with --reuse: records whose source is the same "
+          "are taken from its outputs; needs --status")
       ->needs(command.get_option("--status"))
       ->excludes(command.get_option("--repeat"));
 }

@@ -39,6 +39,10 @@ struct LineArguments {
   Selection selection;
   /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
   std::string status_stem;
+  /// bar, json, none; empty: a bar on a terminal.
+  std::string progress;
+  /// STEM.status.json of an earlier run, from which results are taken; empty: of none.
+  std::string reuse;
   /// The run may be killed and goes on when the command is given again.
   bool is_resumable = false;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
@@ -80,6 +84,9 @@ void add_run_arguments(CLI::App& command, LineArguments& arguments);
 
 /// Adds `--resume`, for commands that can go on where a run was killed. Behind add_run_arguments.
 void add_resume_argument(CLI::App& command, LineArguments& arguments);
+
+/// Adds `--reuse`, for commands whose records are made one by one. Behind add_run_arguments.
+void add_reuse_argument(CLI::App& command, LineArguments& arguments);
 
 /// Adds `--isolate`.
 void add_isolate_argument(CLI::App& command, LineArguments& arguments);

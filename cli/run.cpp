@@ -5,14 +5,12 @@
 #include "kernel/model/sha256.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -25,6 +23,8 @@ ExitCode Run::go(const Visitor& visitor) {
     throw CLI::ValidationError("input", "stdin can be read only once");
   if (arguments_.is_isolated && !visitor.make)
     throw CLI::ValidationError("--isolate", "goes with commands that write record by record");
+  if (!arguments_.reuse.empty() && !visitor.make)
+    throw CLI::ValidationError("--reuse", "goes with commands that write record by record");
   if (!begin_books(visitor)) return code_;
   const bool is_all_read =
       resume_ && resume_->state() && resume_->position().input >= arguments_.inputs.size();
@@ -37,6 +37,7 @@ ExitCode Run::go(const Visitor& visitor) {
       records_ = {};
     }
     run_inputs(visitor);
+    progress_->finish({bytes_, buildings_, set_aside_});
   }
   visitor.commit();
   if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, to_json(timings_));
@@ -64,13 +65,14 @@ void Run::set_aside(const Issue& why) {
 }
 
 void Run::run_inputs(const Visitor& visitor) {
-  Progress progress(arguments_.inputs.size());
+  progress_.emplace(progress_style_of(arguments_.progress), arguments_.inputs, buildings_);
   Intake intake(arguments_, resume_ ? resume_->position() : Resume::Position{});
-  if (arguments_.is_isolated) return run_isolated(intake, visitor, progress);
+  if (arguments_.is_isolated) return run_isolated(intake, visitor);
   if (arguments_.jobs == 1) {
     while (const auto arrival = intake.next()) {
+      if (earlier_) reuse(*arrival);
       work_on(*arrival, visitor);
-      settle(*arrival, visitor, progress);
+      settle(*arrival, visitor);
     }
     return;
   }
@@ -87,10 +89,11 @@ void Run::run_inputs(const Visitor& visitor) {
     return arrival;
   };
   const auto work = [&](Item arrival) {
+    if (earlier_) reuse(*arrival);
     work_on(*arrival, visitor);
     return arrival;
   };
-  const auto end = [&](const Item& arrival) { settle(*arrival, visitor, progress); };
+  const auto end = [&](const Item& arrival) { settle(*arrival, visitor); };
   arena.execute([&] {
     tbb::parallel_pipeline(
         records, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, read) &
@@ -100,19 +103,23 @@ void Run::run_inputs(const Visitor& visitor) {
 }
 
 /// Workers have worked on a copy: issues that they dropped are still here.
-void Run::run_isolated(Intake& intake, const Visitor& visitor, Progress& progress) {
+void Run::run_isolated(Intake& intake, const Visitor& visitor) {
+  const auto next = [&] {
+    auto arrival = intake.next();
+    if (arrival && earlier_) reuse(*arrival);
+    return arrival;
+  };
+  const auto settle_it = [&](Arrival& arrival) {
+    drop_unselected(arrival);
+    settle(arrival, visitor);
+  };
   Isolation isolation(arguments_.jobs,
-                      {.next = [&] { return intake.next(); },
-                       .work = [&](Arrival& arrival) { work_on(arrival, visitor); },
-                       .settle =
-                           [&](Arrival& arrival) {
-                             drop_unselected(arrival);
-                             settle(arrival, visitor, progress);
-                           }});
+                      {next, [&](Arrival& arrival) { work_on(arrival, visitor); }, settle_it});
   isolation.run();
 }
 
-void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
+void Run::settle(Arrival& arrival, const Visitor& visitor) {
+  bytes_ = arrival.bytes;
   timings().add(arrival.timings);
   switch (arrival.kind) {
     case Arrival::Kind::begin:
@@ -128,7 +135,7 @@ void Run::settle(Arrival& arrival, const Visitor& visitor, Progress& progress) {
         settle_refused(arrival);
       if (ledger_ && is_last_run()) ledger_->add(arrival, errors_);
       if (visitor.is_streaming && arrival.line > 0) note(arrival, visitor);
-      return progress.show(arrival.input, buildings_);
+      return progress_->show({bytes_, buildings_, set_aside_});
     case Arrival::Kind::end:
       if (arrival.is_whole) visitor.end(arrival.input);
       records_.read += arrival.number;
@@ -185,6 +192,9 @@ void Run::settle_record(Arrival& arrival, const Visitor& visitor) {
 
 void Run::settle_product(Arrival& arrival, const Visitor& visitor) {
   Product& product = arrival.outcome.product;
+  reused_ += arrival.is_reused ? 1 : 0;
+  if (notes_ && !arrival.source_sha256.empty() && arrival.lost.empty())
+    notes_->add(arrival.source_sha256, visitor.places(), arrival.outcome);
   for (const Issue& issue : product.issues) {
     if (issue.severity == Severity::error)
       set_aside(issue);
@@ -194,27 +204,6 @@ void Run::settle_product(Arrival& arrival, const Visitor& visitor) {
   if (visitor.counts != nullptr)
     for (const auto& [name, count] : product.counts) (*visitor.counts)[name] += count;
   timings().measure(Stage::write, [&] { visitor.take(*arrival.record.value, std::move(product)); });
-}
-
-void Run::tell_summary(const std::string& verb, const std::map<std::string, int>& counts,
-                       const std::string& what_of_them) const {
-  std::vector<std::string> parts;
-  for (const auto& [label, count] : counts)
-    if (!label.empty()) parts.push_back(fmt::format("{} {}", count, label));
-  if (const auto unknown = counts.find(""); unknown != counts.end())
-    parts.push_back(fmt::format("{} unknown", unknown->second));
-  std::string text =
-      fmt::format("{} {} of {} buildings", verb, buildings_ - set_aside_, buildings_);
-  if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), what_of_them);
-  if (open_ > 0) text += fmt::format("; {} open", open_);
-  if (set_aside_ > 0) {
-    text += fmt::format("; {} set aside", set_aside_);
-    std::string codes;
-    for (const auto& [code, count] : report_.errors())
-      codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", code, count);
-    if (!codes.empty()) text += " (" + codes + ")";
-  }
-  std::fputs((text + "\n").c_str(), stderr);
 }
 
 }  // namespace oriel::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/earlier_run.h"
 #include "cli/exit_code.h"
 #include "cli/intake.h"
 #include "cli/ledger.h"
@@ -40,6 +41,10 @@ class Run {
                           Timings&)>
         make{};
     std::function<void(const Document&, Product)> take{};
+    /// With `make`: the outputs as they are.
+    std::function<PartPlaces()> places{};
+    /// With `make`: all that a product depends on beside source, configuration and rules.
+    std::string recipe{};
     /// All inputs are done: outputs that are not yet in their place come there. Before the status
     /// is written.
     std::function<void()> commit = [] {};
@@ -74,20 +79,22 @@ class Run {
   /// Features by label ("" = unknown) of the last run.
   [[nodiscard]] const std::map<std::string, int>& labels() const { return labels_; }
 
-  /// "labelled 75 of 76 buildings: 2385 window, 76 door, …; 1 set aside (E302)" on stderr. `counts`
+  /// Of the last run, on stderr: with a bar a table with rates, else one line,
+  /// "labelled 75 of 76 buildings: 2385 window, 76 door, …; 1 set aside (E302)". `counts`
   /// by label ("" = unknown); `what_of_them` follows the counts.
   void tell_summary(const std::string& verb, const std::map<std::string, int>& counts,
                     const std::string& what_of_them = "") const;
 
  private:
   void run_inputs(const Visitor& visitor);
-  void run_isolated(Intake& intake, const Visitor& visitor, Progress& progress);
+  void run_isolated(Intake& intake, const Visitor& visitor);
   [[nodiscard]] OnLine on_line(const Building& building, Timings& timings) const;
   [[nodiscard]] BuildingOutcome outcome_of(OnLine& line) const;
   void work_on(Arrival& arrival, const Visitor& visitor) const;
   void set_all_aside(Arrival& arrival, const std::string& code, const std::string& sentence) const;
+  void reuse(Arrival& arrival) const;
   void make_product(Arrival& arrival, const Visitor& visitor) const;
-  void settle(Arrival& arrival, const Visitor& visitor, Progress& progress);
+  void settle(Arrival& arrival, const Visitor& visitor);
   void settle_record(Arrival& arrival, const Visitor& visitor);
   void settle_product(Arrival& arrival, const Visitor& visitor);
   [[nodiscard]] bool is_passed_over(const Arrival& arrival) const;
@@ -95,11 +102,15 @@ class Run {
   void settle_refused(const Arrival& arrival);
   void keep_errors(const std::vector<Issue>& issues);
   void close_books();
+  void begin_reuse(const std::string& recipe);
   [[nodiscard]] bool begin_books(const Visitor& visitor);
   void note(const Arrival& arrival, const Visitor& visitor);
   [[nodiscard]] nlohmann::ordered_json state(const Visitor& visitor) const;
   void restore(const nlohmann::ordered_json& state, const Visitor& visitor);
   void tell(const std::vector<Issue>& issues);
+  [[nodiscard]] std::string codes_text() const;
+  void tell_table(const std::string& verb, const std::map<std::string, int>& counts,
+                  const std::string& what_of_them) const;
   void raise(ExitCode code) { code_ = graver(code_, code); }
 
   const LineArguments& arguments_;
@@ -112,8 +123,13 @@ class Run {
   int set_aside_ = 0;
   int open_ = 0;  ///< buildings that came to the end without a solid
   std::map<std::string, int> labels_;
+  std::optional<Progress> progress_;  ///< of the present run
+  std::uint64_t bytes_ = 0;           ///< read
   std::optional<Ledger> ledger_;
   std::optional<Resume> resume_;
+  std::optional<EarlierRun> earlier_;  ///< with --reuse
+  std::optional<RecordNotes> notes_;   ///< for a later one
+  int reused_ = 0;                     ///< records
   bool was_done_ = false;
   Records records_;
   std::map<std::string, std::string> input_sha256_;

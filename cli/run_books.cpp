@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -24,9 +25,24 @@ bool Run::begin_books(const Visitor& visitor) {
       return false;
     }
   }
+  if (!arguments_.reuse.empty()) begin_reuse(visitor.recipe);
   ledger_.emplace(arguments_.status_stem);
   if (resume_ && resume_->state()) restore(*resume_->state(), visitor);
   return true;
+}
+
+/// Results are taken from a run of the same program with the same rules and options only.
+void Run::begin_reuse(const std::string& recipe) {
+  const Selection& selection = arguments_.selection;
+  const std::string all = fmt::format(
+      "{} {} {} rules={} program={} selection={} {} {} {} {} {}", recipe,
+      arguments_.configuration(), arguments_.from, rules_ != nullptr ? rules_->sha256() : "",
+      program_sha256(), fmt::join(selection.ids, ","), fmt::join(selection.bbox, ","),
+      selection.cotype, selection.one_in, selection.seed, selection.is_exclusion);
+  const std::string recipe_sha256 = sha256(all);
+  earlier_.emplace(arguments_.reuse, recipe_sha256);
+  if (earlier_->fault()) report_.tell(*earlier_->fault());
+  notes_.emplace(arguments_.status_stem, recipe_sha256);
 }
 
 ordered_json Run::state(const Visitor& visitor) const {
@@ -72,6 +88,9 @@ void Run::close_books() {
     throw std::logic_error(
         fmt::format("of {} records {} were passed on, {} refused, {} not selected", records_.read,
                     records_.passed_on, records_.refused, records_.not_selected));
+  if (notes_) notes_->commit();
+  if (earlier_)
+    std::fputs(fmt::format("took {} records from {}\n", reused_, arguments_.reuse).c_str(), stderr);
   ledger_->close();
   Account account;
   account.inputs = arguments_.inputs;

@@ -1,6 +1,7 @@
 #include "cli/line_surfaces.h"
 #include "cli/run.h"
 #include "cli/work_place.h"
+#include "kernel/model/sha256.h"
 
 #include <algorithm>
 #include <exception>
@@ -44,13 +45,27 @@ BuildingOutcome Run::outcome_of(OnLine& line) const {
   return outcome;
 }
 
+/// Takes from an earlier run what came of the same source.
+void Run::reuse(Arrival& arrival) const {
+  if (arrival.header_sha256.empty() || arrival.was_done) return;
+  arrival.source_sha256 =
+      sha256(arrival.header_sha256 + std::string(source_line(*arrival.record.value)));
+  auto outcome = earlier_->find(arrival.source_sha256);
+  arrival.is_reused =
+      outcome && outcome->buildings.size() == arrival.record.value->buildings.size();
+  if (!arrival.is_reused) return;
+  arrival.outcome = std::move(*outcome);
+  drop_unselected(arrival);
+}
+
 /// Touches nothing but the arrival.
 void Run::work_on(Arrival& arrival, const Visitor& visitor) const {
-  if (!arrival.record.value || arrival.was_done) return;
-  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  if (!arrival.record.value || arrival.was_done || arrival.is_reused) return;
+  const Document& document = *arrival.record.value;
+  const std::vector<Building>& buildings = document.buildings;
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     now_at_building(i);
-    if (!arguments_.selection.takes(buildings[i]))
+    if (!arguments_.selection.takes(buildings[i], document.feature_type))
       arrival.lines.emplace_back().is_passed_over = true;
     else if (const auto lost = arrival.lost.find(i); lost != arrival.lost.end())
       arrival.lines.emplace_back().issues.push_back(lost->second);
@@ -93,9 +108,12 @@ void Run::make_product(Arrival& arrival, const Visitor& visitor) const {
 /// Of a file with many records those go on that have something selected; other files stay as they
 /// are.
 bool Run::is_passed_over(const Arrival& arrival) const {
+  const Document& document = *arrival.record.value;
   return !arguments_.selection.is_all() && !arrival.is_header &&
-         arrival.record.value->format != Format::cityjson && arrival.record.issues.empty() &&
-         std::ranges::all_of(arrival.outcome.buildings, &BuildingOutcome::is_passed_over);
+         document.format != Format::cityjson && arrival.record.issues.empty() &&
+         std::ranges::all_of(arrival.outcome.buildings, &BuildingOutcome::is_passed_over) &&
+         !(document.buildings.empty() &&
+           arguments_.selection.takes_feature(document.feature_id, document.feature_type));
 }
 
 /// What was found in buildings that are not asked for is not told.
@@ -108,7 +126,7 @@ void Run::drop_unselected(Arrival& arrival) const {
     const auto read = std::ranges::find(buildings, issue.place.building, &Building::id);
     if (read != buildings.end())
       return outcomes[static_cast<std::size_t>(read - buildings.begin())].is_passed_over;
-    return !arguments_.selection.takes(issue.place.building);
+    return !arguments_.selection.takes(issue.place.building, arrival.record.value->feature_type);
   });
 }
 

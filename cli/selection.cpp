@@ -30,19 +30,24 @@ bool is_in(const std::vector<double>& bbox, const Building& building) {
 }  // namespace
 
 bool Selection::is_all() const {
-  return ids.empty() && bbox.empty() && one_in == 1 && !is_exclusion;
+  return ids.empty() && bbox.empty() && cotype.empty() && one_in == 1 && !is_exclusion;
 }
 
-bool Selection::fits(const std::string& id) const {
-  return (ids.empty() || std::ranges::find(ids, id) != ids.end()) && draw(seed, id) % one_in == 0;
+bool Selection::fits(const std::string& id, const std::string& type) const {
+  return (cotype.empty() || cotype == type) &&
+         (ids.empty() || std::ranges::find(ids, id) != ids.end()) && draw(seed, id) % one_in == 0;
 }
 
-bool Selection::takes(const Building& building) const {
-  return (fits(building.id) && (bbox.empty() || is_in(bbox, building))) != is_exclusion;
+bool Selection::takes(const Building& building, const std::string& type) const {
+  return (fits(building.id, type) && (bbox.empty() || is_in(bbox, building))) != is_exclusion;
 }
 
-bool Selection::takes(const std::string& id) const {
-  return (fits(id) && bbox.empty()) != is_exclusion;
+bool Selection::takes_feature(const std::string& id, const std::string& type) const {
+  return !cotype.empty() && takes(id, type);
+}
+
+bool Selection::takes(const std::string& id, const std::string& type) const {
+  return (fits(id, type) && bbox.empty()) != is_exclusion;
 }
 
 }  // namespace oriel::cli

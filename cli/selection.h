@@ -16,6 +16,9 @@ struct Selection {
   /// xmin, ymin, xmax, ymax in the input's coordinates, around the middle of the building's box;
   /// empty: anywhere.
   std::vector<double> bbox;
+  /// The type of the feature's object (Building, Road, …), of which a BuildingPart is a part;
+  /// empty: any.
+  std::string cotype;
   /// One in so many, drawn by `seed` and the building's id, so that neither order nor shards
   /// matter; 1: all.
   std::uint64_t one_in = 1;
@@ -24,12 +27,15 @@ struct Selection {
 
   /// Nothing was asked for.
   [[nodiscard]] bool is_all() const;
-  [[nodiscard]] bool takes(const Building& building) const;
+  /// A building of a feature of this type.
+  [[nodiscard]] bool takes(const Building& building, const std::string& type) const;
   /// Of a building of which only the id is known: with `bbox` it fits nowhere.
-  [[nodiscard]] bool takes(const std::string& id) const;
+  [[nodiscard]] bool takes(const std::string& id, const std::string& type) const;
+  /// A feature without a building that could be read: only if a type was asked for.
+  [[nodiscard]] bool takes_feature(const std::string& id, const std::string& type) const;
 
  private:
-  [[nodiscard]] bool fits(const std::string& id) const;
+  [[nodiscard]] bool fits(const std::string& id, const std::string& type) const;
 };
 
 }  // namespace oriel::cli

@@ -40,7 +40,7 @@ class Splitter {
         run_(run),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { add_feature(line); }},
-               !arguments.selection.is_all()) {}
+               arguments.selection) {}
 
   ExitCode go() {
     std::error_code error;

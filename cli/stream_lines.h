@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/line.h"
+#include "cli/selection.h"
 #include "kernel/io/document.h"
 
 #include <functional>
@@ -19,9 +20,9 @@ struct LineVisitor {
 /// features, CityGML becomes lines, the lines of a CityJSONSeq stay as they are.
 class StreamLines {
  public:
-  /// `is_selecting`: buildings are selected. Then a feature of which none is selected is left out.
-  StreamLines(LineVisitor visitor, bool is_selecting)
-      : visitor_(std::move(visitor)), is_selecting_(is_selecting) {}
+  /// A feature of which nothing is selected is left out.
+  StreamLines(LineVisitor visitor, const Selection& selection)
+      : visitor_(std::move(visitor)), selection_(selection) {}
 
   void begin() { is_first_ = true; }
   /// `lines` belong to the document's buildings.
@@ -31,7 +32,7 @@ class StreamLines {
   void take_apart(const Document& document, const std::vector<OnLine>& lines) const;
 
   LineVisitor visitor_;
-  bool is_selecting_;
+  const Selection& selection_;
   bool is_first_ = true;  ///< record of its input
 };
 

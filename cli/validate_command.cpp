@@ -140,7 +140,7 @@ class Validation {
       if (issue.code == "E314")
         open_rings[issue.place.building].push_back(finding_of(issue));
       else if (issue.severity == Severity::error &&
-               !arguments_.selection.takes(issue.place.building))
+               !arguments_.selection.takes(issue.place.building, record.value->feature_type))
         continue;
       else if (issue.severity == Severity::error)
         add({issue.place.building.empty() ? record.value->name : issue.place.building,
@@ -151,7 +151,7 @@ class Validation {
         report_.tell(issue);
     }
     for (const Building& building : record.value->buildings)
-      if (arguments_.selection.takes(building))
+      if (arguments_.selection.takes(building, record.value->feature_type))
         judge(building, record.value->format, std::move(open_rings[building.id]));
   }
 

@@ -171,6 +171,13 @@ std::vector<std::string> CityJsonSplitter::ids(std::size_t i) const {
   return ids;
 }
 
+std::string CityJsonSplitter::type(std::size_t i) const {
+  const std::string_view object = state_->objects.value(state_->features[i].root);
+  if (!RawNode::is_object(object)) return {};
+  const std::string type(RawNode(object).value_of("type"));
+  return type.starts_with('"') ? decoded(type) : std::string();
+}
+
 std::string CityJsonSplitter::header() const {
   RawNode header(state_->root_text());
   header.set("CityObjects", "{}");

@@ -29,6 +29,8 @@ class CityJsonSplitter {
   [[nodiscard]] std::size_t size() const;
   /// The ids of the CityObjects of feature `i`, its own id first.
   [[nodiscard]] std::vector<std::string> ids(std::size_t i) const;
+  /// The type of its first CityObject.
+  [[nodiscard]] std::string type(std::size_t i) const;
   /// The line of feature `i`, with its line end.
   [[nodiscard]] std::string feature(std::size_t i) const;
 

@@ -28,6 +28,9 @@ struct Document {
   /// The CityJSON text and where the buildings stand in it. Of CityGML, the lines of the
   /// CityJSONSeq that it becomes; null for a Building that could not be read. Null for OBJ and OFF.
   std::shared_ptr<const detail::CityJsonSource> source;
+  /// Of a line of a CityJSONSeq: its "id", and the type of the CityObject with that id.
+  std::string feature_id{};
+  std::string feature_type = "Building";
 };
 
 /// The line of a CityJSONSeq that a document was read from, without its line end; empty for other

@@ -79,6 +79,8 @@ class FeatureRecordWriter {
   void append(std::string_view text);
   /// Puts the file in its place, as OutputFile does.
   void commit();
+  /// How many bytes it has so far.
+  [[nodiscard]] std::uint64_t size() const { return file_.size(); }
 
  private:
   RecordFormat format_;

@@ -67,6 +67,8 @@ Format Reader::format() const { return state_->format; }
 
 int Reader::line() const { return state_->name.line; }
 
+std::uint64_t Reader::bytes_read() const { return state_->input.bytes_read(); }
+
 std::string Reader::sha256() const { return state_->input.digest(); }
 
 const std::string& Reader::refused_line() const { return state_->cityjson.refused(); }

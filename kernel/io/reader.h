@@ -4,6 +4,7 @@
 #include "kernel/io/format.h"
 #include "kernel/model/issue.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +51,8 @@ class Reader {
 
   [[nodiscard]] Format format() const;
 
+  /// How many bytes of the input were read so far.
+  [[nodiscard]] std::uint64_t bytes_read() const;
   /// Of a CityJSONSeq: where the last record stands, counted from 1.
   [[nodiscard]] int line() const;
   /// With ReadOptions::wants_sha256 that of the input up to the last record (of CityGML up to some

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -57,6 +59,27 @@ TEST_SUITE("cli") {
         "no/parts.csv: E601 cannot be written: No such file or directory");
     CHECK(bytes_of(old) == "old");
     CHECK(folder.names() == Names{"out.city.json"});
+  }
+
+  TEST_CASE("a folder that is read-only is an output that failed") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", cube_lines({"a"}));
+    std::filesystem::permissions(
+        folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    // Nothing is read-only for root but what the system keeps for itself.
+    const std::string place = ::geteuid() == 0 ? "/proc/" : folder / "";
+    for (const Names& outputs :
+         {Names{"-o", place + "o.city.jsonl"}, Names{"--features", place + "f.csv"},
+          Names{"-o", "-", "--status", place + "s"},
+          Names{"-o", place + "o.city.jsonl", "--status", place + "s", "--resume"}}) {
+      Names arguments{"label", input};
+      arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+      const Outcome outcome = run(arguments);
+      CHECK(outcome.exit == 6);
+      CHECK(outcome.says("E601"));
+    }
+    std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+    CHECK(folder.names() == Names{"in.city.jsonl"});
   }
 
   TEST_CASE("a full device as stdout is an output that failed") {

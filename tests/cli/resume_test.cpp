@@ -158,6 +158,68 @@ TEST_SUITE("cli") {
     CHECK(run(arguments).exit == 0);
   }
 
+  TEST_CASE("records whose source is the same are taken from an earlier run") {
+    const Folder folder, whole;
+    const std::string text = with_broken_lines(city(120));
+    // One is changed, one is gone, one is new, and the order is another.
+    std::string changed = replaced(text, "cube-7\"", "cube-seven\"");
+    changed = replaced(changed, "cube-7\"", "cube-seven\"");
+    const std::size_t gone = changed.find('\n', 9000) + 1;
+    changed.erase(gone, changed.find('\n', gone) + 1 - gone);
+    const std::string head = changed.substr(0, changed.find('\n') + 1),
+                      extra = replaced(replaced(city(1), "cube-0\"", "new\""), "cube-0\"", "new\"");
+    changed = head + extra.substr(extra.find('\n') + 1) + changed.substr(head.size());
+    const auto label = [&](const Folder& to, const std::string& lines,
+                           const std::vector<std::string>& more) {
+      std::vector<std::string> arguments{"label",      to.write("in.city.jsonl", lines),
+                                         "-o",         to / "out.city.jsonl",
+                                         "--features", to / "parts.csv",
+                                         "--status",   to / "s"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return run(arguments);
+    };
+    const std::vector<std::string> reuse{"--reuse", folder / "s.status.json"};
+    const Outcome first = label(folder, text, reuse);
+    CHECK(first.exit == 3);
+    CHECK(first.says("E124"));
+    CHECK(first.says("took 0 records"));
+    CHECK(label(whole, changed, {}).exit == 3);
+    for (const std::vector<std::string>& how :
+         {std::vector<std::string>{}, {"-j2"}, {"--isolate"}}) {
+      auto more = reuse;
+      more.insert(more.end(), how.begin(), how.end());
+      const Outcome again = label(folder, changed, more);
+      CHECK(again.exit == 3);
+      CHECK(!again.says("E124"));
+      CHECK(again.says(how.empty() ? "took 117 records" : "took 119 records"));
+      for (const char* name : {"out.city.jsonl", "parts.csv"})
+        CHECK(bytes_of(folder / name) == bytes_of(whole / name));
+      const json a = json::parse(bytes_of(folder / "s.status.json")),
+                 b = json::parse(bytes_of(whole / "s.status.json"));
+      for (const char* name : {"records", "buildings", "set_aside", "features"})
+        CHECK(a[name] == b[name]);
+    }
+    // Of other options, or an output that is not what it was, nothing is taken.
+    CHECK(label(folder, changed, {reuse[0], reuse[1], "--value-rel", "0.02"}).says("took 0 "));
+    CHECK(label(folder, changed, reuse).says("E124"));
+    CHECK(label(folder, changed, reuse).says("took 119 records"));
+    folder.write("parts.csv", "changed");
+    CHECK(label(folder, changed, reuse).says("has changed since"));
+    CHECK(bytes_of(folder / "parts.csv") == bytes_of(whole / "parts.csv"));
+  }
+
+  TEST_CASE("taking from an earlier run needs a status and outputs of lines") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", city(2)), out = folder / "o.city.jsonl";
+    CHECK(run({"label", input, "-o", out, "--reuse", "s.status.json"}).exit == 2);
+    CHECK(run({"label", input, "-o", out, "--features", folder / "f.json", "--status", folder / "s",
+               "--reuse", folder / "s.status.json"})
+              .exit == 2);
+    CHECK(
+        run({"label", input, "--status", folder / "s", "--reuse", folder / "s.status.json"}).exit ==
+        2);
+  }
+
   TEST_CASE("resuming needs a status and outputs that are files") {
     const std::string input = sample("hip");
     CHECK(run({"label", input, "--resume"}).exit == 2);

@@ -75,6 +75,32 @@ TEST_SUITE("cli") {
     CHECK(taken.size() + rest.size() == names.size());
   }
 
+  TEST_CASE("a type takes the features whose object has it") {
+    auto road = json::parse(cube_lines({"road"}).substr(cube_lines({}).size()));
+    road["CityObjects"]["road"]["type"] = "Road";
+    // The type is that of the feature, not of its parts.
+    auto house = road;
+    house["id"] = "house";
+    house["CityObjects"] = {{"house", {{"type", "Building"}, {"children", {"part"}}}},
+                            {"part", road["CityObjects"]["road"]}};
+    house["CityObjects"]["part"]["type"] = "BuildingPart";
+    house["CityObjects"]["part"]["parents"] = {"house"};
+    const std::string text = cube_lines({"a", "b"}) + road.dump() + "\n" + house.dump() + "\n";
+    CHECK(labelled(text, {"--cotype", "Building"}) == Names{"a", "b", "house"});
+    CHECK(labelled(text, {"--cotype", "Road"}) == Names{"road"});
+    CHECK(labelled(text, {"--cotype", "Road", "--exclude"}) == Names{"a", "b", "house"});
+    CHECK(labelled(text, {"--cotype", "Building", "--exclude"}) == Names{"road"});
+    CHECK(labelled(text, {"--cotype", "Building", "--id", "b"}) == Names{"b"});
+    CHECK(labelled(text, {"--cotype", "BuildingPart"}).empty());
+    // The same of a file that is taken apart.
+    const Folder folder;
+    const std::string file = folder / "in.city.json";
+    REQUIRE(run({"collect", "-", "-o", file}, {.in = text}).exit == 0);
+    for (const std::string type : {"Road", "Building", "BuildingPart"})
+      CHECK(run({"cat", file, "--cotype", type}).out ==
+            run({"cat", "-", "--cotype", type}, {.in = run({"cat", file}).out}).out);
+  }
+
   TEST_CASE("buildings of a file that are not selected stay as they came") {
     const auto city = cubes({"a", "b"});
     const Outcome outcome =

@@ -74,6 +74,42 @@ TEST_SUITE("cli") {
     CHECK(run({"label", "-", "--from", "cityjson"}, terminal).says("b: E501"));
   }
 
+  TEST_CASE("a terminal gets a table with rates and other places one line") {
+    const Surroundings piped{.in = cube_lines({"a", "b", "c"})},
+        terminal{.in = piped.in, .has_terminal = true};
+    const Names label{"label", "-", "-o", "-"};
+    CHECK(run(label, piped).err == "labelled 3 of 3 buildings\n");
+    const Outcome shown = run(label, terminal);
+    CHECK(shown.out == run(label, piped).out);
+    CHECK(shown.says("buildings      3"));
+    CHECK(shown.says("set aside      0"));
+    CHECK(shown.says("buildings/s"));
+    CHECK(shown.says("MB/s"));
+    Names none = label;
+    none.insert(none.end(), {"--progress", "none"});
+    CHECK(run(none, terminal).says("labelled 3 of 3 buildings"));
+    CHECK(!run(none, terminal).says("MB/s"));
+  }
+
+  TEST_CASE("progress for machines is a JSON object a line on stderr") {
+    const Folder folder;
+    const std::string broken = cube_lines({"a", "b"}) + "{\n",
+                      input = folder.write("in.city.jsonl", broken);
+    const Outcome outcome = run({"label", input, "-o", "-", "--progress", "json"});
+    CHECK(outcome.exit == 3);
+    const std::size_t at = outcome.err.find("{\"buildings\"");
+    REQUIRE(at != std::string::npos);
+    const auto last =
+        nlohmann::json::parse(outcome.err.substr(at, outcome.err.find('\n', at) - at));
+    CHECK(last["buildings"] == 3);
+    CHECK(last["set_aside"] == 1);
+    CHECK(last["bytes"] == broken.size());
+    CHECK(last["all_bytes"] == broken.size());
+    CHECK(last["seconds_left"] == 0);
+    CHECK(last["is_done"] == true);
+    CHECK(run({"label", input, "--progress", "loud"}).exit == 2);
+  }
+
   TEST_CASE("the cells of segment --json sum up to the volume of the solid") {
     for (const std::string name : {"house", "block", "hip", "l-house", "row"}) {
       CAPTURE(name);

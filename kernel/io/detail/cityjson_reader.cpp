@@ -114,6 +114,13 @@ std::optional<Fault> read_model(dom::object root, Model& model) {
   return std::nullopt;
 }
 
+/// The type of a CityObject; empty if there is none.
+std::string type_of(dom::object objects, std::string_view id) {
+  const auto object = as_object(member(objects, id));
+  const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+  return std::string(type.value_or(std::string_view()));
+}
+
 }  // namespace
 
 struct CityJsonReader::State {
@@ -251,6 +258,10 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
   Document document;
   document.name = name.line > 0 ? fmt::format("{}:{}", name.file, name.line) : name.file;
   document.format = name.line > 0 ? Format::cityjson_seq : Format::cityjson;
+  if (header) {
+    document.feature_id = id;
+    document.feature_type = type_of(model.objects, id);
+  }
   state_->read_buildings(model, name, document, *source, result.issues);
   source->text = std::move(text);
   document.source = std::move(source);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "cli/report.h"
+#include "interpret/profile.h"
+#include "interpret/rule_base.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What is to be made of every building: redrawn for a scale, or at levels of detail.
+struct Targets {
+  std::optional<double> scale;
+  /// One for each level of detail; for a scale at most one.
+  std::vector<Profile> profiles;
+
+  [[nodiscard]] bool has_lods() const { return !scale; }
+  /// All that the products depend on.
+  [[nodiscard]] std::string recipe() const;
+  /// "1:5000", "LoD 2.0, 1.2".
+  [[nodiscard]] std::string text() const;
+};
+
+/// What --scale or else --to-lod (`lods`) asks for, with --profile. Nothing if a profile cannot be
+/// used, which is told. Throws CLI::ValidationError for a scale or level that is none.
+std::optional<Targets> targets_of(const std::string& scale, const std::vector<std::string>& lods,
+                                  const std::string& profile, const RuleBase& rules,
+                                  Report& report);
+
+}  // namespace oriel::cli
