@@ -23,10 +23,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kNotes = ".records.jsonl";
-constexpr std::string_view kStatus = ".status.json";
+constexpr const char* kNotesEnding = ".records.jsonl";
+constexpr std::string_view kStatusEnding = ".status.json";
 
-std::string dumped(const ordered_json& line) {
+std::string note_text(const ordered_json& line) {
   return line.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -37,7 +37,7 @@ std::uint64_t key_of(std::string_view sha256) {
 }
 
 /// `count` bytes of a file, or up to its end.
-std::string bytes_at(int file, std::uint64_t at, std::uint64_t count) {
+std::string stretch_of(int file, std::uint64_t at, std::uint64_t count) {
   std::string bytes(count, '\0');
   std::size_t got = 0;
   while (got < count) {
@@ -51,11 +51,11 @@ std::string bytes_at(int file, std::uint64_t at, std::uint64_t count) {
 }
 
 /// The line of a file that begins at `at`, without its line end.
-std::string line_at(int file, std::uint64_t at) {
+std::string note_at(int file, std::uint64_t at) {
   constexpr std::uint64_t kChunk = 4096;
   std::string line;
   while (true) {
-    const std::string more = bytes_at(file, at + line.size(), kChunk);
+    const std::string more = stretch_of(file, at + line.size(), kChunk);
     const std::size_t end = more.find('\n');
     line += more.substr(0, end);
     if (end != std::string::npos || more.empty()) return line;
@@ -65,8 +65,8 @@ std::string line_at(int file, std::uint64_t at) {
 }  // namespace
 
 RecordNotes::RecordNotes(const std::string& stem, const std::string& recipe_sha256)
-    : file_(stem + kNotes) {
-  if (file_.size() == 0) file_.append(dumped({{"recipe_sha256", recipe_sha256}}));
+    : file_(stem + kNotesEnding) {
+  if (file_.size() == 0) file_.append(note_text({{"recipe_sha256", recipe_sha256}}));
 }
 
 void RecordNotes::add(const std::string& source_sha256, const PartPlaces& places,
@@ -76,8 +76,8 @@ void RecordNotes::add(const std::string& source_sha256, const PartPlaces& places
     const std::size_t bytes = outcome.product.bytes[i].size();
     if (bytes > 0) parts.push_back({i, places[i].path, places[i].size, bytes});
   }
-  file_.append(
-      dumped({{"source_sha256", source_sha256}, {"parts", parts}, {"outcome", to_json(outcome)}}));
+  file_.append(note_text(
+      {{"source_sha256", source_sha256}, {"parts", parts}, {"outcome", to_json(outcome)}}));
 }
 
 EarlierRun::EarlierRun(const std::string& status, const std::string& recipe_sha256) {
@@ -99,13 +99,13 @@ EarlierRun::~EarlierRun() {
 
 /// Files are opened before they are checked: this run may put others in their place.
 void EarlierRun::load(const std::string& status, const std::string& recipe_sha256) {
-  if (!status.ends_with(kStatus)) throw std::runtime_error("it is no file in .status.json");
+  if (!status.ends_with(kStatusEnding)) throw std::runtime_error("it is no file in .status.json");
   std::ifstream file(status, std::ios::binary);
   if (!file) throw std::runtime_error("there is none");
   const ordered_json json = ordered_json::parse(file, nullptr, false);
   if (!json.is_object() || !json.contains("outputs"))
     throw std::runtime_error("it is no status file");
-  notes_path_ = status.substr(0, status.size() - kStatus.size()) + kNotes;
+  notes_path_ = status.substr(0, status.size() - kStatusEnding.size()) + kNotesEnding;
   const FileMarks marks = marks_of(json.at("outputs"));
   if (!marks.contains(notes_path_)) throw std::runtime_error("it was made without --reuse");
   for (const auto& [path, mark] : marks) {
@@ -117,7 +117,7 @@ void EarlierRun::load(const std::string& status, const std::string& recipe_sha25
   std::ifstream notes(notes_path_, std::ios::binary);
   std::string line;
   std::getline(notes, line);
-  if (line + "\n" != dumped({{"recipe_sha256", recipe_sha256}}))
+  if (line + "\n" != note_text({{"recipe_sha256", recipe_sha256}}))
     throw std::runtime_error("its rules, options or program are others");
   // A note begins with its hash: the rest is parsed when it is asked for.
   constexpr std::string_view kBegin = "{\"source_sha256\":\"";
@@ -138,14 +138,14 @@ std::optional<RecordOutcome> EarlierRun::find(const std::string& source_sha256) 
 std::optional<RecordOutcome> EarlierRun::outcome_at(const Note& note,
                                                     const std::string& source_sha256) const {
   const ordered_json json =
-      ordered_json::parse(line_at(files_.at(notes_path_), note.at), nullptr, false);
+      ordered_json::parse(note_at(files_.at(notes_path_), note.at), nullptr, false);
   if (!json.is_object() || json.at("source_sha256") != source_sha256) return std::nullopt;
   RecordOutcome outcome = outcome_of(json.at("outcome"));
   for (const ordered_json& part : json.at("parts")) {
     const auto file = files_.find(part.at(1).get<std::string>());
     if (file == files_.end()) return std::nullopt;
     std::string& bytes = outcome.product.bytes.at(part.at(0).get<std::size_t>());
-    bytes = bytes_at(file->second, part.at(2), part.at(3));
+    bytes = stretch_of(file->second, part.at(2), part.at(3));
     if (bytes.size() != part.at(3).get<std::size_t>()) return std::nullopt;
   }
   return outcome;

@@ -28,16 +28,16 @@ namespace {
 
 /// A batch is over when it has so many records, or so many bytes of lines: a fork costs about as
 /// much as one building, and records wait in memory.
-constexpr std::size_t kMostRecords = 16;
-constexpr std::size_t kMostBytes = 4 << 20;
+constexpr std::size_t kMostBatchRecords = 16;
+constexpr std::size_t kMostBatchBytes = 4 << 20;
 /// Batches for each worker that are read, worked on or wait for those before them.
 constexpr std::size_t kBatchesPerJob = 2;
-constexpr std::size_t kChunk = 1 << 16;
+constexpr std::size_t kPipeChunk = 1 << 16;
 
 /// Where a worker is; the parent reads it when the worker is gone.
 volatile std::size_t* building_at_hand = nullptr;
 
-[[noreturn]] void fail(const char* what) {
+[[noreturn]] void give_up(const char* what) {
   throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(errno)));
 }
 
@@ -138,7 +138,7 @@ Isolation::Isolation(int jobs, Steps steps) : jobs_(jobs), steps_(std::move(step
   const auto count = static_cast<std::size_t>(jobs_);
   void* shared = ::mmap(nullptr, count * sizeof(Place), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (shared == MAP_FAILED) fail("no memory to share with workers");
+  if (shared == MAP_FAILED) give_up("no memory to share with workers");
   places_ = new (shared) Place[count];
   for (std::size_t i = 0; i < count; ++i) free_places_.push_back(places_ + i);
 }
@@ -168,7 +168,8 @@ bool Isolation::fill() {
   const auto most = kBatchesPerJob * static_cast<std::size_t>(jobs_);
   if (is_over_ || free_places_.empty() || batches_.size() >= most) return false;
   auto batch = std::make_unique<Batch>();
-  for (std::size_t bytes = 0; batch->arrivals.size() < kMostRecords && bytes < kMostBytes;) {
+  for (std::size_t bytes = 0;
+       batch->arrivals.size() < kMostBatchRecords && bytes < kMostBatchBytes;) {
     auto arrival = steps_.next();
     is_over_ = !arrival;
     if (is_over_) break;
@@ -184,13 +185,13 @@ bool Isolation::fill() {
 
 void Isolation::start(Batch& batch) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe to a worker");
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) give_up("no pipe to a worker");
   batch.place = free_places_.back();
   free_places_.pop_back();
   batch.place->building = kNoBuilding;
   const pid_t parent = ::getpid();
   batch.worker = ::fork();
-  if (batch.worker < 0) fail("no process for a worker");
+  if (batch.worker < 0) give_up("no process for a worker");
   if (batch.worker == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(0);
@@ -228,7 +229,7 @@ void Isolation::receive() {
   if (pipes.empty()) return;
   if (::poll(pipes.data(), pipes.size(), -1) < 0) {
     if (errno == EINTR) return;
-    fail("workers cannot be heard");
+    give_up("workers cannot be heard");
   }
   for (std::size_t i = 0; i < pipes.size(); ++i)
     if (pipes[i].revents != 0) read_from(*from[i]);
@@ -236,11 +237,11 @@ void Isolation::receive() {
 
 void Isolation::read_from(Batch& batch) {
   const std::size_t had = batch.received.size();
-  batch.received.resize(had + kChunk);
-  const ssize_t count = ::read(batch.pipe, batch.received.data() + had, kChunk);
+  batch.received.resize(had + kPipeChunk);
+  const ssize_t count = ::read(batch.pipe, batch.received.data() + had, kPipeChunk);
   batch.received.resize(had + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   if (count < 0 && errno == EINTR) return;
-  if (count < 0) fail("a worker cannot be heard");
+  if (count < 0) give_up("a worker cannot be heard");
   std::size_t at = 0;
   while (!batch.is_answered() &&
          take_message(batch.received, at, *batch.arrivals[batch.answered])) {
