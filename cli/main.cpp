@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   add_diff(app, action);
   add_score(app, action);
   add_validate(app, action);
+  add_view(app, action);
   add_split(app, action);
   add_merge(app, action);
   add_rules(app, action);

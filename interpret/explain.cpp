@@ -74,25 +74,53 @@ std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
 
 }  // namespace
 
-Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
-                    const Interpretation& interpretation, FeatureId feature) {
-  const Pack& pack = base.pack();
-  rules::Facts facts(pack, table, graph);
-  rules::Labelling labelling(pack, facts);
-  labelling.run();
-  Evaluator evaluator(pack, facts);
-  Prover prover(pack, table, evaluator, feature.value);
+struct Explainer::State {
+  State(const RuleBase& rule_base, const FeatureTable& features, const FeatureGraph& graph,
+        const Interpretation& said)
+      : base(&rule_base),
+        table(&features),
+        interpretation(&said),
+        facts(base->pack(), features, graph),
+        labelling(base->pack(), facts),
+        evaluator(base->pack(), facts) {
+    labelling.run();
+  }
+
+  const RuleBase* base;
+  const FeatureTable* table;
+  const Interpretation* interpretation;
+  rules::Facts facts;
+  rules::Labelling labelling;
+  Evaluator evaluator;
+};
+
+Explainer::Explainer(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                     const Interpretation& interpretation)
+    : state_(std::make_unique<State>(base, table, graph, interpretation)) {}
+Explainer::~Explainer() = default;
+Explainer::Explainer(Explainer&&) noexcept = default;
+Explainer& Explainer::operator=(Explainer&&) noexcept = default;
+
+Explanation Explainer::explain(FeatureId feature) const {
+  const Pack& pack = state_->base->pack();
+  const FeatureTable& table = *state_->table;
+  Prover prover(pack, table, state_->evaluator, feature.value);
   Explanation explanation;
   explanation.building = table.building();
   explanation.feature = table.id(feature);
-  explanation.verdict = interpretation.verdicts.at(feature.index());
+  explanation.verdict = state_->interpretation->verdicts.at(feature.index());
   explanation.min_score = pack.decide.min_score;
   for (const Rule& rule : pack.rules)
-    explanation.rules.push_back(report_of(pack, rule, evaluator, prover));
-  for (const auto& round : labelling.rounds())
+    explanation.rules.push_back(report_of(pack, rule, state_->evaluator, prover));
+  for (const auto& round : state_->labelling.rounds())
     explanation.rounds.push_back(round_report(pack, round[feature.index()]));
   explanation.best = find_best(explanation.rules);
   return explanation;
+}
+
+Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                    const Interpretation& interpretation, FeatureId feature) {
+  return Explainer(base, table, graph, interpretation).explain(feature);
 }
 
 }  // namespace oriel

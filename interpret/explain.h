@@ -5,6 +5,9 @@
 #include "kernel/model/feature_table.h"
 #include "kernel/model/interpretation.h"
 
+#include <array>
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,10 +83,49 @@ struct Explanation {
   std::vector<RoundReport> rounds;
 };
 
-/// Runs the pack again over the building and judges every condition of every rule for `feature`,
-/// which must be a row of `table`. `interpretation` is that of the same pack, table and graph.
+/// Explains features of one building: runs the pack over it again, once, then judges every
+/// condition of every rule for each feature that is asked for. `interpretation` is that of the same
+/// pack, table and graph; all four must outlive it.
+class Explainer {
+ public:
+  Explainer(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+            const Interpretation& interpretation);
+  ~Explainer();
+  Explainer(Explainer&&) noexcept;
+  Explainer& operator=(Explainer&&) noexcept;
+
+  /// `feature` must be a row of the table.
+  [[nodiscard]] Explanation explain(FeatureId feature) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The same for one feature.
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
                     const Interpretation& interpretation, FeatureId feature);
+
+/// One line of the proof: mark ("holds", of a rule its id), what was found, what was asked for and
+/// by how much it was missed; and where that stands in the pack.
+struct ExplanationRow {
+  std::size_t indent = 0;
+  std::array<std::string, 3> cells;
+  Place place;
+};
+
+/// "f1 -> window 0.93 by window.in_wall, margin 0.93", "f2 -> unknown   no rule for a label holds".
+std::string headline(const Explanation& explanation);
+
+/// A rule: its own row, then its conditions and, if it holds, the terms of its score.
+std::vector<ExplanationRow> rows_of(const RuleReport& rule);
+
+/// "file:line:column".
+std::string place_text(const Place& place);
+
+/// The reason in one line without the id: of a label its rule with what its conditions and terms
+/// found; of a feature without one the best candidate, or that no rule for a label holds.
+std::string reason(const Explanation& explanation);
 
 /// For a terminal: the verdict, then every rule with its conditions and, if it holds, the terms of
 /// its score, a line each, with file:line:column.

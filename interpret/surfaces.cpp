@@ -136,6 +136,54 @@ std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, 
   return text;
 }
 
+/// By `deciding` the rules that decided, row by row.
+std::vector<SurfaceVerdict> verdicts_of(const Pack& pack, const SurfaceTable& table,
+                                        const std::vector<int>& deciding) {
+  std::vector<SurfaceVerdict> verdicts;
+  verdicts.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (deciding[row] < 0) {
+      verdicts.push_back({type_by_default(pack, table, row), ""});
+      continue;
+    }
+    const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding[row])];
+    verdicts.push_back({rule.type, rule.id});
+  }
+  return verdicts;
+}
+
+std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
+  if (pack.surfaces) return deciding_rules(*pack.surfaces, table);
+  return std::vector<int>(table.rows(), -1);
+}
+
+std::string explanation_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+                           const SurfaceVerdict& verdict, int deciding) {
+  std::string text =
+      fmt::format("{} by {}\n", verdict.type, verdict.rule.empty() ? "hosts" : verdict.rule);
+  text += attribute_lines(table, row);
+  if (pack.surfaces) text += rule_lines(*pack.surfaces, table, row, deciding);
+  return text;
+}
+
+std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+                      const SurfaceVerdict& verdict, const SurfaceRule* rule) {
+  if (rule == nullptr) {
+    const auto inclination = table.number(row, "inclination");
+    return fmt::format("{} by hosts: inclination = {}", verdict.type,
+                       inclination ? fmt::format("{:.2f} deg", *inclination) : "?");
+  }
+  std::string text = fmt::format("{} by {}", verdict.type, verdict.rule);
+  const char* separator = ": ";
+  for (const rules::ExprId id : rule->when) {
+    const rules::Span span = pack.surfaces->pack.code[static_cast<std::size_t>(id)].span;
+    text += separator;
+    text += pack.surfaces->pack.source.text_of(span);
+    separator = "; ";
+  }
+  return text;
+}
+
 }  // namespace
 
 SurfaceTable with_parts(SurfaceTable table, const Building& building,
@@ -160,34 +208,38 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
 }
 
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table) {
+  return verdicts_of(base.pack(), table, decide_all(base.pack(), table));
+}
+
+std::vector<std::string> explain_surfaces(const RuleBase& base, const SurfaceTable& table) {
   const Pack& pack = base.pack();
-  std::vector<int> deciding(table.rows(), -1);
-  if (pack.surfaces) deciding = deciding_rules(*pack.surfaces, table);
-  std::vector<SurfaceVerdict> verdicts;
-  verdicts.reserve(table.rows());
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (deciding[row] < 0) {
-      verdicts.push_back({type_by_default(pack, table, row), ""});
-      continue;
-    }
-    const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding[row])];
-    verdicts.push_back({rule.type, rule.id});
-  }
-  return verdicts;
+  const auto deciding = decide_all(pack, table);
+  const auto verdicts = verdicts_of(pack, table, deciding);
+  std::vector<std::string> texts;
+  texts.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    texts.push_back(explanation_of(pack, table, row, verdicts[row], deciding[row]));
+  return texts;
 }
 
 std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
   const Pack& pack = base.pack();
-  int deciding = -1;
-  if (pack.surfaces) deciding = deciding_rules(*pack.surfaces, table)[row];
-  std::string rule = "hosts", type = type_by_default(pack, table, row);
-  if (deciding >= 0) {
-    rule = pack.surfaces->rules[static_cast<std::size_t>(deciding)].id;
-    type = pack.surfaces->rules[static_cast<std::size_t>(deciding)].type;
+  const auto deciding = decide_all(pack, table);
+  return explanation_of(pack, table, row, verdicts_of(pack, table, deciding)[row], deciding[row]);
+}
+
+std::vector<std::string> surface_reasons(const RuleBase& base, const SurfaceTable& table,
+                                         const std::vector<SurfaceVerdict>& verdicts) {
+  const Pack& pack = base.pack();
+  std::vector<std::string> reasons;
+  reasons.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const SurfaceRule* rule = nullptr;
+    if (!verdicts[row].rule.empty())
+      rule = &*std::ranges::find(pack.surfaces->rules, verdicts[row].rule, &SurfaceRule::id);
+    reasons.push_back(reason_of(pack, table, row, verdicts[row], rule));
   }
-  std::string text = fmt::format("{} by {}\n", type, rule) + attribute_lines(table, row);
-  if (pack.surfaces) text += rule_lines(*pack.surfaces, table, row, deciding);
-  return text;
+  return reasons;
 }
 
 }  // namespace oriel

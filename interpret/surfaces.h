@@ -39,4 +39,12 @@ std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const Surfa
 /// `surfaces:` up to the one that decided with what came of its conditions and where they stand.
 std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row);
 
+/// The same of every surface of the table, in its order.
+std::vector<std::string> explain_surfaces(const RuleBase& base, const SurfaceTable& table);
+
+/// The reason of each verdict in one line: "GroundSurface by ground.plate: looks_down; height <=
+/// $ground_reach". `verdicts` are those of interpret_surfaces for the table.
+std::vector<std::string> surface_reasons(const RuleBase& base, const SurfaceTable& table,
+                                         const std::vector<SurfaceVerdict>& verdicts);
+
 }  // namespace oriel

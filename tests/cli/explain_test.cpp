@@ -1,6 +1,8 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 
+#include <sstream>
+
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +19,14 @@ std::vector<std::string> ids_of(const std::string& name, const std::string& labe
   for (const json& record : json::parse(bytes_of(folder / "parts.json")))
     if (record["label"] == label) ids.push_back(record["id"]);
   return ids;
+}
+
+/// The data in a page that view has written.
+json page_data(const std::string& path) {
+  const std::string page = bytes_of(path);
+  const std::string mark = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t begin = page.find(mark) + mark.size();
+  return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
 }  // namespace
@@ -89,5 +99,137 @@ TEST_SUITE("cli") {
     const Outcome outcome = run({"explain", cube, "f1"});
     CHECK(outcome.exit == 2);
     CHECK(outcome.says("'f1' names 0 features; there are none"));
+  }
+
+  TEST_CASE("view writes one page with what explain says of every feature") {
+    const Folder folder;
+    const Outcome outcome = run({"view", sample("house"), "-o", folder / "page.html"});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("shown 1 of 1 buildings: 1 balcony, 1 canopy, 1 chimney, 2 door"));
+    const json data = page_data(folder / "page.html");
+    REQUIRE(data["models"].size() == 1);
+    const json& building = data["models"][0]["buildings"][0];
+    CHECK(building["id"] == "house");
+    CHECK(building["features"].size() == 53);
+    for (const std::size_t number : {0, 20, 40}) {
+      const json& feature = building["features"][number];
+      const std::string id = feature["id"];
+      const Outcome explained = run({"explain", sample("house"), id});
+      CHECK(explained.out.starts_with(feature["head"].get<std::string>() + "\n"));
+      std::istringstream rest(explained.out);
+      std::string line;
+      std::getline(rest, line);
+      for (const json& rule : feature["rules"])
+        for (const int row : rule) {
+          REQUIRE(std::getline(rest, line));
+          for (std::size_t cell = 1; cell < 5; ++cell) {
+            const std::string text = data["strings"][data["rows"][row][cell].get<std::size_t>()];
+            CHECK(line.find(text) != std::string::npos);
+          }
+        }
+      CHECK(!std::getline(rest, line));
+    }
+  }
+
+  TEST_CASE("every polygon of a page has its corners and says what surface it is and why") {
+    const Folder folder;
+    REQUIRE(run({"view", sample("house"), "-o", folder / "page.html"}).exit == 0);
+    const json data = page_data(folder / "page.html");
+    const json& building = data["models"][0]["buildings"][0];
+    const std::size_t corners = building["vertices_mm"].size() / 3;
+    std::size_t owned = 0;
+    for (const json& polygon : building["polygons"]) {
+      for (const json& ring : polygon["rings"])
+        for (const std::size_t corner : ring) CHECK(corner < corners);
+      for (const std::size_t owner : polygon["owners"]) CHECK(owner < building["features"].size());
+      owned += polygon["owners"].empty() ? 0 : 1;
+      std::string why;
+      for (const std::size_t line : polygon["why"])
+        why += data["strings"][line].get<std::string>() + "\n";
+      const std::string number = std::to_string(polygon["source"].get<int>());
+      if (polygon["source"].get<int>() % 40 == 0)
+        CHECK(run({"explain", sample("house"), "--surface", number}).out ==
+              "house: polygon " + number + " is " + why);
+      CHECK(why.starts_with(polygon["surface"].get<std::string>() + " by "));
+    }
+    CHECK(owned > 100);
+  }
+
+  TEST_CASE("a page asks for nothing and is the same for any number of jobs") {
+    const Folder folder;
+    const std::vector<std::string> inputs = {sample("house"), sample("row"), sample("hip")};
+    std::vector<std::string> pages;
+    for (const std::string jobs : {"1", "8"}) {
+      std::vector<std::string> arguments = {"view", "-o", folder / "page.html", "-j", jobs};
+      arguments.insert(arguments.end(), inputs.begin(), inputs.end());
+      REQUIRE(run(arguments).exit == 0);
+      pages.push_back(bytes_of(folder / "page.html"));
+    }
+    CHECK(pages[0] == pages[1]);
+    CHECK(pages[0].find("default-src 'none'") != std::string::npos);
+    for (const std::string loader : {"src=", "href=", "import(", "@import", "fetch("})
+      CHECK(pages[0].find(loader, pages[0].find("THREE=")) == std::string::npos);
+    CHECK(pages[0].find("{{") == std::string::npos);
+    CHECK(folder.names() == std::vector<std::string>{"page.html"});
+  }
+
+  TEST_CASE("a page with a generalised file has both") {
+    const Folder folder;
+    const std::string small = folder / "small.city.json";
+    REQUIRE(run({"generalise", sample("house"), "--scale", "1:2500", "-o", small}).exit == 0);
+    REQUIRE(run({"view", sample("house"), "--after", small, "-o", folder / "page.html"}).exit == 0);
+    const json data = page_data(folder / "page.html");
+    REQUIRE(data["models"].size() == 2);
+    const auto windows = [](const json& model) {
+      std::size_t count = 0;
+      for (const json& feature : model["buildings"][0]["features"])
+        count += feature["label"] == "window" ? 1 : 0;
+      return count;
+    };
+    CHECK(windows(data["models"][0]) == 16);
+    CHECK(windows(data["models"][1]) == 2);
+  }
+
+  TEST_CASE("a page of nothing is not written") {
+    const Folder folder;
+    const std::string page = folder / "page.html";
+    const Outcome nothing = run({"view", sample("house"), "--id", "nobody", "-o", page});
+    CHECK(nothing.exit == 5);
+    CHECK(nothing.says("E127 there is no building to show"));
+    const Outcome other = run({"view", sample("house"), "--after", sample("row"), "-o", page});
+    CHECK(other.exit == 5);
+    CHECK(other.says("E128 has none of the buildings that it should show after"));
+    const Outcome missing = run({"view", sample("house"), "--after", "no.city.json", "-o", page});
+    CHECK(missing.exit == 5);
+    CHECK(missing.says("no.city.json: E101"));
+    CHECK(run({"view", sample("house"), "-o", folder / "no/page.html"}).exit == 6);
+    CHECK(folder.names().empty());
+  }
+
+  TEST_CASE("no name can break out of a page") {
+    const Folder folder;
+    const std::string id = "</script><script>alert(1)</script>";
+    const std::string cube = folder.write("cube.city.json", cubes({id}).dump());
+    REQUIRE(run({"view", cube, "-o", folder / "page.html"}).exit == 0);
+    CHECK(bytes_of(folder / "page.html").find("alert(1)</script>") == std::string::npos);
+    CHECK(page_data(folder / "page.html")["models"][0]["buildings"][0]["id"] == id);
+  }
+
+  TEST_CASE("a page shows a building that stays open and says so, and none that cannot be read") {
+    auto city = cubes({"open", "far"});
+    city["CityObjects"]["open"]["geometry"][0]["boundaries"][0].erase(0);
+    city["vertices"][8][0] = 9'000'000;
+    const Folder folder;
+    const std::string input = folder.write("in.city.json", city.dump());
+    const Outcome outcome = run({"view", input, "-o", folder / "page.html"});
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("far: E501"));
+    const json data = page_data(folder / "page.html");
+    REQUIRE(data["models"][0]["buildings"].size() == 1);
+    const json& building = data["models"][0]["buildings"][0];
+    CHECK(building["polygons"].size() == 5);
+    CHECK(building["polygons"][0]["surface"] != "");
+    const std::string issue = data["strings"][building["issues"].at(0).get<std::size_t>()];
+    CHECK(issue.starts_with("open: E302"));
   }
 }
