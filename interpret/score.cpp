@@ -36,10 +36,6 @@ double ratio(std::size_t part, std::size_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-bool is_left_out(const ExpectedObject& object) {
-  return !object.has_faces || (object.label == "other" && object.subclass == "installation");
-}
-
 /// A prediction and an object whose boxes meet.
 struct Pair {
   double iou = 0;
@@ -143,6 +139,17 @@ class Matcher {
 
 }  // namespace
 
+bool is_left_out(const ExpectedObject& object) {
+  return !object.has_faces || (object.label == "other" && object.subclass == "installation");
+}
+
+ClassScore& ClassScore::operator+=(const ClassScore& other) {
+  true_positives += other.true_positives;
+  false_positives += other.false_positives;
+  false_negatives += other.false_negatives;
+  return *this;
+}
+
 double ClassScore::precision() const {
   return ratio(true_positives, true_positives + false_positives);
 }
@@ -166,8 +173,9 @@ double Score::macro_f1() const {
   return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
 }
 
-Score score(const std::vector<Prediction>& predictions, const std::vector<ExpectedObject>& truth,
-            const ScoreOptions& options) {
+std::map<std::string, Score> score_by_building(const std::vector<Prediction>& predictions,
+                                               const std::vector<ExpectedObject>& truth,
+                                               const ScoreOptions& options) {
   struct Content {
     std::vector<const Prediction*> predictions;
     std::vector<const ExpectedObject*> truth;
@@ -177,13 +185,30 @@ Score score(const std::vector<Prediction>& predictions, const std::vector<Expect
     if (!prediction.label.empty())
       buildings[prediction.building].predictions.push_back(&prediction);
   for (const ExpectedObject& object : truth) buildings[object.building].truth.push_back(&object);
-  Score score;
+  std::map<std::string, Score> scores;
   for (auto& [building, content] : buildings)
-    Matcher(std::move(content.predictions), std::move(content.truth), options, score).run();
-  std::ranges::stable_sort(score.misses, {}, [](const Miss& m) {
+    Matcher(std::move(content.predictions), std::move(content.truth), options, scores[building])
+        .run();
+  return scores;
+}
+
+Score total(const std::map<std::string, Score>& buildings) {
+  Score sum;
+  for (const auto& [building, score] : buildings) {
+    for (const auto& [label, counts] : score.classes) sum.classes[label] += counts;
+    for (const auto& [labels, count] : score.confusion) sum.confusion[labels] += count;
+    sum.misses.insert(sum.misses.end(), score.misses.begin(), score.misses.end());
+    sum.neutral += score.neutral;
+  }
+  std::ranges::stable_sort(sum.misses, {}, [](const Miss& m) {
     return std::tie(m.building, m.truth_label, m.truth_id, m.prediction_label, m.prediction_id);
   });
-  return score;
+  return sum;
+}
+
+Score score(const std::vector<Prediction>& predictions, const std::vector<ExpectedObject>& truth,
+            const ScoreOptions& options) {
+  return total(score_by_building(predictions, truth, options));
 }
 
 }  // namespace oriel

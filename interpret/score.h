@@ -18,6 +18,8 @@ struct Prediction {
   std::string label;
   /// In the input's coordinates.
   Box box;
+  /// How sure the labelling is, 0…1.
+  double score = 0;
 };
 
 /// Something that is there.
@@ -32,6 +34,9 @@ struct ExpectedObject {
   /// False for objects that are not in the stripped model.
   bool has_faces = true;
 };
+
+/// Nobody can find it, or nobody named it.
+bool is_left_out(const ExpectedObject& object);
 
 struct ScoreOptions {
   /// Boxes are grown by this on every side before they are compared.
@@ -48,6 +53,7 @@ struct ClassScore {
   std::size_t false_positives = 0;
   std::size_t false_negatives = 0;
 
+  ClassScore& operator+=(const ClassScore& other);
   [[nodiscard]] double precision() const;
   [[nodiscard]] double recall() const;
   [[nodiscard]] double f1() const;
@@ -87,12 +93,21 @@ struct Score {
 Score score(const std::vector<Prediction>& predictions, const std::vector<ExpectedObject>& truth,
             const ScoreOptions& options = {});
 
+/// The same, building by building: of all that have truth or predictions.
+std::map<std::string, Score> score_by_building(const std::vector<Prediction>& predictions,
+                                               const std::vector<ExpectedObject>& truth,
+                                               const ScoreOptions& options = {});
+
+/// What all buildings come to together.
+Score total(const std::map<std::string, Score>& buildings);
+
 /// A table for a terminal: a line a class, the macro-F1, what was taken for what, and the misses:
 /// no more than `max_misses`, then how many more there are.
 std::string to_text(const Score& score,
                     std::size_t max_misses = std::numeric_limits<std::size_t>::max());
 
-/// The same as one JSON object on one line (docs/formats.md).
-std::string to_json(const Score& score);
+/// The same as one JSON object on one line (docs/formats.md). `further` are members of it as JSON,
+/// as area_json and intervals_json give them.
+std::string to_json(const Score& score, const std::vector<std::string>& further = {});
 
 }  // namespace oriel

@@ -71,16 +71,18 @@ std::string to_text(const Score& score, std::size_t max_misses) {
   return text;
 }
 
-std::string to_json(const Score& score) {
+std::string to_json(const Score& score, const std::vector<std::string>& further) {
   std::string classes, confusion, misses;
   for (const auto& [label, counts] : score.classes) append(classes, class_json(label, counts));
   for (const auto& [labels, count] : score.confusion)
     append(confusion, fmt::format(R"({{"truth":{},"predicted":{},"count":{}}})",
                                   json_string(labels.first), json_string(labels.second), count));
   for (const Miss& miss : score.misses) append(misses, miss_json(miss));
+  std::string more;
+  for (const std::string& member : further) more += "," + member;
   return fmt::format(
-      R"({{"classes":{{{}}},"macro_f1":{},"neutral":{},"confusion":[{}],"misses":[{}]}})", classes,
-      json_number(score.macro_f1()), score.neutral, confusion, misses);
+      R"({{"classes":{{{}}},"macro_f1":{},"neutral":{},"confusion":[{}],"misses":[{}]{}}})",
+      classes, json_number(score.macro_f1()), score.neutral, confusion, misses, more);
 }
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #include "kernel/io/feature_records.h"
 
+#include "kernel/io/csv_line.h"
 #include "kernel/io/detail/input.h"
 #include "kernel/io/detail/json_text.h"
 #include "kernel/io/detail/record_text.h"
@@ -182,7 +183,7 @@ FeatureRecordWriter::FeatureRecordWriter(const std::string& path)
   is_empty_ = file_.size() <= 1;
   if (file_.size() > 0) return;  // it goes on
   std::string head = format_ == RecordFormat::json ? "[" : "";
-  if (format_ == RecordFormat::csv) detail::append_csv_line(head, record_fields());
+  if (format_ == RecordFormat::csv) append_csv_line(head, record_fields());
   file_.append(head);
 }
 

@@ -1,3 +1,4 @@
+#include "kernel/io/csv_line.h"
 #include "kernel/io/detail/json_text.h"
 #include "kernel/io/detail/record_text.h"
 
@@ -146,20 +147,6 @@ std::optional<std::string> take_line(const std::vector<std::size_t>& fields,
 }
 
 }  // namespace
-
-void append_csv_line(std::string& out, const std::vector<std::string>& cells) {
-  for (const std::string& cell : cells) {
-    if (&cell != &cells.front()) out += ',';
-    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
-      out += cell;
-      continue;
-    }
-    out += '"';
-    for (const char c : cell) out.append(c == '"' ? 2 : 1, c);
-    out += '"';
-  }
-  out += '\n';
-}
 
 void append_csv_record(std::string& out, const FeatureRecord& record) {
   std::vector<std::string> cells{record.building,

@@ -117,4 +117,46 @@ TEST_SUITE("cli") {
     CHECK(outcome.says("E111"));
     CHECK(outcome.out.find("\nwindow           16      0      0 ") != std::string::npos);
   }
+
+  TEST_CASE("score writes its rows for each building and its curve") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    const std::string rows = folder / "rows.csv", curve = folder / "curve.csv";
+    REQUIRE(run({"score", records, "--truth", truth_of("house"), truth_of("row"), "--per-building",
+                 rows, "--curve", curve})
+                .exit == 0);
+    CHECK(bytes_of(rows).starts_with(
+        "building,class,tp,fp,fn,precision,recall,f1\nhouse,balcony,1,"));
+    CHECK(bytes_of(rows).find("\nhouse,window,16,0,0,1,1,1\n") != std::string::npos);
+    CHECK(bytes_of(rows).find("\nrow,window,0,0,") != std::string::npos);
+    CHECK(
+        bytes_of(curve).starts_with("class,threshold,tp,fp,fn,precision,recall,f1\nbalcony,1,1,"));
+    CHECK(run({"score", records, "--truth", truth_of("house"), "--curve", folder / "no/c.csv"})
+              .exit == 6);
+  }
+
+  TEST_CASE("score takes another overlap and gives intervals and areas") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    const std::vector<std::string> call = {"score", records, "--truth", truth_of("house"),
+                                           "--json"};
+    const auto with = [&](std::vector<std::string> more) {
+      std::vector<std::string> all = call;
+      all.insert(all.end(), more.begin(), more.end());
+      return run(all);
+    };
+    CHECK(json::parse(with({"--iou", "1"}).out)["classes"]["window"]["tp"] < 16);
+    CHECK(with({"--iou", "0"}).exit == 2);
+    CHECK(with({"--iou", "1.1"}).exit == 2);
+    const json spread = json::parse(with({"--bootstrap", "50"}).out)["intervals"];
+    CHECK(spread["samples"] == 50);
+    CHECK(spread["f1"]["window"] == json::array({1, 1}));
+    const json area = json::parse(with({"--models", sample("house")}).out)["area"];
+    CHECK(area["macro_f1"] == 1);
+    CHECK(area["classes"]["window"]["expected_m2"] > 10);
+    const Outcome other = with({"--models", sample("row")});
+    CHECK(other.says("house: E129 is in none of the models"));
+    CHECK(json::parse(other.out)["area"]["compared_m2"] == 0);
+    CHECK(with({"--models", "no.city.json"}).exit == 5);
+  }
 }

@@ -1,4 +1,5 @@
-#include "interpret/score.h"
+#include "interpret/area_score.h"
+#include "interpret/score_spread.h"
 
 #include <cmath>
 
@@ -155,5 +156,107 @@ TEST_SUITE("interpret") {
     CHECK(text.find("door 2 was not found") == std::string::npos);
     CHECK(text.ends_with("  ... and 1 more\n"));
     CHECK(to_text(found, 2).find("more") == std::string::npos);
+  }
+
+  TEST_CASE("buildings are scored one by one and add up") {
+    std::vector<Prediction> predictions = {prediction("a", "window", 0)};
+    std::vector<ExpectedObject> truth = {object("1", "window", 0), object("2", "window", 5)};
+    predictions.push_back(predictions[0]);
+    predictions[1].building = "shed";
+    const auto buildings = score_by_building(predictions, truth);
+    REQUIRE(buildings.size() == 2);
+    CHECK(buildings.at("house").classes.at("window").false_negatives == 1);
+    CHECK(buildings.at("shed").classes.at("window").false_positives == 1);
+    CHECK(to_json(total(buildings)) == to_json(score(predictions, truth)));
+  }
+
+  TEST_CASE("the curve has for each score what is found from there on") {
+    std::vector<Prediction> predictions = {
+        prediction("a", "window", 0), prediction("b", "window", 9), prediction("c", "door", 4)};
+    predictions[0].score = 0.9;
+    predictions[1].score = 0.5;
+    predictions[2].score = 0.5;
+    const std::vector<ExpectedObject> truth = {object("1", "window", 0), object("2", "door", 4)};
+    const auto curve = precision_recall_curve(predictions, truth);
+    REQUIRE(curve.size() == 4);
+    CHECK(curve[0].label == "door");
+    CHECK(curve[0].threshold == 0.9);
+    CHECK(curve[0].counts.false_negatives == 1);
+    CHECK(curve[1].counts.precision() == 1);
+    CHECK(curve[2].counts.f1() == 1);
+    CHECK(curve[3].label == "window");
+    CHECK(curve[3].counts.precision() == 0.5);
+    // The last threshold leaves nothing out.
+    const Score all = score(predictions, truth);
+    CHECK(curve[3].counts.f1() == all.classes.at("window").f1());
+  }
+
+  TEST_CASE("a better match behind the threshold gives its object back") {
+    std::vector<Prediction> predictions = {prediction("a", "window", 0),
+                                           prediction("b", "window", 0.2)};
+    predictions[0].score = 0.1;
+    predictions[1].score = 0.8;
+    const auto curve = precision_recall_curve(predictions, {object("1", "window", 0)});
+    REQUIRE(curve.size() == 2);
+    CHECK(curve[0].counts.true_positives == 1);
+    CHECK(curve[1].counts.true_positives == 1);
+    CHECK(curve[1].counts.false_positives == 1);
+  }
+
+  TEST_CASE("intervals hold the value and close where all buildings are alike") {
+    std::map<std::string, Score> buildings;
+    for (int i = 0; i < 40; ++i) buildings[std::to_string(i)].classes["window"] = {9, 1, 1};
+    const Intervals alike = bootstrap(buildings, 200);
+    CHECK(alike.f1.at("window").low == alike.f1.at("window").high);
+    CHECK(alike.macro_f1.low == 0.9);
+    for (int i = 0; i < 20; ++i) buildings[std::to_string(i)].classes["window"] = {5, 5, 5};
+    const Intervals apart = bootstrap(buildings, 2000);
+    // Half of the buildings at 0.9, half at 0.5: 0.7, with a standard error of 0.2 / sqrt(40).
+    CHECK(apart.macro_f1.low == doctest::Approx(0.7 - 1.96 * 0.2 / std::sqrt(40)).epsilon(0.03));
+    CHECK(apart.macro_f1.high == doctest::Approx(0.7 + 1.96 * 0.2 / std::sqrt(40)).epsilon(0.03));
+    CHECK(intervals_json(apart) == intervals_json(bootstrap(buildings, 2000)));
+  }
+
+  TEST_CASE("a class that a sample lacks says nothing of it") {
+    std::map<std::string, Score> buildings;
+    buildings["with"].classes["window"] = {3, 0, 0};
+    buildings["without"].classes["door"] = {0, 0, 0};
+    const Intervals intervals = bootstrap(buildings, 100);
+    CHECK(intervals.f1.at("window").low == 1);
+    CHECK(std::isnan(intervals.f1.at("door").low));
+    CHECK(intervals_json(intervals).find(R"("door":[null,null])") != std::string::npos);
+  }
+
+  TEST_CASE("areas are compared polygon by polygon with the innermost object of each") {
+    // Squares of 1, 2, 3 and 4 m side by side.
+    Building building;
+    for (int i = 0; i < 4; ++i) {
+      const double x = 10.0 * i, side = i + 1;
+      const int first = 4 * i;
+      for (const Vec3 p : {Vec3{x, 0, 0}, {x + side, 0, 0}, {x + side, 0, side}, {x, 0, side}})
+        building.vertices.push_back(p);
+      Polygon& square = building.polygons.emplace_back();
+      square.rings = {{first, first + 1, first + 2, first + 3}};
+      square.source = i;
+    }
+    FacesOfBuilding faces;
+    faces.truth = {{"w", "window", {0, 1}}, {"wall", "wall", {2}}, {"d", "dormer", {0, 1, 3}}};
+    faces.predictions = {{"f", "window", {0, 2}}, {"g", "dormer", {0, 1, 3}}, {"h", "", {3}}};
+    AreaScore score;
+    compare_areas(building, faces, {"wall"}, score);
+    CHECK(score.compared_m2 == 30);
+    CHECK(score.classes.at("window").both_m2 == 1);
+    CHECK(score.classes.at("window").predicted_m2 == 10);
+    CHECK(score.classes.at("window").expected_m2 == 5);
+    CHECK(score.classes.at("dormer").both_m2 == 16);
+    CHECK(score.classes.at("dormer").predicted_m2 == 20);
+    CHECK(score.macro_f1() == doctest::Approx((2.0 / 15 + 32.0 / 36) / 2).epsilon(1e-12));
+    // The wall's polygon is a reveal of the window, and the last one was made to close the shell.
+    faces.niches["w"] = {{20, -1, 0}, {23, 1, 3}};
+    faces.left_out = {3};
+    AreaScore without;
+    compare_areas(building, faces, {"wall"}, without);
+    CHECK(without.compared_m2 == 5);
+    CHECK(without.classes.at("window").predicted_m2 == 1);
   }
 }

@@ -11,8 +11,6 @@
 
 namespace oriel::detail {
 
-/// Appends the line of a CSV: `cells` quoted where they must be.
-void append_csv_line(std::string& out, const std::vector<std::string>& cells);
 /// Appends the record as a line of CSV, or as a JSON object without line end.
 void append_csv_record(std::string& out, const FeatureRecord& record);
 void append_json_record(std::string& out, const FeatureRecord& record);
