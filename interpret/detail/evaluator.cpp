@@ -13,6 +13,15 @@ namespace {
 using NumberBlock = std::array<double, kBlock>;
 using TruthBlock = std::array<Truth, kBlock>;
 
+/// From how many on a count compares with `bound` as all greater ones do.
+int enough_for(Op op, double bound) {
+  constexpr int any = Evaluator::Enough{}.yes;
+  if (std::isnan(bound) || bound >= any) return any;
+  const bool is_from_bound_on = op == Op::less || op == Op::greater_equal;
+  return static_cast<int>(
+      std::max(0.0, is_from_bound_on ? std::ceil(bound) : std::floor(bound) + 1));
+}
+
 bool is_any_left(std::span<const Truth> truths) {
   return std::ranges::any_of(truths, [](Truth t) { return t != Truth::no; });
 }
@@ -49,7 +58,7 @@ void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
   if (expr.op == Op::attribute)
     gather(expr, frame, out);
   else if (expr.op == Op::count)
-    count(id, frame, out);
+    count(id, frame, out, Enough{}.yes);
   else if (is_aggregate(expr.op))
     aggregate(id, frame, out);
   else
@@ -75,14 +84,6 @@ void Evaluator::apply_all(const Expr& expr, const Frame& frame, std::span<double
     numbers(expr.args[k], frame, right);
     apply(expr.op, out, right);
   }
-}
-
-/// One unknown answer makes the count unknown.
-void Evaluator::count(ExprId id, const Frame& frame, std::span<double> out) {
-  std::array<Tally, kBlock> tallies;
-  tally(id, frame, std::span(tallies).first(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = tallies[i].unknown > 0 ? kUnknown : tallies[i].yes;
 }
 
 void Evaluator::truths(ExprId id, const Frame& frame, std::span<Truth> out) {
@@ -126,8 +127,11 @@ void Evaluator::compare(const Expr& expr, const Frame& frame, std::span<Truth> o
   NumberBlock first, second;
   const auto left = std::span(first).first(out.size());
   const auto right = std::span(second).first(out.size());
-  numbers(expr.args[0], frame, left);
   numbers(expr.args[1], frame, right);
+  if (at(expr.args[0]).op == Op::count && is_constant(at(expr.args[1])))
+    count(expr.args[0], frame, left, enough_for(expr.op, right.front()));
+  else
+    numbers(expr.args[0], frame, left);
   rules::compare(expr.op, left, right, out);
 }
 

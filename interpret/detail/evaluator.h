@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -57,10 +58,23 @@ class Evaluator {
   struct Tally {
     int yes;
     int unknown;
-    int total;
+    int no;
+
+    [[nodiscard]] int total() const { return yes + unknown + no; }
   };
-  /// The answers for each slot of `frame`.
-  void tally(ExprId id, const Frame& frame, std::span<Tally> out);
+  /// A slot is settled, and its further others are not asked, with so many answers of a kind;
+  /// where an unknown answer would count, only if none of them can be unknown.
+  struct Enough {
+    int yes = std::numeric_limits<int>::max();
+    int no = std::numeric_limits<int>::max();
+    bool minds_unknown = false;
+
+    [[nodiscard]] bool settles(const Tally& t) const { return t.yes >= yes || t.no >= no; }
+  };
+  /// The answers for each slot of `frame`; of slots that are settled some of them.
+  void tally(ExprId id, const Frame& frame, std::span<Tally> out, Enough enough);
+  /// All of them.
+  void tally(ExprId id, const Frame& frame, std::span<Tally> out) { tally(id, frame, out, {}); }
 
  private:
   [[nodiscard]] const Expr& at(ExprId id) const {
@@ -69,7 +83,8 @@ class Evaluator {
 
   void gather(const Expr& expr, const Frame& frame, std::span<double> out) const;
   void apply_all(const Expr& expr, const Frame& frame, std::span<double> out);
-  void count(ExprId id, const Frame& frame, std::span<double> out);
+  /// No slot is counted beyond `limit` where no answer can be unknown.
+  void count(ExprId id, const Frame& frame, std::span<double> out, int limit);
   void aggregate(ExprId id, const Frame& frame, std::span<double> out);
 
   void flag(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
@@ -84,6 +99,11 @@ class Evaluator {
 
   /// The answers of an expression of one level for all features, kept until forget().
   const std::vector<Truth>& column(ExprId id, int level);
+
+  /// True if it is certain that the expression is unknown for no feature.
+  [[nodiscard]] bool is_always_known(ExprId id) const;
+  [[nodiscard]] double most(ExprId id) const;
+  [[nodiscard]] double most_in(std::size_t column) const;
 
   struct Pairs;
   void flush(const Expr& expr, Pairs& pairs, std::span<Tally> out);

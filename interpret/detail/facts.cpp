@@ -20,10 +20,12 @@ std::vector<double> code_texts(const std::vector<std::string>& texts,
   for (const std::string& text : texts) {
     if (text.empty()) {
       coded.push_back(kUnknown);
-      continue;
+    } else if (!coded.empty() && text == texts[coded.size() - 1]) {
+      coded.push_back(coded.back());
+    } else {
+      const auto next = static_cast<double>(codes.size());
+      coded.push_back(codes.try_emplace(text, next).first->second);
     }
-    const auto next = static_cast<double>(codes.size());
-    coded.push_back(codes.try_emplace(text, next).first->second);
   }
   return coded;
 }

@@ -18,11 +18,13 @@ class DisjointRows {
     while (parents_[at(row)] != row) row = parents_[at(row)] = parents_[at(parents_[at(row)])];
     return row;
   }
-  /// The smaller root stays, so that paths end at the first member.
-  void join(int p, int q) {
-    p = find(p);
-    q = find(q);
-    parents_[at(std::max(p, q))] = std::min(p, q);
+  /// Joins the set with the root `root` and that of `row`; returns their root. The smaller one
+  /// stays, so that paths end at the first member.
+  int join(int root, int row) {
+    const int other = find(row);
+    const int first = std::min(root, other);
+    parents_[at(std::max(root, other))] = first;
+    return first;
   }
 
  private:
@@ -40,9 +42,11 @@ std::vector<std::vector<FeatureId>> components_of(const GroupKind& kind, const F
   DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
-    for (std::size_t link = links.begin_of(row); link < links.begin_of(row + 1); ++link)
+    int root = sets.find(row);
+    const std::size_t end = links.begin_of(row + 1);
+    for (std::size_t link = links.begin_of(row); link < end; ++link)
       if (links.is_other(link) == Truth::yes && is_member(links.others[link]))
-        sets.join(row, links.others[link]);
+        root = sets.join(root, links.others[link]);
   }
   std::map<int, std::vector<FeatureId>> by_root;
   for (const int row : facts.row_numbers)

@@ -107,7 +107,7 @@ std::string Prover::show_named(ExprId id, double other) {
 std::string Prover::show_tally(ExprId id) {
   Evaluator::Tally tally;
   evaluator_->tally(id, frame(), std::span(&tally, 1));
-  std::string text = fmt::format("{} = {} of {}", text_of(id), tally.yes, tally.total);
+  std::string text = fmt::format("{} = {} of {}", text_of(id), tally.yes, tally.total());
   if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
   return text;
 }

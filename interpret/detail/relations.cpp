@@ -28,21 +28,24 @@ class Narrowing {
   Links run(const Links& from) {
     const auto selves = answers_of(of_self_, 0), others = answers_of(of_other_, 1);
     links_.starts.assign(facts_.rows + 1, 0);
+    // One more than there can be: what does not fit is written there, too, and then overwritten.
+    links_.others.resize(from.others.size() + 1);
+    links_.certain.resize(from.others.size() + 1);
     for (const int row : facts_.row_numbers) {
       const Truth self = selves[static_cast<std::size_t>(row)];
       if (self == Truth::no) continue;
-      for (std::size_t link = from.begin_of(row); link < from.begin_of(row + 1); ++link) {
+      const std::size_t end = from.begin_of(row + 1);
+      for (std::size_t link = from.begin_of(row); link < end; ++link) {
         const int other = from.others[link];
-        const Truth truth =
-            std::min({self, from.is_other(link), others[static_cast<std::size_t>(other)]});
-        if (truth != Truth::no) add(row, other, truth);
+        const Truth fits = std::min(self, others[static_cast<std::size_t>(other)]);
+        add(row, other, std::min(fits, from.is_other(link)));
       }
     }
     flush();
     for (std::size_t row = 0; row < facts_.rows; ++row)
       links_.starts[row + 1] += links_.starts[row];
-    if (std::ranges::find(links_.certain, Truth::unknown) == links_.certain.end())
-      links_.certain.clear();
+    links_.others.resize(count_);
+    links_.certain.resize(has_unknown_ ? count_ : 0);
     return std::move(links_);
   }
 
@@ -72,11 +75,13 @@ class Narrowing {
     }
   }
 
+  /// Pairs that do not fit are overwritten by the next, without a branch that nobody could foresee.
   void add(int self, int other, Truth truth) {
     if (size_ == kBlock) flush();
     selves_[size_] = self;
     others_[size_] = other;
-    truths_[size_++] = truth;
+    truths_[size_] = truth;
+    size_ += truth != Truth::no ? 1 : 0;
   }
 
   void flush() {
@@ -85,12 +90,20 @@ class Narrowing {
     frame.rows[0] = selves_.data();
     frame.rows[1] = others_.data();
     narrow(of_both_, frame, std::span(truths_).first(size_));
+    int* const others = links_.others.data();
+    int* const starts = links_.starts.data() + 1;
+    Truth* const certain = links_.certain.data();
+    std::size_t count = count_;
     for (std::size_t i = 0; i < size_; ++i) {
-      if (truths_[i] == Truth::no) continue;
-      ++links_.starts[static_cast<std::size_t>(selves_[i]) + 1];
-      links_.others.push_back(others_[i]);
-      links_.certain.push_back(truths_[i]);
+      const Truth truth = truths_[i];
+      const int fits = truth != Truth::no ? 1 : 0;
+      has_unknown_ |= truth == Truth::unknown;
+      others[count] = others_[i];
+      certain[count] = truth;
+      starts[selves_[i]] += fits;
+      count += static_cast<std::size_t>(fits);
     }
+    count_ = count;
     size_ = 0;
   }
 
@@ -98,6 +111,8 @@ class Narrowing {
   Evaluator evaluator_;
   std::vector<ExprId> of_self_, of_other_, of_both_;
   Links links_;
+  std::size_t count_ = 0;  ///< of links that fit
+  bool has_unknown_ = false;
   std::size_t size_ = 0;
   std::array<int, kBlock> selves_;
   std::array<int, kBlock> others_;

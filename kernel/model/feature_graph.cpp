@@ -4,10 +4,26 @@
 
 namespace oriel {
 
+namespace {
+
+/// Each pair stands behind a smaller one, and none leads to itself: nothing is to be done.
+bool is_in_order(const std::vector<FeatureGraph::Pair>& pairs) {
+  const FeatureGraph::Pair* last = nullptr;
+  for (const FeatureGraph::Pair& pair : pairs) {
+    if (pair.first == pair.second || (last != nullptr && !(*last < pair))) return false;
+    last = &pair;
+  }
+  return true;
+}
+
+}  // namespace
+
 void FeatureGraph::set(const std::string& name, std::vector<Pair> pairs) {
-  std::erase_if(pairs, [](const Pair& p) { return p.first == p.second; });
-  if (!std::ranges::is_sorted(pairs)) std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  if (!is_in_order(pairs)) {
+    std::erase_if(pairs, [](const Pair& p) { return p.first == p.second; });
+    std::ranges::sort(pairs);
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  }
   relations_[name] = std::move(pairs);
 }
 

@@ -3,6 +3,8 @@
 #include "tests/interpret/support.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
 #include <rapidcheck.h>
@@ -217,5 +219,79 @@ TEST_SUITE("interpret") {
     CHECK(findings(pack_with("relations: {r: {within: s, where: natural}, s: {within: alike, "
                              "where: natural}}\nrules: []\n"))
               .find(":4:25: R207 unknown relation 's'") != std::string::npos);
+  }
+
+  TEST_CASE("quantifiers that stop early say what all answers together say") {
+    // Yes, no and unknown as 2, 0 and 1: `and` is the least, `not` 2 - x.
+    const std::vector<std::string> conditions = {
+        "exists(beside where X)",     "none(beside where X)",       "all(beside where X)",
+        "count(beside where X) >= 2", "count(beside where X) > 2",  "count(beside where X) < 3",
+        "count(beside where X) <= 1", "count(beside where X) = 2",  "count(beside where X) != 1",
+        "count(beside where X) >= 0", "count(beside where X) < 1.5"};
+    std::vector<RuleBase> packs;
+    for (std::string condition : conditions) {
+      condition.replace(condition.find('X'), 1, "a <= self.a and b > 1 m");
+      packs.push_back(load(
+          pack_with("rules:\n  - {id: holds, label: window, require: '" + condition +
+                    "'}\n  - {id: fails, label: door, require: 'not (" + condition + ")'}\n")));
+    }
+    const auto compared = [](bool holds, bool is_known) { return is_known ? 2 * holds : 1; };
+    const auto expected = [](std::size_t condition, const std::vector<int>& answers) {
+      const auto of = [&](int answer) { return std::ranges::count(answers, answer); };
+      const int exists = of(2) > 0 ? 2 : of(1) > 0 ? 1 : 0;
+      const int all = of(0) > 0 ? 0 : of(1) > 0 ? 1 : 2;
+      if (condition < 3) return std::vector<int>{exists, 2 - exists, all}[condition];
+      if (of(1) > 0) return 1;
+      const auto n = of(2);
+      return 2 * std::vector<int>{
+                     n >= 2, n > 2, n < 3, n <= 1, n == 2, n != 1, true, n < 2}[condition - 3];
+    };
+    std::size_t stopped = 0, unknown = 0;
+    CHECK(rc::check("early stops", [&] {
+      const int count = *rc::gen::inRange(1, 60);
+      const bool has_gaps = *rc::gen::inRange(0, 2) == 1;
+      const auto number = [&](int most) {
+        const int n = *rc::gen::inRange(0, most);
+        return has_gaps && n == 0 ? std::nan("") : n * 0.5;
+      };
+      Scene scene;
+      std::vector<double> a, b;
+      std::vector<std::vector<int>> others(static_cast<std::size_t>(count));
+      for (int i = 0; i < count; ++i) {
+        a.push_back(number(12));
+        b.push_back(number(12));
+        Values values;
+        if (!std::isnan(a.back())) values["a"] = a.back();
+        if (!std::isnan(b.back())) values["b"] = b.back();
+        scene.add(values);
+      }
+      for (int self = 0; self < count; ++self)
+        for (int other = 0; other < count; ++other)
+          if (self != other && *rc::gen::inRange(0, 3) > 0) {
+            scene.relate("beside", FeatureId{self}, FeatureId{other});
+            others[static_cast<std::size_t>(self)].push_back(other);
+          }
+      for (std::size_t c = 0; c < packs.size(); ++c) {
+        const Labels found = labels(packs[c], scene);
+        for (std::size_t self = 0; self < a.size(); ++self) {
+          std::vector<int> answers;
+          for (const int o : others[self]) {
+            const auto other = static_cast<std::size_t>(o);
+            const bool is_known = !std::isnan(a[other]) && !std::isnan(a[self]);
+            answers.push_back(std::min(compared(a[other] <= a[self], is_known),
+                                       compared(b[other] > 1, !std::isnan(b[other]))));
+          }
+          const int answer = expected(c, answers);
+          const std::array names = {"door", "-", "window"};
+          const std::string name = names[static_cast<std::size_t>(answer)];
+          RC_ASSERT(found[self] == name);
+          stopped += std::ranges::count(answers, 2) > 3 ? 1U : 0U;
+          unknown += answer == 1 ? 1U : 0U;
+        }
+      }
+    }));
+    // It was about something.
+    CHECK(stopped > 1000);
+    CHECK(unknown > 1000);
   }
 }
