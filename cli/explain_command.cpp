@@ -1,7 +1,9 @@
 #include "cli/commands.h"
 #include "cli/labelling.h"
+#include "cli/polygon_at.h"
 #include "interpret/explain.h"
 #include "interpret/surfaces.h"
+#include "kernel/model/polygon_owners.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,6 +19,7 @@ struct Arguments : LineArguments {
   std::string feature;
   std::string rules = "residential";
   int surface = -1;
+  std::vector<double> at;
   bool is_json = false;
 };
 
@@ -27,6 +30,64 @@ std::vector<FeatureId> matches(const FeatureTable& table, const std::string& wan
   for (int i = 0; i < static_cast<int>(table.rows()); ++i)
     if (table.id(FeatureId{i}).starts_with(wanted)) found.push_back(FeatureId{i});
   return found;
+}
+
+/// "house: polygon 7 is WallSurface by …", its attributes and conditions.
+std::string surface_text(const RuleBase& rules, const Building& building, const OnLine& line,
+                         std::size_t polygon) {
+  const SurfaceTable table =
+      with_parts(line.surfaces, building, line.segmentation.value_or(Segmentation{}),
+                 line.interpretation, rules);
+  return fmt::format("{}: polygon {} is ", building.id, building.polygons[polygon].source) +
+         explain_surface(rules, table, polygon);
+}
+
+/// The smallest feature with a label that the polygon lies in, else the smallest; invalid: none.
+FeatureId feature_of(const Building& building, const OnLine& line, std::size_t polygon) {
+  if (!line.is_done()) return {};
+  int last = 0;
+  for (const Polygon& p : building.polygons) last = std::max(last, p.source);
+  const auto owners = polygon_owners(*line.segmentation, static_cast<std::size_t>(last) + 1);
+  const auto& features = owners[static_cast<std::size_t>(building.polygons[polygon].source)];
+  if (features.empty()) return {};
+  const auto labelled = std::ranges::find_if(features, [&](int feature) {
+    return !line.interpretation.verdicts[static_cast<std::size_t>(feature)].label.empty();
+  });
+  return FeatureId{labelled == features.end() ? features.front() : *labelled};
+}
+
+/// What lies at a place: the feature there, or the surface where there is none.
+ExitCode explain_place(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  Run run(arguments, &*rules, report);
+  const Vec3 point{arguments.at[0], arguments.at[1], arguments.at[2]};
+  std::optional<double> nearest_m;
+  std::string text;
+  Run::Visitor visitor;
+  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Building& building = document.buildings[i];
+      const auto found = polygon_at(building, point);
+      if (!found || !lines[i].has_surfaces() || (nearest_m && *nearest_m <= found->distance_m))
+        continue;
+      nearest_m = found->distance_m;
+      const FeatureId feature = feature_of(building, lines[i], found->polygon);
+      if (!feature.is_valid()) {
+        text = surface_text(*rules, building, lines[i], found->polygon);
+        continue;
+      }
+      const auto& [table, graph] = lines[i].description;
+      const auto explanation = explain(*rules, table, graph, lines[i].interpretation, feature);
+      text = arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation);
+    }
+  };
+  const ExitCode code = run.go(visitor);
+  if (text.empty() && code != ExitCode::input)
+    throw CLI::ValidationError("--at", "no polygon lies there");
+  std::fputs(text.c_str(), stdout);
+  return code;
 }
 
 /// The surface of that number in every building that has one.
@@ -42,12 +103,8 @@ ExitCode explain_surfaces(const Arguments& arguments) {
       const Building& building = document.buildings[i];
       const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
       if (!lines[i].has_surfaces() || found == building.polygons.end()) continue;
-      const SurfaceTable table =
-          with_parts(lines[i].surfaces, building, lines[i].segmentation.value_or(Segmentation{}),
-                     lines[i].interpretation, *rules);
-      text += fmt::format("{}: polygon {} is ", building.id, arguments.surface) +
-              explain_surface(*rules, table,
-                              static_cast<std::size_t>(found - building.polygons.begin()));
+      text += surface_text(*rules, building, lines[i],
+                           static_cast<std::size_t>(found - building.polygons.begin()));
     }
   };
   const ExitCode code = run.go(visitor);
@@ -60,6 +117,7 @@ ExitCode explain_surfaces(const Arguments& arguments) {
 
 ExitCode work(const Arguments& arguments) {
   if (arguments.surface >= 0) return explain_surfaces(arguments);
+  if (!arguments.at.empty()) return explain_place(arguments);
   if (arguments.feature.empty()) throw CLI::RequiredError("feature");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
@@ -112,11 +170,20 @@ void add_explain(CLI::App& app, Action& action) {
   add_line_arguments(*command, *arguments, false);
   auto* feature = command->add_option("feature", arguments->feature,
                                       "Id of a feature, or the beginning of one");
+  auto* surface =
+      command
+          ->add_option("--surface", arguments->surface,
+                       "Instead: the number of a polygon, to say what surface it is and why")
+          ->check(CLI::NonNegativeNumber)
+          ->excludes(feature);
   command
-      ->add_option("--surface", arguments->surface,
-                   "Instead: the number of a polygon, to say what surface it is and why")
-      ->check(CLI::NonNegativeNumber)
-      ->excludes(feature);
+      ->add_option("--at", arguments->at,
+                   "Instead: a place in the input's coordinates, to say what lies there and why")
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("X,Y,Z")
+      ->excludes(feature)
+      ->excludes(surface);
   add_rules_argument(*command, arguments->rules);
   command->add_flag("--json", arguments->is_json, "As JSON");
   command->footer(

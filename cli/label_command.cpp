@@ -176,6 +176,8 @@ void add_label(CLI::App& app, Action& action) {
                     "Do not look at what the input calls its polygons");
   command->add_flag("--repaired", arguments->is_repaired,
                     "Write the valid solid of each building, as repair does, with its labels");
+  command->add_flag("--explain", arguments->has_reasons,
+                    "Write the reason of every label and surface into the file, as oriel_why");
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
       "Without -o and --features the labels are listed; a stream from stdin goes to stdout. "

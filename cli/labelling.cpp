@@ -64,6 +64,7 @@ LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rule
 LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine& line) const {
   AnnotateOptions options;
   options.codelist = arguments_.codelist;
+  options.has_reasons = arguments_.has_reasons;
   options.attributes.emplace_back("oriel_config_sha256", sha256(arguments_.configuration()));
   return cli::annotated(building, line, rules_, options);
 }

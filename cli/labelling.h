@@ -23,6 +23,8 @@ struct LabelArguments : LineArguments {
   std::string to;
   std::string features;
   std::string codelist = "sig3d";
+  /// Every surface and installation gets its reason, oriel_why.
+  bool has_reasons = false;
 };
 
 void add_label_arguments(CLI::App& command, LabelArguments& arguments);

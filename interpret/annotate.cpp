@@ -3,6 +3,7 @@
 #include "interpret/detail/names.h"
 #include "interpret/detail/pack.h"
 #include "interpret/detail/polygon_shape.h"
+#include "interpret/explain.h"
 #include "interpret/surfaces.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/version.h"
@@ -58,15 +59,19 @@ std::string joined(const std::vector<std::string>& ids) {
 class Annotator {
  public:
   Annotator(const Building& building, const Segmentation& segmentation, const FeatureTable& table,
-            const SurfaceTable& surfaces, const Interpretation& interpretation,
-            const RuleBase& base, const AnnotateOptions& options)
+            const FeatureGraph& graph, const SurfaceTable& surfaces,
+            const Interpretation& interpretation, const RuleBase& base,
+            const AnnotateOptions& options)
       : building_(building),
         segmentation_(segmentation),
         table_(table),
         surfaces_(surfaces),
         interpretation_(interpretation),
         base_(base),
-        options_(options) {}
+        options_(options) {
+    if (options.has_reasons && table.rows() > 0)
+      explainer_.emplace(base, table, graph, interpretation);
+  }
 
   LabelledBuilding run();
 
@@ -98,6 +103,7 @@ class Annotator {
   const Interpretation& interpretation_;
   const RuleBase& base_;
   const AnnotateOptions& options_;
+  std::optional<Explainer> explainer_;
   std::vector<Role> roles_;
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
@@ -141,8 +147,11 @@ int Annotator::find_labelled(const Polygon& polygon) const {
 }
 
 void Annotator::add_surfaces() {
-  const auto verdicts = interpret_surfaces(
-      base_, with_parts(surfaces_, building_, segmentation_, interpretation_, base_));
+  const SurfaceTable table =
+      with_parts(surfaces_, building_, segmentation_, interpretation_, base_);
+  const auto verdicts = interpret_surfaces(base_, table);
+  std::vector<std::string> reasons;
+  if (options_.has_reasons) reasons = surface_reasons(base_, table, verdicts);
   result_.surface_of_polygon.assign(owners_.size(), -1);
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
@@ -152,6 +161,8 @@ void Annotator::add_surfaces() {
     if (feature < 0 || !roles_[index(feature)].is_opening()) {
       surface = next;
       result_.surfaces.push_back({verdicts[row].type, -1, {}});
+      if (options_.has_reasons)
+        result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons[row]));
       continue;
     }
     const auto [found, is_new] = opening_surfaces_.try_emplace(feature, next);
@@ -212,6 +223,7 @@ Members Annotator::members_of(int feature) const {
   members.emplace_back("oriel_score", rounded(verdict.score));
   members.emplace_back("oriel_rule", verdict.rule);
   if (!verdict.groups.empty()) members.emplace_back("oriel_groups", joined(verdict.groups));
+  if (explainer_) members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
   return members;
 }
 
@@ -254,10 +266,11 @@ void Annotator::add_attributes() {
 }  // namespace
 
 LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
-                          const FeatureTable& table, const FeatureGraph& /*graph*/,
+                          const FeatureTable& table, const FeatureGraph& graph,
                           const SurfaceTable& surfaces, const Interpretation& interpretation,
                           const RuleBase& base, const AnnotateOptions& options) {
-  return Annotator(building, segmentation, table, surfaces, interpretation, base, options).run();
+  return Annotator(building, segmentation, table, graph, surfaces, interpretation, base, options)
+      .run();
 }
 
 }  // namespace oriel

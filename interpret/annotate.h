@@ -20,6 +20,9 @@ struct AnnotateOptions {
   /// Written on the building after oriel_version, oriel_pack and oriel_pack_sha256; such as
   /// oriel_config_sha256.
   Members attributes{};
+  /// Every surface and installation gets its reason in one line, oriel_why: reason() of its
+  /// feature, or that of surface_reasons().
+  bool has_reasons = false;
 };
 
 /// What is to be written about a building whose features were labelled (docs/formats.md).

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using namespace oriel::test;
@@ -99,6 +100,79 @@ TEST_SUITE("cli") {
     const Outcome outcome = run({"explain", cube, "f1"});
     CHECK(outcome.exit == 2);
     CHECK(outcome.says("'f1' names 0 features; there are none"));
+  }
+
+  TEST_CASE("explain at a place is about the feature there or else the surface") {
+    const Folder folder;
+    REQUIRE(run({"view", sample("house-utm"), "-o", folder / "page.html"}).exit == 0);
+    const json data = page_data(folder / "page.html");
+    const json& building = data["models"][0]["buildings"][0];
+    std::size_t of_features = 0, of_surfaces = 0;
+    for (std::size_t i = 0; i < building["polygons"].size(); i += 9) {
+      const json& polygon = building["polygons"][i];
+      if (polygon["rings"].size() > 1 || polygon["rings"][0].size() > 4) continue;
+      std::string place;
+      for (int axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (const int corner : polygon["rings"][0])
+          sum += building["vertices_mm"][static_cast<std::size_t>(3 * corner + axis)].get<double>();
+        sum /= 1000 * static_cast<double>(polygon["rings"][0].size());
+        const double metres = data["origin_m"][static_cast<std::size_t>(axis)].get<double>() + sum;
+        place += (axis == 0 ? "" : ",") + fmt::format("{:.3f}", metres);
+      }
+      const Outcome outcome = run({"explain", sample("house-utm"), "--at", place});
+      CAPTURE(place);
+      CHECK(outcome.exit == 0);
+      std::string feature;
+      for (const std::size_t owner : polygon["owners"]) {
+        const json& candidate = building["features"][owner];
+        if (feature.empty() || candidate["label"] != "") feature = candidate["id"];
+        if (candidate["label"] != "") break;
+      }
+      (feature.empty() ? of_surfaces : of_features) += 1;
+      const std::string number = std::to_string(polygon["source"].get<int>());
+      const Outcome same = feature.empty()
+                               ? run({"explain", sample("house-utm"), "--surface", number})
+                               : run({"explain", sample("house-utm"), feature});
+      CHECK(outcome.out == same.out);
+    }
+    CHECK(of_features > 5);
+    CHECK(of_surfaces > 1);
+    const Outcome nowhere = run({"explain", sample("house-utm"), "--at", "0,0,0"});
+    CHECK(nowhere.exit == 2);
+    CHECK(nowhere.says("--at: no polygon lies there"));
+    CHECK(run({"explain", sample("house-utm"), "--at", "0,0"}).exit == 2);
+  }
+
+  TEST_CASE("label --explain writes a reason onto every surface and installation") {
+    const Folder folder;
+    const std::string with = folder / "with.city.json", without = folder / "without.city.json";
+    REQUIRE(run({"label", sample("house"), "-o", without}).exit == 0);
+    REQUIRE(run({"label", sample("house"), "--explain", "-o", with}).exit == 0);
+    CHECK(bytes_of(without).find("oriel_why") == std::string::npos);
+    json city = json::parse(bytes_of(with));
+    std::size_t surfaces = 0, installations = 0;
+    for (json& object : city["CityObjects"]) {
+      for (json& geometry : object["geometry"])
+        for (json& surface : geometry["semantics"]["surfaces"]) {
+          const std::string why = surface["oriel_why"];
+          const std::string name = surface.value("oriel_label", surface["type"]);
+          CHECK(why.starts_with(name));
+          CHECK(why.find(" by " + surface.value("oriel_rule", "")) != std::string::npos);
+          surface.erase("oriel_why");
+          ++surfaces;
+        }
+      if (object["type"] != "BuildingInstallation") continue;
+      const std::string why = object["attributes"]["oriel_why"];
+      CHECK(why.find(" by " + object["attributes"]["oriel_rule"].get<std::string>() + ": ") !=
+            std::string::npos);
+      object["attributes"].erase("oriel_why");
+      ++installations;
+    }
+    CHECK(surfaces > 100);
+    CHECK(installations == 6);
+    // Nothing else is different.
+    CHECK(city == json::parse(bytes_of(without)));
   }
 
   TEST_CASE("view writes one page with what explain says of every feature") {
