@@ -9,6 +9,7 @@
 #include "kernel/describe/describe.h"
 #include "kernel/io/detail/triangulate.h"
 #include "kernel/io/reader.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/imprints.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
@@ -39,8 +40,6 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 constexpr std::size_t kCalls = 3;
 /// Angles are right, and facets in one plane, to this.
 constexpr double kSameAngle_deg = 0.5;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Triangles with shared vertices.
 struct Triangles {

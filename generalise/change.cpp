@@ -11,8 +11,6 @@ namespace oriel {
 
 namespace {
 
-constexpr double kMicrometre_m = 1e-6;
-
 template <class Map>
 auto difference_of_maps(const Map& before, const Map& after) {
   std::map<std::string, std::optional<typename Map::mapped_type>> changed;
@@ -210,9 +208,7 @@ bool apply(LevelState& state, const Change& change) {
 Box box_of(const Change& change) {
   Box box;
   const auto grow = [&](const GridRing& ring) {
-    for (const GridPoint& p : ring)
-      box.grow(kMicrometre_m * Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]),
-                                    static_cast<double>(p[2])});
+    for (const GridPoint& p : ring) box.grow(metres_of(p));
   };
   for (const auto* facets : {&change.removed, &change.added})
     for (const auto& [outer, facet] : *facets) grow(outer);

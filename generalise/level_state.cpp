@@ -1,6 +1,7 @@
 #include "generalise/level_state.h"
 
 #include "generalise/detail/shells.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/model/issue.h"
 #include "kernel/model/sha256.h"
 
@@ -14,10 +15,6 @@
 namespace oriel {
 
 namespace {
-
-constexpr double kMicrometre_m = 1e-6;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Without vertices that stand twice in a row, from the smallest one on; empty if less than a
 /// triangle is left.
@@ -81,8 +78,7 @@ class Builder {
   int vertex(const GridPoint& p) {
     const auto [found, is_new] = number_of_.try_emplace(p, static_cast<int>(number_of_.size()));
     if (is_new) {
-      const Vec3 input = kMicrometre_m * Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]),
-                                              static_cast<double>(p[2])};
+      const Vec3 input = metres_of(p);
       solid_.vertices.push_back({input - frame_.origin_m, false});
     }
     return found->second;

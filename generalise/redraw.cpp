@@ -1,5 +1,6 @@
 #include "generalise/generalise.h"
 #include "generalise/removed.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/draw_imprints.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 namespace oriel {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double area_of(const Building& building, const Polygon& polygon) {
   Vec3 sum;

@@ -22,7 +22,7 @@ using rules::Findings;
 using rules::Section;
 using rules::YamlNode;
 
-constexpr const char* kSchema = "oriel-profile/1";
+constexpr const char* kProfileSchema = "oriel-profile/1";
 
 class ProfileReader {
  public:
@@ -32,8 +32,8 @@ class ProfileReader {
     Section top(root, "a profile", {"schema", "profile", "levels"}, findings_);
     if (!top.is_map()) return;
     if (const YamlNode* schema = top.require("schema");
-        schema != nullptr && schema->text != kSchema)
-      findings_.error("R212", schema->span, fmt::format("the schema is {}", kSchema));
+        schema != nullptr && schema->text != kProfileSchema)
+      findings_.error("R212", schema->span, fmt::format("the schema is {}", kProfileSchema));
     if (const YamlNode* header = top.require("profile")) {
       Section section(*header, "'profile'", {"name", "version"}, findings_);
       section.require("version");

@@ -1,5 +1,7 @@
 #include "examples/generator/check.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,8 +10,6 @@
 
 namespace oriel::generator {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// A polygon's edge, and the corner it leaves.
 struct HalfEdge {

@@ -2,6 +2,7 @@
 
 #include "examples/generator/json.h"
 #include "examples/generator/semantics.h"
+#include "kernel/model/detail/index.h"
 
 #include <numeric>
 #include <vector>
@@ -11,8 +12,6 @@ namespace {
 
 /// The text grows as JSON does.
 using Xml = Json;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Writes one building. Elements of the two versions differ in prefix, name and order.
 class Writer {

@@ -2,6 +2,7 @@
 
 #include "examples/generator/json.h"
 #include "examples/generator/semantics.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,8 +10,6 @@
 
 namespace oriel::generator {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 void append_boundaries(Json& json, const Body& body, const std::vector<int>& polygons) {
   append_list(json, polygons, [&](int polygon) {

@@ -1,13 +1,12 @@
 #include "examples/generator/draft.h"
 
 #include "examples/generator/rings.h"
+#include "kernel/model/detail/index.h"
 
 #include <utility>
 
 namespace oriel::generator {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Marks the points that only two facets pass, straight on: nothing needs them.
 std::vector<bool> find_idle_points(const std::vector<Point>& points,

@@ -1,12 +1,12 @@
 #include "examples/generator/rings.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace oriel::generator {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Two coordinates in which the plane with this normal is seen undistorted enough to ask for sides.
 Uv flat(Vec3 normal, Point p) {

@@ -1,5 +1,7 @@
 #include "examples/generator/semantics.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <array>
 
 namespace oriel::generator {
@@ -9,8 +11,6 @@ enum class Surface { wall, roof, ground, floor, ceiling, window, door };
 constexpr std::array<std::string_view, 7> kTypeNames{
     "WallSurface",         "RoofSurface", "GroundSurface", "OuterFloorSurface",
     "OuterCeilingSurface", "Window",      "Door"};
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The semantic type of a polygon. Faces of installations go by their normal.
 Surface surface_of(const Body& body, const Polygon& polygon) {

@@ -1,13 +1,13 @@
 #include "examples/generator/triangulate.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 namespace oriel::generator {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// One polygon, seen in two coordinates against its normal.
 class EarClipper {

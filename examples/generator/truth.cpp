@@ -1,11 +1,10 @@
 #include "examples/generator/truth.h"
 
 #include "examples/generator/json.h"
+#include "kernel/model/detail/index.h"
 
 namespace oriel::generator {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// An opening counts as detectable by shape from this recess on (the shared data's rule).
 constexpr Um kDetectable = 2'000;

@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ constexpr Vec3 kUp{0, 0, 1};
 constexpr double kWall = 0.26;
 /// A sill this close to the lower edge of its wall is on it.
 constexpr double kOnEdge_m = 0.002;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<Outline> outlines_of(const Solid& solid, const Facet& facet) {
   std::vector<Outline> outlines;

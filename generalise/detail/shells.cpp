@@ -1,5 +1,7 @@
 #include "generalise/detail/shells.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -8,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool is_inside(const Box& inner, const Box& outer) {
   return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&

@@ -1,5 +1,7 @@
 #include "interpret/detail/groups.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -28,7 +30,6 @@ class DisjointRows {
   }
 
  private:
-  static std::size_t at(int row) { return static_cast<std::size_t>(row); }
   std::vector<int> parents_;
 };
 

@@ -4,6 +4,7 @@
 #include "kernel/attach/detail/convex_body.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +19,6 @@ namespace {
 constexpr double kLeastClear_m = 0.001;
 /// Parts of facets smaller than this are not met but touched.
 constexpr double kTouch_m2 = 1e-9;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Segment = std::pair<Vec3, Vec3>;
 

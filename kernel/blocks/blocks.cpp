@@ -2,6 +2,7 @@
 
 #include "kernel/blocks/detail/plan_view.h"
 #include "kernel/blocks/detail/prisms.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/solidify.h"
 
 #include <algorithm>
@@ -18,8 +19,6 @@ namespace {
 
 using detail::Arrangement;
 using detail::PlanView;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A corner of a triangle seen from above, with the height of the roof over it.
 struct Corner {

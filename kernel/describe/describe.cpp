@@ -6,6 +6,7 @@
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/geometry/visible_level.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,6 @@ namespace {
 
 using detail::Extent;
 using detail::InFacade;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A feature with what several attributes need of it.
 struct Subject {

@@ -3,6 +3,7 @@
 #include "kernel/describe/detail/shape.h"
 #include "kernel/describe/detail/surface_faces.h"
 #include "kernel/describe/detail/vertical_lines.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/model/polygon_owners.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace oriel {
 
 namespace {
 
-using detail::Crossing;
+using detail::LineCrossing;
 using detail::SurfaceFace;
 
 /// Within this of level a normal has no azimuth, as for features.
@@ -37,8 +38,6 @@ struct Facing {
   bool is_turned = false;
   const char* source = "input";
 };
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Surveyor {
  public:
@@ -65,7 +64,7 @@ class Surveyor {
   void measure(std::size_t row);
   void measure_gaps(std::size_t row);
   void measure_surroundings(std::size_t row);
-  [[nodiscard]] bool is_in_building(const std::vector<Crossing>& crossings, double z) const;
+  [[nodiscard]] bool is_in_building(const std::vector<LineCrossing>& crossings, double z) const;
 
   const std::vector<SurfaceFace>& faces_;
   const Tolerances& tolerances_;
@@ -80,7 +79,7 @@ class Surveyor {
 /// something is missing or overhangs, and the line says nothing.
 std::optional<bool> Surveyor::looks_up_by_position(const SurfaceFace& face) const {
   std::ptrdiff_t above = 0, below = 0;
-  for (const Crossing& c : lines_.at(face.middle)) {
+  for (const LineCrossing& c : lines_.at(face.middle)) {
     if (c.z > face.middle.z + tolerances_.weld_m) ++above;
     if (c.z < face.middle.z - tolerances_.weld_m) ++below;
   }
@@ -149,7 +148,7 @@ void Surveyor::measure(std::size_t row) {
 
 void Surveyor::measure_gaps(std::size_t row) {
   const double z = faces_[row].middle.z;
-  for (const Crossing& c : lines_.at(faces_[row].middle)) {
+  for (const LineCrossing& c : lines_.at(faces_[row].middle)) {
     if (c.z < z - tolerances_.weld_m) table_.set(row, "gap_below", z - c.z);
     if (c.z <= z + tolerances_.weld_m) continue;
     table_.set(row, "gap_above", c.z - z);
@@ -160,8 +159,9 @@ void Surveyor::measure_gaps(std::size_t row) {
 /// Material lies at a height of a vertical line if one leaves it there through a surface that looks
 /// up, and entered it through one that looks down: an overhang of one sheet makes no material of
 /// the air below it.
-bool Surveyor::is_in_building(const std::vector<Crossing>& crossings, double z) const {
-  const auto above = std::ranges::find_if(crossings, [&](const Crossing& c) { return c.z > z; });
+bool Surveyor::is_in_building(const std::vector<LineCrossing>& crossings, double z) const {
+  const auto above =
+      std::ranges::find_if(crossings, [&](const LineCrossing& c) { return c.z > z; });
   if (above == crossings.end() || above == crossings.begin()) return false;
   return outward(at(above->face)).z > 0 && outward(at(std::prev(above)->face)).z < 0;
 }

@@ -322,7 +322,7 @@ class CityJsonWriter {
   std::unordered_map<std::string_view, std::size_t> building_of_;
   /// Members of `objects_` by id, made when the first is looked for.
   std::unordered_map<std::string, std::size_t> object_of_;
-  std::optional<detail::VertexPool> pool_;
+  std::optional<detail::FileVertices> pool_;
   /// By how many powers of ten the file's scale gets finer.
   int digits_ = 0;
 };

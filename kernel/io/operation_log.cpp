@@ -78,16 +78,16 @@ Json json_of(const Change& change) {
   return out;
 }
 
-MemberValue value_of(const Json& json) {
+MemberValue member_value(const Json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
   return json.get<std::string>();
 }
 
-Members members_of(const Json& json) {
+Members read_members(const Json& json) {
   Members out;
-  for (const auto& [name, value] : json.items()) out.emplace_back(name, value_of(value));
+  for (const auto& [name, value] : json.items()) out.emplace_back(name, member_value(value));
   return out;
 }
 
@@ -120,7 +120,7 @@ std::vector<std::pair<GridRing, LevelFacet>> facets_of(const Json& json, const c
     LevelFacet facet;
     facet.holes.assign(rings.begin() + 1, rings.end());
     facet.type = one.at("type").get<std::string>();
-    if (one.contains("members")) facet.members = members_of(one.at("members"));
+    if (one.contains("members")) facet.members = read_members(one.at("members"));
     if (one.contains("installations")) one.at("installations").get_to(facet.installations);
     facets.emplace_back(std::move(rings[0]), std::move(facet));
   }
@@ -143,8 +143,8 @@ Change change_of(const Json& json) {
   if (const auto holes = json.find("holes"); holes != json.end())
     for (const Json& one : *holes)
       change.holes[ring_of(one.at("of"))] = {rings_of(one, "remove"), rings_of(one, "add")};
-  read_changed(json, "installations", change.installations, members_of);
-  read_changed(json, "attributes", change.attributes, value_of);
+  read_changed(json, "installations", change.installations, read_members);
+  read_changed(json, "attributes", change.attributes, member_value);
   return change;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/labelled_building.h"
+#include "kernel/model/vec3.h"
 
 #include <array>
 #include <cstdint>
@@ -14,6 +15,13 @@ namespace oriel {
 
 /// A vertex as it stands in a file: whole micrometres in the input's coordinates.
 using GridPoint = std::array<std::int64_t, 3>;
+
+/// The same in metres.
+inline Vec3 metres_of(const GridPoint& point) {
+  constexpr double kMicrometre_m = 1e-6;
+  return kMicrometre_m * Vec3{static_cast<double>(point[0]), static_cast<double>(point[1]),
+                              static_cast<double>(point[2])};
+}
 /// A closed ring that starts at its smallest point.
 using GridRing = std::vector<GridPoint>;
 

@@ -1,5 +1,6 @@
 #include "kernel/segment/draw_imprints.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/facet_splitter.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ namespace oriel {
 namespace {
 
 using detail::Outline;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 auto key_of(const Plane& plane) { return std::pair(plane.coefficients, plane.offset); }
 

@@ -1,6 +1,7 @@
 #include "kernel/segment/imprints.h"
 
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/insets.h"
 #include "kernel/segment/detail/loose.h"
 #include "kernel/segment/detail/reach.h"
@@ -19,8 +20,6 @@ namespace {
 using detail::Inset;
 using detail::Outline;
 using detail::Reach;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A feature of the tree whose largest cap lies in the plane of a subdivision.
 struct Resident {
@@ -95,7 +94,7 @@ class ImprintWriter {
   /// The insets of one subdivision, the largest first.
   void write_subdivision(std::size_t first, std::size_t past) {
     const PlaneId plane = facet_of(insets_[first]).plane;
-    const detail::PlaneAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
+    const detail::ReachAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
     for (std::size_t i = first; i < past; ++i) {
       Inset& inset = insets_[i];
       const auto home = home_of(inset);
@@ -162,7 +161,7 @@ class ImprintWriter {
   }
 
   /// Polygons and recesses together are what the host leaves free.
-  [[nodiscard]] bool fills_whole(const Inset& inset, PlaneId plane, const detail::PlaneAxes& axes) {
+  [[nodiscard]] bool fills_whole(const Inset& inset, PlaneId plane, const detail::ReachAxes& axes) {
     double filled_m2 = 0;
     for (const int p : inset.polygons) filled_m2 += subdivisions_.polygons[at(p)].area_m2;
     for (const FeatureId id : residents_within(inset.whole, plane, axes.reach_of(inset.whole))) {
@@ -180,7 +179,7 @@ class ImprintWriter {
 
   /// True if the outline is that of a recess: then the recess has the polygons.
   bool absorb(const Inset& inset, const std::vector<FeatureId>& within, const Reach& reach,
-              const detail::PlaneAxes& axes) {
+              const detail::ReachAxes& axes) {
     for (const FeatureId id : within) {
       Feature& recess = feature(id);
       if (recess.sense != Sense::hole && !recess.is_uncut) continue;

@@ -1,5 +1,6 @@
 #include "kernel/segment/remove.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/model/issue.h"
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/edge_index.h"
@@ -17,8 +18,6 @@ namespace {
 
 using detail::Boundary;
 using detail::Side;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class FeatureRemover {
  public:

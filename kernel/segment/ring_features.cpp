@@ -1,6 +1,7 @@
 #include "kernel/segment/ring_features.h"
 
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/polygon_grid.h"
 #include "kernel/segment/detail/reach.h"
 #include "kernel/segment/detail/ring_content.h"
@@ -24,8 +25,6 @@ using detail::PlacedPolygon;
 using detail::Reach;
 using detail::Ring;
 using detail::RingContent;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The caps of a feature fill this part of a ring's rectangle: it is the ring's. As for the boxes
 /// of objects in bench/recall.sh.
@@ -105,7 +104,7 @@ class RingWriter {
   void write(const Ring& ring) {
     const PlaneId plane = solid_.facets[ring.facet.index()].plane;
     const Vec3 normal = plane_of(ring).normal;
-    const detail::PlaneAxes axes = detail::axes_in(normal);
+    const detail::ReachAxes axes = detail::axes_in(normal);
     const Reach reach = axes.reach_of(ring.outline);
     const std::vector<Resident> within = residents_in(plane, reach);
     if (std::ranges::any_of(

@@ -1,5 +1,6 @@
 #include "kernel/solidify/open_shell.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/open_mesh.h"
 #include "kernel/solidify/detail/plane_clusters.h"
 #include "kernel/solidify/detail/soup.h"
@@ -15,8 +16,6 @@ namespace {
 
 using detail::ShellMesh;
 using detail::Soup;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool has_room(const Building& building, const Tolerances& tolerances) {
   const double limit =

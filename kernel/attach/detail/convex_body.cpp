@@ -1,13 +1,13 @@
 #include "kernel/attach/detail/convex_body.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cstddef>
 
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// False if four planes meet in a corner.
 bool find_corners(const std::vector<Plane>& planes, ConvexBody& body) {

@@ -1,5 +1,7 @@
 #include "kernel/blocks/detail/plan_view.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,6 @@ namespace oriel::detail {
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "kernel/blocks/detail/prisms.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -9,8 +11,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class PrismBuilder {
  public:

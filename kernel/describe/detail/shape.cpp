@@ -1,5 +1,7 @@
 #include "kernel/describe/detail/shape.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The convex hull in plan, counter-clockwise (Andrew's monotone chain).
 std::vector<Vec3> hull_in_plan(std::vector<Vec3> points) {

@@ -49,8 +49,8 @@ VerticalLines::VerticalLines(std::span<const SurfaceFace> faces) : faces_(faces)
 int VerticalLines::column_of(double x) const { return cell(x, box_.min.x, box_.max.x, side_); }
 int VerticalLines::row_of(double y) const { return cell(y, box_.min.y, box_.max.y, side_); }
 
-std::vector<Crossing> VerticalLines::at(Vec3 point) const {
-  std::vector<Crossing> crossings;
+std::vector<LineCrossing> VerticalLines::at(Vec3 point) const {
+  std::vector<LineCrossing> crossings;
   crossings.reserve(kUsualCrossings);
   if (box_.is_empty()) return crossings;
   const auto place = static_cast<std::size_t>(row_of(point.y) * side_ + column_of(point.x));
@@ -59,7 +59,7 @@ std::vector<Crossing> VerticalLines::at(Vec3 point) const {
     if (figures_[static_cast<std::size_t>(e.face)].contains(point))
       crossings.push_back({faces_[static_cast<std::size_t>(e.face)].z_at(point), e.face});
   }
-  std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::tuple(c.z, c.face); });
+  std::ranges::sort(crossings, {}, [](const LineCrossing& c) { return std::tuple(c.z, c.face); });
   return crossings;
 }
 

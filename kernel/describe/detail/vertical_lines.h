@@ -9,7 +9,7 @@
 namespace oriel::detail {
 
 /// Where a vertical line meets a face.
-struct Crossing {
+struct LineCrossing {
   double z = 0;
   int face = -1;
 };
@@ -21,7 +21,7 @@ class VerticalLines {
   explicit VerticalLines(std::span<const SurfaceFace> faces);
 
   /// All crossings of the vertical line through `point`, from below; of equal heights by number.
-  [[nodiscard]] std::vector<Crossing> at(Vec3 point) const;
+  [[nodiscard]] std::vector<LineCrossing> at(Vec3 point) const;
 
  private:
   [[nodiscard]] int column_of(double x) const;

@@ -2,6 +2,7 @@
 
 #include "kernel/io/detail/citygml_attributes.h"
 #include "kernel/io/detail/json_text.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// `[a,b,…]` with each element as `append` writes it.
 template <class Items, class Append>

@@ -102,7 +102,8 @@ std::string list_of(const Lods& lods) {
   return text;
 }
 
-Choice choose(const ObjectEntry& entry, Family& family, const std::optional<std::string>& lod) {
+GeometryChoice choose(const ObjectEntry& entry, Family& family,
+                      const std::optional<std::string>& lod) {
   if (entry.fault) return {nullptr, entry.fault, Severity::error};
   if (family.lods.empty()) {
     if (std::exchange(family.was_reported, true)) return {};
@@ -153,14 +154,14 @@ std::vector<ObjectEntry> list_objects(dom::object objects) {
   return entries;
 }
 
-std::vector<Choice> choose_geometries(const std::vector<ObjectEntry>& entries,
-                                      const std::optional<std::string>& lod) {
+std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
+                                              const std::optional<std::string>& lod) {
   const std::vector<std::size_t> family_of = families_of_entries(entries);
   std::vector<Family> families(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (const GeometryEntry& geometry : entries[i].geometries)
       families[family_of[i]].lods.insert(geometry.lod);
-  std::vector<Choice> choices;
+  std::vector<GeometryChoice> choices;
   for (std::size_t i = 0; i < entries.size(); ++i)
     choices.push_back(choose(entries[i], families[family_of[i]], lod));
   return choices;

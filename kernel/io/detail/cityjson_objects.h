@@ -36,7 +36,7 @@ struct ObjectEntry {
 
 /// What to do with an entry: the geometry to read, or a finding, or neither (no geometry, nothing
 /// to say).
-struct Choice {
+struct GeometryChoice {
   const GeometryEntry* geometry = nullptr;
   std::optional<Fault> finding;
   Severity severity = Severity::error;
@@ -51,7 +51,7 @@ std::vector<ObjectEntry> list_objects(dom::object objects);
 /// surfaces. Without one: an error for the family that has none at the lod asked for (E205), a note
 /// for a member of a family that has it elsewhere, a warning for a family without any geometry
 /// (E209). Entries with a fault get that.
-std::vector<Choice> choose_geometries(const std::vector<ObjectEntry>& entries,
-                                      const std::optional<std::string>& lod);
+std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
+                                              const std::optional<std::string>& lod);
 
 }  // namespace oriel::detail

@@ -163,7 +163,7 @@ void CityJsonReader::State::read_buildings(const Model& model, const TextName& n
                                            Document& document, CityJsonSource& source,
                                            std::vector<Issue>& issues) const {
   const std::vector<ObjectEntry> entries = list_objects(model.objects);
-  const std::vector<Choice> choices = choose_geometries(entries, lod);
+  const std::vector<GeometryChoice> choices = choose_geometries(entries, lod);
   GeometryReader geometries(model.vertices, source.transform);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ObjectEntry& entry = entries[i];

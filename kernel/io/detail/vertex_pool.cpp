@@ -139,14 +139,14 @@ int finer_digits(const Transform& transform, const std::vector<PlacedSolid>& sol
   }
 }
 
-std::size_t VertexPool::KeyHash::operator()(const Key& key) const noexcept {
+std::size_t FileVertices::KeyHash::operator()(const Key& key) const noexcept {
   std::uint64_t hash = 0;
   for (const std::int64_t value : key)
     hash = (hash ^ static_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15ULL;
   return hash ^ (hash >> 32U);
 }
 
-VertexPool::VertexPool(std::string_view vertices, const Transform& transform, int digits)
+FileVertices::FileVertices(std::string_view vertices, const Transform& transform, int digits)
     : transform_(finer(transform, digits)) {
   for_each_element(vertices, [&](std::string_view vertex) {
     texts_.push_back(vertex_text(vertex, digits));
@@ -156,7 +156,7 @@ VertexPool::VertexPool(std::string_view vertices, const Transform& transform, in
   is_used_.resize(texts_.size());
 }
 
-std::vector<int> VertexPool::add(const PlacedSolid& placed) {
+std::vector<int> FileVertices::add(const PlacedSolid& placed) {
   std::vector<int> numbers;
   for (const Vertex& vertex : placed.solid->vertices) {
     const Key key = rounded(vertex.point, *placed.frame, transform_);
@@ -171,7 +171,7 @@ std::vector<int> VertexPool::add(const PlacedSolid& placed) {
   return numbers;
 }
 
-void VertexPool::mark_used(std::string_view object) {
+void FileVertices::mark_used(std::string_view object) {
   for_each_boundaries(object, [&](std::string_view array) {
     for_each_number(array, [&](std::size_t, std::size_t, std::size_t number) {
       if (number < is_used_.size()) is_used_[number] = true;
@@ -179,21 +179,21 @@ void VertexPool::mark_used(std::string_view object) {
   });
 }
 
-void VertexPool::renumber() {
+void FileVertices::renumber() {
   new_number_.assign(texts_.size(), -1);
   int next = 0;
   for (std::size_t i = 0; i < texts_.size(); ++i)
     if (is_used_[i]) new_number_[i] = next++;
 }
 
-std::string VertexPool::renumbered(std::string_view object) const {
+std::string FileVertices::renumbered(std::string_view object) const {
   return with_vertex_numbers(object, [&](std::size_t number) {
     const bool is_known = number < new_number_.size();
     return is_known ? new_number_[number] : static_cast<std::int64_t>(number);
   });
 }
 
-std::string VertexPool::text() const {
+std::string FileVertices::text() const {
   std::string text = "[";
   for (std::size_t i = 0; i < texts_.size(); ++i) {
     if (!is_used_[i]) continue;

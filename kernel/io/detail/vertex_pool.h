@@ -39,11 +39,11 @@ int spare_digits(const Transform& transform);
 int finer_digits(const Transform& transform, const std::vector<PlacedSolid>& solids);
 
 /// The vertices of a CityJSON file while geometries are exchanged.
-class VertexPool {
+class FileVertices {
  public:
   /// `vertices` is the text of the array that is there; every whole number in it becomes 10^digits
   /// times as large, exactly.
-  VertexPool(std::string_view vertices, const Transform& transform, int digits);
+  FileVertices(std::string_view vertices, const Transform& transform, int digits);
 
   /// The file's vertex at each vertex of `solid`; vertices that are not there yet are added.
   std::vector<int> add(const PlacedSolid& solid);

@@ -1,14 +1,10 @@
 #include "kernel/model/detail/counting_sort.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 
 namespace oriel::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void count_to_first(Numbers& count) {
   int sum = 0;

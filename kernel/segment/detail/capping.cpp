@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/capping.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -7,8 +9,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// On which side of the corner that the planes of a cut make something lies.
 enum class Corner {

@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Figures in one plane with these boxes may overlap. What is across the plane does not count:
 /// polygons are as they came, facets are snapped.

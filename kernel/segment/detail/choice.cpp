@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/choice.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +11,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Values closer than this are the same number computed twice.
 constexpr double kSame = 1e-9;  // tolerance of doubles, no tolerance of the model

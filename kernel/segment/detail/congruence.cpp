@@ -1,13 +1,13 @@
 #include "kernel/segment/detail/congruence.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Meetings of planes that are moved alike differ by no more than rounding.
 bool is_same(Vec3 difference) {

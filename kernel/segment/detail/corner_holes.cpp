@@ -1,5 +1,6 @@
 #include "kernel/segment/detail/corner_holes.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/edge_index.h"
 #include "kernel/segment/detail/section.h"
 
@@ -13,8 +14,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The holes of one set of planes.
 class CornerCutter {

@@ -1,12 +1,8 @@
 #include "kernel/segment/detail/facet_copier.h"
 
+#include "kernel/model/detail/index.h"
+
 namespace oriel::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void FacetCopier::add(const std::vector<int>& facets) {
   scratch_.copied_edges.start(from_.half_edge_count());

@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/facet_splitter.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int after(const Loop& loop, std::size_t i) { return loop[(i + 1) % loop.size()]; }
 

@@ -1,3 +1,4 @@
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/carve.h"
 
 #include <algorithm>
@@ -6,8 +7,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A corner of a facet on the section plane: the half-edge that comes to it and the one that
 /// leaves, as they were before any chord was put in.

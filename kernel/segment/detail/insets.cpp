@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/insets.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// How far a chain around three sides must turn: two right angles, less what lets the sides lean.
 constexpr double kInset_deg = 150;

@@ -1,12 +1,12 @@
 #include "kernel/segment/detail/instance.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Copier {
  public:

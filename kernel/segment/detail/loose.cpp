@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/reach.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A pane may hang a little askew, and stand as far from its opening as an old wall is thick.
 constexpr double kAskew_deg = 5;
@@ -99,7 +98,7 @@ class Joiner {
                                                  Vec3 normal) const {
     std::vector<Vec3> points;
     for (const int v : f.vertices) points.push_back(out_.vertices[at(v)].point);
-    const PlaneAxes axes = axes_in(normal);
+    const ReachAxes axes = axes_in(normal);
     const Reach opening = axes.reach_of(points), pane = axes.reach_of(polygon.rings[0]);
     const Reach common = opening.common(pane);
     if (common.is_empty() || common.area() < pane.area() / 2) return std::nullopt;

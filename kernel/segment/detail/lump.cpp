@@ -1,14 +1,10 @@
 #include "kernel/segment/detail/lump.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 
 namespace oriel::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 LumpFinder::LumpFinder(const Boundary& body, const Section& section)
     : body_(body),

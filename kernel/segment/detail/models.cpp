@@ -1,14 +1,10 @@
 #include "kernel/segment/detail/models.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <cmath>
 
 namespace oriel::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void Models::find_congruent(std::vector<Task>& tasks, std::size_t first, Side ground) {
   for (std::size_t i = tasks.size(); i-- > first;)

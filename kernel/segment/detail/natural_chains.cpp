@@ -1,14 +1,10 @@
 #include "kernel/segment/detail/natural_chains.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 
 namespace oriel::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side)
     : body_(body),

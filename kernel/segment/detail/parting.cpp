@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/parting.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/facet_copier.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Adds the facets that hang together with `start` and are not in `seen` yet.
 void add_piece(const Boundary& body, int start, StampSet& seen, std::vector<int>& piece) {

@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/patch.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -8,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class PatchFinder {
  public:

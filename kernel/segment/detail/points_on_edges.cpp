@@ -1,18 +1,14 @@
 #include "kernel/segment/detail/points_on_edges.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 namespace oriel::detail {
 
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
-PointsOnEdges::PointsOnEdges(const std::vector<Vec3>& points, PlaneAxes axes, double slack_m)
+PointsOnEdges::PointsOnEdges(const std::vector<Vec3>& points, ReachAxes axes, double slack_m)
     : points_(points),
       axes_(axes),
       slack_m_(slack_m),

@@ -14,7 +14,7 @@ namespace oriel::detail {
 class PointsOnEdges {
  public:
   /// A point is on an edge if it is no further from it than `slack_m`.
-  PointsOnEdges(const std::vector<Vec3>& points, PlaneAxes axes, double slack_m);
+  PointsOnEdges(const std::vector<Vec3>& points, ReachAxes axes, double slack_m);
 
   /// Indices of the points on the edge between two points, without these, in the order from `from`
   /// to `to`. Looks at the points in the edge's strip along u or v, whichever has fewer.
@@ -30,7 +30,7 @@ class PointsOnEdges {
   [[nodiscard]] Strip strip_along(Vec3 axis) const;
 
   const std::vector<Vec3>& points_;
-  PlaneAxes axes_;
+  ReachAxes axes_;
   double slack_m_;
   Strip by_u_, by_v_;
 };

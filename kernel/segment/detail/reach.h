@@ -23,7 +23,7 @@ struct Reach {
 };
 
 /// Two directions in a plane; `u` is level unless the plane is.
-struct PlaneAxes {
+struct ReachAxes {
   Vec3 u, v;
 
   [[nodiscard]] Reach reach_of(const std::vector<Vec3>& points) const {
@@ -38,7 +38,7 @@ struct PlaneAxes {
   }
 };
 
-inline PlaneAxes axes_in(Vec3 normal) {
+inline ReachAxes axes_in(Vec3 normal) {
   const Vec3 any = std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = normalised(cross(any, normal));
   return {u, cross(normal, u)};

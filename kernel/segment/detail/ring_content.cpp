@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/ring_content.h"
 
 #include "kernel/geometry/visible_level.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/reach.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace oriel::detail {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// What floats in an opening is no further from the rest than an old wall is thick; nothing that
 /// belongs to an opening is deeper than a loggia.
 constexpr double kGap_m = 0.5;
@@ -19,8 +18,6 @@ constexpr double kDeepest_m = 4;
 /// What looks along the normal of the facet, or against it, by 45° or less is in front of it or
 /// behind it; the rest are sides.
 const double kParallel = std::sqrt(0.5);
-/// An outline that fills this part of its rectangle is one.
-constexpr double kRectangle = 0.999;
 
 class ContentFinder {
  public:
@@ -130,7 +127,7 @@ class ContentFinder {
   const Facet& facet_;
   const Plane& plane_;
   const PolygonGrid& grid_;
-  PlaneAxes axes_;
+  ReachAxes axes_;
   Reach reach_;
   bool is_rectangle_;
   std::vector<Layer> before_, behind_;

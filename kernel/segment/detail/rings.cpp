@@ -1,5 +1,6 @@
 #include "kernel/segment/detail/rings.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/reach.h"
 
 #include <algorithm>
@@ -15,13 +16,9 @@ namespace oriel::detail {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// A polygon whose inner rings come this near to its outer one on all four sides is a frame: what
 /// casement frames are wide, and some.
 constexpr double kFrame_m = 0.15;
-/// An outline that fills this part of its rectangle is one.
-constexpr double kRectangle = 0.999;
 /// How far the sides of a notch must turn, and how straight they may go on (see detail/insets.cpp).
 constexpr double kNotch_deg = 150;
 constexpr double kStraight_deg = 1;
@@ -153,7 +150,7 @@ class RingFinder {
   void join(std::size_t leaf, const Reach& left, const Reach& right) {
     const Ring& ring = rings_[leaf];
     const Plane& plane = plane_of(ring);
-    const PlaneAxes axes = axes_in(plane.normal);
+    const ReachAxes axes = axes_in(plane.normal);
     const double v0 = std::min(left.v0, right.v0), v1 = std::max(left.v1, right.v1);
     Outline outline;
     for (const auto& [u, v] : {std::pair(left.u0, v0), std::pair(right.u1, v0),
@@ -164,7 +161,7 @@ class RingFinder {
 
   [[nodiscard]] static bool is_frame(const PlacedPolygon& polygon, Vec3 normal) {
     if (polygon.rings.size() < 2) return false;
-    const PlaneAxes axes = axes_in(normal);
+    const ReachAxes axes = axes_in(normal);
     std::vector<Vec3> inner;
     for (std::size_t r = 1; r < polygon.rings.size(); ++r)
       inner.insert(inner.end(), polygon.rings[r].begin(), polygon.rings[r].end());

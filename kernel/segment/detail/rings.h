@@ -14,6 +14,8 @@ namespace oriel::detail {
 inline constexpr double kLean_m = 0.02;
 /// Sizes that differ by no more than about this share may be those of one thing.
 inline constexpr double kAlike = 0.05;
+/// An outline that fills this part of its rectangle is one.
+inline constexpr double kRectangle = 0.999;
 
 /// An outline in a facet that something may lie in, before or behind.
 struct Ring {

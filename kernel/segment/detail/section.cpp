@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/section.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Sectioner {
  public:

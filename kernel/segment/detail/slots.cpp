@@ -1,5 +1,6 @@
 #include "kernel/segment/detail/slots.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/sweep.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// No plane with this normal cuts a larger piece out of a box.
 double most_area(const Box& box, Vec3 normal) {

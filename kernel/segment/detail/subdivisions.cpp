@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/points_on_edges.h"
 #include "kernel/solidify/detail/soup.h"
 
@@ -16,8 +17,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// By Polygon::source.
 using BySource = std::vector<const Polygon*>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/building.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
 
@@ -45,9 +46,6 @@ struct Subdivisions {
   [[nodiscard]] Vec3 vector(int edge) const {
     return points[at(to(edge))] - points[at(edges[at(edge)].from)];
   }
-
- private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 };
 
 /// The order of subdivisions is that of the facets; that of polygons and edges does not depend on

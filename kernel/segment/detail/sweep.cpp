@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/sweep.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <span>
 #include <tuple>
@@ -8,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// c0 + c1 h + c2 h².
 struct Quadratic {

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/coplanar_groups.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A plane in doubles: enough to compare distances with a tolerance.
 struct RoughPlane {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/model/detail/index.h"
 #include "kernel/model/detail/numbers.h"
 
 #include <algorithm>
@@ -29,7 +30,6 @@ class DisjointSets {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   Numbers parent_;
 };
 

@@ -1,13 +1,13 @@
 #include "kernel/solidify/detail/edge_groups.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <cmath>
 #include <tuple>
 
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vec3 difference(const Soup& soup, int to, int from) {
   const auto &p = soup.points[at(to)], &q = soup.points[at(from)];

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/facets.h"
 
 #include "kernel/model/detail/counting_sort.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Drafter {
  public:

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/near_points.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@ namespace oriel::detail {
 namespace {
 
 using exact::GridPoint;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Finds the points that may have another one within reach. Cut wherever the next point along an
 /// axis is out of reach, a list falls into pieces that cannot reach each other; cut along all three

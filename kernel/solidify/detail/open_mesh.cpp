@@ -1,5 +1,7 @@
 #include "kernel/solidify/detail/open_mesh.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Polygons that go on in one plane: 1° is what surveyed walls show between neighbours.
 constexpr double kGoesOn_deg = 1;

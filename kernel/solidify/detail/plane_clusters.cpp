@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/plane_clusters.h"
 
 #include "kernel/model/detail/counting_sort.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/coplanar_groups.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 
@@ -117,8 +118,6 @@ class Clusterer {
     std::int64_t offset = 0;
   };
   using ExactPlane = std::array<std::int64_t, 4>;  ///< normal and offset
-
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   [[nodiscard]] double cell_size() const {
     return std::max(2 * std::sin(angle_tolerance_ / 2), 1e-9 /* tolerance 0 */);

@@ -1,5 +1,7 @@
 #include "kernel/solidify/detail/polygon_shape.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <numbers>
 
@@ -9,8 +11,6 @@ namespace {
 
 using exact::GridPoint;
 using exact::Int128;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 GridPoint difference(const GridPoint& p, const GridPoint& q) {
   return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/shell_mesh.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/edge_groups.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Fills `next` and `polygon_of`.
 void link_rings(const Soup& soup, ShellMesh& mesh) {

@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <map>
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double volume_of(const Solid& solid, const Shell& shell) {
   double sum = 0;

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/snap.h"
 
 #include "kernel/model/detail/counting_sort.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The plane turned so that its first non-zero coefficient is positive: equal for both
 /// orientations.

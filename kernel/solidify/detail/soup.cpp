@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/soup.h"
 
 #include "kernel/model/detail/counting_sort.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/near_points.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One number for a point, ordered as its coordinates: |coordinate| ≤ 2^32, so 34 bits hold each.
 exact::Int128 sort_key(const exact::GridPoint& point) {

@@ -5,12 +5,13 @@
 
 namespace oriel::detail {
 
-BoxTree::BoxTree(std::vector<GridBox> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+GridBoxTree::GridBoxTree(std::vector<GridBox> boxes)
+    : boxes_(std::move(boxes)), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   if (!boxes_.empty()) build(0, boxes_.size());
 }
 
-std::size_t BoxTree::build(std::size_t from, std::size_t to) {
+std::size_t GridBoxTree::build(std::size_t from, std::size_t to) {
   const std::size_t number = nodes_.size();
   Node node{boxes_[order_[from]], from, to};
   const auto centre = [&](std::size_t i, std::size_t axis) {

@@ -31,9 +31,9 @@ inline GridBox box_of(std::span<const GridPoint> points) {
 }
 
 /// A tree of boxes: each node's items are halved along the longest axis of their centres.
-class BoxTree {
+class GridBoxTree {
  public:
-  explicit BoxTree(std::vector<GridBox> boxes);
+  explicit GridBoxTree(std::vector<GridBox> boxes);
 
   /// Calls visit(i) for every box that overlaps `box`, in a fixed order.
   template <class Visit>

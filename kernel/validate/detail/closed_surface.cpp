@@ -61,7 +61,7 @@ ClosedSurface::ClosedSurface(const SnappedBuilding& building, const JudgedShell&
     for (auto& corners : corners_) std::swap(corners[1], corners[2]);
   triangles_ = triangles_of(points_, corners_);
   box_ = box_of(points_);
-  tree_ = BoxTree(boxes_of(triangles_));
+  tree_ = GridBoxTree(boxes_of(triangles_));
 }
 
 bool ClosedSurface::contains(const GridPoint& point) const {

@@ -21,7 +21,7 @@ class ClosedSurface {
   [[nodiscard]] const std::vector<GridPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& corners() const { return corners_; }
   [[nodiscard]] const GridBox& box() const { return box_; }
-  [[nodiscard]] const BoxTree& tree() const { return tree_; }
+  [[nodiscard]] const GridBoxTree& tree() const { return tree_; }
 
   /// True if `point`, which is not on the surface, is inside.
   [[nodiscard]] bool contains(const GridPoint& point) const;
@@ -31,7 +31,7 @@ class ClosedSurface {
   std::vector<std::array<int, 3>> corners_;
   std::vector<GridTriangle> triangles_;
   GridBox box_;
-  BoxTree tree_;
+  GridBoxTree tree_;
   int orientation_ = 0;
 };
 

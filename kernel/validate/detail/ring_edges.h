@@ -46,7 +46,7 @@ void for_each_pair(const std::vector<GridBox>& boxes, const Visit& visit) {
         if (overlap(boxes[i], boxes[j]) && !visit(i, j)) return;
     return;
   }
-  const BoxTree tree(boxes);
+  const GridBoxTree tree(boxes);
   bool goes_on = true;
   for (std::size_t i = 0; i < boxes.size() && goes_on; ++i)
     tree.for_each_overlap(boxes[i], [&](std::size_t j) {

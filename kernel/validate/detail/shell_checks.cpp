@@ -64,7 +64,7 @@ bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& sh
       triangles.push_back({corners, p});
       boxes.push_back(box_of(points_of(building, corners)));
     }
-  const BoxTree tree(boxes);
+  const GridBoxTree tree(boxes);
   std::vector<std::optional<std::size_t>> crossed_by(shell.polygons.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     tree.for_each_overlap(boxes[i], [&](std::size_t j) {

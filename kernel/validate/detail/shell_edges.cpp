@@ -1,5 +1,6 @@
 #include "kernel/validate/detail/shell_edges.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int number_of(const JudgedShell& shell, int polygon) {
   return shell.polygons[at(polygon)].polygon->number;

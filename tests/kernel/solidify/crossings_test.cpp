@@ -40,7 +40,7 @@ Building room_under_pieces() {
   return test::building_of(polygons);
 }
 
-double volume_of(const Building& building) {
+double volume_when_cut(const Building& building) {
   const Solidified out = solidify(building, {}, kCut);
   for (const Issue& issue : out.issues) CAPTURE(to_string(issue));
   REQUIRE(out.value.has_value());
@@ -74,10 +74,11 @@ TEST_SUITE("kernel/solidify") {
 
   TEST_CASE("turning a building and shuffling its polygons change nothing where polygons are cut") {
     for (const Building& building : {room_under_slab(), room_under_pieces()}) {
-      const double volume = volume_of(building);
-      CHECK(volume_of(turned(building)) == doctest::Approx(volume).epsilon(1e-6));
+      const double volume = volume_when_cut(building);
+      CHECK(volume_when_cut(turned(building)) == doctest::Approx(volume).epsilon(1e-6));
       for (const std::uint64_t seed : {1, 2, 3})
-        CHECK(volume_of(test::shuffled(building, seed)) == doctest::Approx(volume).epsilon(1e-9));
+        CHECK(volume_when_cut(test::shuffled(building, seed)) ==
+              doctest::Approx(volume).epsilon(1e-9));
     }
   }
 

@@ -1,5 +1,7 @@
 #include "kernel/solidify/detail/mend/box_tree.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -7,8 +9,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double along(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/mend/caps.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/edge_groups.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Polygons at less than this angle to a cap, on the same side of an edge, lie in it.
 constexpr double kSameWay_rad = 2 * std::numbers::pi / 180;

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/mend/cells.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
 #include "kernel/solidify/detail/edge_groups.h"
 #include "kernel/solidify/detail/mend/radial.h"
@@ -7,8 +8,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The two sides of a polygon as numbers.
 int front_of(int polygon) { return 2 * polygon; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 #include "kernel/solidify/detail/shell_mesh.h"
 #include "kernel/solidify/detail/soup.h"
@@ -33,9 +34,6 @@ struct PolygonCells {
   [[nodiscard]] bool is_boundary(int polygon) const {
     return is_front_outside(polygon) != is_back_outside(polygon);
   }
-
- private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 };
 
 /// `shapes` are those of the soup's polygons. The outer cell is the one of least volume, as its

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/mend/chords.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/mend/box_tree.h"
 #include "kernel/solidify/detail/shell_mesh.h"
 
@@ -9,8 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Planes that differ by less do not cross in a line that means anything: half a degree, as
 /// Tolerances::coplanar_deg.

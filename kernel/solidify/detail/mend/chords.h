@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/mend/faces.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 #include "kernel/solidify/detail/soup.h"
@@ -22,7 +23,6 @@ class GrowingPoints {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] Cell cell_of(Vec3 place) const;
   void enter(int point);
 

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/mend/contacts.h"
 
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/edge_groups.h"
 #include "kernel/solidify/detail/mend/box_tree.h"
 #include "kernel/solidify/detail/mend/faces.h"
@@ -12,11 +13,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Areas that differ by less than this part are the same: points lie beside the plane.
-constexpr double kSameArea = 1e-3;
 
 class ContactCutter {
  public:

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/mend/crossings.h"
 
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/mend/box_tree.h"
 #include "kernel/solidify/detail/mend/chords.h"
 #include "kernel/solidify/detail/mend/faces.h"
@@ -13,11 +14,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Areas that differ by less than this part are the same: points lie beside the plane.
-constexpr double kSameArea = 1e-3;
 
 /// The edges of a polygon's rings and the chords on it, cut where they meet.
 class Subdivision {

@@ -1,13 +1,13 @@
 #include "kernel/solidify/detail/mend/duplicates.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 #include <map>
 
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Rings = std::vector<std::vector<int>>;
 

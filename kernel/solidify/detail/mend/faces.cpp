@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/mend/faces.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/mend/box_tree.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Loops = std::vector<std::vector<int>>;
 

@@ -11,6 +11,9 @@
 
 namespace oriel::detail {
 
+/// Areas that differ by less than this part are the same: points lie beside the plane.
+inline constexpr double kSameArea = 1e-3;
+
 /// Two points of a soup, the smaller first.
 using Edge = std::pair<int, int>;
 

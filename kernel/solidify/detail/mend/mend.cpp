@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/mend/mend.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/edge_groups.h"
 #include "kernel/solidify/detail/mend/caps.h"
 #include "kernel/solidify/detail/mend/cells.h"
@@ -17,8 +18,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Published models have polygons that are out of plane by up to 9 mm: five times the tolerance of
 /// planes.

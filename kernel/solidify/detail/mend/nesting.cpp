@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/mend/nesting.h"
 
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/mend/box_tree.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The boundary of a piece, as far as its role depends on it.
 struct PieceBoundary {

@@ -1,5 +1,7 @@
 #include "kernel/solidify/detail/mend/radial.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 
 namespace oriel::detail {
@@ -8,8 +10,6 @@ namespace {
 
 using exact::GridPoint;
 using exact::Int128;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int sign(Int128 value) { return (value > 0) - (value < 0); }
 

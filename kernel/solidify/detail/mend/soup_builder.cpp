@@ -1,14 +1,10 @@
 #include "kernel/solidify/detail/mend/soup_builder.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
 
 namespace oriel::detail {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 SoupBuilder::SoupBuilder(const Soup& like) : place_(like.points.size(), -1) {
   soup_.grid_m = like.grid_m;

@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/mend/t_vertices.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/edge_groups.h"
 #include "kernel/solidify/detail/mend/box_tree.h"
 #include "kernel/solidify/detail/mend/soup_builder.h"
@@ -11,8 +12,6 @@
 namespace oriel::detail {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vec3 place(const Soup& soup, int point) { return exact::to_metres(soup.points[at(point)], 1); }
 
