@@ -36,7 +36,7 @@ double host_inclination(int kind) {
 FacadeBuilding make_building(const std::vector<Line>& lines) {
   const auto at = [](const Line& line, std::size_t i) { return static_cast<int>(line[i]); };
   FacadeBuilding building{FeatureTable(std::to_string(at(lines[0], 1)), lines.size()), {}, {}};
-  const int first = at(lines[0], 0);
+  const int first = at(lines[0], 0), first_facade = at(lines[0], 2);
   static constexpr std::array<std::pair<const char*, std::size_t>, 8> kColumns = {
       {{"inclination", 6},
        {"height", 7},
@@ -53,7 +53,7 @@ FacadeBuilding make_building(const std::vector<Line>& lines) {
     building.table.set(row, "sense", std::string(at(line, 5) == 0 ? "hole" : "protrusion"));
     building.table.set(row, "host_inclination", host_inclination(at(line, 4)));
     for (const auto& [name, column] : kColumns) building.table.set(row, name, line[column]);
-    building.facades.push_back(at(line, 2));
+    building.facades.push_back(at(line, 2) - first_facade);
     building.hosts.push_back(at(line, 3) < 0 ? -1 : at(line, 3) - first);
   }
   return building;
@@ -81,16 +81,8 @@ std::vector<FacadeBuilding> read_facade_features(const std::string& path) {
 }
 
 FeatureGraph relate(const FacadeBuilding& building) {
-  const int rows = static_cast<int>(building.facades.size());
-  std::vector<FeatureGraph::Pair> same_facade, host, contains;
-  // The features of a facade follow each other.
-  for (int begin = 0, end = 0; begin < rows; begin = end) {
-    const auto facade = [&](int row) { return building.facades[static_cast<std::size_t>(row)]; };
-    while (end < rows && facade(end) == facade(begin)) ++end;
-    for (int p = begin; p < end; ++p)
-      for (int q = begin; q < end; ++q)
-        if (p != q) same_facade.emplace_back(FeatureId{p}, FeatureId{q});
-  }
+  const int rows = static_cast<int>(building.hosts.size());
+  std::vector<FeatureGraph::Pair> host, contains;
   for (int row = 0; row < rows; ++row) {
     const int on = building.hosts[static_cast<std::size_t>(row)];
     if (on < 0) continue;
@@ -98,7 +90,7 @@ FeatureGraph relate(const FacadeBuilding& building) {
     contains.emplace_back(FeatureId{on}, FeatureId{row});
   }
   FeatureGraph graph;
-  graph.set("same_facade", std::move(same_facade));
+  graph.set_classes("same_facade", building.facades);
   graph.set("host", std::move(host));
   graph.set("contains", std::move(contains));
   return graph;

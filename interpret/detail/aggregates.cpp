@@ -1,5 +1,6 @@
 #include "interpret/detail/arithmetic.h"
 #include "interpret/detail/pairs.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <memory>
@@ -44,14 +45,13 @@ void Evaluator::aggregate(ExprId id, const Frame& frame, std::span<double> out) 
   Pairs pairs;
   for (std::size_t slot = 0; slot < out.size(); ++slot) {
     if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
-    for (std::size_t link = links.begin_of(rows[slot]); link < links.begin_of(rows[slot] + 1);
-         ++link) {
-      const int other = links.others[link];
-      const Truth filtered =
-          filter == nullptr ? Truth::yes : filter[static_cast<std::size_t>(other)];
-      if (filtered == Truth::no) continue;
+    const auto [begin, end] = links.range_of(rows[slot]);
+    for (std::size_t link = begin; link < end; ++link) {
+      const int other = links.other(link);
+      const Truth filtered = filter == nullptr ? Truth::yes : filter[oriel::at(other)];
+      if (other == rows[slot] || filtered == Truth::no) continue;
       if (pairs.size == kBlock) flush(expr, pairs, *values);
-      pairs.add(slot, rows[slot], other, links.is_other(link), filtered);
+      pairs.add(slot, rows[slot], other, links.is_other(rows[slot], link), filtered);
     }
   }
   if (pairs.size > 0) flush(expr, pairs, *values);

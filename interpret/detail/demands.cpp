@@ -19,6 +19,11 @@ const Expr& at(const Pack& pack, ExprId id) { return pack.code[static_cast<std::
 
 bool is_own_attribute(const Expr& expr) { return expr.op == Op::attribute && expr.level == 0; }
 
+bool is_same_but_for_level(const Expr& x, const Expr& y) {
+  return x.op == y.op && x.type == y.type && x.number == y.number && x.index == y.index &&
+         x.is_previous == y.is_previous && x.args.size() == y.args.size();
+}
+
 Op mirrored(Op op) {
   switch (op) {
     case Op::less:
@@ -143,14 +148,22 @@ bool is_same(const Pack& pack, ExprId p, ExprId q) {
   if (p == kNoExpr || q == kNoExpr) return false;
   const Expr& x = at(pack, p);
   const Expr& y = at(pack, q);
-  const bool is_alike = x.op == y.op && x.type == y.type && x.number == y.number &&
-                        x.index == y.index && x.level == y.level &&
-                        x.is_previous == y.is_previous && x.args.size() == y.args.size();
-  if (!is_alike) return false;
+  if (!is_same_but_for_level(x, y) || x.level != y.level) return false;
   for (std::size_t i = 0; i < x.args.size(); ++i)
     if (!is_same(pack, x.args[i], y.args[i])) return false;
   return is_same(pack, x.filter, y.filter) && is_same(pack, x.join, y.join) &&
          is_same(pack, x.value, y.value);
+}
+
+bool is_mirrored(const Pack& pack, ExprId p, ExprId q) {
+  const Expr& x = at(pack, p);
+  const Expr& y = at(pack, q);
+  const bool reads_feature = x.args.empty() && x.levels != 0;
+  const int level = reads_feature ? 1 - x.level : x.level;
+  if (is_quantifier(x.op) || !is_same_but_for_level(x, y) || level != y.level) return false;
+  for (std::size_t i = 0; i < x.args.size(); ++i)
+    if (!is_mirrored(pack, x.args[i], y.args[i])) return false;
+  return true;
 }
 
 Demands::Demands(const Pack& pack, const std::vector<ExprId>& conditions) : Demands(pack, 0) {

@@ -82,5 +82,7 @@ class Demands {
 
 /// True if two expressions are the same but for where they stand.
 bool is_same(const Pack& pack, ExprId p, ExprId q);
+/// True if `q` asks of other what `p` asks of self, and the other way round; never of quantifiers.
+bool is_mirrored(const Pack& pack, ExprId p, ExprId q);
 
 }  // namespace oriel::rules

@@ -3,10 +3,13 @@
 #include "interpret/detail/arithmetic.h"
 #include "interpret/detail/relations.h"
 
+#include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 namespace oriel::rules {
 
@@ -30,19 +33,12 @@ std::vector<double> code_texts(const std::vector<std::string>& texts,
   return coded;
 }
 
-Links pack_links(std::span<const FeatureGraph::Pair> pairs, std::size_t rows) {
-  Links links;
-  links.starts.assign(rows + 1, 0);
-  links.others.reserve(pairs.size());
-  for (const auto& [self, other] : pairs) {
-    const bool is_inside =
-        self.is_valid() && self.index() < rows && other.is_valid() && other.index() < rows;
-    if (!is_inside) continue;
-    ++links.starts[self.index() + 1];
-    links.others.push_back(other.value);
-  }
-  std::partial_sum(links.starts.begin(), links.starts.end(), links.starts.begin());
-  return links;
+/// Throws std::invalid_argument where the graph is of other features than the table.
+void check_rows(const FeatureLinks& links, const std::string& relation, std::size_t rows) {
+  const int last = links.others.empty() ? -1 : *std::ranges::max_element(links.others);
+  if (links.list_of.size() > rows || last >= static_cast<int>(rows))
+    throw std::invalid_argument("the relation " + relation +
+                                " leads to features that the table does not have");
 }
 
 /// The relations that expressions and groups lead over, and those that these narrow.
@@ -86,12 +82,19 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
 void Facts::link(const Pack& pack, const FeatureGraph& graph) {
   const std::size_t built_in = relation_schema().size();
   const std::vector<bool> is_needed = find_needed(pack, relations.size());
+  narrowed_.reserve(pack.relations.size());
   for (std::size_t i = 0; i < relations.size(); ++i) {
     if (!is_needed[i]) continue;
-    if (i < built_in)
-      relations[i] = pack_links(graph.pairs(relation_schema()[i].name), rows);
-    else
-      relations[i] = narrowed(pack, *this, pack.relations[i - built_in]);
+    if (i < built_in) {
+      const std::string& name = relation_schema()[i].name;
+      relations[i].lists = &graph.links(name);
+      check_rows(*relations[i].lists, name, rows);
+      continue;
+    }
+    Narrowed narrowed = rules::narrowed(pack, *this, pack.relations[i - built_in]);
+    narrowed_.push_back(std::move(narrowed.lists));
+    relations[i] = std::move(narrowed.links);
+    relations[i].lists = &narrowed_.back();
   }
 }
 

@@ -6,32 +6,49 @@
 #include "kernel/model/feature_table.h"
 #include "kernel/model/surface_table.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 namespace oriel::rules {
 
-/// The others of a relation, packed: those of a row r are others[starts[r]] … others[starts[r + 1]
-/// - 1].
+/// The others of a relation as rules see them. Refers to lists that must outlive it.
 struct Links {
-  std::vector<int> starts;
-  std::vector<int> others;
-  /// Whether each of `others` is one (yes, or unknown where a value is missing); empty: all are.
+  const FeatureLinks* lists = nullptr;
+  /// By position in the lists, whether each other is one (yes, or unknown where a value is
+  /// missing); empty: all are.
   std::vector<Truth> certain;
+  /// By row, whether it is one itself, as self and as other; empty: all are.
+  std::vector<Truth> certain_rows;
 
-  [[nodiscard]] std::size_t begin_of(int row) const {
-    return static_cast<std::size_t>(starts[static_cast<std::size_t>(row)]);
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  /// The others of a row stand at these positions of the lists; the row itself may be among them.
+  [[nodiscard]] Range range_of(int row) const {
+    const auto r = static_cast<std::size_t>(row);
+    const int list = r < lists->list_of.size() ? lists->list_of[r] : -1;
+    if (list < 0) return {};
+    const auto l = static_cast<std::size_t>(list);
+    return {static_cast<std::size_t>(lists->starts[l]),
+            static_cast<std::size_t>(lists->starts[l + 1])};
   }
-  [[nodiscard]] std::span<const int> of(int row) const {
-    return std::span(others).subspan(begin_of(row), begin_of(row + 1) - begin_of(row));
+  [[nodiscard]] int other(std::size_t link) const { return lists->others[link]; }
+  [[nodiscard]] bool are_all_certain() const { return certain.empty() && certain_rows.empty(); }
+  [[nodiscard]] Truth is_other(int row, std::size_t link) const {
+    const Truth one = certain.empty() ? Truth::yes : certain[link];
+    return certain_rows.empty() ? one : std::min({one, of_row(row), of_row(other(link))});
   }
-  [[nodiscard]] Truth is_other(std::size_t link) const {
-    return certain.empty() ? Truth::yes : certain[link];
+  [[nodiscard]] bool is_certain(int row) const {
+    return certain_rows.empty() || of_row(row) == Truth::yes;
   }
+
+ private:
+  [[nodiscard]] Truth of_row(int row) const { return certain_rows[static_cast<std::size_t>(row)]; }
 };
 
 /// One building, laid out for evaluation: everything a pack asks for by name is found once, before
-/// the first rule is run. Refers to the table, which must outlive it.
+/// the first rule is run. Refers to the table and the graph, which must outlive it.
 struct Facts {
   Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
   /// The same for surfaces, of which neither relations nor classes are known.
@@ -45,7 +62,7 @@ struct Facts {
   /// By column of feature_schema(): its numbers, or its texts as numbers of words (Pack::words,
   /// further numbers for other texts); NaN where missing. Empty for texts that no rule asks for.
   std::vector<std::span<const double>> columns;
-  /// By number (Relation); empty for relations that nothing leads over.
+  /// By number (Relation); without lists for relations that nothing leads over.
   std::vector<Links> relations;
   /// Whether a feature is of a class, by class and row, as far as it is known so far.
   std::vector<std::vector<Truth>> membership;
@@ -59,6 +76,8 @@ struct Facts {
  private:
   void link(const Pack& pack, const FeatureGraph& graph);
 
+  /// The lists of the relations that the pack declares.
+  std::vector<FeatureLinks> narrowed_;
   std::vector<std::vector<double>> coded_texts_;
 };
 

@@ -3,8 +3,8 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <span>
 
 namespace oriel::rules {
 
@@ -33,28 +33,51 @@ class DisjointRows {
   std::vector<int> parents_;
 };
 
-/// The members of every component of one kind.
-std::vector<std::vector<FeatureId>> components_of(const GroupKind& kind, const Facts& facts) {
-  const auto& members = facts.membership[static_cast<std::size_t>(kind.of)];
-  const Links& links = facts.relations[static_cast<std::size_t>(kind.by)];
-  const auto is_member = [&](int row) {
-    return members[static_cast<std::size_t>(row)] == Truth::yes;
-  };
-  DisjointRows sets(facts.rows);
+/// Joins the members of one list, all of which are related.
+void join_class(DisjointRows& sets, std::span<const int> list, auto is_member) {
+  int root = -1;
+  for (const int row : list)
+    if (is_member(row)) root = root < 0 ? sets.find(row) : sets.join(root, row);
+}
+
+/// Joins every member with its others that are members.
+void join_pairs(DisjointRows& sets, const Facts& facts, const Links& links, auto is_member) {
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
     int root = sets.find(row);
-    const std::size_t end = links.begin_of(row + 1);
-    for (std::size_t link = links.begin_of(row); link < end; ++link)
-      if (links.is_other(link) == Truth::yes && is_member(links.others[link]))
-        root = sets.join(root, links.others[link]);
+    const auto [begin, end] = links.range_of(row);
+    for (std::size_t link = begin; link < end; ++link)
+      if (links.is_other(row, link) == Truth::yes && is_member(links.other(link)))
+        root = sets.join(root, links.other(link));
   }
-  std::map<int, std::vector<FeatureId>> by_root;
-  for (const int row : facts.row_numbers)
-    if (is_member(row)) by_root[sets.find(row)].push_back(FeatureId{row});
+}
+
+/// The members of every component of one kind, in the order of their first ones.
+std::vector<std::vector<FeatureId>> components_of(const GroupKind& kind, const Facts& facts) {
+  const auto& members = facts.membership[at(kind.of)];
+  const Links& links = facts.relations[at(kind.by)];
+  const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
+  DisjointRows sets(facts.rows);
+  if (links.lists->are_classes && links.certain.empty())
+    for (std::size_t l = 0; l < links.lists->lists(); ++l)
+      join_class(sets, links.lists->list(l),
+                 [&](int row) { return is_member(row) && links.is_certain(row); });
+  else
+    join_pairs(sets, facts, links, is_member);
+  // The root is the first member.
+  std::vector<int> component_of(facts.rows, -1);
   std::vector<std::vector<FeatureId>> components;
-  for (auto& [root, rows] : by_root)
-    if (static_cast<int>(rows.size()) >= kind.at_least) components.push_back(std::move(rows));
+  for (const int row : facts.row_numbers) {
+    if (!is_member(row)) continue;
+    int& component = component_of[at(sets.find(row))];
+    if (component < 0) {
+      component = static_cast<int>(components.size());
+      components.emplace_back();
+    }
+    components[at(component)].push_back(FeatureId{row});
+  }
+  std::erase_if(components,
+                [&](const auto& rows) { return static_cast<int>(rows.size()) < kind.at_least; });
   return components;
 }
 

@@ -1,5 +1,6 @@
 #include "interpret/detail/arithmetic.h"
 #include "interpret/detail/pairs.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,12 +23,12 @@ Truth answer_of(Op op, Truth is_other, Truth answer) {
 
 /// Whether it is unknown of an other of the row that it is one, or how it answers the filter.
 bool has_unknown(const Links& links, int row, const Truth* filter) {
-  const std::size_t end = links.begin_of(row + 1);
+  const auto [begin, end] = links.range_of(row);
   bool is_unknown = false;
-  for (std::size_t link = links.begin_of(row); link < end; ++link) {
-    const Truth filtered =
-        filter == nullptr ? Truth::yes : filter[static_cast<std::size_t>(links.others[link])];
-    is_unknown |= std::min(links.is_other(link), filtered) == Truth::unknown;
+  for (std::size_t link = begin; link < end; ++link) {
+    const int other = links.other(link);
+    const Truth filtered = filter == nullptr ? Truth::yes : filter[oriel::at(other)];
+    is_unknown |= other != row && std::min(links.is_other(row, link), filtered) == Truth::unknown;
   }
   return is_unknown;
 }
@@ -63,21 +64,21 @@ void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out, Enoug
       expr.filter == kNoExpr ? nullptr : column(expr.filter, expr.level + 1).data();
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
   Pairs pairs;
-  // Of each slot its next link, and whether it is settled by nothing but all answers; then the open
-  // slots.
-  std::array<std::size_t, kBlock> next;
+  // Of each slot the links that are left, and whether it is settled by nothing but all answers;
+  // then the open slots.
+  std::array<Links::Range, kBlock> left_of;
   std::array<bool, kBlock> asks_all;
   std::array<std::uint16_t, kBlock> open;
   std::size_t open_count = 0;
   const bool may_be_unknown =
       enough.minds_unknown &&
-      (!links.certain.empty() ||
+      (!links.are_all_certain() ||
        (filter != nullptr &&
         std::find(filter, filter + facts_->rows, Truth::unknown) != filter + facts_->rows));
   for (std::size_t slot = 0; slot < out.size(); ++slot) {
     out[slot] = {0, 0, 0};
     if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
-    next[slot] = links.begin_of(rows[slot]);
+    left_of[slot] = links.range_of(rows[slot]);
     asks_all[slot] = may_be_unknown && has_unknown(links, rows[slot], filter);
     open[open_count++] = static_cast<std::uint16_t>(slot);
   }
@@ -86,13 +87,12 @@ void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out, Enoug
   };
   /// Asks up to `share` others of a slot; true if some are left.
   const auto ask = [&](std::size_t slot, std::size_t share) {
-    const std::size_t end = links.begin_of(rows[slot] + 1);
-    std::size_t& link = next[slot];
+    auto& [link, end] = left_of[slot];
     for (; link < end && share > 0 && !is_settled(slot); ++link) {
-      const int other = links.others[link];
-      const Truth is_other = links.is_other(link);
-      const Truth filtered =
-          filter == nullptr ? Truth::yes : filter[static_cast<std::size_t>(other)];
+      const int other = links.other(link);
+      if (other == rows[slot]) continue;
+      const Truth is_other = links.is_other(rows[slot], link);
+      const Truth filtered = filter == nullptr ? Truth::yes : filter[oriel::at(other)];
       if (filtered == Truth::no || expr.join == kNoExpr) {
         add(out[slot], answer_of(expr.op, is_other, filtered));
         continue;

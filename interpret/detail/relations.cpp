@@ -1,6 +1,8 @@
 #include "interpret/detail/relations.h"
 
+#include "interpret/detail/demands.h"
 #include "interpret/detail/evaluator.h"
+#include "interpret/detail/refined_classes.h"
 
 #include <algorithm>
 #include <array>
@@ -13,68 +15,84 @@ namespace {
 /// What levels a condition of a relation reads: bit 0 self, bit 1 other.
 constexpr unsigned kSelf = 1, kOther = 2;
 
+/// The conditions of a relation: on self alone, on the other alone, and on both.
+struct Sides {
+  Sides(const Pack& pack, const Relation& relation) {
+    const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
+    const std::vector<ExprId> whole{relation.where};
+    for (const ExprId id : where.op == Op::all_of ? where.args : whole) {
+      const unsigned levels = pack.code[static_cast<std::size_t>(id)].levels;
+      auto& list = (levels & kOther) == 0 ? of_self : (levels & kSelf) == 0 ? of_other : of_both;
+      list.push_back(id);
+    }
+  }
+  std::vector<ExprId> of_self, of_other, of_both;
+};
+
+/// True if each of `p` stands mirrored in `q`.
+bool are_mirrored(const Pack& pack, const std::vector<ExprId>& p, const std::vector<ExprId>& q) {
+  return std::ranges::all_of(p, [&](ExprId id) {
+    return std::ranges::any_of(q, [&](ExprId other) { return is_mirrored(pack, id, other); });
+  });
+}
+
+/// Of `f(self) = f(other)` what is asked of self; else kNoExpr.
+ExprId compared_in(const Pack& pack, ExprId id) {
+  const Expr& expr = pack.code[static_cast<std::size_t>(id)];
+  if (expr.op != Op::equal || !is_mirrored(pack, expr.args[0], expr.args[1])) return kNoExpr;
+  const bool is_first = pack.code[static_cast<std::size_t>(expr.args[0])].levels == kSelf;
+  return expr.args[is_first ? 0 : 1];
+}
+
+/// What features of one class must be equal in to stay together; nothing if the conditions ask for
+/// more than that.
+std::optional<std::vector<ExprId>> compared_in(const Pack& pack, const Sides& sides) {
+  if (!are_mirrored(pack, sides.of_self, sides.of_other) ||
+      !are_mirrored(pack, sides.of_other, sides.of_self))
+    return std::nullopt;
+  std::vector<ExprId> keys;
+  for (const ExprId id : sides.of_both) {
+    keys.push_back(compared_in(pack, id));
+    if (keys.back() == kNoExpr) return std::nullopt;
+  }
+  return keys;
+}
+
 /// Goes through the pairs of a relation block by block and keeps those that fit. Conditions on one
 /// of the two alone are evaluated once for every feature, and only pairs that they leave are looked
 /// at.
 class Narrowing {
  public:
-  Narrowing(const Pack& pack, const Facts& facts, const Relation& relation)
-      : facts_(facts), evaluator_(pack, facts) {
-    const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
-    const std::vector<ExprId> whole{relation.where};
-    for (const ExprId id : where.op == Op::all_of ? where.args : whole) sort(pack, id);
-  }
+  Narrowing(const Facts& facts, Evaluator& evaluator, const Sides& sides)
+      : facts_(facts), evaluator_(evaluator), sides_(sides) {}
 
-  Links run(const Links& from) {
-    const auto selves = answers_of(of_self_, 0), others = answers_of(of_other_, 1);
-    links_.starts.assign(facts_.rows + 1, 0);
-    // One more than there can be: what does not fit is written there, too, and then overwritten.
-    links_.others.resize(from.others.size() + 1);
-    links_.certain.resize(from.others.size() + 1);
+  Narrowed run(const Links& from) {
+    const auto selves = answers_of(facts_, evaluator_, sides_.of_self, 0);
+    const auto others = answers_of(facts_, evaluator_, sides_.of_other, 1);
     for (const int row : facts_.row_numbers) {
       const Truth self = selves[static_cast<std::size_t>(row)];
       if (self == Truth::no) continue;
-      const std::size_t end = from.begin_of(row + 1);
-      for (std::size_t link = from.begin_of(row); link < end; ++link) {
-        const int other = from.others[link];
+      const auto [begin, end] = from.range_of(row);
+      for (std::size_t link = begin; link < end; ++link) {
+        const int other = from.other(link);
+        if (other == row) continue;
         const Truth fits = std::min(self, others[static_cast<std::size_t>(other)]);
-        add(row, other, std::min(fits, from.is_other(link)));
+        add(row, other, std::min(fits, from.is_other(row, link)));
       }
     }
     flush();
+    Narrowed result;
+    result.lists.list_of = facts_.row_numbers;
+    result.lists.starts.assign(facts_.rows + 1, 0);
+    for (const int self : kept_selves_) ++result.lists.starts[static_cast<std::size_t>(self) + 1];
     for (std::size_t row = 0; row < facts_.rows; ++row)
-      links_.starts[row + 1] += links_.starts[row];
-    links_.others.resize(count_);
-    links_.certain.resize(has_unknown_ ? count_ : 0);
-    return std::move(links_);
+      result.lists.starts[row + 1] += result.lists.starts[row];
+    result.lists.others = std::move(kept_others_);
+    if (has_unknown_) result.links.certain = std::move(kept_truths_);
+    return result;
   }
 
  private:
-  void sort(const Pack& pack, ExprId id) {
-    const unsigned levels = pack.code[static_cast<std::size_t>(id)].levels;
-    auto& list = (levels & kOther) == 0 ? of_self_ : (levels & kSelf) == 0 ? of_other_ : of_both_;
-    list.push_back(id);
-  }
-
-  /// For every feature whether all of the conditions hold, which read that level only.
-  std::vector<Truth> answers_of(const std::vector<ExprId>& conditions, int level) {
-    std::vector<Truth> all(facts_.rows, Truth::yes);
-    for (std::size_t begin = 0; begin < facts_.rows; begin += kBlock) {
-      const Frame frame = block_of(facts_, begin, level);
-      narrow(conditions, frame, std::span(all).subspan(begin, frame.size));
-    }
-    return all;
-  }
-
-  void narrow(const std::vector<ExprId>& conditions, const Frame& frame, std::span<Truth> all) {
-    std::array<Truth, kBlock> block;
-    const auto answers = std::span(block).first(all.size());
-    for (const ExprId id : conditions) {
-      evaluator_.truths(id, frame, answers);
-      for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::min(all[i], answers[i]);
-    }
-  }
-
   /// Pairs that do not fit are overwritten by the next, without a branch that nobody could foresee.
   void add(int self, int other, Truth truth) {
     if (size_ == kBlock) flush();
@@ -89,29 +107,22 @@ class Narrowing {
     frame.size = size_;
     frame.rows[0] = selves_.data();
     frame.rows[1] = others_.data();
-    narrow(of_both_, frame, std::span(truths_).first(size_));
-    int* const others = links_.others.data();
-    int* const starts = links_.starts.data() + 1;
-    Truth* const certain = links_.certain.data();
-    std::size_t count = count_;
+    narrow(evaluator_, sides_.of_both, frame, std::span(truths_).first(size_));
     for (std::size_t i = 0; i < size_; ++i) {
-      const Truth truth = truths_[i];
-      const int fits = truth != Truth::no ? 1 : 0;
-      has_unknown_ |= truth == Truth::unknown;
-      others[count] = others_[i];
-      certain[count] = truth;
-      starts[selves_[i]] += fits;
-      count += static_cast<std::size_t>(fits);
+      if (truths_[i] == Truth::no) continue;
+      has_unknown_ |= truths_[i] == Truth::unknown;
+      kept_selves_.push_back(selves_[i]);
+      kept_others_.push_back(others_[i]);
+      kept_truths_.push_back(truths_[i]);
     }
-    count_ = count;
     size_ = 0;
   }
 
   const Facts& facts_;
-  Evaluator evaluator_;
-  std::vector<ExprId> of_self_, of_other_, of_both_;
-  Links links_;
-  std::size_t count_ = 0;  ///< of links that fit
+  Evaluator& evaluator_;
+  const Sides& sides_;
+  std::vector<int> kept_selves_, kept_others_;
+  std::vector<Truth> kept_truths_;
   bool has_unknown_ = false;
   std::size_t size_ = 0;
   std::array<int, kBlock> selves_;
@@ -121,9 +132,15 @@ class Narrowing {
 
 }  // namespace
 
-Links narrowed(const Pack& pack, const Facts& facts, const Relation& relation) {
+Narrowed narrowed(const Pack& pack, const Facts& facts, const Relation& relation) {
   const Links& from = facts.relations[static_cast<std::size_t>(relation.within)];
-  return Narrowing(pack, facts, relation).run(from);
+  const Sides sides(pack, relation);
+  Evaluator evaluator(pack, facts);
+  if (const auto keys = compared_in(pack, sides); keys && from.lists->are_classes) {
+    auto refined = refined_classes(facts, evaluator, from, sides.of_self, *keys);
+    if (refined) return std::move(*refined);
+  }
+  return Narrowing(facts, evaluator, sides).run(from);
 }
 
 }  // namespace oriel::rules

@@ -151,7 +151,7 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     record.attributes = attributes_of(table, row);
     for (const RelationKind& relation : detail::recorded_relations()) {
       record.relations.emplace_back();
-      for (const auto& [self, other] : graph.of(relation.name, row))
+      for (const FeatureId other : graph.others(relation.name, row))
         record.relations.back().push_back(table.id(other));
     }
     records.push_back(std::move(record));

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kernel/model/feature_links.h"
 #include "kernel/model/ids.h"
 
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,28 +11,30 @@
 
 namespace oriel {
 
-/// Relations between the features of one building: for each relation the pairs self -> other,
-/// sorted by (self, other), without repetition and without self -> self.
+/// Relations between the features of one building, whose rows their ids are: for each relation
+/// the others of every feature.
 class FeatureGraph {
  public:
   using Pair = std::pair<FeatureId, FeatureId>;
 
-  /// Replaces the relation `name` by `pairs`, sorted and made unique.
+  /// Replaces the relation `name` by the pairs self -> other. Repeated pairs count once, those of a
+  /// feature with itself not at all. Throws std::invalid_argument for an id below 0.
   void set(const std::string& name, std::vector<Pair> pairs);
+  /// The same where features of one class are all related to each other: so many numbers are kept
+  /// as there are features, not pairs. Class -1: to none.
+  void set_classes(const std::string& name, std::span<const int> class_of_row);
 
-  /// The pairs of `name`; empty if there are none.
-  [[nodiscard]] std::span<const Pair> pairs(std::string_view name) const;
-
-  /// The pairs of `name` whose first is `self`, a piece of `pairs(name)`: O(log n).
-  [[nodiscard]] std::span<const Pair> of(std::string_view name, FeatureId self) const;
-
-  /// The relations that were set, by name.
-  [[nodiscard]] const std::map<std::string, std::vector<Pair>, std::less<>>& all() const {
-    return relations_;
-  }
+  /// The links of `name`; of no list if it was not set.
+  [[nodiscard]] const FeatureLinks& links(std::string_view name) const;
+  /// The others of `self` by `name`, ascending.
+  [[nodiscard]] std::vector<FeatureId> others(std::string_view name, FeatureId self) const;
+  /// All pairs of `name`, sorted by (self, other).
+  [[nodiscard]] std::vector<Pair> pairs(std::string_view name) const;
+  /// The relations that were set, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
 
  private:
-  std::map<std::string, std::vector<Pair>, std::less<>> relations_;
+  std::map<std::string, FeatureLinks, std::less<>> relations_;
 };
 
 }  // namespace oriel

@@ -294,4 +294,58 @@ TEST_SUITE("interpret") {
     CHECK(stopped > 1000);
     CHECK(unknown > 1000);
   }
+
+  TEST_CASE(
+      "a relation of classes means what its pairs mean, parted or not, values missing or not") {
+    const std::vector<std::string> relations = {
+        "storey = other.storey", "host is wall and other.host is wall and storey = other.storey",
+        "storey = other.storey and abs(a) = abs(other.a)",
+        "host is wall and storey = other.storey",  // pairs: self alone must be on a wall
+        "host is wall and other.host is wall and a >= other.a"};
+    std::vector<RuleBase> packs;
+    for (const std::string& where : relations)
+      packs.push_back(load(pack_with(
+          "relations:\n  near: {within: same facade, where: '" + where +
+          "'}\n  nearer: {within: near, where: 'b = other.b'}\nrules:\n"
+          "  - {id: w, label: window, require: 'count(near where b > 0.2 m) >= 1'}\n"
+          "  - {id: d, label: door, require: 'exists(nearer where a < self.a)'}\n"
+          "groups:\n  rows: {of: window, by: near}\n  more: {of: window, by: nearer}\n")));
+    std::size_t grouped = 0, labelled = 0;
+    CHECK(rc::check("classes and pairs", [&] {
+      const int count = *rc::gen::inRange(30, 60);
+      const bool has_gaps = *rc::gen::inRange(0, 2) == 1;
+      Scene scene;
+      std::vector<int> facades;
+      for (int i = 0; i < count; ++i) {
+        Values values;
+        for (const char* name : {"storey", "a", "b"})
+          if (const int n = *rc::gen::inRange(0, 4); n > 0 || !has_gaps) values[name] = n * 0.5;
+        if (const int n = *rc::gen::inRange(0, 8); n < 7 || !has_gaps)
+          values["host_inclination"] = n < 6 ? 90.0 : 30.0;
+        scene.add(values);
+        facades.push_back(*rc::gen::inRange(-1, 2));
+        for (int j = 0; j < i; ++j)
+          if (facades.back() >= 0 && facades[static_cast<std::size_t>(j)] == facades.back())
+            scene.relate_both("same_facade", FeatureId{i}, FeatureId{j});
+      }
+      const FeatureGraph by_pairs = scene.graph();
+      FeatureGraph by_classes;
+      by_classes.set_classes("same_facade", facades);
+      RC_ASSERT(by_classes.pairs("same_facade") == by_pairs.pairs("same_facade"));
+      for (const RuleBase& pack : packs) {
+        const auto p = interpret(pack, scene.table(), by_pairs);
+        const auto q = interpret(pack, scene.table(), by_classes);
+        for (std::size_t i = 0; i < p.verdicts.size(); ++i) {
+          RC_ASSERT(p.verdicts[i].label == q.verdicts[i].label);
+          RC_ASSERT(p.verdicts[i].groups == q.verdicts[i].groups);
+          grouped += p.verdicts[i].groups.size();
+          labelled += p.verdicts[i].label.empty() ? 0U : 1U;
+        }
+        RC_ASSERT(group_ids(p) == group_ids(q));
+      }
+    }));
+    // It was about something.
+    CHECK(grouped > 1000);
+    CHECK(labelled > 1000);
+  }
 }

@@ -42,8 +42,8 @@ inline Described described(Building building, const SegmentOptions& options = {}
 
 /// Whether a relation holds from self to other.
 inline bool holds(const Described& d, const std::string& name, FeatureId self, FeatureId other) {
-  const auto found = d.graph().of(name, self);
-  return std::ranges::find(found, FeatureGraph::Pair{self, other}) != found.end();
+  const auto others = d.graph().others(name, self);
+  return std::ranges::find(others, other) != others.end();
 }
 
 /// Compares several numbers of a feature, each to a tenth of a millimetre or so.

@@ -46,19 +46,6 @@ bool is_above(const InFacade& p, const InFacade& q) {
          std::abs(gap) <= kNextTo_m;
 }
 
-/// Visits every two members of one group, both ways, in ascending order.
-template <class Visit>
-void for_each_pair(const std::vector<int>& group_of, Visit visit) {
-  std::map<int, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < group_of.size(); ++i)
-    if (group_of[i] >= 0) groups[group_of[i]].push_back(i);
-  for (std::size_t i = 0; i < group_of.size(); ++i) {
-    if (group_of[i] < 0) continue;
-    for (const std::size_t j : groups.find(group_of[i])->second)
-      if (i != j) visit(i, j);
-  }
-}
-
 std::vector<Pair> contained(const Segmentation& segmentation) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
@@ -120,32 +107,30 @@ std::vector<int> storeys_of(const std::vector<InFacade>& features,
 
 FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
                     const std::vector<int>& storeys) {
-  std::vector<Pair> hosts, same_facade, same_storey, alike, beside, above;
+  std::vector<Pair> hosts, alike, beside, above;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i)
     if (segmentation.features[i].host.is_valid())
       hosts.emplace_back(id(i), segmentation.features[i].host);
 
   std::vector<int> facades;
   for (const InFacade& f : features) facades.push_back(f.facade);
-  // Feature by feature, so that the pairs come sorted.
-  for_each_pair(facades, [&](std::size_t i, std::size_t j) {
-    const InFacade &p = features[i], &q = features[j];
-    same_facade.emplace_back(id(i), id(j));
-    if (is_alike(p, q)) alike.emplace_back(id(i), id(j));
-    if (is_beside(p, q)) beside.emplace_back(id(i), id(j));
-    if (is_above(p, q)) above.emplace_back(id(i), id(j));
-  });
-  for_each_pair(storeys,
-                [&](std::size_t i, std::size_t j) { same_storey.emplace_back(id(i), id(j)); });
-
   FeatureGraph graph;
+  graph.set_classes("same_facade", facades);
+  graph.set_classes("same_storey", storeys);
+  // Feature by feature, so that the pairs come sorted.
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    for (const FeatureId other : graph.others("same_facade", id(i))) {
+      const InFacade &p = features[i], &q = features[other.index()];
+      if (is_alike(p, q)) alike.emplace_back(id(i), other);
+      if (is_beside(p, q)) beside.emplace_back(id(i), other);
+      if (is_above(p, q)) above.emplace_back(id(i), other);
+    }
+  }
   graph.set("host", std::move(hosts));
   std::vector<Pair> contains = contained(segmentation), inside;
   for (const auto& [outer, inner] : contains) inside.emplace_back(inner, outer);
   graph.set("contains", std::move(contains));
   graph.set("inside", std::move(inside));
-  graph.set("same_facade", std::move(same_facade));
-  graph.set("same_storey", std::move(same_storey));
   graph.set("alike", std::move(alike));
   graph.set("beside", std::move(beside));
   graph.set("above", std::move(above));

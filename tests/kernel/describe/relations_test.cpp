@@ -36,7 +36,8 @@ void check_graph(const Described& d) {
   std::set<std::string> names;
   for (const RelationKind& kind : relation_schema()) names.insert(kind.name);
   const auto& features = d.segmented.segmentation.features;
-  for (const auto& [name, all] : d.graph().all()) {
+  for (const std::string& name : d.graph().names()) {
+    const auto all = d.graph().pairs(name);
     CAPTURE(name);
     CHECK(names.contains(name));
     CHECK(std::ranges::is_sorted(all));
@@ -47,7 +48,7 @@ void check_graph(const Described& d) {
       CHECK(other.index() < features.size());
     }
   }
-  CHECK(d.graph().all().size() == names.size());
+  CHECK(d.graph().names().size() == names.size());
   for (const char* name : {"same_facade", "same_storey", "alike", "beside"})
     for (const auto& [self, other] : d.graph().pairs(name)) CHECK(holds(d, name, other, self));
   for (const auto& [lower, upper] : d.graph().pairs("above"))
@@ -61,18 +62,18 @@ void check_graph(const Described& d) {
     CHECK(holds(d, "contains", host, self));
   }
   for (const auto& [outer, inner] : d.graph().pairs("contains"))
-    for (const auto& [self, deeper] : d.graph().of("contains", inner))
+    for (const FeatureId deeper : d.graph().others("contains", inner))
       CHECK(holds(d, "contains", outer, deeper));
   for (const FeatureId id : test::all_features(d.segmented.segmentation)) {
     std::size_t companions = 1;
-    for (const auto& [self, other] : d.graph().of("same_facade", id))
+    for (const FeatureId other : d.graph().others("same_facade", id))
       companions += features[other.index()].sense == features[id.index()].sense ? 1 : 0;
     if (d.has(id, "per_facade"))
       CHECK(d.number(id, "per_facade") == static_cast<double>(companions));
     CHECK(d.has(id, "per_facade") == features[id.index()].host_facet.has_value());
     if (d.has(id, "storey"))
       CHECK(d.number(id, "per_storey") ==
-            static_cast<double>(d.graph().of("same_storey", id).size() + 1));
+            static_cast<double>(d.graph().others("same_storey", id).size() + 1));
   }
 }
 

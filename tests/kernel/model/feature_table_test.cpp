@@ -1,7 +1,10 @@
 #include "kernel/model/feature_table.h"
 
+#include "kernel/model/feature_graph.h"
+
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -29,6 +32,28 @@ TEST_SUITE("kernel/model") {
     FeatureTable table("house", 1);
     CHECK_THROWS_AS(table.set(FeatureId{0}, "heigth", 1.0), std::logic_error);
     CHECK_THROWS_AS(table.set(FeatureId{0}, "sense", 1.0), std::logic_error);
+  }
+
+  TEST_CASE("features of a class are each other's others, and none is its own") {
+    FeatureGraph graph;
+    graph.set_classes("same_facade", std::vector<int>{1, -1, 0, 1, 0, 1});
+    const std::vector<FeatureId> others{FeatureId{3}, FeatureId{5}};
+    CHECK(graph.others("same_facade", FeatureId{0}) == others);
+    CHECK(graph.others("same_facade", FeatureId{1}).empty());
+    CHECK(graph.others("same_facade", FeatureId{9}).empty());
+    CHECK(graph.pairs("same_facade").size() == 8);
+    graph.set("beside", graph.pairs("same_facade"));
+    CHECK(graph.pairs("beside") == graph.pairs("same_facade"));
+    CHECK(graph.pairs("above").empty());
+  }
+
+  TEST_CASE(
+      "a relation drops pairs that stand twice or lead to themselves and refuses no feature") {
+    FeatureGraph graph;
+    const FeatureId p{0}, q{1};
+    graph.set("beside", {{q, p}, {p, p}, {p, q}, {q, p}});
+    CHECK(graph.pairs("beside") == std::vector<FeatureGraph::Pair>{{p, q}, {q, p}});
+    CHECK_THROWS_AS(graph.set("beside", {{p, FeatureId{}}}), std::invalid_argument);
   }
 
   TEST_CASE("records carry the unit in the name") {
