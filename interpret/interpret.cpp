@@ -23,16 +23,13 @@ const std::string& label_of(const rules::Pack& pack, int rule) {
   return pack.classes[static_cast<std::size_t>(rule_of(pack, rule).label)].name;
 }
 
-Verdict verdict_of(const rules::Pack& pack, const rules::Choice& choice, FeatureId feature) {
-  Verdict verdict;
-  verdict.feature = feature;
-  if (choice.rule < 0) return verdict;
+void fill(Verdict& verdict, const rules::Pack& pack, const rules::Choice& choice) {
+  if (choice.rule < 0) return;
   verdict.label = label_of(pack, choice.rule);
   verdict.score = choice.score;
   verdict.margin = choice.margin;
   verdict.rule = rule_of(pack, choice.rule).id;
   if (choice.runner_up >= 0) verdict.runner_up = label_of(pack, choice.runner_up);
-  return verdict;
 }
 
 Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
@@ -70,12 +67,12 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   rules::Labelling labelling(pack, facts);
   const auto choices = labelling.run();
   Interpretation result;
-  result.verdicts.reserve(choices.size());
+  result.verdicts.resize(choices.size());
   for (std::size_t row = 0; row < choices.size(); ++row) {
-    const FeatureId feature{static_cast<int>(row)};
-    result.verdicts.push_back(verdict_of(pack, choices[row], feature));
-    if (choices[row].is_ambiguous)
-      result.issues.push_back(ambiguity(pack, result.verdicts.back(), table));
+    Verdict& verdict = result.verdicts[row];
+    verdict.feature = FeatureId{static_cast<int>(row)};
+    fill(verdict, pack, choices[row]);
+    if (choices[row].is_ambiguous) result.issues.push_back(ambiguity(pack, verdict, table));
   }
   if (const auto rows = labelling.unsettled(); !rows.empty())
     result.issues.push_back(unsettled(pack, rows, table));

@@ -2,6 +2,7 @@
 
 #include "interpret/detail/expr.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -85,19 +86,26 @@ inline void apply(Op op, std::span<double> x, std::span<const double> y) {
   }
 }
 
-/// The same comparisons for a block. No comparison holds for NaN, so that what does not hold is
-/// either no or, where one is NaN, unknown.
-inline void compare(Op op, std::span<const double> x, std::span<const double> y,
-                    std::span<Truth> out) {
-  const auto run = [&](auto holds) {
-    for_each(
-        out.size(),
-        [holds](Truth& truth, double p, double q) {
-          const int is_unknown = static_cast<int>(p != p) | static_cast<int>(q != q);
-          truth = static_cast<Truth>(2 * static_cast<int>(holds(p, q)) + is_unknown);
-        },
-        out, x, y);
-  };
+/// The same with one number for all.
+inline void apply(Op op, std::span<double> x, double y) {
+  const auto run = [&](auto f) { for_each(x.size(), f, x); };
+  switch (op) {
+    case Op::add:
+      return run([y](double& p) { p = p + y; });
+    case Op::subtract:
+      return run([y](double& p) { p = p - y; });
+    case Op::multiply:
+      return run([y](double& p) { p = p * y; });
+    case Op::divide:
+      return run([y](double& p) { p = p / y; });
+    default:
+      return run([op, y](double& p) { p = apply(op, p, y); });
+  }
+}
+
+/// Calls `run` with the comparison as a function of two numbers.
+template <class Run>
+void with_comparison(Op op, Run run) {
   switch (op) {
     case Op::less:
       return run([](double p, double q) { return p < q; });
@@ -112,6 +120,44 @@ inline void compare(Op op, std::span<const double> x, std::span<const double> y,
     default:
       return run([](double p, double q) { return static_cast<bool>((p < q) | (p > q)); });
   }
+}
+
+/// The same comparisons for a block. No comparison holds for NaN, so that what does not hold is
+/// either no or, where one is NaN, unknown.
+inline void compare(Op op, std::span<const double> x, std::span<const double> y,
+                    std::span<Truth> out) {
+  with_comparison(op, [&](auto holds) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const int is_unknown = static_cast<int>(x[i] != x[i]) | static_cast<int>(y[i] != y[i]);
+      out[i] = static_cast<Truth>(2 * static_cast<int>(holds(x[i], y[i])) + is_unknown);
+    }
+  });
+}
+
+/// The same with one number for all.
+inline void compare(Op op, std::span<const double> x, double y, std::span<Truth> out) {
+  if (std::isnan(y)) {
+    std::ranges::fill(out, Truth::unknown);
+    return;
+  }
+  with_comparison(op, [&](auto holds) {
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] =
+          static_cast<Truth>(2 * static_cast<int>(holds(x[i], y)) + static_cast<int>(x[i] != x[i]));
+  });
+}
+
+/// low <= x <= high.
+inline void compare_range(std::span<const double> x, double low, double high,
+                          std::span<Truth> out) {
+  const bool is_unknown = std::isnan(low) || std::isnan(high);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const int is_inside = static_cast<int>(x[i] >= low) & static_cast<int>(x[i] <= high);
+    out[i] = static_cast<Truth>(2 * is_inside + static_cast<int>(x[i] != x[i]));
+  }
+  if (!is_unknown) return;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::min(compare(Op::greater_equal, x[i], low), compare(Op::less_equal, x[i], high));
 }
 
 /// x ~ y by t: |x - y| <= t max(|x|, |y|).

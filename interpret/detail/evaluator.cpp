@@ -1,6 +1,7 @@
 #include "interpret/detail/evaluator.h"
 
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/conjunction.h"
 #include "interpret/detail/fold.h"
 
 #include <algorithm>
@@ -9,10 +10,6 @@ namespace oriel::rules {
 
 namespace {
 
-/// What stands between two operators, for one block.
-using NumberBlock = std::array<double, kBlock>;
-using TruthBlock = std::array<Truth, kBlock>;
-
 /// From how many on a count compares with `bound` as all greater ones do.
 int enough_for(Op op, double bound) {
   constexpr int any = Evaluator::Enough{}.yes;
@@ -20,10 +17,6 @@ int enough_for(Op op, double bound) {
   const bool is_from_bound_on = op == Op::less || op == Op::greater_equal;
   return static_cast<int>(
       std::max(0.0, is_from_bound_on ? std::ceil(bound) : std::floor(bound) + 1));
-}
-
-bool is_any_left(std::span<const Truth> truths) {
-  return std::ranges::any_of(truths, [](Truth t) { return t != Truth::no; });
 }
 
 }  // namespace
@@ -47,15 +40,16 @@ void Evaluator::forget() {
   kept_.clear();
 }
 
+double Evaluator::constant(const Expr& expr, ExprId id) const {
+  if (expr.op == Op::constant) return expr.number;
+  return fold(*pack_, id, facts_->scale).value_or(kUnknown);
+}
+
 void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
   const Expr& expr = at(id);
-  if (is_constant(expr)) {
-    const double value =
-        expr.op == Op::constant ? expr.number : fold(*pack_, id, facts_->scale).value_or(kUnknown);
-    std::ranges::fill(out, value);
-    return;
-  }
-  if (expr.op == Op::attribute)
+  if (is_constant(expr))
+    std::ranges::fill(out, constant(expr, id));
+  else if (expr.op == Op::attribute)
     gather(expr, frame, out);
   else if (expr.op == Op::count)
     count(id, frame, out, Enough{}.yes);
@@ -63,6 +57,19 @@ void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
     aggregate(id, frame, out);
   else
     apply_all(expr, frame, out);
+}
+
+/// The numbers, where they stand if they follow each other, else in `block`.
+std::span<const double> Evaluator::operand(ExprId id, const Frame& frame, NumberBlock& block) {
+  const Expr& expr = at(id);
+  if (expr.op == Op::attribute && frame.is_run) {
+    const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
+    const auto column = facts_->columns[static_cast<std::size_t>(expr.index)];
+    return column.subspan(static_cast<std::size_t>(rows[0]), frame.size);
+  }
+  const auto out = std::span(block).first(frame.size);
+  numbers(id, frame, out);
+  return out;
 }
 
 void Evaluator::gather(const Expr& expr, const Frame& frame, std::span<double> out) const {
@@ -79,10 +86,12 @@ void Evaluator::apply_all(const Expr& expr, const Frame& frame, std::span<double
   numbers(expr.args[0], frame, out);
   if (expr.args.size() == 1) return apply(expr.op, out);
   NumberBlock block;
-  const auto right = std::span(block).first(out.size());
   for (std::size_t k = 1; k < expr.args.size(); ++k) {
-    numbers(expr.args[k], frame, right);
-    apply(expr.op, out, right);
+    const Expr& arg = at(expr.args[k]);
+    if (is_constant(arg))
+      apply(expr.op, out, constant(arg, expr.args[k]));
+    else
+      apply(expr.op, out, operand(expr.args[k], frame, block));
   }
 }
 
@@ -115,51 +124,51 @@ void Evaluator::truths(ExprId id, const Frame& frame, std::span<Truth> out) {
 }
 
 void Evaluator::flag(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
-  NumberBlock block, zeros;
+  NumberBlock block;
   const auto values = std::span(block).first(out.size());
-  const auto zero = std::span(zeros).first(out.size());
   gather(expr, frame, values);
-  std::ranges::fill(zero, 0.0);
-  rules::compare(Op::not_equal, values, zero, out);
+  rules::compare(Op::not_equal, values, 0.0, out);
 }
 
 void Evaluator::compare(const Expr& expr, const Frame& frame, std::span<Truth> out) {
   NumberBlock first, second;
-  const auto left = std::span(first).first(out.size());
-  const auto right = std::span(second).first(out.size());
-  numbers(expr.args[1], frame, right);
-  if (at(expr.args[0]).op == Op::count && is_constant(at(expr.args[1])))
-    count(expr.args[0], frame, left, enough_for(expr.op, right.front()));
-  else
-    numbers(expr.args[0], frame, left);
-  rules::compare(expr.op, left, right, out);
+  const Expr& right = at(expr.args[1]);
+  if (!is_constant(right)) {
+    const auto left = operand(expr.args[0], frame, first);
+    return rules::compare(expr.op, left, operand(expr.args[1], frame, second), out);
+  }
+  const double bound = constant(right, expr.args[1]);
+  if (at(expr.args[0]).op == Op::count) {
+    const auto left = std::span(first).first(out.size());
+    count(expr.args[0], frame, left, enough_for(expr.op, bound));
+    return rules::compare(expr.op, left, bound, out);
+  }
+  rules::compare(expr.op, operand(expr.args[0], frame, first), bound, out);
 }
 
 void Evaluator::in_range(const Expr& expr, const Frame& frame, std::span<Truth> out) {
   NumberBlock first, second;
+  const auto value = operand(expr.args[0], frame, first);
+  const Expr& low = at(expr.args[1]);
+  const Expr& high = at(expr.args[2]);
+  if (is_constant(low) && is_constant(high))
+    return rules::compare_range(value, constant(low, expr.args[1]), constant(high, expr.args[2]),
+                                out);
   TruthBlock third;
-  const auto value = std::span(first).first(out.size());
-  const auto bound = std::span(second).first(out.size());
   const auto is_below = std::span(third).first(out.size());
-  numbers(expr.args[0], frame, value);
-  numbers(expr.args[1], frame, bound);
-  rules::compare(Op::greater_equal, value, bound, out);
-  numbers(expr.args[2], frame, bound);
-  rules::compare(Op::less_equal, value, bound, is_below);
+  rules::compare(Op::greater_equal, value, operand(expr.args[1], frame, second), out);
+  rules::compare(Op::less_equal, value, operand(expr.args[2], frame, second), is_below);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::min(out[i], is_below[i]);
 }
 
 void Evaluator::in_list(const Expr& expr, const Frame& frame, std::span<Truth> out) {
   NumberBlock first, second;
   TruthBlock third;
-  const auto value = std::span(first).first(out.size());
-  const auto member = std::span(second).first(out.size());
+  const auto value = operand(expr.args[0], frame, first);
   const auto is_member = std::span(third).first(out.size());
-  numbers(expr.args[0], frame, value);
   std::ranges::fill(out, Truth::no);
   for (std::size_t k = 1; k < expr.args.size(); ++k) {
-    numbers(expr.args[k], frame, member);
-    rules::compare(Op::equal, value, member, is_member);
+    rules::compare(Op::equal, value, operand(expr.args[k], frame, second), is_member);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], is_member[i]);
   }
 }
@@ -172,45 +181,39 @@ void Evaluator::similar(const Expr& expr, const Frame& frame, std::span<Truth> o
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = is_similar(left[i], right[i], tolerance[i]);
 }
 
-/// not, and, or. After each argument only the slots that it left open are looked at.
+/// not, and, or: or is not (not and not).
 void Evaluator::combine(const Expr& expr, const Frame& frame, std::span<Truth> out) {
-  truths(expr.args[0], frame, out);
+  using enum Conjunction::As;
   if (expr.op == Op::negation) {
-    for (Truth& truth : out) truth = negated(truth);
-    return;
+    truths(expr.args[0], frame, out);
+  } else {
+    Conjunction held(frame, out);
+    for (const ExprId id : expr.args)
+      if (held.is_open()) held.ask(*this, id, expr.op == Op::all_of ? itself : opposite);
+    held.finish();
   }
-  const bool is_all = expr.op == Op::all_of;
-  TruthBlock next, open;
-  Frame rest = frame;
-  rest.needed = open.data();
-  for (std::size_t k = 1; k < expr.args.size(); ++k) {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const bool is_needed = frame.needed == nullptr || frame.needed[i] != Truth::no;
-      open[i] = truth_of(is_needed && out[i] != (is_all ? Truth::no : Truth::yes));
-    }
-    if (!is_any_left(std::span(open).first(out.size()))) return;
-    truths(expr.args[k], rest, std::span(next).first(out.size()));
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = is_all ? std::min(out[i], next[i]) : std::max(out[i], next[i]);
-  }
+  if (expr.op == Op::all_of) return;
+  for (Truth& truth : out) truth = negated(truth);
 }
 
 void Evaluator::membership(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
   const auto& known = expr.is_previous ? facts_->previous : facts_->membership;
-  const auto& members = known[static_cast<std::size_t>(expr.index)];
-  const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = members[static_cast<std::size_t>(rows[i])];
+  pick(known[static_cast<std::size_t>(expr.index)], expr, frame, out);
 }
 
 void Evaluator::facet_kind(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
-  const auto column = facts_->columns[facts_->host_inclination];
+  pick(facts_->hosts[static_cast<std::size_t>(expr.index)], expr, frame, out);
+}
+
+/// The entries of a column of answers.
+void Evaluator::pick(const std::vector<Truth>& column, const Expr& expr, const Frame& frame,
+                     std::span<Truth> out) {
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
-  const auto kind = static_cast<HostKind>(expr.index);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const double inclination = column[static_cast<std::size_t>(rows[i])];
-    const bool is_kind = kind_of_facet(pack_->hosts, inclination) == kind;
-    out[i] = std::isnan(inclination) ? Truth::unknown : truth_of(is_kind);
+  if (frame.is_run) {
+    std::copy_n(column.begin() + rows[0], out.size(), out.begin());
+    return;
   }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = column[static_cast<std::size_t>(rows[i])];
 }
 
 }  // namespace oriel::rules

@@ -13,6 +13,9 @@ namespace oriel::rules {
 
 /// Features are evaluated so many at a time, so that what is in between stays in the cache.
 inline constexpr std::size_t kBlock = 512;
+/// What stands between two operators, for one block.
+using NumberBlock = std::array<double, kBlock>;
+using TruthBlock = std::array<Truth, kBlock>;
 
 /// For whom an expression is evaluated: `size` slots (at most kBlock), each with one feature for
 /// every level the expression reads.
@@ -68,6 +71,8 @@ class Evaluator {
     int yes = std::numeric_limits<int>::max();
     int no = std::numeric_limits<int>::max();
     bool minds_unknown = false;
+    /// Answers that are no need not be counted, but for `all`.
+    bool ignores_no = false;
 
     [[nodiscard]] bool settles(const Tally& t) const { return t.yes >= yes || t.no >= no; }
   };
@@ -81,7 +86,10 @@ class Evaluator {
     return pack_->code[static_cast<std::size_t>(id)];
   }
 
+  /// The value of an expression that is the same for all features; `id` is its own.
+  [[nodiscard]] double constant(const Expr& expr, ExprId id) const;
   void gather(const Expr& expr, const Frame& frame, std::span<double> out) const;
+  std::span<const double> operand(ExprId id, const Frame& frame, NumberBlock& block);
   void apply_all(const Expr& expr, const Frame& frame, std::span<double> out);
   /// No slot is counted beyond `limit` where no answer can be unknown.
   void count(ExprId id, const Frame& frame, std::span<double> out, int limit);
@@ -95,6 +103,8 @@ class Evaluator {
   void combine(const Expr& expr, const Frame& frame, std::span<Truth> out);
   void membership(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
   void facet_kind(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
+  static void pick(const std::vector<Truth>& column, const Expr& expr, const Frame& frame,
+                   std::span<Truth> out);
   void quantify(ExprId id, const Frame& frame, std::span<Truth> out);
 
   /// The answers of an expression of one level for all features, kept until forget().
@@ -106,7 +116,7 @@ class Evaluator {
   [[nodiscard]] double most_in(std::size_t column) const;
 
   struct Pairs;
-  void flush(const Expr& expr, Pairs& pairs, std::span<Tally> out);
+  class Rounds;
   struct Values;
   void flush(const Expr& expr, Pairs& pairs, Values& values);
 

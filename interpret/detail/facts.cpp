@@ -1,9 +1,11 @@
 #include "interpret/detail/facts.h"
 
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/evaluator.h"
 #include "interpret/detail/relations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -75,7 +77,19 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
   }
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (feature_schema()[i].unit != Unit::text) columns[i] = table.numbers(i);
+  for (const Expr& expr : pack.code)
+    if (expr.op == Op::facet_is) find_hosts(pack, expr.index);
   link(pack, graph);
+}
+
+void Facts::find_hosts(const Pack& pack, int kind) {
+  auto& are_kind = hosts[static_cast<std::size_t>(kind)];
+  if (!are_kind.empty()) return;
+  are_kind.reserve(rows);
+  for (const double inclination : columns[host_inclination]) {
+    const bool is_kind = static_cast<int>(kind_of_facet(pack.hosts, inclination)) == kind;
+    are_kind.push_back(std::isnan(inclination) ? Truth::unknown : truth_of(is_kind));
+  }
 }
 
 /// Relations of the pack read the columns, and the relation they narrow, which stands before them.

@@ -7,6 +7,7 @@
 #include "kernel/model/surface_table.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -68,12 +69,15 @@ struct Facts {
   std::vector<std::vector<Truth>> membership;
   /// The same after the round before; of no size without `iterate:`.
   std::vector<std::vector<Truth>> previous;
+  /// Whether the host facet is of a kind, by HostKind and row; of no size where no rule asks.
+  std::array<std::vector<Truth>, 4> hosts;
   /// The column of that attribute.
   std::size_t host_inclination = 0;
   /// The denominator of the target scale, if there is one.
   double scale = 0;
 
  private:
+  void find_hosts(const Pack& pack, int kind);
   void link(const Pack& pack, const FeatureGraph& graph);
 
   /// The lists of the relations that the pack declares.

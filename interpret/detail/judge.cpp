@@ -1,4 +1,5 @@
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/conjunction.h"
 #include "interpret/detail/fold.h"
 #include "interpret/detail/labelling.h"
 
@@ -9,10 +10,6 @@ namespace oriel::rules {
 namespace {
 
 using TruthBlock = std::array<Truth, kBlock>;
-
-bool is_any_left(std::span<const Truth> truths) {
-  return std::ranges::any_of(truths, [](Truth t) { return t != Truth::no; });
-}
 
 /// A ramp's ends at the params' values.
 struct Ends {
@@ -40,8 +37,9 @@ double descend(Ends ends, double x) {
 }
 
 /// Weighted means of the known terms; a feature for which none is known makes the rule unknown.
-void score(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
-           Judgement& judgement) {
+void score(const Pack& pack, const Rule& rule, Evaluator& evaluator, Conjunction& held,
+           std::span<double> scores) {
+  const Frame& frame = held.frame();
   std::array<double, kBlock> sum, weight, term;
   std::fill_n(sum.begin(), frame.size, 0.0);
   std::fill_n(weight.begin(), frame.size, 0.0);
@@ -54,8 +52,8 @@ void score(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame
     }
   }
   for (std::size_t i = 0; i < frame.size; ++i) {
-    judgement.score[i] = weight[i] > 0 ? sum[i] / weight[i] : 0;
-    if (weight[i] == 0) judgement.truth[i] = std::min(judgement.truth[i], Truth::unknown);
+    scores[held.slot(i)] = weight[i] > 0 ? sum[i] / weight[i] : 0;
+    if (weight[i] == 0) held.truths()[i] = std::min(held.truths()[i], Truth::unknown);
   }
 }
 
@@ -83,30 +81,16 @@ void judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator, c
 
 void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
            Judgement& judgement) {
-  const auto truth = std::span(judgement.truth).first(frame.size);
-  for (std::size_t i = 0; i < frame.size; ++i)
-    truth[i] = frame.needed == nullptr || frame.needed[i] != Truth::no ? Truth::yes : Truth::no;
-  Frame open = frame;
-  open.needed = truth.data();
-  TruthBlock answers;
-  const auto answer = std::span(answers).first(frame.size);
-  for (const ExprId id : rule.require) {
-    if (!is_any_left(truth)) return;
-    evaluator.truths(id, open, answer);
-    std::ranges::transform(truth, answer, truth.begin(),
-                           [](Truth p, Truth q) { return std::min(p, q); });
-  }
-  for (const ExprId id : rule.unless) {
-    if (!is_any_left(truth)) return;
-    evaluator.truths(id, open, answer);
-    std::ranges::transform(truth, answer, truth.begin(),
-                           [](Truth p, Truth veto) { return veto == Truth::yes ? Truth::no : p; });
-  }
-  if (!is_any_left(truth)) return;
+  Conjunction held(frame, std::span(judgement.truth).first(frame.size));
+  for (const ExprId id : rule.require)
+    if (held.is_open()) held.ask(evaluator, id);
+  for (const ExprId id : rule.unless)
+    if (held.is_open()) held.ask(evaluator, id, Conjunction::As::veto);
   if (rule.score.empty())
     std::ranges::fill(std::span(judgement.score).first(frame.size), 1.0);
-  else
-    score(pack, rule, evaluator, open, judgement);
+  else if (held.is_open())
+    score(pack, rule, evaluator, held, judgement.score);
+  held.finish();
 }
 
 }  // namespace oriel::rules

@@ -17,7 +17,15 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       evaluator_(pack, facts),
       choices_(facts.rows),
       first_candidate_(facts.rows, -1),
-      is_unknown_(pack.classes.size()) {}
+      unknown_rows_(pack.classes.size()),
+      raised_(pack.classes.size()),
+      decided_(facts.rows, kNoClass) {
+  for (ClassId id = 0; id < static_cast<ClassId>(raised_.size()); ++id)
+    for (ClassId at = id; at != kNoClass; at = pack.classes[index(at)].parent) {
+      const Class& c = pack.classes[index(at)];
+      if (at == id || !c.is_abstract || !c.has_rules) raised_[index(id)].push_back(at);
+    }
+}
 
 std::vector<Choice> Labelling::run() {
   if (pack_->rounds == 0) {
@@ -28,7 +36,7 @@ std::vector<Choice> Labelling::run() {
   facts_->previous.assign(nothing.size(), std::vector<Truth>(facts_->rows, Truth::unknown));
   while (true) {
     choices_.assign(facts_->rows, {});
-    for (auto& unknown : is_unknown_) unknown.clear();
+    decided_.assign(facts_->rows, kNoClass);
     run_round();
     rounds_.push_back(choices_);
     const bool is_last = static_cast<int>(rounds_.size()) == pack_->rounds;
@@ -91,9 +99,7 @@ bool Labelling::apply_predicate(const Rule& rule) {
 bool Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
   if (truth == Truth::no) return false;
   bool has_changed = false;
-  for (ClassId at = id; at != kNoClass; at = pack_->classes[index(at)].parent) {
-    const Class& c = pack_->classes[index(at)];
-    if (at != id && c.is_abstract && c.has_rules) continue;
+  for (const ClassId at : raised_[index(id)]) {
     Truth& member = facts_->membership[index(at)][row];
     has_changed = has_changed || truth > member;
     member = std::max(member, truth);
@@ -104,26 +110,23 @@ bool Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
 void Labelling::run_decision(const Step& step) {
   evaluator_.forget();
   candidates_.clear();
+  decided_now_.clear();
   std::ranges::fill(first_candidate_, -1);
-  for (const int id : step.rules) {
-    auto& unknown = is_unknown_[index(rule(id).label)];
-    if (unknown.empty()) unknown.assign(facts_->rows, false);
-  }
+  for (const int id : step.rules) unknown_rows_[index(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
-  for (std::size_t row = 0; row < facts_->rows; ++row) decide(row);
+  for (std::size_t row = 0; row < facts_->rows; ++row)
+    if (first_candidate_[row] >= 0) decide(row);
   settle_membership(step);
 }
 
 /// A label is final, but a later stratum may refine it to a subclass.
 bool Labelling::is_open(std::size_t row, ClassId label) const {
-  const int winner = choices_[row].rule;
-  if (winner < 0) return true;
-  const ClassId decided = rule(winner).label;
-  return decided != label && is_within(pack_->classes, label, decided);
+  const ClassId decided = decided_[row];
+  return decided == kNoClass || (decided != label && is_within(pack_->classes, label, decided));
 }
 
 void Labelling::collect(int id) {
-  std::array<Truth, kBlock> open;
+  TruthBlock open;
   Judgement judgement;
   const ClassId label = rule(id).label;
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
@@ -132,9 +135,12 @@ void Labelling::collect(int id) {
     for (std::size_t i = 0; i < frame.size; ++i) open[i] = truth_of(is_open(begin + i, label));
     judge(*pack_, rule(id), evaluator_, frame, judgement);
     for (std::size_t i = 0; i < frame.size; ++i) {
+      if (judgement.truth[i] == Truth::no) continue;
       const std::size_t row = begin + i;
-      if (judgement.truth[i] == Truth::unknown) is_unknown_[index(label)][row] = true;
-      if (judgement.truth[i] != Truth::yes) continue;
+      if (judgement.truth[i] == Truth::unknown) {
+        unknown_rows_[index(label)].push_back(static_cast<int>(row));
+        continue;
+      }
       candidates_.push_back({id, judgement.score[i], first_candidate_[row]});
       first_candidate_[row] = static_cast<int>(candidates_.size()) - 1;
     }
@@ -171,21 +177,17 @@ void Labelling::decide(std::size_t row) {
   }
   if (second != nullptr) choice.runner_up = second->rule;
   choices_[row] = choice;
+  decided_[row] = winner.label;
+  decided_now_.push_back(static_cast<int>(row));
 }
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.
 void Labelling::settle_membership(const Step& step) {
-  for (std::size_t row = 0; row < facts_->rows; ++row)
-    if (const int winner = choices_[row].rule; winner >= 0)
-      raise_membership(rule(winner).label, row, Truth::yes);
+  for (const int row : decided_now_) raise_membership(decided_[index(row)], index(row), Truth::yes);
   for (const int id : step.rules) {
     const ClassId label = rule(id).label;
-    const std::vector<bool>& unknown = is_unknown_[index(label)];
-    for (auto at = std::ranges::find(unknown, true); at != unknown.end();
-         at = std::find(at + 1, unknown.end(), true)) {
-      const auto row = static_cast<std::size_t>(at - unknown.begin());
-      if (is_open(row, label)) raise_membership(label, row, Truth::unknown);
-    }
+    for (const int row : unknown_rows_[index(label)])
+      if (is_open(index(row), label)) raise_membership(label, index(row), Truth::unknown);
   }
 }
 

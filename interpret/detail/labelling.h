@@ -87,8 +87,13 @@ class Labelling {
   /// Candidates of the decision at hand, and the first of every feature, or -1.
   std::vector<Candidate> candidates_;
   std::vector<int> first_candidate_;
-  /// Classes whose rules were unknown for a feature: bit by row, per class of the decision at hand.
-  std::vector<std::vector<bool>> is_unknown_;
+  /// By class: the rows for which a rule for it was unknown in the decision at hand.
+  std::vector<std::vector<int>> unknown_rows_;
+  /// By class: what a feature of it is, too: itself first.
+  std::vector<std::vector<ClassId>> raised_;
+  /// By row: the class that was decided, or -1; and the rows of the decision at hand.
+  std::vector<ClassId> decided_;
+  std::vector<int> decided_now_;
 };
 
 }  // namespace oriel::rules

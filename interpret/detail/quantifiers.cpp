@@ -57,70 +57,121 @@ const std::vector<Truth>& Evaluator::column(ExprId id, int level) {
 
 /// Pairs are asked in rounds, of each slot that is still open some of its others, then twice as
 /// many: so a block holds pairs of many slots, and few pairs are asked that nobody needs.
-void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out, Enough enough) {
-  const Expr& expr = at(id);
-  const Links& links = facts_->relations[static_cast<std::size_t>(expr.index)];
-  const Truth* filter =
-      expr.filter == kNoExpr ? nullptr : column(expr.filter, expr.level + 1).data();
-  const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
-  Pairs pairs;
-  // Of each slot the links that are left, and whether it is settled by nothing but all answers;
-  // then the open slots.
-  std::array<Links::Range, kBlock> left_of;
-  std::array<bool, kBlock> asks_all;
-  std::array<std::uint16_t, kBlock> open;
-  std::size_t open_count = 0;
-  const bool may_be_unknown =
-      enough.minds_unknown &&
-      (!links.are_all_certain() ||
-       (filter != nullptr &&
-        std::find(filter, filter + facts_->rows, Truth::unknown) != filter + facts_->rows));
-  for (std::size_t slot = 0; slot < out.size(); ++slot) {
-    out[slot] = {0, 0, 0};
-    if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
-    left_of[slot] = links.range_of(rows[slot]);
-    asks_all[slot] = may_be_unknown && has_unknown(links, rows[slot], filter);
-    open[open_count++] = static_cast<std::uint16_t>(slot);
+class Evaluator::Rounds {
+ public:
+  Rounds(Evaluator& evaluator, const Expr& expr, const Frame& frame, std::span<Tally> out,
+         Enough enough)
+      : evaluator_(evaluator),
+        expr_(expr),
+        links_(evaluator.facts_->relations[static_cast<std::size_t>(expr.index)]),
+        rows_(frame.rows[static_cast<std::size_t>(expr.level)]),
+        out_(out),
+        enough_(enough) {
+    if (expr.filter != kNoExpr) filter_ = evaluator.column(expr.filter, expr.level + 1).data();
+    const Truth* const end = filter_ + evaluator.facts_->rows;
+    are_certain_ = links_.are_all_certain() &&
+                   (filter_ == nullptr || std::find(filter_, end, Truth::unknown) == end);
+    for (std::size_t slot = 0; slot < out.size(); ++slot) {
+      out[slot] = {0, 0, 0};
+      if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
+      left_of_[slot] = links_.range_of(rows_[slot]);
+      asks_all_[slot] =
+          enough.minds_unknown && !are_certain_ && has_unknown(links_, rows_[slot], filter_);
+      open_[open_count_++] = static_cast<std::uint16_t>(slot);
+    }
   }
-  const auto is_settled = [&](std::size_t slot) {
-    return !asks_all[slot] && enough.settles(out[slot]);
-  };
+
+  void run() {
+    const bool is_no_counted = expr_.op == Op::all || !enough_.ignores_no;
+    for (std::size_t share = first_share(enough_); open_count_ > 0; share *= 2) {
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < open_count_; ++i) {
+        const std::size_t slot = open_[i];
+        const bool is_open =
+            are_certain_ && !is_no_counted ? ask_certain(slot, share) : ask(slot, share);
+        if (is_open) open_[left++] = open_[i];
+      }
+      if (pairs_.size > 0) flush();
+      open_count_ = 0;
+      for (std::size_t i = 0; i < left; ++i)
+        if (!is_settled(open_[i])) open_[open_count_++] = open_[i];
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_settled(std::size_t slot) const {
+    return !asks_all_[slot] && enough_.settles(out_[slot]);
+  }
+
   /// Asks up to `share` others of a slot; true if some are left.
-  const auto ask = [&](std::size_t slot, std::size_t share) {
-    auto& [link, end] = left_of[slot];
+  bool ask(std::size_t slot, std::size_t share) {
+    auto& [link, end] = left_of_[slot];
     for (; link < end && share > 0 && !is_settled(slot); ++link) {
-      const int other = links.other(link);
-      if (other == rows[slot]) continue;
-      const Truth is_other = links.is_other(rows[slot], link);
-      const Truth filtered = filter == nullptr ? Truth::yes : filter[oriel::at(other)];
-      if (filtered == Truth::no || expr.join == kNoExpr) {
-        add(out[slot], answer_of(expr.op, is_other, filtered));
+      const int other = links_.other(link);
+      if (other == rows_[slot]) continue;
+      const Truth is_other = links_.is_other(rows_[slot], link);
+      const Truth filtered = filter_ == nullptr ? Truth::yes : filter_[oriel::at(other)];
+      if (filtered == Truth::no || expr_.join == kNoExpr) {
+        add(out_[slot], answer_of(expr_.op, is_other, filtered));
         continue;
       }
-      if (pairs.size == kBlock) flush(expr, pairs, out);
-      pairs.add(slot, rows[slot], other, is_other, filtered);
+      if (pairs_.size == kBlock) flush();
+      pairs_.add(slot, rows_[slot], other, is_other, filtered);
       --share;
     }
     return link < end;
-  };
-  for (std::size_t share = first_share(enough); open_count > 0; share *= 2) {
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < open_count; ++i)
-      if (ask(open[i], share)) open[left++] = open[i];
-    if (pairs.size > 0) flush(expr, pairs, out);
-    open_count = 0;
-    for (std::size_t i = 0; i < left; ++i)
-      if (!is_settled(open[i])) open[open_count++] = open[i];
   }
-}
 
-void Evaluator::flush(const Expr& expr, Pairs& pairs, std::span<Tally> out) {
-  std::array<Truth, kBlock> joined;
-  truths(expr.join, pairs.frame(expr.level), std::span(joined).first(pairs.size));
-  for (std::size_t i = 0; i < pairs.size; ++i)
-    add(out[pairs.slots[i]],
-        answer_of(expr.op, pairs.is_other[i], std::min(pairs.filtered[i], joined[i])));
-  pairs.size = 0;
+  /// The same where no answer is unknown before the conditions on both, and those that are no need
+  /// not be counted: pairs that do not fit are overwritten by the next, without a branch.
+  bool ask_certain(std::size_t slot, std::size_t share) {
+    auto& [link, end] = left_of_[slot];
+    const int self = rows_[slot];
+    for (; link < end && share > 0; ++link) {
+      if (pairs_.size == kBlock) flush();
+      const int other = links_.other(link);
+      const bool is_one =
+          other != self && (filter_ == nullptr || filter_[oriel::at(other)] == Truth::yes);
+      const std::size_t size = pairs_.size;
+      pairs_.add(slot, self, other, Truth::yes, Truth::yes);
+      pairs_.size = size + (is_one ? 1U : 0U);
+      share -= is_one ? 1U : 0U;
+    }
+    return link < end;
+  }
+
+  void flush() {
+    const auto joined = std::span(joined_).first(pairs_.size);
+    if (expr_.join == kNoExpr)
+      std::ranges::fill(joined, Truth::yes);
+    else
+      evaluator_.truths(expr_.join, pairs_.frame(expr_.level), joined);
+    for (std::size_t i = 0; i < pairs_.size; ++i)
+      add(out_[pairs_.slots[i]],
+          answer_of(expr_.op, pairs_.is_other[i], std::min(pairs_.filtered[i], joined[i])));
+    pairs_.size = 0;
+  }
+
+  Evaluator& evaluator_;
+  const Expr& expr_;
+  const Links& links_;
+  const int* rows_;
+  std::span<Tally> out_;
+  Enough enough_;
+  const Truth* filter_ = nullptr;
+  /// No answer can be unknown but of the conditions on both.
+  bool are_certain_ = false;
+  Pairs pairs_;
+  TruthBlock joined_;
+  /// Of each slot the links that are left, and whether it is settled by nothing but all answers.
+  std::array<Links::Range, kBlock> left_of_;
+  std::array<bool, kBlock> asks_all_;
+  std::array<std::uint16_t, kBlock> open_;
+  std::size_t open_count_ = 0;
+};
+
+void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out, Enough enough) {
+  Rounds(*this, at(id), frame, out, enough).run();
 }
 
 /// exists: one yes settles it, else one unknown leaves it open. all is the mirror image, and holds
@@ -129,6 +180,7 @@ void Evaluator::quantify(ExprId id, const Frame& frame, std::span<Truth> out) {
   const Op op = at(id).op;
   Enough enough;
   (op == Op::all ? enough.no : enough.yes) = 1;
+  enough.ignores_no = true;
   std::array<Tally, kBlock> tallies;
   tally(id, frame, std::span(tallies).first(out.size()), enough);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -143,6 +195,7 @@ void Evaluator::quantify(ExprId id, const Frame& frame, std::span<Truth> out) {
 /// One unknown answer makes the count unknown, so all must be asked where there may be one.
 void Evaluator::count(ExprId id, const Frame& frame, std::span<double> out, int limit) {
   Enough enough;
+  enough.ignores_no = true;
   const ExprId join = at(id).join;
   if (limit < enough.yes && (join == kNoExpr || is_always_known(join))) {
     enough.yes = limit;
