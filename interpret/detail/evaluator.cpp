@@ -68,8 +68,24 @@ std::span<const double> Evaluator::operand(ExprId id, const Frame& frame, Number
     return column.subspan(static_cast<std::size_t>(rows[0]), frame.size);
   }
   const auto out = std::span(block).first(frame.size);
-  numbers(id, frame, out);
+  if (!distance(expr, frame, out)) numbers(id, frame, out);
   return out;
+}
+
+/// abs(x - y) of two attributes, which most conditions on pairs ask for, in one pass; false for
+/// everything else.
+bool Evaluator::distance(const Expr& expr, const Frame& frame, std::span<double> out) const {
+  if (expr.op != Op::absolute || at(expr.args[0]).op != Op::subtract) return false;
+  const Expr& x = at(at(expr.args[0]).args[0]);
+  const Expr& y = at(at(expr.args[0]).args[1]);
+  if (x.op != Op::attribute || y.op != Op::attribute) return false;
+  const double* of_x = facts_->columns[static_cast<std::size_t>(x.index)].data();
+  const double* of_y = facts_->columns[static_cast<std::size_t>(y.index)].data();
+  const int* rows_of_x = frame.rows[static_cast<std::size_t>(x.level)];
+  const int* rows_of_y = frame.rows[static_cast<std::size_t>(y.level)];
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::abs(of_x[rows_of_x[i]] - of_y[rows_of_y[i]]);
+  return true;
 }
 
 void Evaluator::gather(const Expr& expr, const Frame& frame, std::span<double> out) const {

@@ -89,6 +89,7 @@ class Evaluator {
   /// The value of an expression that is the same for all features; `id` is its own.
   [[nodiscard]] double constant(const Expr& expr, ExprId id) const;
   void gather(const Expr& expr, const Frame& frame, std::span<double> out) const;
+  bool distance(const Expr& expr, const Frame& frame, std::span<double> out) const;
   std::span<const double> operand(ExprId id, const Frame& frame, NumberBlock& block);
   void apply_all(const Expr& expr, const Frame& frame, std::span<double> out);
   /// No slot is counted beyond `limit` where no answer can be unknown.

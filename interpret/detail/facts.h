@@ -23,13 +23,13 @@ struct Links {
   std::vector<Truth> certain_rows;
 
   struct Range {
-    std::size_t begin = 0, end = 0;
+    std::size_t begin, end;
   };
   /// The others of a row stand at these positions of the lists; the row itself may be among them.
   [[nodiscard]] Range range_of(int row) const {
     const auto r = static_cast<std::size_t>(row);
     const int list = r < lists->list_of.size() ? lists->list_of[r] : -1;
-    if (list < 0) return {};
+    if (list < 0) return {0, 0};
     const auto l = static_cast<std::size_t>(list);
     return {static_cast<std::size_t>(lists->starts[l]),
             static_cast<std::size_t>(lists->starts[l + 1])};

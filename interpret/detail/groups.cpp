@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <span>
+#include <utility>
+#include <vector>
 
 namespace oriel::rules {
 
@@ -33,15 +34,27 @@ class DisjointRows {
   std::vector<int> parents_;
 };
 
-/// Joins the members of one list, all of which are related.
-void join_class(DisjointRows& sets, std::span<const int> list, auto is_member) {
-  int root = -1;
-  for (const int row : list)
-    if (is_member(row)) root = root < 0 ? sets.find(row) : sets.join(root, row);
+using Components = std::vector<std::vector<FeatureId>>;
+
+/// The members of each class hang together.
+Components components_of_classes(const Links& links, auto is_member) {
+  Components components;
+  for (std::size_t l = 0; l < links.lists->lists(); ++l) {
+    const auto list = links.lists->list(l);
+    std::vector<FeatureId> members;
+    for (const int row : list) {
+      if (!is_member(row) || !links.is_certain(row)) continue;
+      if (members.empty()) members.reserve(list.size());
+      members.push_back(FeatureId{row});
+    }
+    if (!members.empty()) components.push_back(std::move(members));
+  }
+  return components;
 }
 
-/// Joins every member with its others that are members.
-void join_pairs(DisjointRows& sets, const Facts& facts, const Links& links, auto is_member) {
+/// Members that pairs of members lead to hang together.
+Components components_of_pairs(const Facts& facts, const Links& links, auto is_member) {
+  DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
     int root = sets.find(row);
@@ -50,23 +63,9 @@ void join_pairs(DisjointRows& sets, const Facts& facts, const Links& links, auto
       if (links.is_other(row, link) == Truth::yes && is_member(links.other(link)))
         root = sets.join(root, links.other(link));
   }
-}
-
-/// The members of every component of one kind, in the order of their first ones.
-std::vector<std::vector<FeatureId>> components_of(const GroupKind& kind, const Facts& facts) {
-  const auto& members = facts.membership[at(kind.of)];
-  const Links& links = facts.relations[at(kind.by)];
-  const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
-  DisjointRows sets(facts.rows);
-  if (links.lists->are_classes && links.certain.empty())
-    for (std::size_t l = 0; l < links.lists->lists(); ++l)
-      join_class(sets, links.lists->list(l),
-                 [&](int row) { return is_member(row) && links.is_certain(row); });
-  else
-    join_pairs(sets, facts, links, is_member);
   // The root is the first member.
   std::vector<int> component_of(facts.rows, -1);
-  std::vector<std::vector<FeatureId>> components;
+  Components components;
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
     int& component = component_of[at(sets.find(row))];
@@ -76,8 +75,18 @@ std::vector<std::vector<FeatureId>> components_of(const GroupKind& kind, const F
     }
     components[at(component)].push_back(FeatureId{row});
   }
-  std::erase_if(components,
-                [&](const auto& rows) { return static_cast<int>(rows.size()) < kind.at_least; });
+  return components;
+}
+
+/// The members of every component of one kind.
+Components components_of(const GroupKind& kind, const Facts& facts) {
+  const auto& members = facts.membership[at(kind.of)];
+  const Links& links = facts.relations[at(kind.by)];
+  const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
+  Components components = links.lists->are_classes ? components_of_classes(links, is_member)
+                                                   : components_of_pairs(facts, links, is_member);
+  const auto least = std::max<std::size_t>(1, at(kind.at_least));
+  std::erase_if(components, [&](const auto& rows) { return rows.size() < least; });
   return components;
 }
 

@@ -4,12 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace oriel::rules {
 
 /// Pairs self -> other that wait for the conditions on both.
 struct Evaluator::Pairs {
-  std::array<std::size_t, kBlock> slots;
+  std::array<std::uint16_t, kBlock> slots;
   std::array<int, kBlock> selves;
   std::array<int, kBlock> others;
   /// Whether the other is one of the relation, and how it answered the filter.
@@ -18,11 +19,19 @@ struct Evaluator::Pairs {
   std::size_t size = 0;
 
   void add(std::size_t slot, int self, int other, Truth is_one, Truth answer) {
-    slots[size] = slot;
+    slots[size] = static_cast<std::uint16_t>(slot);
     selves[size] = self;
     others[size] = other;
     is_other[size] = is_one;
     filtered[size++] = answer;
+  }
+
+  /// Adds a pair of which both are certain if `is_one`, without a branch that nobody could foresee.
+  void add_if(bool is_one, std::size_t slot, int self, int other) {
+    slots[size] = static_cast<std::uint16_t>(slot);
+    selves[size] = self;
+    others[size] = other;
+    size += is_one ? 1U : 0U;
   }
 
   /// The frame of the pairs; `level` is that of self.

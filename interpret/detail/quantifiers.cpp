@@ -69,26 +69,25 @@ class Evaluator::Rounds {
         enough_(enough) {
     if (expr.filter != kNoExpr) filter_ = evaluator.column(expr.filter, expr.level + 1).data();
     const Truth* const end = filter_ + evaluator.facts_->rows;
-    are_certain_ = links_.are_all_certain() &&
-                   (filter_ == nullptr || std::find(filter_, end, Truth::unknown) == end);
+    const bool are_certain = links_.are_all_certain() &&
+                             (filter_ == nullptr || std::find(filter_, end, Truth::unknown) == end);
+    is_plain_ = are_certain && enough.ignores_no && expr.op != Op::all;
     for (std::size_t slot = 0; slot < out.size(); ++slot) {
       out[slot] = {0, 0, 0};
       if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
       left_of_[slot] = links_.range_of(rows_[slot]);
       asks_all_[slot] =
-          enough.minds_unknown && !are_certain_ && has_unknown(links_, rows_[slot], filter_);
+          enough.minds_unknown && !are_certain && has_unknown(links_, rows_[slot], filter_);
       open_[open_count_++] = static_cast<std::uint16_t>(slot);
     }
   }
 
   void run() {
-    const bool is_no_counted = expr_.op == Op::all || !enough_.ignores_no;
     for (std::size_t share = first_share(enough_); open_count_ > 0; share *= 2) {
       std::size_t left = 0;
       for (std::size_t i = 0; i < open_count_; ++i) {
         const std::size_t slot = open_[i];
-        const bool is_open =
-            are_certain_ && !is_no_counted ? ask_certain(slot, share) : ask(slot, share);
+        const bool is_open = is_plain_ ? ask_plain(slot, share) : ask(slot, share);
         if (is_open) open_[left++] = open_[i];
       }
       if (pairs_.size > 0) flush();
@@ -122,20 +121,22 @@ class Evaluator::Rounds {
     return link < end;
   }
 
-  /// The same where no answer is unknown before the conditions on both, and those that are no need
-  /// not be counted: pairs that do not fit are overwritten by the next, without a branch.
-  bool ask_certain(std::size_t slot, std::size_t share) {
+  /// The same for plain quantifiers: the pairs that do not fit are passed over.
+  bool ask_plain(std::size_t slot, std::size_t share) {
     auto& [link, end] = left_of_[slot];
     const int self = rows_[slot];
-    for (; link < end && share > 0; ++link) {
+    const int* const others = links_.lists->others.data();
+    while (link < end && share > 0) {
       if (pairs_.size == kBlock) flush();
-      const int other = links_.other(link);
-      const bool is_one =
-          other != self && (filter_ == nullptr || filter_[oriel::at(other)] == Truth::yes);
-      const std::size_t size = pairs_.size;
-      pairs_.add(slot, self, other, Truth::yes, Truth::yes);
-      pairs_.size = size + (is_one ? 1U : 0U);
-      share -= is_one ? 1U : 0U;
+      const std::size_t until = std::min({end, link + share, link + kBlock - pairs_.size});
+      const std::size_t before = pairs_.size;
+      if (filter_ == nullptr)
+        for (; link < until; ++link) pairs_.add_if(others[link] != self, slot, self, others[link]);
+      else
+        for (; link < until; ++link)
+          pairs_.add_if((others[link] != self) & (filter_[oriel::at(others[link])] == Truth::yes),
+                        slot, self, others[link]);
+      share -= pairs_.size - before;
     }
     return link < end;
   }
@@ -146,9 +147,15 @@ class Evaluator::Rounds {
       std::ranges::fill(joined, Truth::yes);
     else
       evaluator_.truths(expr_.join, pairs_.frame(expr_.level), joined);
-    for (std::size_t i = 0; i < pairs_.size; ++i)
-      add(out_[pairs_.slots[i]],
-          answer_of(expr_.op, pairs_.is_other[i], std::min(pairs_.filtered[i], joined[i])));
+    if (is_plain_)
+      for (std::size_t i = 0; i < joined.size(); ++i) {
+        out_[pairs_.slots[i]].yes += static_cast<int>(joined[i]) / 2;
+        out_[pairs_.slots[i]].unknown += static_cast<int>(joined[i]) % 2;
+      }
+    else
+      for (std::size_t i = 0; i < joined.size(); ++i)
+        add(out_[pairs_.slots[i]],
+            answer_of(expr_.op, pairs_.is_other[i], std::min(pairs_.filtered[i], joined[i])));
     pairs_.size = 0;
   }
 
@@ -159,8 +166,8 @@ class Evaluator::Rounds {
   std::span<Tally> out_;
   Enough enough_;
   const Truth* filter_ = nullptr;
-  /// No answer can be unknown but of the conditions on both.
-  bool are_certain_ = false;
+  /// No answer can be unknown but of the conditions on both, and none that is no is counted.
+  bool is_plain_ = false;
   Pairs pairs_;
   TruthBlock joined_;
   /// Of each slot the links that are left, and whether it is settled by nothing but all answers.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace oriel::rules {
 
@@ -28,7 +29,7 @@ void part_classes(std::vector<int>& class_of, const std::vector<double>& values)
     const auto list = classes.list(c);
     if (list.empty()) continue;
     members.assign(list.begin(), list.end());
-    std::ranges::stable_sort(members, {}, [&](int row) { return values[at(row)]; });
+    std::ranges::sort(members, {}, [&](int row) { return std::pair(values[at(row)], row); });
     for (std::size_t i = 0; i < members.size(); ++i) {
       if (i > 0 && values[at(members[i])] != values[at(members[i - 1])]) ++count;
       class_of[at(members[i])] = count;
