@@ -31,6 +31,7 @@ struct Evaluator::Pairs {
     slots[size] = static_cast<std::uint16_t>(slot);
     selves[size] = self;
     others[size] = other;
+    is_other[size] = filtered[size] = Truth::yes;
     size += is_one ? 1U : 0U;
   }
 

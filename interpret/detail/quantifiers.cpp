@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace oriel::rules {
 
@@ -19,18 +20,6 @@ void add(Evaluator::Tally& tally, Truth answer) {
 /// is that of `is one and …`; of `all` it is that of `is none or …`.
 Truth answer_of(Op op, Truth is_other, Truth answer) {
   return op == Op::all ? std::max(negated(is_other), answer) : std::min(is_other, answer);
-}
-
-/// Whether it is unknown of an other of the row that it is one, or how it answers the filter.
-bool has_unknown(const Links& links, int row, const Truth* filter) {
-  const auto [begin, end] = links.range_of(row);
-  bool is_unknown = false;
-  for (std::size_t link = begin; link < end; ++link) {
-    const int other = links.other(link);
-    const Truth filtered = filter == nullptr ? Truth::yes : filter[oriel::at(other)];
-    is_unknown |= other != row && std::min(links.is_other(row, link), filtered) == Truth::unknown;
-  }
-  return is_unknown;
 }
 
 /// How many others of a slot are asked at first: some more than could be enough.
@@ -69,15 +58,13 @@ class Evaluator::Rounds {
         enough_(enough) {
     if (expr.filter != kNoExpr) filter_ = evaluator.column(expr.filter, expr.level + 1).data();
     const Truth* const end = filter_ + evaluator.facts_->rows;
-    const bool are_certain = links_.are_all_certain() &&
-                             (filter_ == nullptr || std::find(filter_, end, Truth::unknown) == end);
-    is_plain_ = are_certain && enough.ignores_no && expr.op != Op::all;
+    may_be_unknown_ = !links_.are_all_certain() ||
+                      (filter_ != nullptr && std::find(filter_, end, Truth::unknown) != end);
     for (std::size_t slot = 0; slot < out.size(); ++slot) {
       out[slot] = {0, 0, 0};
       if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
       left_of_[slot] = links_.range_of(rows_[slot]);
-      asks_all_[slot] =
-          enough.minds_unknown && !are_certain && has_unknown(links_, rows_[slot], filter_);
+      has_unknown_[slot] = may_be_unknown_ && has_unknown(rows_[slot]);
       open_[open_count_++] = static_cast<std::uint16_t>(slot);
     }
   }
@@ -87,7 +74,8 @@ class Evaluator::Rounds {
       std::size_t left = 0;
       for (std::size_t i = 0; i < open_count_; ++i) {
         const std::size_t slot = open_[i];
-        const bool is_open = is_plain_ ? ask_plain(slot, share) : ask(slot, share);
+        const bool is_plain = enough_.ignores_no && expr_.op != Op::all && !has_unknown_[slot];
+        const bool is_open = is_plain ? ask_plain(slot, share) : ask(slot, share);
         if (is_open) open_[left++] = open_[i];
       }
       if (pairs_.size > 0) flush();
@@ -99,7 +87,30 @@ class Evaluator::Rounds {
 
  private:
   [[nodiscard]] bool is_settled(std::size_t slot) const {
-    return !asks_all_[slot] && enough_.settles(out_[slot]);
+    return !(enough_.minds_unknown && has_unknown_[slot]) && enough_.settles(out_[slot]);
+  }
+
+  /// Whether it is unknown of an other of the row that it is one, or how it answers the filter.
+  /// Rows that share a list share the answer.
+  bool has_unknown(int row) {
+    enum : char { unseen, without, with };
+    const auto [begin, end] = links_.range_of(row);
+    if (begin == end) return false;
+    const auto list = static_cast<std::size_t>(links_.lists->list_of[oriel::at(row)]);
+    seen_.resize(links_.lists->lists(), unseen);
+    if (seen_[list] == unseen) seen_[list] = looks_unknown(row) ? with : without;
+    return seen_[list] == with;
+  }
+
+  [[nodiscard]] bool looks_unknown(int row) const {
+    const auto [begin, end] = links_.range_of(row);
+    bool is_unknown = false;
+    for (std::size_t link = begin; link < end; ++link) {
+      const Truth filtered =
+          filter_ == nullptr ? Truth::yes : filter_[oriel::at(links_.other(link))];
+      is_unknown |= std::min(links_.is_other(row, link), filtered) == Truth::unknown;
+    }
+    return is_unknown;
   }
 
   /// Asks up to `share` others of a slot; true if some are left.
@@ -121,7 +132,8 @@ class Evaluator::Rounds {
     return link < end;
   }
 
-  /// The same for plain quantifiers: the pairs that do not fit are passed over.
+  /// The same where nothing is unknown before the conditions on both, and what is no need not be
+  /// counted: the pairs that do not fit are passed over.
   bool ask_plain(std::size_t slot, std::size_t share) {
     auto& [link, end] = left_of_[slot];
     const int self = rows_[slot];
@@ -147,15 +159,9 @@ class Evaluator::Rounds {
       std::ranges::fill(joined, Truth::yes);
     else
       evaluator_.truths(expr_.join, pairs_.frame(expr_.level), joined);
-    if (is_plain_)
-      for (std::size_t i = 0; i < joined.size(); ++i) {
-        out_[pairs_.slots[i]].yes += static_cast<int>(joined[i]) / 2;
-        out_[pairs_.slots[i]].unknown += static_cast<int>(joined[i]) % 2;
-      }
-    else
-      for (std::size_t i = 0; i < joined.size(); ++i)
-        add(out_[pairs_.slots[i]],
-            answer_of(expr_.op, pairs_.is_other[i], std::min(pairs_.filtered[i], joined[i])));
+    for (std::size_t i = 0; i < joined.size(); ++i)
+      add(out_[pairs_.slots[i]],
+          answer_of(expr_.op, pairs_.is_other[i], std::min(pairs_.filtered[i], joined[i])));
     pairs_.size = 0;
   }
 
@@ -166,13 +172,14 @@ class Evaluator::Rounds {
   std::span<Tally> out_;
   Enough enough_;
   const Truth* filter_ = nullptr;
-  /// No answer can be unknown but of the conditions on both, and none that is no is counted.
-  bool is_plain_ = false;
+  bool may_be_unknown_ = false;
   Pairs pairs_;
   TruthBlock joined_;
-  /// Of each slot the links that are left, and whether it is settled by nothing but all answers.
+  /// Of each slot the links that are left, and whether an other may be one or not.
   std::array<Links::Range, kBlock> left_of_;
-  std::array<bool, kBlock> asks_all_;
+  std::array<bool, kBlock> has_unknown_;
+  /// By list, what is known of it.
+  std::vector<char> seen_;
   std::array<std::uint16_t, kBlock> open_;
   std::size_t open_count_ = 0;
 };
