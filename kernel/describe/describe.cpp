@@ -24,6 +24,46 @@ namespace oriel {
 
 namespace {
 
+/// Where the attributes stand, found once.
+struct FeatureColumns {
+  std::size_t sense = column_of("sense").value();
+  std::size_t natural = column_of("natural").value();
+  std::size_t value = column_of("value").value();
+  std::size_t quality = column_of("quality").value();
+  std::size_t new_area = column_of("new_area").value();
+  std::size_t old_area = column_of("old_area").value();
+  std::size_t volume = column_of("volume").value();
+  std::size_t surface = column_of("surface").value();
+  std::size_t split_order = column_of("split_order").value();
+  std::size_t a = column_of("a").value();
+  std::size_t b = column_of("b").value();
+  std::size_t c = column_of("c").value();
+  std::size_t silhouette = column_of("silhouette").value();
+  std::size_t width = column_of("width").value();
+  std::size_t height_of = column_of("height_of").value();
+  std::size_t depth = column_of("depth").value();
+  std::size_t inclination = column_of("inclination").value();
+  std::size_t azimuth = column_of("azimuth").value();
+  std::size_t growth_up = column_of("growth_up").value();
+  std::size_t growth_down = column_of("growth_down").value();
+  std::size_t growth_out = column_of("growth_out").value();
+  std::size_t growth_side = column_of("growth_side").value();
+  std::size_t recess = column_of("recess").value();
+  std::size_t height = column_of("height").value();
+  std::size_t top = column_of("top").value();
+  std::size_t ground_source = column_of("ground_source").value();
+  std::size_t below_ridge = column_of("below_ridge").value();
+  std::size_t host_inclination = column_of("host_inclination").value();
+  std::size_t above_eaves = column_of("above_eaves").value();
+  std::size_t edge_gap = column_of("edge_gap").value();
+  std::size_t storey = column_of("storey").value();
+};
+
+const FeatureColumns& columns() {
+  static const FeatureColumns columns;
+  return columns;
+}
+
 using detail::Extent;
 using detail::InFacade;
 
@@ -58,16 +98,16 @@ Subject subject_of(const Segmentation& segmentation, FeatureId id) {
 
 void describe_cut(FeatureTable& table, const Subject& s) {
   const Feature& f = *s.feature;
-  table.set(s.id, "sense", to_string(f.sense));
-  table.set(s.id, "natural", f.is_natural ? 1 : 0);
-  if (f.value) table.set(s.id, "value", *f.value);
-  if (f.quality) table.set(s.id, "quality", *f.quality);
-  table.set(s.id, "new_area", f.new_area_m2);
+  table.set(s.id, columns().sense, to_string(f.sense));
+  table.set(s.id, columns().natural, f.is_natural ? 1.0 : 0.0);
+  if (f.value) table.set(s.id, columns().value, *f.value);
+  if (f.quality) table.set(s.id, columns().quality, *f.quality);
+  table.set(s.id, columns().new_area, f.new_area_m2);
   const bool has_cut = f.sense != Sense::imprint && !f.is_uncut;
-  if (has_cut) table.set(s.id, "old_area", f.old_area_m2);
-  if (!f.is_uncut || f.sense == Sense::imprint) table.set(s.id, "volume", f.volume_m3);
-  table.set(s.id, "surface", f.surface_m2);
-  table.set(s.id, "split_order", has_cut ? static_cast<double>(f.planes.size()) : 0);
+  if (has_cut) table.set(s.id, columns().old_area, f.old_area_m2);
+  if (!f.is_uncut || f.sense == Sense::imprint) table.set(s.id, columns().volume, f.volume_m3);
+  table.set(s.id, columns().surface, f.surface_m2);
+  table.set(s.id, columns().split_order, has_cut ? static_cast<double>(f.planes.size()) : 0);
 }
 
 /// What points of one plane are apart in doubles is nothing: an imprint has no depth.
@@ -78,20 +118,20 @@ double without_dust(double extent_m) {
 
 void describe_size(FeatureTable& table, const Subject& s) {
   const auto [a, b, c] = s.box.edges();
-  table.set(s.id, "a", a);
-  table.set(s.id, "b", b);
-  table.set(s.id, "c", without_dust(c));
-  table.set(s.id, "silhouette", a * b);
-  table.set(s.id, "width", detail::extent_along(s.points, s.across).size());
-  table.set(s.id, "height_of", s.box.height);
+  table.set(s.id, columns().a, a);
+  table.set(s.id, columns().b, b);
+  table.set(s.id, columns().c, without_dust(c));
+  table.set(s.id, columns().silhouette, a * b);
+  table.set(s.id, columns().width, detail::extent_along(s.points, s.across).size());
+  table.set(s.id, columns().height_of, s.box.height);
   if (!s.normal) return;
-  table.set(s.id, "depth", without_dust(detail::extent_along(s.points, *s.normal).size()));
+  table.set(s.id, columns().depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
   const double inclination = detail::inclination_deg(*s.normal);
-  table.set(s.id, "inclination", inclination);
+  table.set(s.id, columns().inclination, inclination);
   constexpr double kLevel_deg = 0.5;  // as coplanar_deg: a cap this level faces nowhere
   if (inclination < kLevel_deg || inclination > 180 - kLevel_deg) return;
   const double azimuth = std::atan2(s.normal->x, s.normal->y) * 180 / std::numbers::pi;
-  table.set(s.id, "azimuth", azimuth < 0 ? azimuth + 360 : azimuth);
+  table.set(s.id, columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
 /// How far cells reach, each direction of a cell measured once.
@@ -127,10 +167,10 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
     return std::max(
         0.0, detail::extent_along(s.points, direction).high - reaches.reach(host, direction));
   };
-  table.set(s.id, "growth_up", beyond({0, 0, 1}));
-  table.set(s.id, "growth_down", beyond({0, 0, -1}));
-  table.set(s.id, "growth_out", beyond(*s.normal));
-  table.set(s.id, "growth_side", std::max(beyond(s.across), beyond(-s.across)));
+  table.set(s.id, columns().growth_up, beyond({0, 0, 1}));
+  table.set(s.id, columns().growth_down, beyond({0, 0, -1}));
+  table.set(s.id, columns().growth_out, beyond(*s.normal));
+  table.set(s.id, columns().growth_side, std::max(beyond(s.across), beyond(-s.across)));
 }
 
 /// Input polygons as what is parallel to a plane.
@@ -175,7 +215,8 @@ void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& 
                      const Panes& panes) {
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
-  if (const auto level_m = panes.level_in(*s.feature, plane)) table.set(s.id, "recess", -*level_m);
+  if (const auto level_m = panes.level_in(*s.feature, plane))
+    table.set(s.id, columns().recess, -*level_m);
 }
 
 /// Where the ground is looked for: below the middle of the cap, a little inside the body.
@@ -213,17 +254,17 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
   const Box& box = s.feature->box;
   const auto& facet = s.feature->host_facet;
   const detail::Foot foot = ground_of(s, segmentation, site);
-  table.set(s.id, "height", box.min.z - foot.ground_m);
-  table.set(s.id, "top", box.max.z - foot.ground_m);
-  table.set(s.id, "ground_source", foot.source);
-  table.set(s.id, "below_ridge", site.ridge_m() - box.max.z);
+  table.set(s.id, columns().height, box.min.z - foot.ground_m);
+  table.set(s.id, columns().top, box.max.z - foot.ground_m);
+  table.set(s.id, columns().ground_source, foot.source);
+  table.set(s.id, columns().below_ridge, site.ridge_m() - box.max.z);
   if (!facet) return;
   const Cell& cell = segmentation.cells[facet->cell.index()];
   const Vec3 normal = segmentation.planes[cell.facets[at(facet->facet)].plane.index()].normal;
   // The facets of a void look away from it, into the building.
-  table.set(s.id, "host_inclination", detail::inclination_deg(cell.sign * normal));
+  table.set(s.id, columns().host_inclination, detail::inclination_deg(cell.sign * normal));
   if (const auto eaves = site.eaves_m(facet->cell))
-    table.set(s.id, "above_eaves", box.min.z - *eaves);
+    table.set(s.id, columns().above_eaves, box.min.z - *eaves);
 }
 
 /// The smallest distance of the cap's corners to the outline of the host's facet.
@@ -240,7 +281,7 @@ void describe_edge_gap(FeatureTable& table, const Subject& s, const Segmentation
       gap = std::min(gap,
                      detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
   }
-  if (gap < Box::kInfinity) table.set(s.id, "edge_gap", gap);
+  if (gap < Box::kInfinity) table.set(s.id, columns().edge_gap, gap);
 }
 
 /// 64-bit FNV-1a, written in 13 characters of base 32.
@@ -330,7 +371,7 @@ Description describe(const Building& building, const Segmentation& segmentation)
   }
   const std::vector<int> storeys = detail::storeys_of(placed, openings);
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (storeys[i] >= 0) out.table.set(subjects[i].id, "storey", storeys[i]);
+    if (storeys[i] >= 0) out.table.set(subjects[i].id, columns().storey, storeys[i]);
   count_companions(out.table, subjects, facades, "per_facade");
   count_companions(out.table, subjects, storeys, "per_storey");
   name_features(out.table, building, segmentation);

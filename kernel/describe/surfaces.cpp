@@ -39,6 +39,31 @@ struct Facing {
   const char* source = "input";
 };
 
+/// Where the attributes stand, found once.
+struct SurfaceColumns {
+  std::size_t inclination = surface_column_of("inclination").value();
+  std::size_t azimuth = surface_column_of("azimuth").value();
+  std::size_t facing = surface_column_of("facing").value();
+  std::size_t area = surface_column_of("area").value();
+  std::size_t a = surface_column_of("a").value();
+  std::size_t b = surface_column_of("b").value();
+  std::size_t height = surface_column_of("height").value();
+  std::size_t top = surface_column_of("top").value();
+  std::size_t below_ridge = surface_column_of("below_ridge").value();
+  std::size_t gap_above = surface_column_of("gap_above").value();
+  std::size_t gap_below = surface_column_of("gap_below").value();
+  std::size_t wall_up = surface_column_of("wall_up").value();
+  std::size_t wall_down = surface_column_of("wall_down").value();
+  std::size_t synthetic = surface_column_of("synthetic").value();
+  std::size_t sense = surface_column_of("sense").value();
+  std::size_t host_inclination = surface_column_of("host_inclination").value();
+};
+
+const SurfaceColumns& surface_columns() {
+  static const SurfaceColumns columns;
+  return columns;
+}
+
 class Surveyor {
  public:
   Surveyor(const std::vector<SurfaceFace>& faces, const Tolerances& tolerances)
@@ -64,7 +89,7 @@ class Surveyor {
   void measure(std::size_t row);
   void measure_gaps(std::size_t row);
   void measure_surroundings(std::size_t row);
-  [[nodiscard]] bool is_in_building(const std::vector<LineCrossing>& crossings, double z) const;
+  [[nodiscard]] bool is_below(const std::optional<LineCrossing>& above, Vec3 point) const;
 
   const std::vector<SurfaceFace>& faces_;
   const Tolerances& tolerances_;
@@ -124,46 +149,44 @@ SurfaceTable Surveyor::survey() {
 
 void Surveyor::measure(std::size_t row) {
   const SurfaceFace& face = faces_[row];
-  table_.set(row, "area", face.area_m2);
-  table_.set(row, "facing", std::string(facings_[row].source));
+  table_.set(row, surface_columns().area, face.area_m2);
+  table_.set(row, surface_columns().facing, std::string(facings_[row].source));
   if (!face.box.is_empty()) {
-    table_.set(row, "height", face.box.min.z - box_.min.z);
-    table_.set(row, "top", face.box.max.z - box_.min.z);
-    table_.set(row, "below_ridge", box_.max.z - face.box.max.z);
+    table_.set(row, surface_columns().height, face.box.min.z - box_.min.z);
+    table_.set(row, surface_columns().top, face.box.max.z - box_.min.z);
+    table_.set(row, surface_columns().below_ridge, box_.max.z - face.box.max.z);
   }
   if (face.normal == Vec3{}) return;
   const Vec3 normal = outward(row);
   const double inclination = detail::inclination_deg(normal);
-  table_.set(row, "inclination", inclination);
+  table_.set(row, surface_columns().inclination, inclination);
   if (std::min(inclination, 180 - inclination) > kLevel_deg) {
     const double azimuth = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi;
-    table_.set(row, "azimuth", azimuth < 0 ? azimuth + 360 : azimuth);
+    table_.set(row, surface_columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
   }
   const detail::Sides sides = detail::sides_of(face);
-  table_.set(row, "a", sides.a_m);
-  table_.set(row, "b", sides.b_m);
+  table_.set(row, surface_columns().a, sides.a_m);
+  table_.set(row, surface_columns().b, sides.b_m);
   measure_gaps(row);
   if (!face.is_steep()) measure_surroundings(row);
 }
 
 void Surveyor::measure_gaps(std::size_t row) {
-  const double z = faces_[row].middle.z;
-  for (const LineCrossing& c : lines_.at(faces_[row].middle)) {
-    if (c.z < z - tolerances_.weld_m) table_.set(row, "gap_below", z - c.z);
-    if (c.z <= z + tolerances_.weld_m) continue;
-    table_.set(row, "gap_above", c.z - z);
-    return;
-  }
+  const Vec3 middle = faces_[row].middle;
+  const double weld_m = tolerances_.weld_m;
+  if (const auto above = lines_.next_above(middle, middle.z + weld_m))
+    table_.set(row, surface_columns().gap_above, above->z - middle.z);
+  if (const auto below = lines_.next_below(middle, std::nextafter(middle.z - weld_m, box_.min.z)))
+    table_.set(row, surface_columns().gap_below, middle.z - below->z);
 }
 
-/// Material lies at a height of a vertical line if one leaves it there through a surface that looks
-/// up, and entered it through one that looks down: an overhang of one sheet makes no material of
-/// the air below it.
-bool Surveyor::is_in_building(const std::vector<LineCrossing>& crossings, double z) const {
-  const auto above =
-      std::ranges::find_if(crossings, [&](const LineCrossing& c) { return c.z > z; });
-  if (above == crossings.end() || above == crossings.begin()) return false;
-  return outward(at(above->face)).z > 0 && outward(at(std::prev(above)->face)).z < 0;
+/// Whether there is material at a point, of whose vertical line `above` is the next crossing: if
+/// one leaves it there through a surface that looks up, and entered it through one that looks down.
+/// An overhang of one sheet makes no material of the air below it.
+bool Surveyor::is_below(const std::optional<LineCrossing>& above, Vec3 point) const {
+  if (!above || outward(at(above->face)).z <= 0) return false;
+  const auto below = lines_.next_below(point, point.z);
+  return below && outward(at(below->face)).z < 0;
 }
 
 void Surveyor::measure_surroundings(std::size_t row) {
@@ -178,15 +201,20 @@ void Surveyor::measure_surroundings(std::size_t row) {
     const double share_m = length(edge) / static_cast<double>(kProbes.size());
     for (const double t : kProbes) {
       const Vec3 beyond = from + t * edge + kProbe_m * out;
-      const auto crossings = lines_.at(beyond);
+      const Vec3 low = beyond - Vec3{0, 0, kProbe_m}, high = beyond + Vec3{0, 0, kProbe_m};
+      const auto above = lines_.next_above(low, low.z);
+      const bool is_down = is_below(above, low);
+      // Mostly the line meets nothing in between.
+      const bool is_same = !above || above->z > high.z;
+      const bool is_up = is_same ? is_down : is_below(lines_.next_above(high, high.z), high);
       all_m += share_m;
-      if (is_in_building(crossings, beyond.z + kProbe_m)) up_m += share_m;
-      if (is_in_building(crossings, beyond.z - kProbe_m)) down_m += share_m;
+      if (is_up) up_m += share_m;
+      if (is_down) down_m += share_m;
     }
   }
   if (!(all_m > 0)) return;
-  table_.set(row, "wall_up", up_m / all_m);
-  table_.set(row, "wall_down", down_m / all_m);
+  table_.set(row, surface_columns().wall_up, up_m / all_m);
+  table_.set(row, surface_columns().wall_down, down_m / all_m);
 }
 
 /// The rows of polygons by their numbers.
@@ -225,9 +253,10 @@ void add_features(const SurfaceContext& context, const Building& building, std::
     const int source = building.polygons[row].source;
     if (source < 0 || owners[at(source)].empty()) continue;
     const FeatureId innermost{owners[at(source)].front()};
-    table.set(row, "sense", to_string(context.segmentation->features[innermost.index()].sense));
+    table.set(row, surface_columns().sense,
+              to_string(context.segmentation->features[innermost.index()].sense));
     if (const auto host = context.features->number(innermost, "host_inclination"))
-      table.set(row, "host_inclination", *host);
+      table.set(row, surface_columns().host_inclination, *host);
   }
 }
 
@@ -242,7 +271,8 @@ SurfaceTable describe_surfaces(const Building& building, const Tolerances& toler
   if (context.solid != nullptr) is_known = take_facing(*context.solid, faces, rows, surveyor);
   surveyor.judge_facing(is_known);
   SurfaceTable table = surveyor.survey();
-  for (std::size_t row = 0; row < table.rows(); ++row) table.set(row, "synthetic", 0.0);
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    table.set(row, surface_columns().synthetic, 0.0);
   if (context.segmentation != nullptr && context.features != nullptr)
     add_features(context, building, rows.size(), table);
   return table;
@@ -254,7 +284,7 @@ SurfaceTable describe_facets(const Solid& solid, const Tolerances& tolerances) {
   for (std::size_t row = 0; row < faces.size(); ++row) surveyor.set_facing(row, {false, "solid"});
   SurfaceTable table = surveyor.survey();
   for (std::size_t row = 0; row < table.rows(); ++row)
-    table.set(row, "synthetic", solid.facets[row].polygons.empty() ? 1.0 : 0.0);
+    table.set(row, surface_columns().synthetic, solid.facets[row].polygons.empty() ? 1.0 : 0.0);
   return table;
 }
 

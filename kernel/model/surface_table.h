@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace oriel {
@@ -42,6 +43,13 @@ class SurfaceTable {
   [[nodiscard]] const std::string& text(std::size_t row, std::string_view name) const;
   void set(std::size_t row, std::string_view name, double value);
   void set(std::size_t row, std::string_view name, std::string value);
+  /// The same by the column's position, whose type must fit.
+  void set(std::size_t row, std::size_t column, double value) {
+    columns_[column].numbers[row] = value;
+  }
+  void set(std::size_t row, std::size_t column, std::string value) {
+    columns_[column].texts[row] = std::move(value);
+  }
 
  private:
   struct Column {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 namespace oriel::detail {
 
@@ -14,23 +13,24 @@ namespace {
 /// The convex hull in plan, counter-clockwise (Andrew's monotone chain).
 std::vector<Vec3> hull_in_plan(std::vector<Vec3> points) {
   for (Vec3& p : points) p.z = 0;
-  std::ranges::sort(points, {}, [](Vec3 p) { return std::tuple(p.x, p.y); });
+  std::ranges::sort(points, [](Vec3 p, Vec3 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
-  const auto half = [](auto from, auto to) {
-    std::vector<Vec3> chain;
+  std::vector<Vec3> hull;
+  hull.reserve(2 * points.size());
+  const auto add_half = [&](auto from, auto to) {
+    const std::size_t begin = hull.size();
     for (auto p = from; p != to; ++p) {
-      while (chain.size() > 1 &&
-             cross(chain.back() - chain[chain.size() - 2], *p - chain.back()).z <= 0)
-        chain.pop_back();
-      chain.push_back(*p);
+      while (hull.size() > begin + 1 &&
+             cross(hull.back() - hull[hull.size() - 2], *p - hull.back()).z <= 0)
+        hull.pop_back();
+      hull.push_back(*p);
     }
-    chain.pop_back();
-    return chain;
+    // The last point is the first one of the other half.
+    hull.pop_back();
   };
-  std::vector<Vec3> hull = half(points.begin(), points.end());
-  const std::vector<Vec3> upper = half(points.rbegin(), points.rend());
-  hull.insert(hull.end(), upper.begin(), upper.end());
+  add_half(points.begin(), points.end());
+  add_half(points.rbegin(), points.rend());
   return hull;
 }
 
