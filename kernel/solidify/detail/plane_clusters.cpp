@@ -3,59 +3,21 @@
 #include "kernel/model/detail/counting_sort.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/coplanar_groups.h"
+#include "kernel/solidify/detail/known_planes.h"
 #include "kernel/solidify/detail/polygon_shape.h"
+#include "kernel/solidify/detail/ways_round.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
 
 namespace oriel::detail {
 
 namespace {
-
-/// The normal or its negative: its first component that is not zero is positive.
-Normal unoriented(const Normal& normal) {
-  return normal < Normal{0, 0, 0} ? Normal{-normal[0], -normal[1], -normal[2]} : normal;
-}
-
-/// A cell of the grid in which unit normals lie.
-using Cell = std::array<int, 3>;
-
-/// Planes of one direction.
-struct NormalClass {
-  Normal normal{};
-  Vec3 unit;
-  Cell cell{};
-  double size = 0;
-  std::map<std::int64_t, int> offsets;  ///< normal · point, and the number of the place
-};
-
-/// A place for a polygon: a class, and a plane of it or a new offset.
-struct Fit {
-  int normal_class = -1;
-  bool is_known = false;
-  std::int64_t offset = 0;
-  double residual = 0;
-};
-
-/// Keys for hashing: three numbers, or three and an offset.
-struct CellHash {
-  template <class Cell>
-  std::size_t operator()(const Cell& cell) const noexcept {
-    std::uint64_t h = 0;
-    for (const auto c : cell) {
-      h = (h ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
-      h ^= h >> 32;
-    }
-    return h;
-  }
-};
 
 /// The places met at every point, each once, in the order in which they came.
 class PlacesAtPoints {
@@ -87,7 +49,8 @@ class Clusterer {
         is_united_(std::move(is_united)),
         offset_tolerance_(tolerances.plane_offset_m / soup.grid_m),
         angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
-        shapes_(std::move(shapes)) {}
+        shapes_(std::move(shapes)),
+        planes_(angle_tolerance_) {}
 
   /// Another normal for a polygon than that of its area vector.
   void set_normal(int polygon, Vec3 normal) {
@@ -112,23 +75,6 @@ class Clusterer {
   }
 
  private:
-  /// A plane that polygons were put on.
-  struct Place {
-    int normal_class = -1;
-    std::int64_t offset = 0;
-  };
-  using ExactPlane = std::array<std::int64_t, 4>;  ///< normal and offset
-
-  [[nodiscard]] double cell_size() const {
-    return std::max(2 * std::sin(angle_tolerance_ / 2), 1e-9 /* tolerance 0 */);
-  }
-
-  [[nodiscard]] Cell cell_of(Vec3 u) const {
-    const double size = cell_size();
-    return {static_cast<int>(std::floor(u.x / size)), static_cast<int>(std::floor(u.y / size)),
-            static_cast<int>(std::floor(u.z / size))};
-  }
-
   [[nodiscard]] std::vector<int> largest_first() const {
     struct Sized {
       double area;
@@ -152,50 +98,7 @@ class Clusterer {
     if (!shape.normal) return -1;
     const Normal normal = unoriented(*shape.normal);
     const auto offset = offset_if_flat(soup_, polygon, normal);
-    if (!offset) return -1;
-    const auto found = exact_places_.find({normal[0], normal[1], normal[2], *offset});
-    return found != exact_places_.end() ? found->second : -1;
-  }
-
-  /// The number of a place; it is made if there is none yet.
-  int number_of(int k, std::int64_t offset) {
-    NormalClass& c = classes_[at(k)];
-    const auto [entry, is_new] = c.offsets.emplace(offset, static_cast<int>(places_.size()));
-    if (!is_new) return entry->second;
-    places_.push_back({k, offset});
-    // Of classes with one normal the first one's place is the one that polygons take.
-    int& exact =
-        exact_places_.try_emplace({c.normal[0], c.normal[1], c.normal[2], offset}, entry->second)
-            .first->second;
-    if (k < places_[at(exact)].normal_class) exact = entry->second;
-    return entry->second;
-  }
-
-  static bool is_next_to(const Cell& a, const Cell& b) {
-    return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1 && std::abs(a[2] - b[2]) <= 1;
-  }
-
-  /// Classes whose normal may be within the tolerance of ±`u`.
-  [[nodiscard]] std::vector<int> near_classes(Vec3 u) const {
-    std::vector<int> found;
-    if (classes_.size() < 27) {  // fewer than there are cells to look into
-      for (std::size_t k = 0; k < classes_.size(); ++k)
-        if (is_next_to(cell_of(u), classes_[k].cell) || is_next_to(cell_of(-u), classes_[k].cell))
-          found.push_back(static_cast<int>(k));
-      return found;
-    }
-    for (const Vec3 v : {u, -u}) {
-      const auto [x, y, z] = cell_of(v);
-      if (x < -1) continue;  // the normals of classes have x ≥ 0
-      for (int n = 0; n < 27; ++n) {
-        const auto cell = cells_.find({x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1});
-        if (cell != cells_.end())
-          found.insert(found.end(), cell->second.begin(), cell->second.end());
-      }
-    }
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+    return offset ? planes_.exact_place(normal, *offset) : -1;
   }
 
   /// `uncertainty` is the polygon's.
@@ -207,26 +110,15 @@ class Clusterer {
   }
 
   /// The best place for the polygon in one class, if there is one.
-  [[nodiscard]] std::optional<Fit> fit(int polygon, double uncertainty, int k) const {
-    const NormalClass& c = classes_[at(k)];
+  [[nodiscard]] std::optional<PlaneFit> fit(int polygon, double uncertainty, int k) const {
+    const NormalClass& c = planes_.classes()[at(k)];
     if (is_tilted_too_far(shapes_[at(polygon)], uncertainty, c)) return std::nullopt;
     const Span span = span_along(soup_, polygon, c.normal);
-    const double reach = offset_tolerance_ * c.size;
-    const auto residual_of = [&](std::int64_t offset) {
-      return std::max(std::abs(static_cast<double>(span.high - offset)),
-                      std::abs(static_cast<double>(offset - span.low)));
-    };
-    std::optional<Fit> best;
-    const auto from = static_cast<std::int64_t>(std::ceil(static_cast<double>(span.high) - reach));
-    for (auto o = c.offsets.lower_bound(from); o != c.offsets.end(); ++o) {
-      if (residual_of(o->first) > reach) break;
-      const double residual = residual_of(o->first) / c.size;
-      if (!best || residual < best->residual) best = Fit{k, true, o->first, residual};
-    }
-    if (best) return best;
+    if (const auto known = planes_.known_fit(k, span, offset_tolerance_)) return known;
     const std::int64_t middle = middle_along(polygon, c.normal, span);
-    if (residual_of(middle) <= reach) best = Fit{k, false, middle, residual_of(middle) / c.size};
-    return best;
+    const double residual = residual_of(span, middle);
+    if (residual > offset_tolerance_ * c.size) return std::nullopt;
+    return PlaneFit{k, false, middle, residual / c.size};
   }
 
   /// The offset of the polygon's own plane of that normal.
@@ -242,33 +134,25 @@ class Clusterer {
     const double uncertainty = shape.uncertainty_rad(offset_tolerance_);
     std::vector<int> candidates;
     if (shape.normal && uncertainty <= angle_tolerance_) {
-      candidates = near_classes(shape.unit);
+      candidates = planes_.near_classes(shape.unit);
     } else {
-      candidates.resize(classes_.size());
+      candidates.resize(planes_.classes().size());
       std::iota(candidates.begin(), candidates.end(), 0);
     }
-    std::optional<Fit> best;
+    std::optional<PlaneFit> best;
     for (const int k : candidates) {
       const auto here = fit(polygon, uncertainty, k);
       if (!here) continue;
-      const auto key = [](const Fit& f) { return std::tuple(!f.is_known, f.residual); };
+      const auto key = [](const PlaneFit& f) { return std::tuple(!f.is_known, f.residual); };
       if (!best || key(*here) < key(*best)) best = here;
     }
-    return best ? number_of(best->normal_class, best->offset) : place_in_own_class(polygon);
+    return best ? planes_.number_of(best->normal_class, best->offset) : place_in_own_class(polygon);
   }
 
   int place_in_own_class(int polygon) {
-    NormalClass c;
-    c.normal = unoriented(shapes_[at(polygon)].normal.value_or(Normal{0, 0, 1}));
-    c.unit = unit(c.normal);
-    c.size = length({static_cast<double>(c.normal[0]), static_cast<double>(c.normal[1]),
-                     static_cast<double>(c.normal[2])});
-    const int k = static_cast<int>(classes_.size());
-    c.cell = cell_of(c.unit);
-    cells_[c.cell].push_back(k);
-    classes_.push_back(std::move(c));
-    const Normal& normal = classes_.back().normal;
-    return number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
+    const Normal normal = unoriented(shapes_[at(polygon)].normal.value_or(Normal{0, 0, 1}));
+    const int k = planes_.add_class(normal);
+    return planes_.number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
   }
 
   /// Two parallel planes cannot share a vertex. Where polygons of one class but of two planes do,
@@ -291,11 +175,11 @@ class Clusterer {
     return has_changed;
   }
 
-  [[nodiscard]] int class_of(int place) const { return places_[at(place)].normal_class; }
+  [[nodiscard]] int class_of(int place) const { return planes_.places()[at(place)].normal_class; }
 
   [[nodiscard]] bool own_class_exists(int polygon, int k) const {
     const Normal& own = *shapes_[at(polygon)].normal;
-    const Normal& n = classes_[at(k)].normal;
+    const Normal& n = planes_.classes()[at(k)].normal;
     return own == n || own == Normal{-n[0], -n[1], -n[2]};
   }
 
@@ -318,84 +202,32 @@ class Clusterer {
     return rival;
   }
 
-  /// The cosine between the normals of a polygon and of its plane's class; 1 for a polygon without
-  /// area.
-  [[nodiscard]] double cosine_to_class(int polygon) const {
-    const PolygonShape& shape = shapes_[at(polygon)];
-    const NormalClass& c = classes_[at(places_[at(place_of_[at(polygon)])].normal_class)];
-    return shape.normal ? dot(shape.unit, c.unit) : 1;
-  }
-
-  /// The polygon is so thin that it came to its plane although it is at more than 45° to it.
-  static bool is_standing(double cosine) { return std::abs(cosine) < std::numbers::sqrt2 / 2; }
-
-  /// Which way round each polygon lies on its plane; what stands across it goes with the neighbours
-  /// that it shares most of its outline with. Counts them.
-  [[nodiscard]] std::vector<char> ways_round(int& standing) const {
-    std::vector<char> flipped(soup_.polygons.size());
-    std::vector<int> undecided;
-    for (int i = 0; i < soup_.polygon_count(); ++i) {
-      const double cosine = cosine_to_class(i);
-      flipped[at(i)] = cosine < 0;
-      if (is_standing(cosine)) undecided.push_back(i);
+  /// The cosines between the normals of polygons and of their planes' classes; 1 for a polygon
+  /// without area.
+  [[nodiscard]] std::vector<double> cosines_to_classes() const {
+    std::vector<double> cosines;
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      const Vec3 direction = planes_.class_at(place_of_[i]).unit;
+      cosines.push_back(shapes_[i].normal ? dot(shapes_[i].unit, direction) : 1);
     }
-    standing = static_cast<int>(undecided.size());
-    if (!undecided.empty()) decide_standing(undecided, flipped);
-    return flipped;
-  }
-
-  using Edge = std::pair<int, int>;  ///< points, the smaller one first
-
-  void decide_standing(const std::vector<int>& undecided, std::vector<char>& flipped) const {
-    std::vector<char> is_near(soup_.points.size(), 0);
-    for (const int i : undecided)
-      for (const int v : soup_.corners_of(i)) is_near[at(v)] = 1;
-    std::map<Edge, std::vector<int>> polygons_at;
-    for (int i = 0; i < soup_.polygon_count(); ++i)
-      for_each_edge(i, [&](Edge edge) {
-        if (is_near[at(edge.first)] && is_near[at(edge.second)]) polygons_at[edge].push_back(i);
-      });
-    std::vector<double> votes(soup_.polygons.size(), 0);
-    for (const int i : undecided)
-      for_each_edge(i, [&](Edge edge) {
-        for (const int j : polygons_at.at(edge))
-          if (j != i && place_of_[at(j)] == place_of_[at(i)] && !is_standing(cosine_to_class(j)))
-            votes[at(i)] += (flipped[at(j)] ? -1 : 1) * edge_length(edge);
-      });
-    for (const int i : undecided)
-      if (votes[at(i)] != 0) flipped[at(i)] = votes[at(i)] < 0;
-  }
-
-  template <class Visit>
-  void for_each_edge(int polygon, Visit visit) const {
-    for (const int r : soup_.rings_of(polygon)) {
-      const auto ring = soup_.ring(r);
-      for (std::size_t k = 0; k < ring.size(); ++k)
-        visit(Edge(std::minmax({ring[k], ring[(k + 1) % ring.size()]})));
-    }
-  }
-
-  [[nodiscard]] double edge_length(Edge edge) const {
-    const auto &p = soup_.points[at(edge.first)], &q = soup_.points[at(edge.second)];
-    return length({static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]),
-                   static_cast<double>(p[2] - q[2])});
+    return cosines;
   }
 
   [[nodiscard]] PlaneClusters result() const {
-    std::vector<int> plane_at(2 * places_.size(), -1);  // by place and way round
+    std::vector<int> plane_at(2 * planes_.places().size(), -1);  // by place and way round
     std::vector<Plane> planes;
     std::vector<int> plane_of(soup_.polygons.size());
     PlaneClusters out;
-    const std::vector<char> is_turned = ways_round(out.standing);
+    const WaysRound ways = ways_round(soup_, cosines_to_classes(), place_of_);
+    out.standing = ways.standing;
     for (int i = 0; i < soup_.polygon_count(); ++i) {
       const int place = place_of_[at(i)];
-      const bool flipped = is_turned[at(i)] != 0;
+      const bool flipped = ways.is_turned[at(i)] != 0;
       int& number = plane_at[2 * at(place) + (flipped ? 1 : 0)];
       if (number < 0) {
         number = static_cast<int>(planes.size());
-        const Place& p = places_[at(place)];
-        const Plane plane =
-            exact::make_plane(classes_[at(p.normal_class)].normal, p.offset, soup_.grid_m);
+        const Plane plane = exact::make_plane(planes_.class_at(place).normal,
+                                              planes_.places()[at(place)].offset, soup_.grid_m);
         planes.push_back(flipped ? exact::opposite(plane) : plane);
       }
       plane_of[at(i)] = number;
@@ -420,10 +252,7 @@ class Clusterer {
   double offset_tolerance_;  ///< grid units
   double angle_tolerance_;
   std::vector<PolygonShape> shapes_;
-  std::vector<NormalClass> classes_;
-  std::unordered_map<Cell, std::vector<int>, CellHash> cells_;  ///< classes by unit normal
-  std::vector<Place> places_;
-  std::unordered_map<ExactPlane, int, CellHash> exact_places_;
+  KnownPlanes planes_;
   std::vector<int> place_of_;  ///< by polygon
 };
 
@@ -436,8 +265,7 @@ int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups
     const auto group = static_cast<std::size_t>(groups.group_of[p]);
     const Plane& plane = of_groups.planes[static_cast<std::size_t>(of_groups.plane_of[group])];
     const PolygonShape& shape = shapes[p];
-    if (shape.normal && std::abs(dot(shape.unit, plane.normal)) < std::numbers::sqrt2 / 2)
-      ++standing;
+    if (shape.normal && is_standing(dot(shape.unit, plane.normal))) ++standing;
   }
   return standing;
 }
