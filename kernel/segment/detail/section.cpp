@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/section.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/segment/detail/nested_loops.h"
 
 #include <algorithm>
 #include <array>
@@ -192,105 +193,20 @@ class Sectioner {
     return true;
   }
 
-  template <class Visit>
-  void for_each_crossing(int l, Visit visit) const {
-    const int first = section_.loops[at(l)].first;
-    int c = first;
-    do {
-      visit(section_.crossings[at(c)]);
-      c = section_.crossings[at(c)].next;
-    } while (c != first);
-  }
-
   [[nodiscard]] Outline outline(int l) const { return outline_of(section_, l); }
 
   /// Thinner than weld_m, as a keel that touches the plane is.
   [[nodiscard]] bool is_sliver(int l, double area) const {
     double around = 0;
-    for_each_crossing(
-        l, [&](const Crossing& c) { around += length(section_.crossings[at(c.next)].at - c.at); });
+    for_each_crossing(section_, l, [&](const Crossing& c) {
+      around += length(section_.crossings[at(c.next)].at - c.at);
+    });
     return std::abs(area) < options_.weld_m * around / 2;
   }
 
-  /// A loop with what is needed to find the loops inside it.
-  struct Shape {
-    int loop;
-    double area;
-    Box box;
-    Outline points;  ///< filled in when asked for
-  };
-
-  /// Loops nest by turns: around material, around air in it, around material in that. Each loop
-  /// belongs to the region inside it and is a hole in the region that its parent bounds.
   void find_regions() {
-    if (section_.loops.size() == 1)
-      add_region(0);
-    else
-      nest_loops();
+    nest_loops(section_, axis_);
     for (Region& region : section_.regions) judge(region);
-  }
-
-  void add_region(int l) {
-    const double area = section_.loops[at(l)].area;
-    section_.regions.push_back({area > 0, {l}, std::abs(area)});
-  }
-
-  void nest_loops() {
-    std::vector<Shape> shapes;
-    shapes.reserve(section_.loops.size());
-    for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      shapes.push_back({l, section_.loops[at(l)].area, {}, {}});
-      for_each_crossing(l, [&](const Crossing& c) { shapes.back().box.grow(c.at); });
-    }
-    std::ranges::sort(shapes, std::greater{}, [&](const Shape& s) {
-      return std::pair(std::abs(s.area),
-                       -section_.crossings[at(section_.loops[at(s.loop)].first)].edge);
-    });
-    std::array<std::vector<int>, 2> larger;  // around air, around material
-    for (int i = 0; i < std::ssize(shapes); ++i) {
-      const Shape& shape = shapes[at(i)];
-      add_region(shape.loop);
-      const bool is_material = shape.area > 0;
-      const int parent = parent_of(shapes, larger[is_material ? 0 : 1], shape);
-      larger[is_material ? 1 : 0].push_back(i);
-      if (parent < 0) continue;
-      Region& around = section_.regions[at(parent)];
-      around.loops.push_back(shape.loop);
-      around.area -= std::abs(shape.area);
-    }
-  }
-
-  /// The smallest of the larger loops of the other kind that is around `inner`, or -1.
-  int parent_of(std::vector<Shape>& shapes, const std::vector<int>& others,
-                const Shape& inner) const {
-    for (std::size_t j = others.size(); j-- > 0;) {
-      Shape& outer = shapes[at(others[j])];
-      if (is_within(inner.box, outer.box) && is_inside(inner, outer)) return others[j];
-    }
-    return -1;
-  }
-
-  static bool is_within(const Box& inner, const Box& outer) {
-    return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
-           inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
-  }
-
-  /// Loops do not cross, so one point tells; the middle of the figure may lie in a loop further in,
-  /// so it is asked from points of the loop itself until one is clear of the outer loop's own
-  /// points.
-  bool is_inside(const Shape& inner, Shape& outer) const {
-    if (outer.points.empty()) outer.points = outline(outer.loop);
-    const int first = section_.loops[at(inner.loop)].first;
-    int c = first;
-    do {
-      const Vec3 p = section_.crossings[at(c)].at;
-      if (std::ranges::find(outer.points, p) == outer.points.end())
-        return contains({&outer.points, 1}, axis_, p);
-      c = section_.crossings[at(c)].next;
-    } while (c != first);
-    const Outline points = outline(inner.loop);
-    const auto middle = interior_point({&points, 1}, axis_);
-    return middle && contains({&outer.points, 1}, axis_, *middle);
   }
 
   /// Also of a region that was judged before: it is no sliver then if it was a candidate.
@@ -324,7 +240,7 @@ class Sectioner {
     for (int l = 0; l < std::ssize(section_.loops); ++l) {
       std::size_t dead = 0;
       const int first = static_cast<int>(crossings.size()), number = static_cast<int>(loops.size());
-      for_each_crossing(l, [&](const Crossing& c) {
+      for_each_crossing(section_, l, [&](const Crossing& c) {
         dead += is_dead(c) ? 1 : 0;
         crossings.push_back({c.edge, c.at, static_cast<int>(crossings.size()) + 1, number});
       });
@@ -409,17 +325,6 @@ class Sectioner {
 };
 
 }  // namespace
-
-Outline outline_of(const Section& section, int loop) {
-  Outline points;
-  const int first = section.loops[at(loop)].first;
-  int c = first;
-  do {
-    points.push_back(section.crossings[at(c)].at);
-    c = section.crossings[at(c)].next;
-  } while (c != first);
-  return points;
-}
 
 void section_at(const Boundary& body, Section& section, std::span<const int> edges,
                 const SectionOptions& options) {
