@@ -72,7 +72,10 @@ double Evaluator::most(ExprId id) const {
 }
 
 double Evaluator::most_in(std::size_t column) const {
-  double most = 0;
+  if (most_in_.empty()) most_in_.resize(facts_->columns.size(), kUnknown);
+  double& most = most_in_[column];
+  if (!std::isnan(most)) return most;
+  most = 0;
   for (const double value : facts_->columns[column]) {
     const double size = std::abs(value);
     if (!(size <= most)) most = std::isnan(size) ? kInfinity : size;

@@ -125,6 +125,8 @@ class Evaluator {
   const Facts* facts_;
   std::vector<std::vector<Truth>> columns_;
   std::vector<ExprId> kept_;
+  /// By column, NaN until it is asked for.
+  mutable std::vector<double> most_in_;
 };
 
 }  // namespace oriel::rules

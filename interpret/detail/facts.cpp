@@ -77,18 +77,22 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
   }
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (feature_schema()[i].unit != Unit::text) columns[i] = table.numbers(i);
-  for (const Expr& expr : pack.code)
-    if (expr.op == Op::facet_is) find_hosts(pack, expr.index);
+  find_hosts(pack);
   link(pack, graph);
 }
 
-void Facts::find_hosts(const Pack& pack, int kind) {
-  auto& are_kind = hosts[static_cast<std::size_t>(kind)];
-  if (!are_kind.empty()) return;
-  are_kind.reserve(rows);
-  for (const double inclination : columns[host_inclination]) {
-    const bool is_kind = static_cast<int>(kind_of_facet(pack.hosts, inclination)) == kind;
-    are_kind.push_back(std::isnan(inclination) ? Truth::unknown : truth_of(is_kind));
+void Facts::find_hosts(const Pack& pack) {
+  std::array<bool, 4> is_asked{};
+  for (const Expr& expr : pack.code)
+    if (expr.op == Op::facet_is) is_asked[static_cast<std::size_t>(expr.index)] = true;
+  const auto inclinations = columns[host_inclination];
+  for (std::size_t kind = 0; kind < hosts.size(); ++kind)
+    if (is_asked[kind]) hosts[kind].resize(rows, Truth::no);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool is_unknown = std::isnan(inclinations[row]);
+    const auto of_row = static_cast<std::size_t>(kind_of_facet(pack.hosts, inclinations[row]));
+    for (std::size_t kind = 0; kind < hosts.size(); ++kind)
+      if (is_asked[kind]) hosts[kind][row] = is_unknown ? Truth::unknown : truth_of(kind == of_row);
   }
 }
 

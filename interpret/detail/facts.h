@@ -77,7 +77,7 @@ struct Facts {
   double scale = 0;
 
  private:
-  void find_hosts(const Pack& pack, int kind);
+  void find_hosts(const Pack& pack);
   void link(const Pack& pack, const FeatureGraph& graph);
 
   /// The lists of the relations that the pack declares.

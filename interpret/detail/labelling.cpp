@@ -37,6 +37,7 @@ std::vector<Choice> Labelling::run() {
   while (true) {
     choices_.assign(facts_->rows, {});
     decided_.assign(facts_->rows, kNoClass);
+    is_any_decided_ = false;
     run_round();
     rounds_.push_back(choices_);
     const bool is_last = static_cast<int>(rounds_.size()) == pack_->rounds;
@@ -131,8 +132,10 @@ void Labelling::collect(int id) {
   const ClassId label = rule(id).label;
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
     Frame frame = block_of(*facts_, begin);
-    frame.needed = open.data();
-    for (std::size_t i = 0; i < frame.size; ++i) open[i] = truth_of(is_open(begin + i, label));
+    if (is_any_decided_) {
+      for (std::size_t i = 0; i < frame.size; ++i) open[i] = truth_of(is_open(begin + i, label));
+      frame.needed = open.data();
+    }
     judge(*pack_, rule(id), evaluator_, frame, judgement);
     for (std::size_t i = 0; i < frame.size; ++i) {
       if (judgement.truth[i] == Truth::no) continue;
@@ -183,6 +186,7 @@ void Labelling::decide(std::size_t row) {
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.
 void Labelling::settle_membership(const Step& step) {
+  is_any_decided_ = is_any_decided_ || !decided_now_.empty();
   for (const int row : decided_now_) raise_membership(decided_[index(row)], index(row), Truth::yes);
   for (const int id : step.rules) {
     const ClassId label = rule(id).label;

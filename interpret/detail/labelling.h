@@ -94,6 +94,7 @@ class Labelling {
   /// By row: the class that was decided, or -1; and the rows of the decision at hand.
   std::vector<ClassId> decided_;
   std::vector<int> decided_now_;
+  bool is_any_decided_ = false;
 };
 
 }  // namespace oriel::rules
