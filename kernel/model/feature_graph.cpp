@@ -39,7 +39,8 @@ void FeatureGraph::set(const std::string& name, std::vector<Pair> pairs) {
     ++links.starts.back();
     links.others.push_back(other.value);
   }
-  relations_[name] = std::move(links);
+  const auto classes = classes_of(links);
+  relations_[name] = classes ? links_of_classes(*classes) : std::move(links);
 }
 
 void FeatureGraph::set_classes(const std::string& name, std::span<const int> class_of_row) {

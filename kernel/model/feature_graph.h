@@ -20,8 +20,8 @@ class FeatureGraph {
   /// Replaces the relation `name` by the pairs self -> other. Repeated pairs count once, those of a
   /// feature with itself not at all. Throws std::invalid_argument for an id below 0.
   void set(const std::string& name, std::vector<Pair> pairs);
-  /// The same where features of one class are all related to each other: so many numbers are kept
-  /// as there are features, not pairs. Class -1: to none.
+  /// The same where features of one class are all related to each other; class -1: to none. So many
+  /// numbers are kept as there are features, not pairs; also where pairs say the same.
   void set_classes(const std::string& name, std::span<const int> class_of_row);
 
   /// The links of `name`; of no list if it was not set.

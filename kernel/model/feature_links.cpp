@@ -1,10 +1,46 @@
 #include "kernel/model/feature_links.h"
 
 #include "kernel/model/detail/counting_sort.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace oriel {
+
+namespace {
+
+std::span<const int> others_of(const FeatureLinks& links, int row) {
+  const int list = at(row) < links.list_of.size() ? links.list_of[at(row)] : -1;
+  return list < 0 ? std::span<const int>() : links.list(at(list));
+}
+
+}  // namespace
+
+/// The first of a class names it with its others. That all of a class have as many others, and none
+/// but of it, makes them equal.
+std::optional<std::vector<int>> classes_of(const FeatureLinks& links) {
+  const int last = links.others.empty() ? -1 : *std::ranges::max_element(links.others);
+  const int rows = std::max(static_cast<int>(links.list_of.size()), last + 1);
+  std::vector<int> class_of(at(rows), -1);
+  std::vector<std::size_t> others_in;  // by class
+  for (int row = 0; row < rows; ++row) {
+    const auto others = others_of(links, row);
+    int& mine = class_of[at(row)];
+    if (others.empty() && mine < 0) continue;
+    if (mine < 0) {
+      if (others.front() < row) return std::nullopt;
+      mine = static_cast<int>(others_in.size());
+      others_in.push_back(others.size());
+      for (const int other : others)
+        if (std::exchange(class_of[at(other)], mine) >= 0) return std::nullopt;
+    }
+    const bool is_whole = others.size() == others_in[at(mine)];
+    if (!is_whole || std::ranges::any_of(others, [&](int o) { return class_of[at(o)] != mine; }))
+      return std::nullopt;
+  }
+  return class_of;
+}
 
 FeatureLinks links_of_classes(std::span<const int> class_of_row) {
   FeatureLinks links;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,5 +29,9 @@ struct FeatureLinks {
 /// Every row with each other one of its class, whose number is that of its list; below 0: of none.
 /// Takes time and memory for the greatest number, so let them follow each other.
 FeatureLinks links_of_classes(std::span<const int> class_of_row);
+
+/// The classes by which `links` relates features, -1 where it relates one to none: if it is the
+/// same as links_of_classes() of them; else nothing. O(links).
+std::optional<std::vector<int>> classes_of(const FeatureLinks& links);
 
 }  // namespace oriel

@@ -44,11 +44,25 @@ TEST_SUITE("kernel/model") {
     CHECK(graph.pairs("same_facade").size() == 8);
     graph.set("beside", graph.pairs("same_facade"));
     CHECK(graph.pairs("beside") == graph.pairs("same_facade"));
+    CHECK(graph.links("beside").are_classes);
     CHECK(graph.pairs("above").empty());
   }
 
-  TEST_CASE(
-      "a relation drops pairs that stand twice or lead to themselves and refuses no feature") {
+  TEST_CASE("pairs that are not all of some classes stay pairs") {
+    using Pairs = std::vector<FeatureGraph::Pair>;
+    const FeatureId p{0}, q{1}, r{2};
+    FeatureGraph graph;
+    for (const Pairs& pairs :
+         {Pairs{{p, q}}, Pairs{{q, p}}, Pairs{{p, q}, {q, p}, {q, r}, {r, q}},
+          Pairs{{p, q}, {q, r}, {r, p}}, Pairs{{p, q}, {p, r}, {q, p}, {q, r}, {r, p}},
+          Pairs{{p, r}, {q, p}, {r, p}}}) {
+      graph.set("above", pairs);
+      CHECK(graph.pairs("above") == pairs);
+      CHECK_FALSE(graph.links("above").are_classes);
+    }
+  }
+
+  TEST_CASE("pairs that stand twice or lead from a feature to itself are dropped") {
     FeatureGraph graph;
     const FeatureId p{0}, q{1};
     graph.set("beside", {{q, p}, {p, p}, {p, q}, {q, p}});
