@@ -1,6 +1,7 @@
 #include "interpret/plan.h"
 
 #include "interpret/detail/fold.h"
+#include "interpret/detail/group_gap.h"
 #include "interpret/detail/labelling.h"
 #include "interpret/detail/names.h"
 
@@ -143,10 +144,17 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
 
   std::vector<const Entry*> chosen(facts.rows, nullptr);
   std::vector<Truth> fits(facts.rows);
+  // gap(members) stands behind the columns of the schema.
+  std::vector<double> gaps;
+  facts.columns.emplace_back();
   rules::Evaluator evaluator(pack, facts);
   for (const Entry& entry : pack.entries) {
     if (scale_denominator < entry.scale_from || scale_denominator > entry.scale_to) continue;
     mark_targets(pack, entry, labels, interpretation, fits);
+    if (entry.group >= 0) {
+      const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
+      facts.columns.back() = gaps = rules::group_gaps(kind, table, graph, interpretation);
+    }
     judge_condition(entry.when, facts, evaluator, fits);
     if (entry.group >= 0)
       keep_whole_groups(pack.groups[static_cast<std::size_t>(entry.group)].name, interpretation,

@@ -7,12 +7,12 @@ namespace oriel {
 /// The operator `aggregate`: the openings of one storey on one facade become a strip (paper 5.1,
 /// "aggregation").
 ///
-/// `{aggregate: {gap: LENGTH}}`. The strip is one recess as wide as all of them together from the
-/// first to the last, with the area of all of them (so it is lower), about the middle of their
-/// heights, and with their mean depth. It stands for the first of them along the wall; the others
-/// are gone. Precondition: at least two recesses that are boxes, of one class, storey and facet;
-/// nothing else lies in the strip's way. Touches: the wall's facet. Inverse: omit, and the recesses
-/// that the segmentation still has.
+/// `{aggregate: {into: strip, gap: LENGTH}}`; a strip is all they can become. The strip is one
+/// recess as wide as all of them together from the first to the last, with the area of all of them
+/// (so it is lower), about the middle of their heights, and with their mean depth. It stands for
+/// the first of them along the wall; the others are gone. Precondition: at least two recesses that
+/// are boxes, of one class, storey and facet; nothing else lies in the strip's way. Touches: the
+/// wall's facet. Inverse: omit, and the recesses that the segmentation still has.
 detail::Placed aggregate(const Redrawing& task);
 
 }  // namespace oriel

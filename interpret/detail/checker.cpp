@@ -120,6 +120,10 @@ ExprId Checker::check_by_kind(const Syntax& syntax) {
       return check_quantifier(syntax);
     case Kind::aggregate:
       return check_aggregate(syntax);
+    case Kind::distance:
+      return check_distance(syntax);
+    case Kind::group_gap:
+      return check_group_gap(syntax);
     case Kind::is_test:
       return check_is(syntax);
     case Kind::negate:

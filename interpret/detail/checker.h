@@ -21,15 +21,18 @@ inline constexpr std::size_t kMostInPack = 200'000;
 /// Looks up every name of an expression and gives every part its type and dimension. Typed
 /// expressions go into `pack.code`; what is wrong goes into `findings`:
 /// R204 … R208 unknown names, R222 too large, R230 dimensions differ, R231 a unit is missing,
-/// R232 the wrong type, R234 unknown word, R235 mm@map outside generalise, R236 self or other out
-/// of reach, R247 a macro that needs itself, R249 what a relation cannot ask.
+/// R232 the wrong type, R234 unknown word, R235 mm@map or scale outside generalise, R236 self or
+/// other out of reach, R247 a macro that needs itself, R249 what a relation cannot ask, R271
+/// gap(members) where there are none.
 class Checker {
  public:
   Checker(Pack& pack, Names& names, Findings& findings)
       : pack_(&pack), names_(&names), findings_(&findings) {}
 
-  /// Inside `generalise:` lengths may be stated in mm@map.
+  /// Inside `generalise:` lengths may be stated in mm@map, and `scale` is the target scale's N.
   void allow_map_units(bool is_allowed) { is_map_allowed_ = is_allowed; }
+  /// Inside `when` of an entry for a group gap(members) is known.
+  void speak_of_group(bool is_of_group) { is_of_group_ = is_of_group; }
 
   /// Inside `surfaces:` names are those of surface_schema(), and there is nothing to relate.
   void speak_of_surfaces() { is_of_surfaces_ = true; }
@@ -60,6 +63,9 @@ class Checker {
   ExprId check_name(const Syntax& syntax);
   ExprId check_attribute(const Syntax& syntax, int column);
   ExprId check_macro(const Syntax& syntax, Macro& macro);
+  ExprId check_scale(const Syntax& syntax);
+  ExprId check_distance(const Syntax& syntax);
+  ExprId check_group_gap(const Syntax& syntax);
   ExprId check_is(const Syntax& syntax);
   ExprId check_host(const Syntax& syntax, int level);
   ExprId check_quantifier(const Syntax& syntax);
@@ -100,6 +106,7 @@ class Checker {
   Findings* findings_;
   bool is_map_allowed_ = false;
   bool is_of_surfaces_ = false;
+  bool is_of_group_ = false;
   bool is_in_relation_ = false;
   bool is_previous_ = false;
   int macro_depth_ = 0;

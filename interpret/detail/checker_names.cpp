@@ -71,8 +71,16 @@ ExprId Checker::check_name(const Syntax& syntax) {
   const int macro = index_of(names_->macros, syntax.name);
   if (macro >= 0 && syntax.scope == Syntax::Scope::here)
     return check_macro(syntax, names_->macros[static_cast<std::size_t>(macro)]);
-  if (!contains(names_->broken_macros, syntax.name)) report_unknown_name(syntax);
+  if (contains(names_->broken_macros, syntax.name)) return kNoExpr;
+  if (syntax.name == kScaleName && syntax.scope == Syntax::Scope::here) return check_scale(syntax);
+  report_unknown_name(syntax);
   return kNoExpr;
+}
+
+ExprId Checker::check_scale(const Syntax& syntax) {
+  if (is_map_allowed_) return add({.op = Op::scale, .span = syntax.span});
+  return fail("R235", syntax.span,
+              "'scale' has a meaning only under 'generalise:', where there is a target scale");
 }
 
 void Checker::report_unknown_name(const Syntax& syntax) {
@@ -116,6 +124,49 @@ ExprId Checker::check_macro(const Syntax& syntax, Macro& macro) {
   --macro_depth_;
   macro.is_open = false;
   return id;
+}
+
+/// Of the middles of their lower edges in the facade: sqrt((self.along - other.along)^2 +
+/// (self.height - other.height)^2).
+ExprId Checker::check_distance(const Syntax& syntax) {
+  const auto attribute = [&](const char* name, Syntax::Scope scope) {
+    Syntax named{.span = syntax.span, .name_span = syntax.name_span, .name = name, .scope = scope};
+    return check_attribute(named, index_of(schema(), name));
+  };
+  Expr sum{.op = Op::add, .dimension = {2, 0}, .span = syntax.span};
+  for (const char* name : {"along", "height"}) {
+    Expr difference{.op = Op::subtract, .dimension = {1, 0}, .span = syntax.span};
+    for (const auto scope : {Syntax::Scope::self, Syntax::Scope::other}) {
+      difference.args.push_back(attribute(name, scope));
+      if (difference.args.back() == kNoExpr) return kNoExpr;
+    }
+    const ExprId id = add(std::move(difference));
+    if (id == kNoExpr) return kNoExpr;
+    sum.args.push_back(
+        add({.op = Op::multiply, .dimension = {2, 0}, .args = {id, id}, .span = syntax.span}));
+    if (sum.args.back() == kNoExpr) return kNoExpr;
+  }
+  const ExprId squares = add(std::move(sum));
+  if (squares == kNoExpr) return kNoExpr;
+  return add({.op = Op::square_root, .dimension = {1, 0}, .args = {squares}, .span = syntax.span});
+}
+
+/// A column behind those of the schema, which plan() fills (group_gap.h).
+ExprId Checker::check_group_gap(const Syntax& syntax) {
+  if (!is_of_group_)
+    return fail("R271", syntax.span,
+                "gap(members) has a meaning only in the 'when' of an entry for a group");
+  Syntax named = syntax;
+  named.scope = Syntax::Scope::self;
+  const auto level = level_of(named);
+  if (!level) return kNoExpr;
+  Expr expr{.op = Op::attribute,
+            .dimension = {1, 0},
+            .index = static_cast<int>(feature_schema().size()),
+            .level = *level,
+            .span = syntax.span};
+  expr.levels = 1U << static_cast<unsigned>(*level);
+  return add(std::move(expr));
 }
 
 ExprId Checker::check_is(const Syntax& syntax) {

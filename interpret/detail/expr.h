@@ -24,6 +24,7 @@ enum class Op {
   parameter,   ///< index: of the param
   attribute,   ///< index: column
   map_length,  ///< args[0] millimetres on the map, in metres at the scale
+  scale,       ///< N of the target scale 1 : N
   negate,
   add,
   subtract,

@@ -312,6 +312,7 @@ DescribedBuilding make_building(const std::string& name, const Fixture& fixture)
     table.set_id(id, feature.name);
     for (const auto& [attribute, value] : feature.numbers) table.set(id, attribute, value);
     for (const auto& [attribute, value] : feature.texts) table.set(id, attribute, value);
+    if (feature.x && !feature.numbers.contains("along")) table.set(id, "along", *feature.x);
     const auto height = feature.numbers.find("height");
     const auto extent = feature.numbers.find("height_of");
     const bool is_known = height != feature.numbers.end() && extent != feature.numbers.end();

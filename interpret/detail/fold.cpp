@@ -11,6 +11,7 @@ std::optional<double> fold(const Pack& pack, ExprId id, std::optional<double> sc
   if (!is_constant(expr) || expr.type == Type::yes_no) return std::nullopt;
   if (expr.op == Op::constant) return expr.number;
   if (expr.op == Op::parameter) return pack.params[static_cast<std::size_t>(expr.index)].value;
+  if (expr.op == Op::scale) return scale;
   std::vector<double> values;
   for (const ExprId arg : expr.args) {
     const auto value = fold(pack, arg, scale);

@@ -26,10 +26,9 @@ const std::vector<std::string>& words_of(std::string_view attribute) {
 }
 
 int relation_number(const Pack& pack, std::string_view name) {
-  const int built_in = index_of(relation_schema(), name);
-  if (built_in >= 0) return built_in;
   const int declared = index_of(pack.relations, name);
-  return declared < 0 ? -1 : declared + static_cast<int>(relation_schema().size());
+  if (declared >= 0) return declared + static_cast<int>(relation_schema().size());
+  return index_of(relation_schema(), name);
 }
 
 std::vector<std::string> relation_names(const Pack& pack) {

@@ -35,7 +35,7 @@ struct Names {
   std::set<int> used_relations;
 };
 
-/// The number of the relation called `name`, built in or of the pack, or -1.
+/// The number of the relation called `name`, of the pack or else built in, or -1.
 int relation_number(const Pack& pack, std::string_view name);
 /// All of them, in the order of their numbers.
 std::vector<std::string> relation_names(const Pack& pack);

@@ -42,6 +42,7 @@ class Pratt {
   Syntax is_test(Syntax::Scope scope, bool is_of_host, Span begin);
   Syntax plain_name(Syntax::Scope scope, Span begin);
   Syntax call();
+  Syntax measure();
   Syntax quantifier();
   Syntax aggregate(Syntax node, Syntax value);
   void relation_of(Syntax& node, std::vector<Syntax>& children);

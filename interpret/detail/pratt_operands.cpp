@@ -26,6 +26,21 @@ bool contains(const std::vector<std::string>& list, std::string_view word) {
   return std::ranges::find(list, word) != list.end();
 }
 
+/// What is called with one fixed word, which says of whom it speaks. They are words of the language
+/// only where a bracket follows.
+struct Measure {
+  const char* name;
+  const char* argument;
+  Syntax::Kind kind;
+};
+constexpr Measure kMeasures[] = {{"distance_along", "other", Syntax::Kind::distance},
+                                 {"gap", "members", Syntax::Kind::group_gap}};
+
+const Measure* measure_of(std::string_view word) {
+  const auto* found = std::ranges::find(kMeasures, word, &Measure::name);
+  return found == std::end(kMeasures) ? nullptr : found;
+}
+
 std::vector<std::string> callables() {
   std::vector<std::string> words = functions();
   words.insert(words.end(), quantifiers().begin(), quantifiers().end());
@@ -117,10 +132,14 @@ Syntax Pratt::word() {
   if (contains(quantifiers(), token.text)) return quantifier();
   if (contains(functions(), token.text)) return call();
   const bool is_called = tokens_.peek(1).kind == Token::Kind::open_round;
-  if (is_called && !is_reserved(token.text))
+  if (is_called && measure_of(token.text) != nullptr) return measure();
+  if (is_called && !is_reserved(token.text)) {
+    auto known = callables();
+    for (const Measure& measure : kMeasures) known.emplace_back(measure.name);
     tokens_.fail(
         "R220", token.span,
-        fmt::format("unknown function '{}'{}", token.text, did_you_mean(token.text, callables())));
+        fmt::format("unknown function '{}'{}", token.text, did_you_mean(token.text, known)));
+  }
   if (tokens_.take_if_word("self")) return scoped(Syntax::Scope::self, token.span);
   if (tokens_.take_if_word("other")) return scoped(Syntax::Scope::other, token.span);
   if (tokens_.take_if_word("host")) return is_test(Syntax::Scope::here, true, token.span);
@@ -182,6 +201,19 @@ Syntax Pratt::call() {
         "R220", name.span,
         fmt::format("'{}' takes {}", name.text, is_unary ? "one value" : "two values or more"));
   return finish(std::move(node), std::move(arguments));
+}
+
+/// `distance_along(other)`, `gap(members)`.
+Syntax Pratt::measure() {
+  const Token name = tokens_.take();
+  const Measure& measure = *measure_of(name.text);
+  Syntax node{.kind = measure.kind, .span = name.span, .name_span = name.span};
+  tokens_.expect(Token::Kind::open_round, "'('");
+  if (!tokens_.take_if_word(measure.argument))
+    tokens_.fail_expecting(
+        fmt::format("'{}': it is {}({})", measure.argument, measure.name, measure.argument));
+  node.span.end = tokens_.expect(Token::Kind::close_round, "')'").span.end;
+  return node;
 }
 
 Syntax Pratt::quantifier() {

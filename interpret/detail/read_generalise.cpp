@@ -139,7 +139,9 @@ void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader
   if (const YamlNode* id = section.require("id")) read_entry_id(*id, entry, ids, loader);
   if (const YamlNode* scale = section.require("scale")) read_scale(*scale, entry, loader);
   if (const YamlNode* target = section.require("for")) read_target(*target, entry, loader);
+  loader.checker.speak_of_group(entry.group >= 0);
   if (const YamlNode* when = section.find("when")) entry.when = read_condition(*when, loader);
+  loader.checker.speak_of_group(false);
   if (const YamlNode* operation = section.require("do")) read_operation(*operation, entry, loader);
   loader.pack.entries.push_back(std::move(entry));
 }

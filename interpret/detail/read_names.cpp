@@ -177,6 +177,9 @@ void read_macros(const YamlNode& node, Loader& loader) {
       loader.findings.error(
           "R216", entry.key.span,
           "a macro cannot be called '" + entry.key.text + "': there is an attribute of this name");
+    if (entry.key.text == kScaleName)
+      loader.findings.error("R216", entry.key.span,
+                            "a macro cannot be called 'scale': it is the target scale's N");
     const auto where = expression_span(entry.value, loader.findings);
     auto body = where ? parse_expression(*where, loader.findings) : std::nullopt;
     if (is_named && body)

@@ -17,6 +17,8 @@ struct Syntax {
     call,        ///< name(children…): abs, min, max, sqrt
     quantifier,  ///< name(relation [where children[0]]): exists, none, count, all
     aggregate,   ///< name(children[0] of relation [where children[1]]): min, max, mean
+    distance,    ///< distance_along(other)
+    group_gap,   ///< gap(members)
     is_test,     ///< [scope] is name, or [scope.]host is name
     negate,      ///< - children[0]
     negation,    ///< not children[0]
@@ -45,6 +47,9 @@ struct Syntax {
   /// Levels of operators beneath, itself included.
   int height = 1;
 };
+
+/// The name that stands for N of the target scale 1 : N under `generalise:`.
+inline constexpr const char* kScaleName = "scale";
 
 /// `lo .. hi`.
 struct RangeSyntax {

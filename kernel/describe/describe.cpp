@@ -56,6 +56,7 @@ struct FeatureColumns {
   std::size_t host_inclination = column_of("host_inclination").value();
   std::size_t above_eaves = column_of("above_eaves").value();
   std::size_t edge_gap = column_of("edge_gap").value();
+  std::size_t along = column_of("along").value();
   std::size_t storey = column_of("storey").value();
 };
 
@@ -116,6 +117,12 @@ double without_dust(double extent_m) {
   return extent_m < kDust_m ? 0 : extent_m;
 }
 
+/// True for a cap that faces nowhere.
+bool is_level(double inclination_deg) {
+  constexpr double kLevel_deg = 0.5;  // as coplanar_deg
+  return inclination_deg < kLevel_deg || inclination_deg > 180 - kLevel_deg;
+}
+
 void describe_size(FeatureTable& table, const Subject& s) {
   const auto [a, b, c] = s.box.edges();
   table.set(s.id, columns().a, a);
@@ -128,8 +135,7 @@ void describe_size(FeatureTable& table, const Subject& s) {
   table.set(s.id, columns().depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
   const double inclination = detail::inclination_deg(*s.normal);
   table.set(s.id, columns().inclination, inclination);
-  constexpr double kLevel_deg = 0.5;  // as coplanar_deg: a cap this level faces nowhere
-  if (inclination < kLevel_deg || inclination > 180 - kLevel_deg) return;
+  if (is_level(inclination)) return;
   const double azimuth = std::atan2(s.normal->x, s.normal->y) * 180 / std::numbers::pi;
   table.set(s.id, columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
 }
@@ -268,10 +274,8 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
 }
 
 /// The smallest distance of the cap's corners to the outline of the host's facet.
-void describe_edge_gap(FeatureTable& table, const Subject& s, const Segmentation& segmentation) {
-  if (!s.feature->host_facet) return;
-  const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
-  const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
+void describe_edge_gap(FeatureTable& table, const Subject& s, const Plane& plane,
+                       const detail::Outline& outline) {
   constexpr double kOnPlane_m =
       1e-6;  // tolerance of doubles: the corners of the cap lie on its plane
   double gap = Box::kInfinity;
@@ -282,6 +286,18 @@ void describe_edge_gap(FeatureTable& table, const Subject& s, const Segmentation
                      detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
   }
   if (gap < Box::kInfinity) table.set(s.id, columns().edge_gap, gap);
+}
+
+/// Where it lies within the outline of the host's facet.
+void describe_place_in_facet(FeatureTable& table, const Subject& s,
+                             const Segmentation& segmentation) {
+  if (!s.feature->host_facet) return;
+  const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
+  const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
+  describe_edge_gap(table, s, plane, outline);
+  if (is_level(detail::inclination_deg(*s.normal))) return;
+  const double left = detail::extent_along(outline, s.across).low;
+  table.set(s.id, columns().along, detail::extent_along(s.points, s.across).middle() - left);
 }
 
 /// 64-bit FNV-1a, written in 13 characters of base 32.
@@ -365,7 +381,7 @@ Description describe(const Building& building, const Segmentation& segmentation)
     describe_recess(out.table, s, segmentation, panes);
     describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
-    describe_edge_gap(out.table, s, segmentation);
+    describe_place_in_facet(out.table, s, segmentation);
     placed.push_back(in_facade(s, facades[i]));
     openings.push_back(is_opening(s) ? 1 : 0);
   }

@@ -33,6 +33,32 @@ TEST_SUITE("cli") {
     CHECK(wrong.says("R210"));
   }
 
+  TEST_CASE("the whole pack of the reference loads and passes its tests as printed there") {
+    const std::string docs = bytes_of(std::string(ORIEL_SOURCE_DIR) + "/docs/rules.md");
+    std::size_t at = docs.find("\n## A whole pack");
+    const auto block = [&] {
+      const std::string fence = "```yaml\n";
+      const std::size_t begin = docs.find(fence, at) + fence.size();
+      at = docs.find("```\n", begin);
+      return docs.substr(begin, at - begin);
+    };
+    const Folder folder;
+    const std::string pack = folder.write("residential.yaml", block());
+    ++at;  // behind the closing fence
+    folder.write("residential.test.yaml", block());
+    folder.write("l-house.stripped.city.json", bytes_of(sample("l-house")));
+    const Outcome checked = run({"rules", "check", pack});
+    CHECK(checked.exit == 0);
+    CHECK(checked.err.find("R2") == std::string::npos);
+    const Outcome tested = run({"rules", "test", pack});
+    CHECK(tested.exit == 0);
+    CHECK(tested.out.find("3 of 3 tests passed") != std::string::npos);
+    for (const char* scale : {"1:1000", "1:2000", "1:4000"})
+      CHECK(run({"generalise", sample("l-house"), "--rules", pack, "--scale", scale, "-o",
+                 folder / "out.city.json"})
+                .exit == 0);
+  }
+
   TEST_CASE("rules show prints a pack as it is or merged") {
     const Folder folder;
     CHECK(run({"rules", "show", "residential"}).out ==

@@ -2,6 +2,9 @@
 
 #include "tests/interpret/support.h"
 
+#include <fstream>
+#include <iterator>
+
 using namespace oriel;
 using namespace oriel::test;
 
@@ -78,6 +81,12 @@ TEST_SUITE("interpret") {
     0.87 x1       a = 2.10 m                              rises 0.40 m .. 0.90 m, falls 2.00 m .. 2.80 m  t.yaml:18:9
     0.00 x2       count(alike where is opening) = 0 of 0  rises 0 .. 3                                    t.yaml:19:9
 )");
+  }
+
+  TEST_CASE("the explanation in the reference is what is printed") {
+    std::ifstream docs(std::string(ORIEL_SOURCE_DIR) + "/docs/rules.md");
+    const std::string text{std::istreambuf_iterator<char>(docs), {}};
+    CHECK(text.find(to_text(explain_first(kPack, window_with_a_low_sill()))) != std::string::npos);
   }
 
   TEST_CASE("a label is explained with rule margin and runner-up") {

@@ -104,6 +104,53 @@ TEST_SUITE("interpret") {
     CHECK(plan(base, scene.table(), scene.graph(), verdicts, 500).steps.size() == 1);
   }
 
+  TEST_CASE("scale is the N of the target scale") {
+    const std::string entries =
+        "  - {id: rows, scale: \"1:100 ..\", for: any, when: a < 1 m * scale / 1000, do: {typify: "
+        "{ratio: sqrt(1000 / scale)}}}\n";
+    const RuleBase base = load(pack_with(std::string(kRules) + "generalise:\n" + entries));
+    const Scene scene = window_door_and_wall();
+    const Interpretation verdicts = interpret(base, scene.table(), scene.graph());
+    const auto planned = plan(base, scene.table(), scene.graph(), verdicts, 4000).steps;
+    REQUIRE_FALSE(planned.empty());
+    CHECK(planned[0].numbers.at("ratio") == 0.5);
+    CHECK(plan(base, scene.table(), scene.graph(), verdicts, 100).steps.empty());
+    CHECK(findings(pack_requiring({"a < 1 m * scale"})).find(":8:19: R235 'scale'") !=
+          std::string::npos);
+    CHECK(findings(pack_with("macros: {scale: a / b}\nrules: []\n")).find(":4:10: R216") !=
+          std::string::npos);
+  }
+
+  TEST_CASE("the gap of a group is the least between two members on one facade") {
+    const RuleBase base = load(pack_with(
+        "rules: [{id: w, label: window, require: sense = hole}]\n"
+        "groups: {row: {of: window, by: same_storey, at_least: 2}}\n"
+        "generalise: [{id: strips, scale: \"1:100 ..\", for: group row, when: gap(members) < 0.5 "
+        "mm@map, do: {aggregate: {into: strip}}}]\n"));
+    // 1 m wide and high at those places, each on the facade of the one before but the last.
+    const auto aggregated = [&](const std::vector<double>& places, double scale) {
+      Scene scene;
+      for (const double along : places) {
+        Values values{{"sense", "hole"}, {"width", 1.0}, {"height", 1.0}, {"top", 2.0}};
+        if (along >= 0) values["along"] = along;
+        scene.add(values);
+      }
+      for (int i = 0; i < static_cast<int>(places.size()); ++i)
+        for (int j = 0; j < i; ++j) {
+          scene.relate_both("same_storey", FeatureId{i}, FeatureId{j});
+          const bool is_last = i + 1 == static_cast<int>(places.size());
+          if (!is_last) scene.relate_both("same_facade", FeatureId{i}, FeatureId{j});
+        }
+      const auto verdicts = interpret(base, scene.table(), scene.graph());
+      return plan(base, scene.table(), scene.graph(), verdicts, scale).steps.size();
+    };
+    // The least gap is 0.6 m; the last one stands nearer, but round the corner.
+    CHECK(aggregated({1, 3, 4.6, 4.7}, 1199) == 0);
+    CHECK(aggregated({1, 3, 4.6, 4.7}, 1201) == 4);
+    CHECK(aggregated({1, 1.1}, 5000) == 0);
+    CHECK(aggregated({1, -1, 4.6, 4.7}, 5000) == 0);
+  }
+
   TEST_CASE("a scale that is none is an input error") {
     const RuleBase base = load(pack_with(kRules));
     const Scene scene = window_door_and_wall();

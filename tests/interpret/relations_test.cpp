@@ -192,6 +192,46 @@ TEST_SUITE("interpret") {
     CHECK(omitted({1.0}) == 0);
   }
 
+  TEST_CASE("a pack puts its own relation in the place of a built-in measure") {
+    Scene scene = storey({1.0, 1.1, 1.25});
+    scene.relate_both("alike", FeatureId{0}, FeatureId{2});
+    CHECK(labels_with("", "exists(alike)", scene) == Labels{"window", "-", "window"});
+    const std::string own = "relations: {alike: {within: WITHIN, where: height < 1.2 m}}\n";
+    const auto within = [&](const std::string& name) {
+      return std::string(own).replace(own.find("WITHIN"), 6, name);
+    };
+    CHECK(labels_with(within("same storey"), "exists(alike)", scene) ==
+          Labels{"window", "window", "-"});
+    CHECK(labels_with(within("alike"), "exists(alike)", scene) == Labels{"window", "-", "-"});
+    for (const std::string name : {"host", "contains", "inside"})
+      CHECK(findings(pack_with("relations: {" + name + ": {within: beside, where: natural}}\n" +
+                               "rules: []\n"))
+                .find(":4:13: R216") != std::string::npos);
+  }
+
+  TEST_CASE("the distance along a facade is that of the middles of lower edges") {
+    Scene scene;
+    for (const auto& [along, height] : {std::pair(1.0, 1.0), {4.0, 5.0}, {1.0, 3.0}})
+      scene.add({{"sense", "hole"}, {"along", along}, {"height", height}});
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < i; ++j) scene.relate_both("same_facade", FeatureId{i}, FeatureId{j});
+    CHECK(labels_with("", "max(distance_along(other) of same_facade) > 4 m", scene) ==
+          Labels{"window", "window", "-"});
+    const FeatureId unplaced = scene.add({{"sense", "hole"}, {"height", 1.0}});
+    for (int i = 0; i < 3; ++i) scene.relate_both("same_facade", FeatureId{i}, unplaced);
+    const auto near = [&](const std::string& distance) {
+      return labels_with("relations: {near: {within: same facade, where: distance_along(other) " +
+                             distance + "}}\n",
+                         "exists(near)", scene);
+    };
+    CHECK(near("<= 2 m") == Labels{"window", "-", "window", "-"});
+    CHECK(near("= 5 m") == Labels{"window", "window", "-", "-"});
+    for (const char* wrong : {"distance_along(self) < 1 m", "distance_along() < 1 m"})
+      CHECK(findings(pack_requiring({wrong})).find("R220 expected 'other'") != std::string::npos);
+    CHECK(findings(pack_requiring({"distance_along(other) < 1 m"})).find("R236") !=
+          std::string::npos);
+  }
+
   TEST_CASE("explain says what a declared relation is and what an aggregate is of") {
     const RuleBase base =
         load(pack_with(std::string(kInRow) + "rules: [{id: w, label: window, require: "

@@ -131,7 +131,7 @@ TEST_SUITE("kernel/describe") {
     const FeatureId cavity{0};
     CHECK(d.table().text(cavity, "sense") == "cavity");
     for (const char* name : {"depth", "inclination", "azimuth", "growth_up", "growth_down",
-                             "growth_out", "growth_side", "above_eaves", "edge_gap",
+                             "growth_out", "growth_side", "above_eaves", "edge_gap", "along",
                              "host_inclination", "storey", "per_facade", "per_storey"}) {
       CAPTURE(std::string(name));
       CHECK_FALSE(d.has(cavity, name));
@@ -144,6 +144,19 @@ TEST_SUITE("kernel/describe") {
                    {"surface", 96},
                    {"a", 4},
                    {"height", 1}});
+  }
+
+  TEST_CASE("places along a facade count from its left end as seen from outside") {
+    const auto with_window = [](Vec3 low, Vec3 high) {
+      BoxBody body;
+      body.add({10, 20, 0}, {20, 28, 8});
+      body.remove(low, high);
+      return described(body.build());
+    };
+    check_numbers(with_window({11, 20, 1}, {12, 20.2, 2}), FeatureId{0}, {{"along", 1.5}});
+    check_numbers(with_window({11, 27.8, 1}, {12, 28, 2}), FeatureId{0}, {{"along", 8.5}});
+    check_numbers(with_window({10, 21, 1}, {10.2, 23, 2}), FeatureId{0}, {{"along", 6}});
+    CHECK_FALSE(with_window({11, 21, 7.8}, {12, 22, 8}).has(FeatureId{0}, "along"));
   }
 
   TEST_CASE("a flush edge has a gap of zero") {
