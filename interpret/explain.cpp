@@ -1,5 +1,6 @@
 #include "interpret/explain.h"
 
+#include "interpret/detail/flip.h"
 #include "interpret/detail/labelling.h"
 #include "interpret/detail/proof.h"
 
@@ -75,19 +76,23 @@ std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
 }  // namespace
 
 struct Explainer::State {
-  State(const RuleBase& rule_base, const FeatureTable& features, const FeatureGraph& graph,
+  State(const RuleBase& rule_base, const FeatureTable& features, const FeatureGraph& features_graph,
         const Interpretation& said)
       : base(&rule_base),
         table(&features),
+        graph(&features_graph),
         interpretation(&said),
-        facts(base->pack(), features, graph),
+        facts(base->pack(), features, features_graph),
         labelling(base->pack(), facts),
         evaluator(base->pack(), facts) {
     labelling.run();
   }
 
+  Explanation explain(Prover prover, FeatureId feature);
+
   const RuleBase* base;
   const FeatureTable* table;
+  const FeatureGraph* graph;
   const Interpretation* interpretation;
   rules::Facts facts;
   rules::Labelling labelling;
@@ -102,25 +107,40 @@ Explainer::Explainer(Explainer&&) noexcept = default;
 Explainer& Explainer::operator=(Explainer&&) noexcept = default;
 
 Explanation Explainer::explain(FeatureId feature) const {
-  const Pack& pack = state_->base->pack();
-  const FeatureTable& table = *state_->table;
-  Prover prover(pack, table, state_->evaluator, feature.value);
+  return state_->explain(
+      Prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value), feature);
+}
+
+Explanation Explainer::explain_fully(FeatureId feature) const {
+  Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
+  prover.look_for_nearest(state_->facts);
+  Explanation explanation = state_->explain(prover, feature);
+  explanation.flip = find_flip(feature);
+  return explanation;
+}
+
+Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
+  const Pack& pack = base->pack();
   Explanation explanation;
-  explanation.building = table.building();
-  explanation.feature = table.id(feature);
-  explanation.verdict = state_->interpretation->verdicts.at(feature.index());
+  explanation.building = table->building();
+  explanation.feature = table->id(feature);
+  explanation.verdict = interpretation->verdicts.at(feature.index());
   explanation.min_score = pack.decide.min_score;
   for (const Rule& rule : pack.rules)
-    explanation.rules.push_back(report_of(pack, rule, state_->evaluator, prover));
-  for (const auto& round : state_->labelling.rounds())
+    explanation.rules.push_back(report_of(pack, rule, evaluator, prover));
+  for (const auto& round : labelling.rounds())
     explanation.rounds.push_back(round_report(pack, round[feature.index()]));
   explanation.best = find_best(explanation.rules);
   return explanation;
 }
 
+FlipSearch Explainer::find_flip(FeatureId feature) const {
+  return rules::find_flip(state_->base->pack(), *state_->table, *state_->graph, feature);
+}
+
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
                     const Interpretation& interpretation, FeatureId feature) {
-  return Explainer(base, table, graph, interpretation).explain(feature);
+  return Explainer(base, table, graph, interpretation).explain_fully(feature);
 }
 
 }  // namespace oriel

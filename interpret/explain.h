@@ -31,6 +31,11 @@ struct ConditionReport {
   std::vector<std::string> missing;
   /// What `and`, `or` and `not` are made of.
   std::vector<ConditionReport> parts;
+  /// Of exists, all and counts that are too low, if it was asked for: the other feature that misses
+  /// least, as a share of the numbers compared, and what it does not fulfil: of the relation and
+  /// of what stands after `where`. Bare names in them speak of that feature.
+  std::string nearest;
+  std::vector<ConditionReport> nearest_misses;
 };
 
 /// One term of a score.
@@ -44,6 +49,9 @@ struct TermReport {
   /// "rises 1.60 m .. 2.00 m, falls 2.60 m .. 3.20 m".
   std::string bound;
   std::vector<std::string> missing;
+  /// As of a condition.
+  std::string nearest;
+  std::vector<ConditionReport> nearest_misses;
 };
 
 struct RuleReport {
@@ -70,6 +78,33 @@ struct RoundReport {
   std::string rule;
 };
 
+/// The smallest change of one param, as a share of its range, that gives the feature another label.
+struct Flip {
+  std::string param;
+  /// Of the param.
+  Place place;
+  /// In metres, degrees or as a share, and as text: "0.60 m", "0.61 m".
+  double from = 0;
+  double to = 0;
+  std::string from_text;
+  std::string to_text;
+  /// What the feature becomes with that value, empty: unknown; with which score, by which rule.
+  std::string label;
+  double score = 0;
+  std::string rule;
+};
+
+struct FlipSearch {
+  std::optional<Flip> nearest;
+  /// Params that have a range, in which they were moved, and those that have none and were not.
+  std::size_t params = 0;
+  std::vector<std::string> without_range;
+  /// How often the building was labelled with another value.
+  std::size_t tried = 0;
+  /// The share of each range up to which all was tried; 1: all of it.
+  double reach = 1;
+};
+
 /// Why a feature has its label, or none: the whole proof, in the order of the pack.
 struct Explanation {
   std::string building;
@@ -81,6 +116,8 @@ struct Explanation {
   std::vector<RuleReport> rules;
   /// Round by round; empty if the pack has no `iterate:`. `rules` are judged as in the last.
   std::vector<RoundReport> rounds;
+  /// Only if it was searched for.
+  std::optional<FlipSearch> flip;
 };
 
 /// Explains features of one building: runs the pack over it again, once, then judges every
@@ -94,15 +131,27 @@ class Explainer {
   Explainer(Explainer&&) noexcept;
   Explainer& operator=(Explainer&&) noexcept;
 
-  /// `feature` must be a row of the table.
+  /// `feature` must be a row of the table. Without nearest misses and without a flip.
   [[nodiscard]] Explanation explain(FeatureId feature) const;
+
+  /// The same with both.
+  [[nodiscard]] Explanation explain_fully(FeatureId feature) const;
+
+  /// Moves every param that has a range to where something turns that a rule or a relation asks
+  /// of the feature, and to where something turns for others; labels the building with that value,
+  /// nearest first, and takes the first that gives the feature another label. What is asked of the
+  /// feature itself is tried in any case; of the others as much as comes to four million features
+  /// labelled anew. Among scores that change gradually a flip is found if there is one at a quarter
+  /// between two turning points. The value is rounded away from the pack's one to as few decimals
+  /// as give the same label, and was labelled with.
+  [[nodiscard]] FlipSearch find_flip(FeatureId feature) const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// The same for one feature.
+/// The same for one feature, fully.
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
                     const Interpretation& interpretation, FeatureId feature);
 
@@ -119,6 +168,9 @@ std::string headline(const Explanation& explanation);
 
 /// A rule: its own row, then its conditions and, if it holds, the terms of its score.
 std::vector<ExplanationRow> rows_of(const RuleReport& rule);
+
+/// "nearest flip: sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground", or that there is none.
+std::string flip_line(const FlipSearch& search);
 
 /// "file:line:column".
 std::string place_text(const Place& place);

@@ -39,6 +39,8 @@ std::string place_json(const Place& place) {
                      place.column);
 }
 
+std::string nearest_json(const std::string& feature, const std::vector<ConditionReport>& misses);
+
 std::string condition_json(const ConditionReport& report) {
   std::string text = member("text", json_string(report.text));
   text += next("place", place_json(report.place));
@@ -48,6 +50,8 @@ std::string condition_json(const ConditionReport& report) {
   if (!report.miss.empty()) text += next("miss", json_string(report.miss));
   if (!report.missing.empty()) text += next("missing", list(report.missing, json_string));
   if (!report.parts.empty()) text += next("parts", list(report.parts, condition_json));
+  if (!report.nearest.empty())
+    text += next("nearest", nearest_json(report.nearest, report.nearest_misses));
   return fmt::format("{{{}}}", text);
 }
 
@@ -59,6 +63,14 @@ std::string term_json(const TermReport& report) {
   text += next("value", json_string(report.value));
   text += next("bound", json_string(report.bound));
   if (!report.missing.empty()) text += next("missing", list(report.missing, json_string));
+  if (!report.nearest.empty())
+    text += next("nearest", nearest_json(report.nearest, report.nearest_misses));
+  return fmt::format("{{{}}}", text);
+}
+
+std::string nearest_json(const std::string& feature, const std::vector<ConditionReport>& misses) {
+  std::string text = member("feature", json_string(feature));
+  text += next("misses", list(misses, condition_json));
   return fmt::format("{{{}}}", text);
 }
 
@@ -84,6 +96,28 @@ std::string round_json(const RoundReport& round) {
   return fmt::format("{{{}}}", text);
 }
 
+std::string flip_json(const Flip& flip) {
+  std::string text = member("param", json_string(flip.param));
+  text += next("place", place_json(flip.place));
+  text += next("from", json_number(flip.from));
+  text += next("to", json_number(flip.to));
+  text += next("from_text", json_string(flip.from_text));
+  text += next("to_text", json_string(flip.to_text));
+  text += next("label", json_string(flip.label));
+  text += next("score", json_number(flip.score));
+  text += next("rule", json_string(flip.rule));
+  return fmt::format("{{{}}}", text);
+}
+
+std::string search_json(const FlipSearch& search) {
+  std::string text = member("nearest", search.nearest ? flip_json(*search.nearest) : "null");
+  text += next("params", std::to_string(search.params));
+  text += next("without_range", list(search.without_range, json_string));
+  text += next("tried", std::to_string(search.tried));
+  text += next("reach", json_number(search.reach));
+  return fmt::format("{{{}}}", text);
+}
+
 }  // namespace
 
 std::string to_json(const Explanation& explanation) {
@@ -100,6 +134,7 @@ std::string to_json(const Explanation& explanation) {
                explanation.best ? json_string(explanation.rules[*explanation.best].id) : "null");
   if (!explanation.rounds.empty()) text += next("rounds", list(explanation.rounds, round_json));
   text += next("rules", list(explanation.rules, rule_json));
+  if (explanation.flip) text += next("flip", search_json(*explanation.flip));
   return fmt::format("{{{}}}", text);
 }
 

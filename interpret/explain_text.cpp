@@ -22,20 +22,38 @@ const char* veto_mark_of(Outcome outcome) {
   return outcome == Outcome::holds ? "vetoes" : "no veto";
 }
 
-std::string joined(const std::string& bound, const std::string& miss,
-                   const std::vector<std::string>& missing) {
-  std::string text = bound;
-  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
-  if (!miss.empty()) add(miss);
-  for (const std::string& attribute : missing) add(attribute + " is missing");
-  return text;
+void add(std::string& text, const std::string& more) {
+  if (!text.empty() && !more.empty()) text += ", ";
+  text += more;
+}
+
+void add_missing(std::string& text, const std::vector<std::string>& missing) {
+  for (const std::string& attribute : missing) add(text, attribute + " is missing");
+}
+
+/// "nearest miss f12: a = 1.40 m ~ 2.10 m by 10 %, differs 33.3 %; sense = hole = imprint".
+void add_nearest(std::string& text, const std::string& nearest,
+                 const std::vector<ConditionReport>& misses) {
+  if (nearest.empty()) return;
+  std::string all;
+  for (const ConditionReport& miss : misses) {
+    if (!all.empty()) all += "; ";
+    all += miss.value.empty() ? miss.text : miss.value;
+    if (!miss.bound.empty()) all += " " + miss.bound;
+    add(all, miss.miss);
+    add_missing(all, miss.missing);
+  }
+  add(text, fmt::format("nearest miss {}: {}", nearest, all));
 }
 
 void add_condition(const ConditionReport& report, const char* mark, std::size_t indent,
                    std::vector<ExplanationRow>& rows) {
   const std::string& found = report.value.empty() ? report.text : report.value;
-  rows.push_back(
-      {indent, {mark, found, joined(report.bound, report.miss, report.missing)}, report.place});
+  std::string bound = report.bound;
+  add(bound, report.miss);
+  add_missing(bound, report.missing);
+  add_nearest(bound, report.nearest, report.nearest_misses);
+  rows.push_back({indent, {mark, found, bound}, report.place});
   for (const ConditionReport& part : report.parts)
     add_condition(part, mark_of(part.outcome), indent + 2, rows);
 }
@@ -84,10 +102,11 @@ std::vector<ExplanationRow> rows_of(const RuleReport& rule) {
   if (rule.outcome != Outcome::holds) return rows;
   for (const TermReport& term : rule.terms) {
     const std::string judged = term.judged ? fmt::format("{:.2f}", *term.judged) : "-";
-    rows.push_back({4,
-                    {fmt::format("{} x{:g}", judged, term.weight), term.value,
-                     joined(term.bound, "", term.missing)},
-                    term.place});
+    std::string bound = term.bound;
+    add_missing(bound, term.missing);
+    add_nearest(bound, term.nearest, term.nearest_misses);
+    rows.push_back(
+        {4, {fmt::format("{} x{:g}", judged, term.weight), term.value, bound}, term.place});
   }
   return rows;
 }
@@ -109,6 +128,26 @@ std::string reason(const Explanation& explanation) {
     }
     separator = "; ";
   }
+  return text;
+}
+
+std::string flip_line(const FlipSearch& search) {
+  if (search.nearest) {
+    const Flip& flip = *search.nearest;
+    const std::string becomes =
+        flip.label.empty() ? "unknown"
+                           : fmt::format("{} {:.2f} by {}", flip.label, flip.score, flip.rule);
+    return fmt::format("nearest flip: {} {} -> {}: {}", flip.param, flip.from_text, flip.to_text,
+                       becomes);
+  }
+  std::string text = "nearest flip: ";
+  if (search.params == 0)
+    text += "no param has a range to be moved in";
+  else
+    text += fmt::format("no param ({}) flips the label within its range", search.params);
+  if (search.reach < 1) text += fmt::format(", as far as {:.2g} of it was searched", search.reach);
+  if (search.params > 0 && !search.without_range.empty())
+    text += fmt::format("; without a range: {}", fmt::join(search.without_range, ", "));
   return text;
 }
 
@@ -137,6 +176,7 @@ std::string to_text(const Explanation& explanation) {
     }
     text += row + place_text(line.place) + "\n";
   }
+  if (explanation.flip) text += "  " + flip_line(*explanation.flip) + "\n";
   return text;
 }
 

@@ -157,7 +157,8 @@ class TestRun {
   void check_reason(const rules::Reason& reason, const std::string& id,
                     const DescribedBuilding& building, const Interpretation& interpretation,
                     FeatureId feature) {
-    const Explanation why = explain(base_, building.table, building.graph, interpretation, feature);
+    const Explanation why =
+        Explainer(base_, building.table, building.graph, interpretation).explain(feature);
     const auto rule = std::ranges::find(why.rules, reason.rule, &RuleReport::id);
     if (reason.condition.empty()) {
       if (rule->outcome != reason.outcome)

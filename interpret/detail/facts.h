@@ -34,6 +34,15 @@ struct Links {
     return {static_cast<std::size_t>(lists->starts[l]),
             static_cast<std::size_t>(lists->starts[l + 1])};
   }
+  /// The others of a row, without itself; none if nothing leads over the relation.
+  [[nodiscard]] std::vector<int> others_of(int row) const {
+    std::vector<int> rows;
+    if (lists == nullptr) return rows;
+    const auto [begin, end] = range_of(row);
+    for (std::size_t link = begin; link < end; ++link)
+      if (other(link) != row) rows.push_back(other(link));
+    return rows;
+  }
   [[nodiscard]] int other(std::size_t link) const { return lists->others[link]; }
   [[nodiscard]] bool are_all_certain() const { return certain.empty() && certain_rows.empty(); }
   [[nodiscard]] Truth is_other(int row, std::size_t link) const {

@@ -62,6 +62,7 @@ std::optional<FixedRange> read_range(const YamlNode& node, std::optional<Dimensi
 struct FixedValue {
   double value = 0;
   Dimension dimension;
+  ExprId expr = kNoExpr;
 };
 std::optional<FixedValue> read_quantity(const YamlNode& node, std::optional<Dimension> dimension,
                                         Loader& loader);

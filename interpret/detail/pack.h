@@ -3,6 +3,7 @@
 #include "interpret/detail/expr.h"
 #include "interpret/detail/source.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -91,7 +92,14 @@ struct Step {
 struct HostRange {
   double low_deg = 0;
   double high_deg = 0;
+  /// What they were folded from; kNoExpr: they were not written.
+  ExprId low = kNoExpr;
+  ExprId high = kNoExpr;
 };
+
+inline bool is_overlapping(const HostRange& p, const HostRange& q) {
+  return std::max(p.low_deg, q.low_deg) < std::min(p.high_deg, q.high_deg);
+}
 
 struct Hosts {
   HostRange wall{75, 105};
@@ -105,6 +113,8 @@ struct Hosts {
 struct Decide {
   double min_score = 0;
   double ambiguous_below = 0;
+  /// What min_score was folded from; kNoExpr: it was not written.
+  ExprId min_score_of = kNoExpr;
 };
 
 /// A relation that the pack declares: the pairs of another one for which a condition holds.

@@ -67,7 +67,8 @@ std::string misses_by(double distance, Dimension dimension) {
 Frame Prover::frame() const {
   Frame frame;
   frame.size = 1;
-  frame.rows[0] = &row_;
+  for (std::size_t level = 0; level < rows_.size(); ++level)
+    if (rows_[level] >= 0) frame.rows[level] = &rows_[level];
   return frame;
 }
 
@@ -93,7 +94,7 @@ std::string Prover::show(ExprId id, double other) {
   const double value = number(id);
   if (std::isnan(value)) return "?";
   if (expr.type == Type::text)
-    return table_->texts(static_cast<std::size_t>(expr.index))[static_cast<std::size_t>(row_)];
+    return table_->texts(static_cast<std::size_t>(expr.index))[feature_of(expr).index()];
   return write(value, expr.dimension, std::isnan(other) ? value : other);
 }
 
@@ -137,11 +138,11 @@ void Prover::find_missing(ExprId id, std::vector<std::string>& missing) const {
   const Expr& expr = at(id);
   for (const ExprId arg : expr.args) find_missing(arg, missing);
   const bool is_attribute = expr.op == Op::attribute || expr.op == Op::flag;
-  if (expr.level != 0 || (!is_attribute && expr.op != Op::facet_is)) return;
+  if (!is_known(expr.level) || (!is_attribute && expr.op != Op::facet_is)) return;
   const Attribute& attribute = expr.op == Op::facet_is
                                    ? feature_schema()[column_of("host_inclination").value()]
                                    : feature_schema()[static_cast<std::size_t>(expr.index)];
-  const FeatureId feature{row_};
+  const FeatureId feature = feature_of(expr);
   const bool has_value = attribute.unit == Unit::text
                              ? !table_->text(feature, attribute.name).empty()
                              : table_->number(feature, attribute.name).has_value();
@@ -194,11 +195,13 @@ ConditionReport Prover::condition(ExprId id) {
     case Op::all:
       report.value = show_tally(id);
       report.bound = show_relation(expr);
+      judge_others(expr, report);
       break;
     default:
       compare(expr, report);
   }
   if (report.outcome != Outcome::fails) report.miss.clear();
+  if (report.outcome == Outcome::fails) judge_tally(expr, report);
   return report;
 }
 
@@ -248,7 +251,7 @@ void Prover::similarity(const Expr& expr, ConditionReport& report) {
 void Prover::facet(const Expr& expr, ConditionReport& report) {
   const auto kind = static_cast<HostKind>(expr.index);
   const HostRange range = range_of(pack_->hosts, kind);
-  const auto found = table_->number(FeatureId{row_}, "host_inclination");
+  const auto found = table_->number(feature_of(expr), "host_inclination");
   constexpr Dimension kAngle{0, 1};
   report.value = "host_inclination = " + (found ? write(*found, kAngle) : "?");
   report.bound =
@@ -267,6 +270,9 @@ void Prover::negation(const Expr& expr, ConditionReport& report) {
   }
   report.value = inner.bound.empty() ? "not " + inner.value : inner.value;
   if (!inner.bound.empty()) report.bound = "not " + inner.bound;
+  const Expr& negated = at(expr.args[0]);
+  if (negated.op == Op::exists && inner.outcome == Outcome::holds)
+    report.miss = in_the_way(negated, Truth::yes);
 }
 
 TermReport Prover::term(const ScoreTerm& term) {
@@ -297,6 +303,7 @@ TermReport Prover::term(const ScoreTerm& term) {
   };
   describe("rises", term.rise);
   describe("falls", term.fall);
+  judge_tally(term, report);
   return report;
 }
 

@@ -69,20 +69,18 @@ void read_facet_range(const YamlNode* node, HostRange& range, Loader& loader) {
   if (node == nullptr) return;
   const auto read = read_range(*node, Dimension{0, 1}, loader);
   if (!read) return;
-  range = {read->low, read->high};
+  range = {read->low, read->high, read->low_expr, read->high_expr};
   if (range.low_deg < 0 || range.high_deg > 180)
     loader.findings.error("R212", node->span, "an inclination lies in 0 deg .. 180 deg");
 }
 
-bool is_overlapping(HostRange p, HostRange q) {
-  return std::max(p.low_deg, q.low_deg) < std::min(p.high_deg, q.high_deg);
-}
-
-void read_share(const YamlNode* node, const std::string& what, double& share, Loader& loader) {
+/// What it was folded from, or kNoExpr.
+ExprId read_share(const YamlNode* node, const std::string& what, double& share, Loader& loader) {
   const auto value = node == nullptr ? std::nullopt : read_quantity(*node, Dimension{}, loader);
-  if (!value) return;
+  if (!value) return kNoExpr;
   share = value->value;
   if (share < 0 || share > 1) loader.findings.error("R212", node->span, what + " lies in 0 .. 1");
+  return value->expr;
 }
 
 }  // namespace
@@ -105,7 +103,8 @@ void read_hosts(const YamlNode& node, Loader& loader) {
 void read_decide(const YamlNode& node, Loader& loader) {
   Section section(node, "'decide'", {"min_score", "ambiguous_below", "otherwise"}, loader.findings);
   Decide& decide = loader.pack.decide;
-  read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
+  decide.min_score_of =
+      read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
   read_share(section.find("ambiguous_below"), "'ambiguous_below'", decide.ambiguous_below, loader);
   if (const YamlNode* otherwise = section.find("otherwise"))
     read_choice(*otherwise, "'otherwise'", {"unknown"}, loader.findings);

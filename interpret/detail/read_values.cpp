@@ -28,7 +28,7 @@ std::optional<FixedValue> read_quantity(const YamlNode& node, std::optional<Dime
   const ExprId id = loader.checker.constant(*syntax, dimension);
   const auto value = fold_here(id, *where, loader);
   if (!value) return std::nullopt;
-  return FixedValue{*value, loader.pack.code[static_cast<std::size_t>(id)].dimension};
+  return FixedValue{*value, loader.pack.code[static_cast<std::size_t>(id)].dimension, id};
 }
 
 std::optional<FixedRange> read_range(const YamlNode& node, std::optional<Dimension> dimension,

@@ -201,6 +201,9 @@ TEST_SUITE("cli") {
             CHECK(line.find(text) != std::string::npos);
           }
         }
+      // Flips are searched for one feature at a time.
+      CHECK(std::getline(rest, line));
+      CHECK(line.starts_with("  nearest flip: "));
       CHECK(!std::getline(rest, line));
     }
   }
