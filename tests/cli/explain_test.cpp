@@ -175,6 +175,44 @@ TEST_SUITE("cli") {
     CHECK(city == json::parse(bytes_of(without)));
   }
 
+  TEST_CASE("surfaces that stay as they were say so and what the rules say") {
+    const Folder folder;
+    json city = json::parse(bytes_of(sample("house")));
+    json& geometry = city["CityObjects"]["house"]["geometry"][0];
+    json& values = geometry["semantics"]["values"][0];
+    values = json(geometry["boundaries"][0].size(), nullptr);
+    geometry["semantics"]["surfaces"] = {{{"type", "RoofSurface"}, {"name", "two of them"}},
+                                         {{"type", "WallSurface"}, {"oriel_why", "because"}},
+                                         {{"type", "GroundSurface"}}};
+    values[0] = values[1] = 0;
+    values[2] = 1;
+    const std::string input = folder.write("some.city.json", city.dump());
+    const auto labelled = [&](const std::string& existing, const std::string& from) {
+      const std::string out = folder / (existing + ".city.json");
+      REQUIRE(run({"label", from, "--existing", existing, "--explain", "-o", out}).exit == 0);
+      return bytes_of(out);
+    };
+    for (const std::string existing : {"fill", "keep"}) {
+      const std::string written = labelled(existing, input);
+      const json surfaces =
+          json::parse(written)["CityObjects"]["house"]["geometry"][0]["semantics"]["surfaces"];
+      const std::string why = surfaces[0]["oriel_why"];
+      // Polygon 0 is a reveal of a window, polygon 1 is not.
+      CHECK(
+          why.starts_with("kept as RoofSurface from the input; by the rules window 1.00 by "
+                          "window.in_wall: "));
+      CHECK(why.find(", and of others of its polygons WallSurface by wall.any: ") !=
+            std::string::npos);
+      CHECK(surfaces[0]["name"] == "two of them");
+      CHECK(surfaces[1]["oriel_why"] == "because");
+      // No polygon has it.
+      CHECK_FALSE(surfaces[2].contains("oriel_why"));
+      for (std::size_t i = 3; i < surfaces.size(); ++i) CHECK(surfaces[i].contains("oriel_why"));
+      if (existing == "keep") CHECK_FALSE(surfaces[0].contains("children"));
+      CHECK(labelled(existing, folder.write("again.city.json", written)) == written);
+    }
+  }
+
   TEST_CASE("view writes one page with what explain says of every feature") {
     const Folder folder;
     const Outcome outcome = run({"view", sample("house"), "-o", folder / "page.html"});

@@ -65,6 +65,9 @@ std::string nested_values(const std::vector<int>& flat, const GeometryShape& sha
   return text;
 }
 
+/// Why a surface is what it is, in one line.
+constexpr std::string_view kReason = "oriel_why";
+
 /// The semantic surfaces of one geometry while ours are added.
 class Filling {
  public:
@@ -77,17 +80,19 @@ class Filling {
     flat_ = flat_values(semantics.value_of("values"), shape, static_cast<int>(existing_.size()));
   }
 
-  /// Gives ours to the polygons that have none; false if no polygon takes one.
+  /// Gives ours to the polygons that have none, and the others the reasons of ours; false if no
+  /// polygon takes one.
   bool fill(std::span<const int> wanted) {
     flat_.resize(polygon_count(), -1);
     const std::size_t count = std::min(wanted.size(), flat_.size());
+    explain_kept(wanted.first(count));
     for (std::size_t i = 0; i < count; ++i)
       if (flat_[i] < 0 && is_surface(wanted[i])) number_of_[index(wanted[i])] = 0;
     int next = static_cast<int>(existing_.size());
     for (int& number : number_of_)
       if (number == 0) number = next++;
     link_parents(wanted.first(count));
-    bool is_filled = false;
+    bool is_filled = !reasons_of_.empty();
     for (std::size_t i = 0; i < count; ++i)
       if (flat_[i] < 0 && is_surface(wanted[i])) {
         flat_[i] = number_of_[index(wanted[i])];
@@ -100,7 +105,7 @@ class Filling {
     std::string text = "[";
     for (std::size_t i = 0; i < existing_.size(); ++i) {
       if (i > 0) text += ',';
-      text += with_children(i);
+      text += with_additions(i);
     }
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
       if (number_of_[s] < 0) continue;
@@ -133,6 +138,34 @@ class Filling {
     return type == "Window" || type == "Door";
   }
 
+  /// What is there stays, and says what the rules would have said of its polygons.
+  void explain_kept(std::span<const int> wanted) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (flat_[i] < 0 || !is_surface(wanted[i])) continue;
+      const std::string_view there = existing_[index(flat_[i])];
+      if (!RawNode::is_object(there) || RawNode(there).find(kReason)) continue;
+      const Members& members = surfaces_[index(wanted[i])].members;
+      const auto reason = std::ranges::find(members, kReason, &Members::value_type::first);
+      if (reason == members.end()) continue;
+      auto& reasons = reasons_of_[flat_[i]];
+      const std::string& text = std::get<std::string>(reason->second);
+      if (std::ranges::find(reasons, text) == reasons.end()) reasons.push_back(text);
+    }
+  }
+
+  /// "kept as WallSurface from the input; by the rules RoofSurface by roof.any: looks_up".
+  [[nodiscard]] std::string reason_of_kept(std::string_view surface,
+                                           const std::vector<std::string>& reasons) const {
+    std::string text = "kept as ";
+    text += decoded(RawNode(surface).value_of("type"));
+    text += " from the input; by the rules ";
+    for (const std::string& reason : reasons) {
+      if (&reason != &reasons.front()) text += ", and of others of its polygons ";
+      text += reason;
+    }
+    return text;
+  }
+
   /// Finds for each surface that is added the number of its parent, which may be one that is there.
   void link_parents(std::span<const int> wanted) {
     std::vector<int> instead(surfaces_.size(), -1);
@@ -151,16 +184,24 @@ class Filling {
     }
   }
 
-  /// The text of a surface that is there, with the children it gains.
-  [[nodiscard]] std::string with_children(std::size_t number) const {
+  /// The text of a surface that is there, with the children and the reason it gains.
+  [[nodiscard]] std::string with_additions(std::size_t number) const {
     const auto added = children_of_.find(static_cast<int>(number));
-    if (added == children_of_.end() || !RawNode::is_object(existing_[number]))
-      return std::string(existing_[number]);
+    const auto reasons = reasons_of_.find(static_cast<int>(number));
+    const bool is_same = added == children_of_.end() && reasons == reasons_of_.end();
+    if (is_same || !RawNode::is_object(existing_[number])) return std::string(existing_[number]);
     RawNode surface(existing_[number]);
-    const std::string_view listed = surface.value_of("children");
-    RawNode children(RawNode::is_array(listed) ? listed : "[]");
-    for (const int child : added->second) children.push_back(std::to_string(child));
-    surface.set("children", children.text());
+    if (added != children_of_.end()) {
+      const std::string_view listed = surface.value_of("children");
+      RawNode children(RawNode::is_array(listed) ? listed : "[]");
+      for (const int child : added->second) children.push_back(std::to_string(child));
+      surface.set("children", children.text());
+    }
+    if (reasons != reasons_of_.end()) {
+      std::string text;
+      append_json(text, reason_of_kept(existing_[number], reasons->second));
+      surface.append(kReason, std::move(text));
+    }
     return surface.text();
   }
 
@@ -190,6 +231,8 @@ class Filling {
   std::vector<int> number_of_;
   std::map<std::size_t, int> parent_of_;
   std::map<int, std::vector<int>> children_of_;
+  /// What the rules say of the polygons of a surface that stays, each once.
+  std::map<int, std::vector<std::string>> reasons_of_;
 };
 
 }  // namespace

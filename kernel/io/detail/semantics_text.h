@@ -24,7 +24,9 @@ void append_members(std::string& out, const Members& members);
 /// one that `surface_of_polygon` names (-1, or too short: none). `existing` is the text that is
 /// there, or empty. Surfaces that are there keep their numbers and gain `children`; of ours only
 /// those that a polygon takes are added. An opening whose wall is labelled already has that as its
-/// parent, but not if what is there is to be kept. Returns `existing` if there is nothing to add.
+/// parent, but not if what is there is to be kept. Where ours have the member oriel_why, those that
+/// are there and have none gain one, too: that they were kept, and what ours would have been.
+/// Returns `existing` if there is nothing to add.
 std::string filled_semantics(std::string_view existing, const GeometryShape& shape,
                              std::span<const int> surface_of_polygon,
                              const std::vector<SemanticSurface>& surfaces, bool is_kept = false);
