@@ -2,7 +2,11 @@
 #include "cli/labelling.h"
 #include "cli/view/page.h"
 #include "cli/view/page_data.h"
+#include "kernel/io/carried_labels.h"
 #include "kernel/io/output_file.h"
+
+#include <map>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,22 +30,32 @@ struct Arguments : LineArguments {
   throw InputError(std::move(issue));
 }
 
-/// The buildings of a run as a further model of the page, their ids appended to `ids`.
+/// The buildings of a run as a further model of the page, their ids appended to `ids`. With
+/// `is_after` those that carry labels of oriel have these.
 ExitCode add_model(const LineArguments& arguments, const RuleBase& rules, Report& report,
-                   PageData& page, std::vector<std::string>& ids) {
+                   PageData& page, std::vector<std::string>& ids, bool is_after) {
   page.begin_model(fmt::format("{}", fmt::join(arguments.inputs, ", ")));
   Run run(arguments, &rules, report);
   Run::Visitor visitor;
+  std::map<std::string, int> counts;
   visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
     if (!run.is_last_run()) return;
+    const CarriedLabelReader reader(document);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (lines[i].is_passed_over) continue;
-      page.add(document.buildings[i], lines[i]);
+      const auto carried = is_after ? reader.labels_of(i) : std::nullopt;
+      if (carried) {
+        page.add(document.buildings[i], lines[i], *carried);
+        for (const CarriedFeature& feature : carried->features) ++counts[feature.label];
+      } else {
+        page.add(document.buildings[i], lines[i]);
+        for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
+      }
       ids.push_back(document.buildings[i].id);
     }
   };
   const ExitCode code = run.go(visitor);
-  run.tell_summary("shown", run.labels());
+  run.tell_summary("shown", counts);
   return code;
 }
 
@@ -66,7 +80,7 @@ ExitCode work(const Arguments& arguments) {
   if (!rules) return ExitCode::rules;
   PageData page(*rules);
   std::vector<std::string> ids;
-  ExitCode code = add_model(arguments, *rules, report, page, ids);
+  ExitCode code = add_model(arguments, *rules, report, page, ids, false);
   if (page.buildings() == 0) {
     if (code == ExitCode::input) return code;
     refuse("E127", arguments.inputs.front(), "there is no building to show");
@@ -74,7 +88,7 @@ ExitCode work(const Arguments& arguments) {
   if (!arguments.after.empty()) {
     std::vector<std::string> found;
     const ExitCode second =
-        add_model(arguments_after(arguments, std::move(ids)), *rules, report, page, found);
+        add_model(arguments_after(arguments, std::move(ids)), *rules, report, page, found, true);
     if (found.empty() && second == ExitCode::input) return second;
     if (found.empty())
       refuse("E128", arguments.after, "has none of the buildings that it should show after");

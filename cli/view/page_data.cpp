@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace oriel::cli {
@@ -69,6 +72,9 @@ struct PageData::State {
   Json polygons(const Building& building, const OnLine& line);
   Json feature(const Explanation& explanation);
   Json features(const OnLine& line);
+  Json polygons(const Building& building, const CarriedLabels& carried);
+  Json features(const std::string& building, const CarriedLabels& carried);
+  void add(const Building& building, const OnLine& line, Json features, Json polygons);
 
   const RuleBase* rules;
   /// Of all models together, so that they lie in the same place.
@@ -78,6 +84,8 @@ struct PageData::State {
   Json rows = Json::array();
   std::set<std::string> labels;
   Json models = Json::array();
+  /// Features of the first model, by building, id and rule.
+  std::map<std::tuple<std::string, std::string, std::string>, Json> rules_before;
 };
 
 int PageData::State::row_number(const ExplanationRow& row) {
@@ -154,6 +162,49 @@ Json PageData::State::features(const OnLine& line) {
   return list;
 }
 
+/// The owners of a polygon stand in the order of their sizes, the smallest first.
+Json PageData::State::polygons(const Building& building, const CarriedLabels& carried) {
+  std::vector<std::vector<int>> owners(carried.surfaces.size());
+  for (std::size_t f = 0; f < carried.features.size(); ++f)
+    for (const int polygon : carried.features[f].polygons)
+      owners[static_cast<std::size_t>(polygon)].push_back(static_cast<int>(f));
+  for (auto& features : owners)
+    std::ranges::stable_sort(features, {}, [&](int f) {
+      return carried.features[static_cast<std::size_t>(f)].polygons.size();
+    });
+  Json list = Json::array();
+  for (const Polygon& polygon : building.polygons) {
+    const auto source = static_cast<std::size_t>(polygon.source);
+    const CarriedSurface& surface = carried.surfaces.at(source);
+    Json why = Json::array();
+    why.push_back(strings.number_of(surface.type.empty() ? "the file says nothing of it"
+                                                         : surface.type + ", as the file says"));
+    if (!surface.why.empty()) why.push_back(strings.number_of(surface.why));
+    list.push_back({{"source", polygon.source},
+                    {"rings", polygon.rings},
+                    {"owners", owners[source]},
+                    {"surface", surface.type},
+                    {"why", std::move(why)}});
+  }
+  return list;
+}
+
+Json PageData::State::features(const std::string& building, const CarriedLabels& carried) {
+  Json list = Json::array();
+  for (const CarriedFeature& said : carried.features) {
+    const auto before = rules_before.find({building, said.id, said.rule});
+    labels.insert(said.label);
+    list.push_back({{"id", said.id},
+                    {"label", said.label},
+                    {"rule", said.rule},
+                    {"head", fmt::format("{} -> {} {:.2f} by {}, as the file says", said.id,
+                                         said.label, said.score, said.rule)},
+                    {"rounds", Json::array()},
+                    {"rules", before == rules_before.end() ? Json::array() : before->second}});
+  }
+  return list;
+}
+
 PageData::PageData(const RuleBase& rules) : state_(std::make_unique<State>(rules)) {}
 PageData::~PageData() = default;
 
@@ -161,16 +212,32 @@ void PageData::begin_model(const std::string& name) {
   state_->models.push_back({{"name", name}, {"buildings", Json::array()}});
 }
 
-void PageData::add(const Building& building, const OnLine& line) {
+void PageData::State::add(const Building& building, const OnLine& line, Json features,
+                          Json polygons) {
   Json issues = Json::array();
   for (const Issue& issue : line.issues)
-    if (issue.severity != Severity::note)
-      issues.push_back(state_->strings.number_of(to_string(issue)));
+    if (issue.severity != Severity::note) issues.push_back(strings.number_of(to_string(issue)));
   Json entry = {{"id", building.id}, {"issues", std::move(issues)}};
-  entry["vertices_mm"] = state_->vertices(building);
-  entry["features"] = state_->features(line);
-  entry["polygons"] = state_->polygons(building, line);
-  state_->models.back()["buildings"].push_back(std::move(entry));
+  entry["vertices_mm"] = vertices(building);
+  entry["features"] = std::move(features);
+  entry["polygons"] = std::move(polygons);
+  models.back()["buildings"].push_back(std::move(entry));
+}
+
+void PageData::add(const Building& building, const OnLine& line) {
+  Json features = state_->features(line);
+  if (state_->models.size() == 1)
+    for (const Json& feature : features)
+      state_->rules_before.emplace(std::tuple(building.id, feature["id"], feature["rule"]),
+                                   feature["rules"]);
+  Json polygons = state_->polygons(building, line);
+  state_->add(building, line, std::move(features), std::move(polygons));
+}
+
+void PageData::add(const Building& building, const OnLine& line, const CarriedLabels& carried) {
+  Json features = state_->features(building.id, carried);
+  Json polygons = state_->polygons(building, carried);
+  state_->add(building, line, std::move(features), std::move(polygons));
 }
 
 std::size_t PageData::buildings() const {

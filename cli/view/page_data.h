@@ -2,6 +2,7 @@
 
 #include "cli/line.h"
 #include "interpret/rule_base.h"
+#include "kernel/io/carried_labels.h"
 #include "kernel/model/building.h"
 
 #include <memory>
@@ -24,6 +25,9 @@ class PageData {
   /// Adds a building to the model at hand, also one that did not come to the end of the line: it
   /// has its polygons and what was told of it, but no features.
   void add(const Building& building, const OnLine& line);
+  /// Adds a building with the labels that its file has. A feature with the id and the rule of one
+  /// of the first model's has the reasons that are given there; `line` tells what was found wrong.
+  void add(const Building& building, const OnLine& line, const CarriedLabels& carried);
 
   /// How many buildings the model at hand has.
   [[nodiscard]] std::size_t buildings() const;

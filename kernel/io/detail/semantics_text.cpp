@@ -244,6 +244,12 @@ void append_members(std::string& out, const Members& members) {
   }
 }
 
+std::vector<int> surface_numbers(std::string_view semantics, const GeometryShape& shape) {
+  const RawNode node(semantics);
+  const auto count = static_cast<int>(elements_of(node.value_of("surfaces")).size());
+  return flat_values(node.value_of("values"), shape, count);
+}
+
 std::string filled_semantics(std::string_view existing, const GeometryShape& shape,
                              std::span<const int> surface_of_polygon,
                              const std::vector<SemanticSurface>& surfaces, bool is_kept) {

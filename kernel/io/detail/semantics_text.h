@@ -20,6 +20,9 @@ struct GeometryShape {
 /// The members `{"type":…,"parent":…,"children":[…],…}` that are added as `"key":value`.
 void append_members(std::string& out, const Members& members);
 
+/// For each polygon of a geometry the number of its surface in "semantics", or -1.
+std::vector<int> surface_numbers(std::string_view semantics, const GeometryShape& shape);
+
 /// The text of a geometry's "semantics" in which every polygon without a semantic surface has the
 /// one that `surface_of_polygon` names (-1, or too short: none). `existing` is the text that is
 /// there, or empty. Surfaces that are there keep their numbers and gain `children`; of ours only
