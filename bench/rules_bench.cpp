@@ -2,10 +2,17 @@
 /// thread from columns in memory to labels, relations included. bench/rules.sh runs it beside them.
 ///   bench_rules FEATURES.csv PACK.yaml RUNS    one line as the peers print it
 ///   bench_rules --load RULES RUNS              milliseconds to load and check a pack of so many
+///   bench_rules --explain FEATURES.csv PACK.yaml RUNS
+///                                              the same with bare labels, with what is kept for
+///                                              explanations, and with all reasons written
 #include "bench/facade_features.h"
 #include "bench/timing.h"
+#include "interpret/detail/groups.h"
+#include "interpret/detail/labelling.h"
+#include "interpret/explain.h"
 #include "interpret/interpret.h"
 #include "interpret/rule_base.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <array>
@@ -96,6 +103,82 @@ std::string pack_of(int rules) {
   return text;
 }
 
+/// A label and groups, nothing that an explanation needs: neither the rule nor its score nor the
+/// margin nor the runner-up leave the labelling.
+struct BareVerdict {
+  FeatureId feature;
+  std::string label;
+  std::vector<std::string> groups;
+};
+
+std::size_t label_barely(const rules::Pack& pack, const FeatureTable& table,
+                         const FeatureGraph& graph) {
+  rules::Facts facts(pack, table, graph);
+  rules::Labelling labelling(pack, facts);
+  const auto choices = labelling.run();
+  std::vector<BareVerdict> verdicts(choices.size());
+  for (std::size_t row = 0; row < choices.size(); ++row) {
+    verdicts[row].feature = FeatureId{static_cast<int>(row)};
+    if (choices[row].rule >= 0)
+      verdicts[row].label = pack.classes[at(pack.rules[at(choices[row].rule)].label)].name;
+  }
+  for (const Group& group : rules::find_groups(pack, facts, table))
+    for (const FeatureId member : group.members)
+      verdicts[member.index()].groups.push_back(group.id);
+  return verdicts.size();
+}
+
+/// The reason of every feature that has a label, in one line, as label --explain writes it.
+std::size_t explain_all(const RuleBase& rules, const FeatureTable& table, const FeatureGraph& graph,
+                        const Interpretation& interpretation) {
+  const Explainer explainer(rules, table, graph, interpretation);
+  std::size_t written = 0;
+  for (const Verdict& verdict : interpretation.verdicts)
+    if (!verdict.label.empty()) written += reason(explainer.explain(verdict.feature)).size();
+  return written;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+/// Bare and off take turns, so that what else the machine does hits both; the ratio is the median
+/// of those of each turn. On takes long, and so no more than three turns.
+int measure_explain(const std::string& features, const std::string& pack, std::size_t runs) {
+  const auto rules = load_pack_file(pack);
+  if (!rules.value) return EXIT_FAILURE;
+  const auto buildings = bench::read_facade_features(features);
+  constexpr std::size_t kMostOn = 3;
+  std::vector<double> bare, off, on, ratios;
+  std::size_t rows = 0, written = 0;
+  for (std::size_t run = 0; run < runs; ++run) {
+    bare.push_back(bench::cpu_ms_of(1, [&] {
+      for (const auto& b : buildings) label_barely(rules.value->pack(), b.table, relate(b));
+    }));
+    off.push_back(bench::cpu_ms_of(1, [&] {
+      rows = 0;
+      for (const auto& b : buildings)
+        rows += interpret(*rules.value, b.table, relate(b)).verdicts.size();
+    }));
+    ratios.push_back(off.back() / bare.back());
+    if (run >= kMostOn) continue;
+    on.push_back(bench::cpu_ms_of(1, [&] {
+      written = 0;
+      for (const auto& b : buildings) {
+        const FeatureGraph graph = relate(b);
+        const Interpretation said = interpret(*rules.value, b.table, graph);
+        written += explain_all(*rules.value, b.table, graph, said);
+      }
+    }));
+  }
+  fmt::print(
+      "explain n={} bare_ms={:.1f} off_ms={:.1f} off/bare={:.3f} on_ms={:.0f} written_mb={:.1f}\n",
+      rows, median(bare), median(off), median(ratios), median(on),
+      static_cast<double>(written) / 1e6);
+  return EXIT_SUCCESS;
+}
+
 int measure_load(int count, std::size_t runs) {
   const std::string text = pack_of(count);
   std::size_t rules = 0;
@@ -110,11 +193,15 @@ int measure_load(int count, std::size_t runs) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    fmt::print(stderr, "usage: bench_rules FEATURES.csv PACK.yaml RUNS | --load RULES RUNS\n");
+  const bool is_of_reasons = argc == 5 && std::string_view(argv[1]) == "--explain";
+  if (argc != 4 && !is_of_reasons) {
+    fmt::print(stderr,
+               "usage: bench_rules FEATURES.csv PACK.yaml RUNS | --load RULES RUNS | --explain "
+               "FEATURES.csv PACK.yaml RUNS\n");
     return 2;
   }
-  const auto runs = static_cast<std::size_t>(std::max(1, std::atoi(argv[3])));
+  const auto runs = static_cast<std::size_t>(std::max(1, std::atoi(argv[argc - 1])));
+  if (is_of_reasons) return measure_explain(argv[2], argv[3], runs);
   if (std::string_view(argv[1]) == "--load") return measure_load(std::atoi(argv[2]), runs);
   return measure_labels(argv[1], argv[2], runs);
 }

@@ -1,6 +1,10 @@
 #include "tests/cli/command.h"
 
 #include <algorithm>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -22,9 +26,79 @@ std::string records_of(const std::string& name, const Folder& folder) {
   return path;
 }
 
+/// Three samples as a stream, in an order that goes with `seed`, and so the polygons of each shell;
+/// 0: as they are.
+std::string shuffled_stream(unsigned seed) {
+  std::string header;
+  std::vector<std::string> lines;
+  std::mt19937 random(seed);
+  for (const std::string name : {"house", "l-house", "row"}) {
+    const std::string text = run({"cat", sample(name)}).out;
+    const std::size_t end = text.find('\n') + 1;
+    header = text.substr(0, end);
+    json building = json::parse(text.substr(end));
+    for (json& object : building["CityObjects"])
+      for (json& geometry : object["geometry"])
+        for (json& shell : geometry["boundaries"])
+          if (seed != 0) std::shuffle(shell.begin(), shell.end(), random);
+    lines.push_back(building.dump() + "\n");
+  }
+  if (seed != 0) std::shuffle(lines.begin(), lines.end(), random);
+  return header + lines[0] + lines[1] + lines[2];
+}
+
+/// What the rules say of each feature, sorted, and all that score writes.
+struct Said {
+  std::vector<std::string> labels;
+  std::string score, rows, curve;
+  bool operator==(const Said&) const = default;
+};
+
+Said said_of(unsigned seed, const std::string& jobs) {
+  const Folder folder;
+  const std::string records = folder / "parts.jsonl",
+                    stream = folder.write("in.city.jsonl", shuffled_stream(seed));
+  REQUIRE(run({"label", stream, "--features", records, "-j", jobs}).exit == 0);
+  Said said;
+  std::istringstream lines(bytes_of(records));
+  for (std::string line; std::getline(lines, line);) {
+    const json record = json::parse(line);
+    std::string text;
+    for (const char* member :
+         {"building", "id", "label", "score", "margin", "rule", "runner_up", "groups"})
+      text += record.value(member, json()).dump() + " ";
+    said.labels.push_back(text);
+  }
+  std::ranges::sort(said.labels);
+  const Outcome outcome = run({"score", records, "--truth", truth_of("house"), truth_of("l-house"),
+                               truth_of("row"), "--json", "--bootstrap", "50", "--per-building",
+                               folder / "rows.csv", "--curve", folder / "curve.csv"});
+  CHECK(outcome.exit == 0);
+  said.score = outcome.out;
+  said.rows = bytes_of(folder / "rows.csv");
+  said.curve = bytes_of(folder / "curve.csv");
+  return said;
+}
+
 }  // namespace
 
 TEST_SUITE("cli") {
+  TEST_CASE("labels and scores are the same for shuffled input and any number of threads") {
+    const Said once = said_of(0, "1");
+    CHECK(once.labels.size() > 150);
+    CHECK(json::parse(once.score)["classes"]["window"]["tp"].get<int>() > 50);
+    for (const unsigned seed : {0U, 1U, 2U})
+      for (const std::string jobs : {"1", "2", "8"}) {
+        CAPTURE(seed);
+        CAPTURE(jobs);
+        const Said said = said_of(seed, jobs);
+        CHECK(said.labels == once.labels);
+        CHECK(said.score == once.score);
+        CHECK(said.rows == once.rows);
+        CHECK(said.curve == once.curve);
+      }
+  }
+
   TEST_CASE("score compares records with the truth") {
     const Folder folder;
     const std::string records = records_of("house", folder);
