@@ -100,7 +100,7 @@ class Generaliser {
       }
       outputs_.make_features(document.buildings[i], lines[i], product);
       drawn.push_back({i, timings.measure(Stage::generalise, [&] {
-                         return redraw_building(document.buildings[i], lines[i], product);
+                         return redraw_building(document, document.buildings[i], lines[i], product);
                        })});
     }
     for (Drawn& one : drawn) {
@@ -168,23 +168,23 @@ class Generaliser {
   }
 
   /// One for each target; none if one of them cannot be had.
-  std::vector<Redrawn> redraw_building(const Building& building, const OnLine& line,
-                                       Product& product) const {
+  std::vector<Redrawn> redraw_building(const Document& document, const Building& building,
+                                       const OnLine& line, Product& product) const {
     std::vector<Redrawn> all;
     const LabelledBuilding labelled = outputs_.annotated(building, line);
     const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
       auto redrawn = redraw_for(i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr,
-                                building, labelled, line, product);
+                                document, building, labelled, line, product);
       if (!redrawn) return {};
       all.push_back(std::move(*redrawn));
     }
     return all;
   }
 
-  std::optional<Redrawn> redraw_for(const Profile* profile, const Building& building,
-                                    const LabelledBuilding& labelled, const OnLine& line,
-                                    Product& product) const {
+  std::optional<Redrawn> redraw_for(const Profile* profile, const Document& document,
+                                    const Building& building, const LabelledBuilding& labelled,
+                                    const OnLine& line, Product& product) const {
     const auto& [table, graph] = line.description;
     Plan plan;
     if (targets_.scale)
@@ -195,7 +195,11 @@ class Generaliser {
     keep(plan.issues, product);
     Invariants invariants;
     if (profile != nullptr)
-      invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m};
+      invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m,
+                    profile->overhang_pct};
+    invariants.is_valid = [&](const Solid& solid) {
+      return !prove_redrawn(document, building, solid).fault;
+    };
     auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
                                   arguments_.segment_options(), invariants);
     if (!keep(generalised.issues, product) || !generalised.value) return std::nullopt;

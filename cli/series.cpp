@@ -116,7 +116,8 @@ class SeriesWriter {
                       arguments_.segment_options(),
                       {}};
     if (profile_ != nullptr)
-      input.invariants = {profile_->footprint_pct, profile_->volume_pct, profile_->top_m};
+      input.invariants = {profile_->footprint_pct, profile_->volume_pct, profile_->top_m,
+                          profile_->overhang_pct};
     return input;
   }
 

@@ -30,7 +30,7 @@ std::vector<Deed> account(const Plan& plan, const Generalised& generalised,
     else if (std::ranges::binary_search(generalised.changed, id))
       deed.outcome = "changed";
     else if (refused != generalised.refused.end()) {
-      deed.outcome = "refused";
+      deed.outcome = is_part(*refused, plan, interpretation) ? "kept" : "refused";
       deed.code = refused->code;
       deed.reason = refused->reason;
     } else {

@@ -17,11 +17,11 @@ struct Deed {
   std::string label;      ///< empty: unknown
   std::string operation;  ///< of the plan; empty: none was asked for
   std::string rule;       ///< the pack's entry or the profile's verdict that asked for it
-  /// "kept": nothing was asked for; "omitted"; "changed"; "went along": with what carries it or
-  /// with its row; "refused": it is as it was.
+  /// "kept": nothing was asked for, or is_part(); "omitted"; "changed"; "went along": with what
+  /// carries it or with its row; "refused": it is as it was.
   std::string outcome;
-  std::string code;    ///< of a refusal
-  std::string reason;  ///< of a refusal
+  std::string code;    ///< of a refusal, and of a part
+  std::string reason;  ///< of a refusal, and of a part
 };
 
 /// One for each feature, in their order.

@@ -42,11 +42,11 @@ class Guard {
     Plan some{plan_.scale, {}, {}};
     for (std::size_t i = 0; i < count; ++i)
       if (!is_undone(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
-    return carry_out_steps(solid_, segmentation_, some, options_);
+    return carry_out_steps(solid_, segmentation_, some, options_, invariants_.is_valid);
   }
 
   /// The first `good` steps break nothing, the first `bad` do.
-  [[nodiscard]] CarriedOut::Refused culprit(std::string reason) const {
+  [[nodiscard]] CarriedOut::Refused culprit(Violation reason) const {
     std::size_t good = 0, bad = plan_.steps.size();
     while (bad - good > 1) {
       const std::size_t middle = good + (bad - good) / 2;
@@ -54,7 +54,7 @@ class Guard {
       (broken ? bad : good) = middle;
       if (broken) reason = *broken;
     }
-    return {plan_.steps[bad - 1].feature, "G405", std::move(reason)};
+    return {plan_.steps[bad - 1].feature, std::move(reason.code), std::move(reason.sentence)};
   }
 
   [[nodiscard]] CarriedOut with_undone(CarriedOut out) const {

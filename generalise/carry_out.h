@@ -25,8 +25,9 @@ struct CarriedOut {
 };
 
 /// Carries out the steps of a plan on its solid, one operator after the other, and takes back, one
-/// by one, the steps by which an invariant would break (G405). Which one that is, is found by
-/// halving: the last of the fewest first steps that break it.
+/// by one, the steps by which an invariant would break (G405), or something would
+/// hang in the air (G411). Which one that is, is found by halving: the last of the fewest first
+/// steps that break it.
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                      const SegmentOptions& options, const Invariants& invariants = {});
 

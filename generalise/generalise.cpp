@@ -1,5 +1,9 @@
 #include "generalise/generalise.h"
 
+#include "interpret/significance.h"
+
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace oriel {
@@ -8,9 +12,17 @@ namespace {
 
 Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segmentation,
                     const FeatureTable& table, const Interpretation& interpretation,
-                    const std::string& target) {
+                    const Plan& plan, const std::string& target) {
   const FeatureId parent = segmentation.features[refusal.feature.index()].parent;
   const std::string& label = interpretation.verdicts[refusal.feature.index()].label;
+  if (is_part(refusal, plan, interpretation)) {
+    Issue note =
+        building_issue(Severity::note, refusal.code, table.building(),
+                       fmt::format("is a part of the building and stays at {}: without it {}",
+                                   target, refusal.reason));
+    note.place.feature = table.id(refusal.feature);
+    return note;
+  }
   const bool is_piece = parent.is_valid() && label.empty();
   Issue issue = building_issue(
       is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
@@ -24,6 +36,15 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
 
 }  // namespace
 
+bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
+             const Interpretation& interpretation) {
+  if (refused.code != "G411" && refused.code != "G412") return false;
+  if (interpretation.verdicts[refused.feature.index()].label.empty()) return true;
+  const auto step = std::ranges::find(plan.steps, refused.feature, &Step::feature);
+  return step != plan.steps.end() &&
+         significance_of(step->rule.substr(step->rule.find('/') + 1)).has_value();
+}
+
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
                                 const FeatureTable& table, const Interpretation& interpretation,
                                 const Plan& plan, const SegmentOptions& options,
@@ -33,7 +54,7 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
       plan.scale > 0 ? fmt::format("1:{}", plan.scale) : std::string("this level of detail");
   CarriedOut done = carry_out(solid, segmentation, plan, options, invariants);
   for (const CarriedOut::Refused& refusal : done.refused)
-    out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, target));
+    out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, plan, target));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
         Severity::error, "G402", table.building(),

@@ -31,12 +31,18 @@ struct Generalised {
   std::vector<FeatureId> changed{};
 };
 
+/// What was to go for its size only turns out to be a part of the building: without it something
+/// that stays would hang in the air (G411), or the building would reach out of its box (G412). What
+/// the plan names by its class is refused instead.
+bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
+             const Interpretation& interpretation);
+
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are
-/// left out, each with a warning G401, or G405 if an invariant would break, that names the feature
-/// and the reason; the others go on. For a feature without a label that is a piece of another one
-/// it is a note: such pieces come of how a concave part was cut, and many have no cut of their own
-/// in the whole building. No value if nothing would be left of the building (G402): it is to stay
-/// as it is.
+/// left out, each with a warning G401, or G405, G411 or G412 if an invariant would break, that
+/// names the feature and the reason; the others go on. Of a part (is_part), and of a feature
+/// without a label that is a piece of another one, it is a note: such pieces come of how a concave
+/// part was cut, and many have no cut of their own in the whole building. No value if nothing would
+/// be left of the building (G402): it is to stay as it is.
 ///
 /// `segmentation` is that of `solid`, made with `options`; `table` gives features their ids in
 /// messages, `interpretation` their labels. Source: paper 5.1 (omission) and 5.2;

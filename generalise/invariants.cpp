@@ -9,7 +9,8 @@ namespace oriel {
 
 namespace {
 
-constexpr double kGroundReach_m = 0.5;
+/// Planes that are fitted anew move by millimetres.
+constexpr double kBoxSlack_m = 0.01;
 
 double change_pct(double before, double after) {
   return before > 0 ? 100 * std::abs(after - before) / before : 0;
@@ -17,35 +18,48 @@ double change_pct(double before, double after) {
 
 }  // namespace
 
+bool reaches_out(const Box& before, const Box& after, double slack_m) {
+  const Vec3 slack{slack_m, slack_m, slack_m};
+  Box both{before.min - slack, before.max + slack};
+  const Box grown = both;
+  both.grow(after);
+  return !(both == grown);
+}
+
 Measures measures_of(const Solid& solid) {
   Measures out;
   for (const Shell& shell : solid.shells) out.lumps = std::max(out.lumps, shell.lump + 1);
   out.volume_m3 = volume_m3(solid);
-  const Box box = box_of(solid);
-  out.top_m = box.max.z;
+  const Box box = out.box = box_of(solid);
   for (const Facet& facet : solid.facets) {
     const Plane& plane = solid.planes[facet.plane.index()];
     if (plane.coefficients[2] >= 0) continue;
     const bool is_low = std::ranges::all_of(facet.loops[0], [&](int v) {
       return solid.vertices[static_cast<std::size_t>(v)].point.z <= box.min.z + kGroundReach_m;
     });
-    if (is_low) out.footprint_m2 -= plane.normal.z * area_m2(solid.vertices, facet, plane.normal);
+    (is_low ? out.footprint_m2 : out.overhang_m2) -=
+        plane.normal.z * area_m2(solid.vertices, facet, plane.normal);
   }
   return out;
 }
 
-std::optional<std::string> violation(const Measures& before, const Measures& after,
-                                     const Invariants& invariants) {
-  if (after.lumps > before.lumps) return "the building would fall apart";
+std::optional<Violation> violation(const Measures& before, const Measures& after,
+                                   const Invariants& invariants) {
+  if (after.lumps > before.lumps) return Violation{"G411", "the building would fall apart"};
+  const double hanging_m2 = after.overhang_m2 - before.overhang_m2;
+  if (invariants.overhang_pct && hanging_m2 > *invariants.overhang_pct / 100 * before.footprint_m2)
+    return Violation{"G411", fmt::format("{:.2f} m2 would hang in the air", hanging_m2)};
+  if (invariants.overhang_pct && reaches_out(before.box, after.box, kBoxSlack_m))
+    return Violation{"G412", "the building would reach further than it did"};
   const double footprint = change_pct(before.footprint_m2, after.footprint_m2);
   if (invariants.footprint_pct && footprint > *invariants.footprint_pct)
-    return fmt::format("the footprint would change by {:.2f} %", footprint);
+    return Violation{"G405", fmt::format("the footprint would change by {:.2f} %", footprint)};
   const double volume = change_pct(before.volume_m3, after.volume_m3);
   if (invariants.volume_pct && volume > *invariants.volume_pct)
-    return fmt::format("the volume would change by {:.2f} %", volume);
-  const double top_m = std::abs(after.top_m - before.top_m);
+    return Violation{"G405", fmt::format("the volume would change by {:.2f} %", volume)};
+  const double top_m = std::abs(after.box.max.z - before.box.max.z);
   if (invariants.top_m && top_m > *invariants.top_m)
-    return fmt::format("its highest point would move by {:.2f} m", top_m);
+    return Violation{"G405", fmt::format("its highest point would move by {:.2f} m", top_m)};
   return std::nullopt;
 }
 

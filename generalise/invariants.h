@@ -2,10 +2,14 @@
 
 #include "kernel/model/solid.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace oriel {
+
+/// Whether a solid is fit to be written.
+using Judge = std::function<bool(const Solid&)>;
 
 /// What must not change by generalising.
 struct Invariants {
@@ -13,7 +17,16 @@ struct Invariants {
   std::optional<double> footprint_pct, volume_pct;
   /// Of the highest point.
   std::optional<double> top_m;
+  /// How much of the footprint, in percent, may hang in the air that did not. If given, the box of
+  /// the building must not grow either, by more than a centimetre.
+  std::optional<double> overhang_pct{};
+  /// If given, what has no cut of its own goes as cells where that leaves what this calls valid
+  /// (remove_cells).
+  Judge is_valid{};
 };
+
+/// Facets that look down are ground if they lie no higher than this over the lowest point.
+inline constexpr double kGroundReach_m = 0.5;
 
 /// What invariants look at.
 struct Measures {
@@ -22,14 +35,26 @@ struct Measures {
   /// The area of facets that look down and lie within half a metre of the lowest point, as seen
   /// from above.
   double footprint_m2 = 0;
-  double top_m = 0;
+  /// The area of all other facets that look down, as seen from above.
+  double overhang_m2 = 0;
+  Box box;
+};
+
+/// A box that `before`, larger by `slack_m` on all sides, does not hold.
+bool reaches_out(const Box& before, const Box& after, double slack_m);
+
+/// What changed that must not.
+struct Violation {
+  /// G411: of what stays something would hang in the air; G412: it would reach out of its box; else
+  /// G405.
+  std::string code;
+  std::string sentence;  ///< "the footprint would change by 2.10 %"
 };
 
 Measures measures_of(const Solid& solid);
 
-/// What changed that must not, as a sentence ("the footprint would change by 2.10 %"), or nothing.
-/// It must never fall into more pieces than it was.
-std::optional<std::string> violation(const Measures& before, const Measures& after,
-                                     const Invariants& invariants);
+/// What changed that must not, or nothing. It must never fall into more pieces than it was.
+std::optional<Violation> violation(const Measures& before, const Measures& after,
+                                   const Invariants& invariants);
 
 }  // namespace oriel

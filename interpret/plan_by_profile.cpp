@@ -1,6 +1,8 @@
+#include "interpret/detail/main_parts.h"
 #include "interpret/detail/names.h"
 #include "interpret/detail/pack.h"
 #include "interpret/profile.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,13 @@ namespace {
 
 /// What reaches the ground begins no higher than a threshold over it.
 constexpr double kOnGround_m = 0.3;
+
+/// A door lies no deeper in its wall than a wall is thick. A deeper recess that reaches the ground
+/// is part of the ground plan, whatever it is called: a passage, or a corner that is not built on.
+constexpr double kWallDepth_m = 0.5;
+
+/// What is less steep than 80° is roof, as where features are described.
+constexpr double kRoofRise = 0.1736;
 
 class ProfilePlanner {
  public:
@@ -29,15 +38,18 @@ class ProfilePlanner {
         reason_(segmentation.features.size()),
         is_open_(segmentation.features.size(), 1),
         is_held_(segmentation.features.size(), 0) {
+    if (thresholds_ && profile.part)
+      main_parts_.emplace(segmentation, table, *profile.part, *thresholds_);
     for (const Step& step : plan_.steps) is_open_[step.feature.index()] = 0;
   }
 
   Plan run() {
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (is_open_[static_cast<std::size_t>(i)] != 0) decide({i});
+      if (is_open_[at(i)] != 0) decide({i});
+    keep_ridge();
     spare_carriers();
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (const std::string& why = reason_[static_cast<std::size_t>(i)]; !why.empty())
+      if (const std::string& why = reason_[at(i)]; !why.empty())
         plan_.steps.push_back({FeatureId{i}, "omit", profile_.title() + "/" + why});
     std::ranges::stable_sort(plan_.steps, {}, &Step::feature);
     return std::move(plan_);
@@ -55,10 +67,10 @@ class ProfilePlanner {
     const Feature& feature = segmentation_.features[id.index()];
     std::string& why = reason_[id.index()];
     if (is_in(id, profile_.keep)) return hold(id);
-    const bool may_go =
-        !profile_.on_ground || !reaches_ground(id) || is_in(id, *profile_.on_ground);
+    const bool may_go = !profile_.on_ground || !reaches_ground(id) ||
+                        (is_in(id, *profile_.on_ground) && !is_of_ground_plan(id));
     if (!may_go) return hold(id);
-    if (is_in(id, profile_.omit)) {
+    if (is_in(id, profile_.omit) && !is_notch(id)) {
       why = "omit";
       return;
     }
@@ -70,7 +82,7 @@ class ProfilePlanner {
     const auto a = table_.number(id, "a"), b = table_.number(id, "b"), c = table_.number(id, "c");
     if (!thresholds_ || !a || !b || !c) return;
     const Significance verdict = significance(*a, *b, *c, *thresholds_);
-    if (verdict == Significance::keep) hold(id);
+    if (verdict == Significance::keep || (main_parts_ && main_parts_->has(id))) return hold(id);
     if (profile_.omitted.contains(verdict)) why = to_string(verdict);
   }
 
@@ -80,19 +92,74 @@ class ProfilePlanner {
     return (sense == Sense::protrusion || sense == Sense::hole) && height && *height <= kOnGround_m;
   }
 
+  /// A recess on the ground that is deeper than a wall, or open to the sky: an opening has a
+  /// lintel.
+  [[nodiscard]] bool is_of_ground_plan(FeatureId id) const {
+    const Feature& feature = segmentation_.features[id.index()];
+    if (feature.sense != Sense::hole) return false;
+    const auto depth = table_.number(id, "depth");
+    return (depth && *depth > kWallDepth_m) || has_plane(id, is_roof);
+  }
+
+  /// A recess in a wall that has no ceiling: neither an opening nor a loggia, whatever it is
+  /// called. Its size decides.
+  [[nodiscard]] bool is_notch(FeatureId id) const {
+    return segmentation_.features[id.index()].sense == Sense::hole && has_plane(id, is_roof) &&
+           has_plane(id, [](const Plane& plane) { return std::abs(plane.normal.z) <= kRoofRise; });
+  }
+
+  static bool is_roof(const Plane& plane) { return plane.normal.z > kRoofRise; }
+
+  template <class Test>
+  [[nodiscard]] bool has_plane(FeatureId id, const Test& test) const {
+    return std::ranges::any_of(segmentation_.features[id.index()].planes, [&](PlaneId plane) {
+      return test(segmentation_.planes[plane.index()]);
+    });
+  }
+
   void hold(FeatureId id) { is_held_[id.index()] = 1; }
 
+  [[nodiscard]] bool goes(FeatureId id) const {
+    if (!reason_[id.index()].empty()) return true;
+    const Feature& feature = segmentation_.features[id.index()];
+    return (feature.parent.is_valid() && goes(feature.parent)) ||
+           (feature.host.is_valid() && goes(feature.host));
+  }
+
+  /// What holds the ridge stays though it would go for its size.
+  void keep_ridge() {
+    if (!main_parts_) return;
+    std::vector<char> goes_at_all(reason_.size()), goes_for_size(reason_.size());
+    while (true) {
+      for (int i = 0; i < std::ssize(reason_); ++i) {
+        goes_at_all[at(i)] = goes({i}) ? 1 : 0;
+        goes_for_size[at(i)] = significance_of(reason_[at(i)]) ? 1 : 0;
+      }
+      const FeatureId id = main_parts_->holder_of_ridge(goes_at_all, goes_for_size);
+      if (!id.is_valid()) return;
+      reason_[id.index()].clear();
+      hold(id);
+    }
+  }
+
   /// A feature that goes takes along what sits on it. If the profile holds on to that, and the
-  /// feature goes for its size only, it stays too.
+  /// feature goes for its size only, or hangs over the ground that the other one stands on, it
+  /// stays too.
   void spare_carriers() {
     std::vector<FeatureId> staying;
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (is_held_[static_cast<std::size_t>(i)] != 0) staying.push_back({i});
+      if (is_held_[at(i)] != 0) staying.push_back({i});
     while (!staying.empty()) {
       const Feature& feature = segmentation_.features[staying.back().index()];
+      const bool stands = profile_.on_ground && reaches_ground(staying.back());
+      const double lowest_m = feature.box.min.z;
       staying.pop_back();
       for (const FeatureId carrier : {feature.parent, feature.host}) {
-        if (!carrier.is_valid() || !significance_of(reason_[carrier.index()])) continue;
+        if (!carrier.is_valid() || reason_[carrier.index()].empty()) continue;
+        const bool is_for_size = significance_of(reason_[carrier.index()]).has_value();
+        const bool hangs_over =
+            stands && segmentation_.features[carrier.index()].box.min.z > lowest_m + kOnGround_m;
+        if (!is_for_size && !hangs_over) continue;
         reason_[carrier.index()].clear();
         staying.push_back(carrier);
       }
@@ -106,6 +173,7 @@ class ProfilePlanner {
   const FeatureTable& table_;
   const Interpretation& interpretation_;
   std::optional<Thresholds> thresholds_;
+  std::optional<detail::MainParts> main_parts_;
   std::vector<std::string> reason_;  ///< by feature: why it goes; empty: it stays
   std::vector<char> is_open_;        ///< by feature: the plan had no step for it
   std::vector<char> is_held_;        ///< by feature: the profile wants it to stay

@@ -66,7 +66,7 @@ class ProfileReader {
   void read_level(const YamlNode& node) {
     Section section(node, "a level",
                     {"form", "least-piece-m2", "omit", "keep", "imprints", "on-ground", "sizes-m",
-                     "area-m2", "map-mm", "verdicts", "invariants"},
+                     "area-m2", "map-mm", "verdicts", "parts", "invariants"},
                     findings_);
     if (!section.is_map()) return;
     if (const YamlNode* form = section.require("form")) read_form(*form);
@@ -78,6 +78,7 @@ class ProfileReader {
     if (const YamlNode* on_ground = section.find("on-ground"))
       read_classes(on_ground, profile_.on_ground.emplace());
     read_sizes(section, node);
+    if (const YamlNode* parts = section.find("parts")) read_parts(*parts);
     if (const YamlNode* invariants = section.find("invariants")) read_invariants(*invariants);
   }
 
@@ -159,8 +160,17 @@ class ProfileReader {
       if (word(section.find(to_string(verdict)), "keep", "omit")) profile_.omitted.insert(verdict);
   }
 
+  void read_parts(const YamlNode& node) {
+    Section section(node, "'parts'", {"height-m", "area-m2"}, findings_);
+    const YamlNode *height = section.require("height-m"), *area = section.require("area-m2");
+    if (height == nullptr || area == nullptr) return;
+    const auto height_m = positive(*height, "'height-m'"), area_m2 = positive(*area, "'area-m2'");
+    if (height_m && area_m2) profile_.part = Profile::Part{*height_m, *area_m2};
+  }
+
   void read_invariants(const YamlNode& node) {
-    Section section(node, "'invariants'", {"footprint-pct", "volume-pct", "top-m"}, findings_);
+    Section section(node, "'invariants'", {"footprint-pct", "volume-pct", "top-m", "overhang-pct"},
+                    findings_);
     if (!section.is_map()) return;
     const auto read = [&](const char* key, std::optional<double>& into) {
       if (const YamlNode* value = section.find(key))
@@ -169,6 +179,7 @@ class ProfileReader {
     read("footprint-pct", profile_.footprint_pct);
     read("volume-pct", profile_.volume_pct);
     read("top-m", profile_.top_m);
+    read("overhang-pct", profile_.overhang_pct);
   }
 
   Findings& findings_;

@@ -21,6 +21,15 @@ struct Profile {
   /// The building's form: as it is, one flat block, or one for each main part of the roof.
   enum class Form { as_is, block, blocks };
 
+  /// What is a part of the building and not a detail on it, so that it does not go for its size
+  /// (detail::MainParts): what has this height and, seen from above, on average this area; a
+  /// protrusion that covers the least area of the sizes; all of a building that is smaller than
+  /// that area times c; the highest part, if it rises by more than c over the rest.
+  struct Part {
+    double height_m = 0;
+    double area_m2 = 0;
+  };
+
   std::string name;    ///< "lod"
   std::string level;   ///< "2.0"
   std::string sha256;  ///< of the file's text
@@ -33,6 +42,7 @@ struct Profile {
   /// What reaches the ground goes only if it is of one of these classes; missing: it may go.
   std::optional<std::vector<std::string>> on_ground;
   std::optional<Thresholds> sizes;
+  std::optional<Part> part;  ///< missing: size alone decides
   /// Instead of `sizes`: the least length on the map.
   std::optional<double> map_mm;
   /// Verdicts that make a feature go that neither the pack nor the lists above decide of.
@@ -41,6 +51,8 @@ struct Profile {
   std::optional<double> footprint_pct, volume_pct;
   /// The same of the highest point, in metres.
   std::optional<double> top_m;
+  /// Percent of the footprint that may hang in the air and did not.
+  std::optional<double> overhang_pct;
 
   /// "lod:2.0".
   [[nodiscard]] std::string title() const { return name + ":" + level; }
@@ -64,8 +76,10 @@ std::vector<std::string> embedded_profiles();
 std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base);
 
 /// Adds to `plan`, which may be empty, what the profile asks for of features without a step there:
-/// first its lists of classes, then the verdict of significance. A feature that carries one that is
-/// to stay by the profile does not go for its size. Steps are called "NAME:LEVEL/omit" or
+/// first its lists of classes, then the verdict of significance, unless it is a part of the
+/// building (Profile::Part). A recess that reaches the ground and is deep, or has no lintel, is
+/// part of the ground plan: it stays where what is on the ground stays. A feature that carries one
+/// that is to stay by the profile does not go for its size. Steps are called "NAME:LEVEL/omit" or
 /// "NAME:LEVEL/VERDICT". `scale` is needed by map profiles.
 Plan plan_by_profile(Plan plan, const Profile& profile, const RuleBase& base,
                      const Segmentation& segmentation, const FeatureTable& table,

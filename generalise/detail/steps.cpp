@@ -21,11 +21,12 @@ namespace {
 class StepRunner {
  public:
   StepRunner(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-             const SegmentOptions& options)
+             const SegmentOptions& options, const Judge& is_valid)
       : solid_(solid),
         segmentation_(segmentation),
         plan_(plan),
         options_(options),
+        is_valid_(is_valid),
         tasks_(tasks_of(plan, segmentation)) {}
 
   CarriedOut run() {
@@ -57,12 +58,12 @@ class StepRunner {
       off.steps.push_back(step);
       off.steps.back().operation = "omit";
     }
-    Remainder remainder = omit(solid_, segmentation_, off, options_);
+    Remainder remainder = omit(solid_, segmentation_, off, options_, is_valid_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
     for (const PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
     for (const Refusal& refusal : remainder.refused)
       if (!failed_.contains(refusal.feature))
-        out.refused.push_back({refusal.feature, "G401", refusal.reason});
+        out.refused.push_back({refusal.feature, refusal.code, refusal.reason});
     for (const PlanTask& task : tasks_) put_back(task, out);
     return out;
   }
@@ -70,7 +71,7 @@ class StepRunner {
   void fail_if_refused(const PlanTask& task, const std::vector<Refusal>& refused) {
     for (const Step& step : task.steps) {
       const auto found = std::ranges::find(refused, step.feature, &Refusal::feature);
-      if (found != refused.end()) return fail(task, "G401", found->reason);
+      if (found != refused.end()) return fail(task, found->code, found->reason);
     }
   }
 
@@ -132,6 +133,7 @@ class StepRunner {
   const Segmentation& segmentation_;
   const Plan& plan_;
   const SegmentOptions& options_;
+  const Judge& is_valid_;
   std::vector<PlanTask> tasks_;
   std::map<FeatureId, CarriedOut::Refused> failed_;
 };
@@ -139,8 +141,8 @@ class StepRunner {
 }  // namespace
 
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                           const SegmentOptions& options) {
-  return StepRunner(solid, segmentation, plan, options).run();
+                           const SegmentOptions& options, const Judge& is_valid) {
+  return StepRunner(solid, segmentation, plan, options, is_valid).run();
 }
 
 }  // namespace oriel::detail

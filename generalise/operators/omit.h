@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generalise/invariants.h"
 #include "kernel/model/plan.h"
 #include "kernel/segment/remove.h"
 
@@ -13,8 +14,9 @@ namespace oriel {
 /// walls are a feature of the roof). Touches: the cells of the feature and of all that sits on it;
 /// of the rest, the facets of its split planes. Inverse: the solid before, which the caller still
 /// has; the removed cells stand in the segmentation. A feature that cannot be omitted is refused
-/// with its reason and stays whole.
+/// with its reason and stays whole. With a judge, features without a cut of their own go as cells
+/// (remove_cells).
 Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-               const SegmentOptions& options);
+               const SegmentOptions& options, const Judge& is_valid = {});
 
 }  // namespace oriel

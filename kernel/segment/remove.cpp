@@ -19,6 +19,22 @@ namespace {
 using detail::Boundary;
 using detail::Side;
 
+/// What sits on or in a feature goes with it. By feature.
+std::vector<char> spread(std::vector<char> go, const Segmentation& segmentation) {
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::size_t i = 0; i < go.size(); ++i) {
+      const Feature& f = segmentation.features[i];
+      const bool carrier_goes = (f.parent.is_valid() && go[f.parent.index()]) ||
+                                (f.host.is_valid() && go[f.host.index()]);
+      if (go[i] || !carrier_goes) continue;
+      go[i] = 1;
+      has_changed = true;
+    }
+  }
+  return go;
+}
+
 class FeatureRemover {
  public:
   FeatureRemover(const Solid& solid, const Segmentation& segmentation,
@@ -55,29 +71,13 @@ class FeatureRemover {
   /// Removes all that is wanted, one after the other. False if something was refused after what
   /// sits on it had gone: then all has to be done again without it.
   bool try_all() {
-    go_ = with_what_sits_on(wanted_);
+    go_ = spread(wanted_, segmentation_);
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
       const FeatureId id{i};
       if (!go_[at(i)] || goes_with_parent(id)) continue;
       if (const auto reason = remove(id); reason && !refuse(id, *reason)) return false;
     }
     return true;
-  }
-
-  /// What sits on or in a feature goes with it.
-  [[nodiscard]] std::vector<char> with_what_sits_on(std::vector<char> go) const {
-    for (bool has_changed = true; has_changed;) {
-      has_changed = false;
-      for (std::size_t i = 0; i < go.size(); ++i) {
-        const Feature& f = segmentation_.features[i];
-        const bool carrier_goes = (f.parent.is_valid() && go[f.parent.index()]) ||
-                                  (f.host.is_valid() && go[f.host.index()]);
-        if (go[i] || !carrier_goes) continue;
-        go[i] = 1;
-        has_changed = true;
-      }
-    }
-    return go;
   }
 
   [[nodiscard]] bool goes_with_parent(FeatureId id) const {
@@ -92,7 +92,7 @@ class FeatureRemover {
       out_.refused.push_back({id, reason});
     wanted_[id.index()] = 0;
     go_[id.index()] = 0;
-    const std::vector<char> still = with_what_sits_on(wanted_);
+    const std::vector<char> still = spread(wanted_, segmentation_);
     for (std::size_t i = 0; i < go_.size(); ++i) {
       if (!go_[i] || still[i]) continue;
       if (i < id.index()) return false;
@@ -338,6 +338,17 @@ class FeatureRemover {
 };
 
 }  // namespace
+
+std::vector<FeatureId> with_what_sits_on(const Segmentation& segmentation,
+                                         const std::vector<FeatureId>& features) {
+  std::vector<char> go(segmentation.features.size(), 0);
+  for (const FeatureId id : features) go[id.index()] = 1;
+  go = spread(std::move(go), segmentation);
+  std::vector<FeatureId> all;
+  for (int i = 0; i < std::ssize(go); ++i)
+    if (go[at(i)] != 0) all.push_back(FeatureId{i});
+  return all;
+}
 
 Remainder remove_features(const Solid& solid, const Segmentation& segmentation,
                           const std::vector<FeatureId>& features, const SegmentOptions& options) {

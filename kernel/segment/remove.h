@@ -13,6 +13,7 @@ namespace oriel {
 struct Refusal {
   FeatureId feature;
   std::string reason;
+  std::string code = "G401";
 };
 
 /// What is left of a solid when features are taken off it.
@@ -25,6 +26,11 @@ struct Remainder {
   std::vector<FeatureId> removed;
   std::vector<Refusal> refused;
 };
+
+/// These features and what sits on (Feature::host) or in (Feature::parent) them, directly or over
+/// others; ascending.
+std::vector<FeatureId> with_what_sits_on(const Segmentation& segmentation,
+                                         const std::vector<FeatureId>& features);
 
 /// Takes features off the solid that was segmented: protrusions are cut, holes and cavities filled,
 /// each by its own planes, in the order in which the segmentation found them. An imprint leaves no

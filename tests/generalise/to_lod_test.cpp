@@ -17,6 +17,21 @@ using nlohmann::json;
 
 namespace {
 
+/// How many features the level 2.0 takes off.
+std::size_t steps_at_lod2(const Line& line) {
+  return plan_by_profile({}, *load_profile_file("lod:2.0").value, residential(), line.segmentation,
+                         line.description.table, line.interpretation, std::nullopt)
+      .steps.size();
+}
+
+/// The same of a house with one box on it; nothing of it has a label.
+std::size_t steps_with(Vec3 from, Vec3 to) {
+  Line line = line_of(
+      BoxBody().add({0, 0, 0}, {12, 10, 4}).add({0, 5, 4}, {12, 10, 9}).add(from, to).build());
+  for (Verdict& verdict : line.interpretation.verdicts) verdict.label.clear();
+  return steps_at_lod2(line);
+}
+
 Checked<Redrawn> product(const Line& line, const std::string& level) {
   const Profile profile = *load_profile_file("lod:" + level).value;
   const auto& [table, graph] = line.description;
@@ -61,6 +76,44 @@ TEST_SUITE("generalise") {
           }
         }
       }
+    }
+  }
+
+  TEST_CASE("a door in its wall goes at 2.0 and a recess deeper than a wall stays") {
+    for (const double depth_m : {0.3, 0.8}) {
+      Line line = line_of(
+          BoxBody().add({0, 0, 0}, {10, 8, 6}).remove({2, 0, 0}, {3, depth_m, 2.1}).build());
+      REQUIRE(line.segmentation.features.size() == 1);
+      line.interpretation.verdicts[0].label = "door";
+      const Plan plan =
+          plan_by_profile({}, *load_profile_file("lod:2.0").value, residential(), line.segmentation,
+                          line.description.table, line.interpretation, std::nullopt);
+      CHECK(plan.steps.size() == (depth_m < 0.5 ? 1U : 0U));
+    }
+  }
+
+  TEST_CASE("what is short or thin goes at 2.0 but no storey and no part of the main roof") {
+    CHECK(steps_with({1, 1, 4}, {3.5, 3.5, 6}) == 1);     // 2 m high
+    CHECK(steps_with({1, 1, 4}, {3.5, 3.5, 7.2}) == 0);   // a storey
+    CHECK(steps_with({1, 1, 4}, {2.5, 2.5, 7.2}) == 1);   // as high, on 2 m2
+    CHECK(steps_with({1, 1, 4}, {7, 3, 5.5}) == 1);       // 12 m2 of roof
+    CHECK(steps_with({1, 1, 4}, {9, 3, 5.5}) == 0);       // 16 m2
+    CHECK(steps_with({1, 6, 9}, {4.5, 6.8, 10.5}) == 1);  // on the ridge, and not much higher
+    CHECK(steps_with({1, 6, 9}, {4.5, 6.8, 11.5}) == 0);  // it holds the ridge
+  }
+
+  TEST_CASE("a building smaller than the sizes keeps its parts and a notch without lintel stays") {
+    Line shed =
+        line_of(BoxBody().add({0, 0, 0}, {3, 3, 2.5}).add({1, 1, 2.5}, {2, 2, 3.2}).build());
+    for (Verdict& verdict : shed.interpretation.verdicts) verdict.label.clear();
+    REQUIRE(shed.segmentation.features.size() == 1);
+    CHECK(steps_at_lod2(shed) == 0);
+    for (const double top_m : {2.1, 6.0}) {
+      Line line =
+          line_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).remove({2, 0, 0}, {3, 0.3, top_m}).build());
+      REQUIRE(line.segmentation.features.size() == 1);
+      line.interpretation.verdicts[0].label = "door";
+      CHECK(steps_at_lod2(line) == (top_m < 6 ? 1U : 0U));
     }
   }
 

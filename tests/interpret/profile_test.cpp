@@ -77,6 +77,11 @@ TEST_SUITE("interpret") {
     CHECK(codes_of("{form: as-is, map-mm: -1}") == "R211 ");
     CHECK(codes_of("{form: round}") == "R211 ");
     CHECK(codes_of("{form: as-is, omits: [door]}") == "R209 ");
+    CHECK(codes_of("{form: as-is, parts: {height-m: 3, area-m2: 4}}") == "");
+    CHECK(codes_of("{form: as-is, parts: {height-m: 3}}") == "R210 ");
+    CHECK(codes_of("{form: as-is, parts: {height-m: 0, area-m2: 4}}") == "R211 ");
+    CHECK(codes_of("{form: as-is, invariants: {overhang-pct: 0.1}}") == "");
+    CHECK(codes_of("{form: as-is, invariants: {overhang: 0.1}}") == "R209 ");
     CHECK(codes_of("{form: as-is}", "7") == "R271 ");
     CHECK(codes_of("{}") == "R210 ");
     CHECK_FALSE(load_profile_file("no-such-profile").value);

@@ -1,6 +1,13 @@
 #include "generalise/operators/omit.h"
 
+#include "generalise/account.h"
+#include "generalise/fill_rings.h"
+#include "generalise/generalise.h"
+#include "generalise/remove_cells.h"
 #include "tests/generalise/line.h"
+#include "tests/support/houses.h"
+#include "tests/support/inside.h"
+#include "tests/support/segmented.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
@@ -25,6 +32,8 @@ Plan omit_all(const Line& line) {
 Remainder without_all(const Line& line) {
   return omit(line.solid, line.segmentation, omit_all(line), {});
 }
+
+bool any_solid(const Solid& solid) { return is_closed(solid); }
 
 /// All features gone, nothing refused, and the bare block left without a seam.
 void check_bare(const BoxBody& body, std::size_t features) {
@@ -137,6 +146,132 @@ TEST_SUITE("generalise") {
       CHECK(rest.solid.facets.size() <= 7);
       CHECK(segment(line.building(), rest.solid).features.empty());
     }
+  }
+
+  TEST_CASE("features come off as cells with the volume that cuts leave") {
+    std::size_t compared = 0;
+    std::string left_out;
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(std::string(name));
+      const Segmented s = segmented(make());
+      for (const FeatureId id : all_features(s.segmentation)) {
+        CAPTURE(id.index());
+        const Feature& feature = s.segmentation.features[id.index()];
+        const bool is_on_ground = feature.box.min.z <= box_of(s.solid).min.z;  // footprints stay
+        if (feature.sense == Sense::cavity || !feature.node.is_valid() || is_on_ground) continue;
+        const Remainder rest =
+            remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, any_solid);
+        if (!rest.refused.empty()) {  // the building would fall apart
+          left_out += std::string(name) + " ";
+          CHECK(rest.removed.empty());
+          CHECK(volume_m3(rest.solid) == volume_m3(s.solid));
+          continue;
+        }
+        CHECK(is_closed(rest.solid));
+        CHECK(std::ranges::binary_search(rest.removed, id));
+        CHECK(volume_m3(rest.solid) ==
+              doctest::Approx(volume_without(s, rest.removed)).epsilon(1e-6));
+        ++compared;
+      }
+    }
+    CHECK(compared > 20);
+    CHECK(left_out == "chimney_with_head two_towers ");
+  }
+
+  TEST_CASE("a piece of a part comes off though its cut would go through the whole building") {
+    const Segmented s = segmented(BoxBody()
+                                      .add({0, 0, 0}, {10, 8, 6})
+                                      .add({3, -2, 0}, {6, 0, 7})
+                                      .add({6, -2, 0}, {7, 0, 2})
+                                      .build());
+    std::size_t pieces = 0;
+    for (const FeatureId id : all_features(s.segmentation)) {
+      if (!s.segmentation.features[id.index()].parent.is_valid()) continue;
+      const Remainder rest = remove_cells(
+          s.solid, s.segmentation, remove_features(s.solid, s.segmentation, {id}), any_solid);
+      CHECK(rest.refused.empty());
+      CHECK(volume_m3(rest.solid) ==
+            doctest::Approx(volume_without(s, rest.removed)).epsilon(1e-9));
+      ++pieces;
+    }
+    CHECK(pieces > 0);
+  }
+
+  TEST_CASE("what stands in a ring goes with it unless it leads through the building") {
+    for (const double depth_m : {1.0, 8.0}) {
+      const Segmented s = segmented(
+          block().remove({3, 0, 2}, {6, depth_m, 4}).add({3.5, -0.5, 4.5}, {5, 0, 5}).build());
+      Segmentation segmentation = s.segmentation;
+      const auto wall = std::ranges::find_if(
+          s.solid.facets, [&](const Facet& facet) { return facet.loops.size() == 3; });
+      REQUIRE(wall != s.solid.facets.end());
+      Feature ring;
+      ring.sense = Sense::hole;
+      ring.is_uncut = true;
+      ring.planes = {wall->plane};
+      ring.outline = wall->loops[1];
+      if (s.solid.vertices[static_cast<std::size_t>(ring.outline[0])].point.z > 4.2)
+        ring.outline = wall->loops[2];
+      std::ranges::reverse(ring.outline);
+      segmentation.features.push_back(ring);
+      const FeatureId id{static_cast<int>(segmentation.features.size()) - 1};
+      // Nothing else is asked of the features that cuts find.
+      for (Feature& feature : segmentation.features) feature.source_polygons.clear();
+      const Remainder rest =
+          fill_rings(segmentation, {s.solid, {}, {{id, "as a test"}}}, any_solid);
+      CHECK(is_closed(rest.solid));
+      const bool is_passage = depth_m > 7;
+      CHECK(rest.refused.size() == (is_passage ? 1U : 0U));
+      CHECK(volume_m3(rest.solid) - volume_m3(s.solid) ==
+            doctest::Approx(is_passage ? 0 : 6).epsilon(1e-9));
+      CHECK(rest.solid.facets.size() + (is_passage ? 0 : 5) == s.solid.facets.size());
+    }
+  }
+
+  TEST_CASE("what carries what stays is a part of the building unless its class was to go") {
+    const Line line = line_of(chimney_with_head());
+    Interpretation bare = line.interpretation;
+    for (Verdict& verdict : bare.verdicts) verdict.label.clear();
+    std::size_t carriers = 0;
+    for (const FeatureId id : all_features(line.segmentation)) {
+      const Plan plan{1000, {{id, "omit", "test"}}, {}};
+      Invariants invariants;
+      invariants.is_valid = any_solid;
+      const auto done = generalise(line.solid, line.segmentation, line.table(), bare, plan,
+                                   SegmentOptions{}, invariants);
+      REQUIRE(done.value);
+      if (done.value->refused.empty()) continue;
+      const CarriedOut::Refused& refused = done.value->refused[0];
+      CHECK(refused.code == "G411");
+      CHECK(done.issues[0].severity == Severity::note);
+      CHECK(is_part(refused, plan, bare));
+      Interpretation named = bare;
+      named.verdicts[id.index()].label = "chimney";
+      CHECK_FALSE(is_part(refused, plan, named));
+      CHECK(account(plan, *done.value, line.table(), bare)[id.index()].outcome == "kept");
+      CHECK(account(plan, *done.value, line.table(), named)[id.index()].outcome == "refused");
+      ++carriers;
+    }
+    CHECK(carriers == 1);
+  }
+
+  TEST_CASE("what would hang in the air and what would reach further is told") {
+    Measures before;
+    before.footprint_m2 = 100;
+    before.box = {{0, 0, 0}, {10, 10, 6}};
+    Invariants invariants;
+    Measures after = before;
+    after.overhang_m2 = 0.2;
+    CHECK_FALSE(violation(before, after, invariants));
+    invariants.overhang_pct = 0.1;
+    CHECK(violation(before, after, invariants)->code == "G411");
+    after = before;
+    after.box.max.z = 6.005;
+    CHECK_FALSE(violation(before, after, invariants));
+    after.box.max.z = 6.1;
+    CHECK(violation(before, after, invariants)->code == "G412");
+    after.lumps = 1;
+    CHECK(violation(before, after, invariants)->code == "G411");
   }
 
   TEST_CASE("steps of other operators are not omissions") {
