@@ -256,8 +256,9 @@ std::vector<double> scales_of(const std::vector<std::string>& texts) {
   std::vector<double> scales;
   for (const std::string& text : texts) scales.push_back(denominator_of(text, "--series"));
   std::ranges::sort(scales);
-  if (std::ranges::adjacent_find(scales) != scales.end())
-    throw CLI::ValidationError("--series", "a scale stands twice");
+  const auto twin = std::ranges::adjacent_find(scales);
+  if (twin != scales.end())
+    refuse_usage("--series", "E125", fmt::format("the scale 1:{} stands twice", *twin));
   return scales;
 }
 
@@ -266,7 +267,8 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
                                     Report& report) {
   if (arguments.series.empty()) return std::nullopt;
   if (!arguments.explain.empty() || !arguments.metrics.empty())
-    throw CLI::ValidationError("--series", "--explain and --metrics are of one scale");
+    refuse_usage("--series", "G414",
+                 "goes without --explain and --metrics, which are of one scale");
   const std::vector<double> scales = scales_of(arguments.series);
   if (arguments.profile.empty()) return write_series(arguments, scales, nullptr, rules, report);
   const auto profile = load_profile_file(arguments.profile);

@@ -78,6 +78,10 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
 
 }  // namespace
 
+void refuse_usage(const std::string& option, const std::string& code, const std::string& sentence) {
+  throw CLI::ValidationError(option, fmt::format("{} {}", code, sentence));
+}
+
 CLI::Validator input_formats() {
   return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"});
 }

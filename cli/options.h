@@ -66,6 +66,11 @@ struct LineArguments {
   [[nodiscard]] bool allows(int set_aside, int buildings) const;
 };
 
+/// Throws CLI::ValidationError: wrong usage of `option` that has a code of its own
+/// (docs/errors.md), told as "--scale: E125 sentence"; exit code 2.
+[[noreturn]] void refuse_usage(const std::string& option, const std::string& code,
+                               const std::string& sentence);
+
 /// What `--from` may be.
 CLI::Validator input_formats();
 

@@ -1,7 +1,7 @@
 #include "cli/series.h"
 
-#include "cli/destination.h"
 #include "cli/run.h"
+#include "cli/series_files.h"
 #include "cli/written_proof.h"
 #include "generalise/scale_series.h"
 #include "generalise/series_levels.h"
@@ -43,30 +43,30 @@ class SeriesWriter {
         rules_(rules),
         run_(run),
         report_(report),
+        files_(arguments, scales),
         labels_(labels_only(arguments)),
         outputs_(labels_, rules),
-        bounds_(plan_bounds(rules)) {
-    for (const double scale : scales)
-      levels_.push_back(std::make_unique<Destination>(
-          fmt::format("{}.1-{}.city.json", arguments.out, scale), "cityjson", arguments.inputs,
-          arguments.read_options().format));
-  }
+        bounds_(plan_bounds(rules)) {}
 
   ExitCode go() {
     Run::Visitor visitor;
     visitor.begin = [&](std::size_t input) {
-      for (const auto& level : levels_) level->begin(input, !run_.is_last_run());
-      log_.clear();
-      operations_ = 0;
+      files_.begin(input, !run_.is_last_run());
+      outputs_.begin(input, !run_.is_last_run());
+      if (input == 0) operations_ = 0;
     };
     visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
       add_record(document, lines);
     };
     visitor.end = [&](std::size_t) {
       run_.timings().measure(Stage::write, [&] {
-        for (const auto& level : levels_) level->end();
-        if (run_.is_last_run()) write_file(arguments_.out + ".oplog.jsonl", log_);
+        files_.end();
+        outputs_.end();
       });
+    };
+    visitor.commit = [&] {
+      files_.commit();
+      outputs_.commit();
     };
     const ExitCode code = run_.go(visitor);
     run_.tell_summary(fmt::format("made {} levels of", scales_.size()),
@@ -94,16 +94,40 @@ class SeriesWriter {
     for (const Staged& one : staged)
       for (const SeriesLevel& level : one.levels) solids.push_back(&level.redrawn.labelled);
     const WrittenGrid grid(document, solids);
-    std::vector<std::vector<LabelledBuilding>> labelled(scales_.size());
-    std::vector<WriteOptions> options(scales_.size());
-    for (WriteOptions& one : options) one.finer_digits = grid.finer_digits();
+    std::vector<SeriesFiles::Drawn> drawn(scales_.size());
+    for (SeriesFiles::Drawn& one : drawn) one.options.finer_digits = grid.finer_digits();
+    std::string log;
+    int operations = 0;
     run_.timings().measure(Stage::generalise, [&] {
-      for (const Staged& one : staged) add_building(one, grid, labelled, options);
+      for (const Staged& one : staged) operations += add_building(one, grid, drawn, log);
     });
     run_.timings().measure(Stage::write, [&] {
-      for (std::size_t i = 0; i < levels_.size(); ++i)
-        levels_[i]->add(document, labelled[i], options[i]);
+      const auto twin = files_.add(document, drawn, log);
+      if (twin) return set_aside_twin(staged, document, *twin);
+      operations_ += operations;
+      add_features(document, lines);
     });
+  }
+
+  /// Buildings that are not staged were set aside before.
+  void set_aside_twin(const std::vector<Staged>& staged, const Document& document,
+                      const std::string& id) {
+    const std::string sentence =
+        fmt::format("an earlier input has a CityObject '{}': that one is in the series", id);
+    for (const Staged& one : staged)
+      run_.set_aside(building_issue(Severity::error, "E207", one.building->id, sentence));
+    if (!staged.empty()) return;
+    Issue issue = building_issue(Severity::error, "E207", "", sentence);
+    issue.place.file = document.name;
+    run_.set_aside(issue);
+  }
+
+  void add_features(const Document& document, const std::vector<OnLine>& lines) {
+    if (arguments_.features.empty()) return;
+    Product product;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (lines[i].is_done()) outputs_.make_features(document.buildings[i], lines[i], product);
+    outputs_.take(document, product);
   }
 
   [[nodiscard]] SeriesInput input_of(const Staged& one) const {
@@ -170,10 +194,9 @@ class SeriesWriter {
     return true;
   }
 
-  /// Its levels and its lines of the log, or nothing of it.
-  void add_building(const Staged& one, const WrittenGrid& grid,
-                    std::vector<std::vector<LabelledBuilding>>& labelled,
-                    std::vector<WriteOptions>& options) {
+  /// Its levels and its lines of the log, or nothing of it. Returns how many operations there are.
+  int add_building(const Staged& one, const WrittenGrid& grid,
+                   std::vector<SeriesFiles::Drawn>& drawn, std::string& log) {
     const Frame& frame = one.building->frame;
     ScaleSeries series;
     try {
@@ -182,10 +205,9 @@ class SeriesWriter {
     } catch (const GeometryError& fault) {
       run_.set_aside(building_issue(Severity::error, "E901", one.building->id,
                                     fmt::format("a fault of oriel's own: {}", fault.what())));
-      return;
+      return 0;
     }
-    for (const SeriesOperation& operation : series.operations) log_ += operation_line(operation);
-    operations_ += static_cast<int>(series.operations.size());
+    for (const SeriesOperation& operation : series.operations) log += operation_line(operation);
     LevelState state = series.finest;
     for (std::size_t i = 0; i < scales_.size(); ++i) {
       const double before = i == 0 ? 0 : scales_[i - 1];
@@ -194,11 +216,12 @@ class SeriesWriter {
       LabelledBuilding level = labelled_building(state, frame);
       for (const Installation& installation : one.labelled.installations)
         if (!state.installations.contains(installation.id))
-          options[i].removed.push_back(installation.id);
+          drawn[i].options.removed.push_back(installation.id);
       level.attributes.insert(level.attributes.begin(), one.labelled.attributes.begin(),
                               one.labelled.attributes.end());
-      labelled[i].push_back(std::move(level));
+      drawn[i].labelled.push_back(std::move(level));
     }
+    return static_cast<int>(series.operations.size());
   }
 
   const LabelArguments& arguments_;
@@ -207,11 +230,10 @@ class SeriesWriter {
   const RuleBase& rules_;
   Run& run_;
   Report& report_;
+  SeriesFiles files_;
   LabelArguments labels_;
   LabelOutputs outputs_;
   std::vector<double> bounds_;
-  std::vector<std::unique_ptr<Destination>> levels_;  ///< by scale
-  std::string log_;
   int operations_ = 0;
 };
 
@@ -225,17 +247,13 @@ double denominator_of(const std::string& text, const std::string& option) {
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
       !std::isfinite(value))
-    throw CLI::ValidationError(
-        option, fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
+    refuse_usage(option, "E125",
+                 fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
   return value;
 }
 
 ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
                       const Profile* profile, const RuleBase& rules, Report& report) {
-  if (arguments.inputs.size() != 1)
-    throw CLI::ValidationError("--series", "a series is made of one input");
-  if (arguments.out == "-" || arguments.out.ends_with('/'))
-    throw CLI::ValidationError("-o", "the files of a series need a name: -o NAME");
   Run run(arguments, &rules, report);
   return SeriesWriter(arguments, scales, profile, rules, run, report).go();
 }

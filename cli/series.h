@@ -10,11 +10,11 @@
 
 namespace oriel::cli {
 
-/// N of "1:N", "1 : N" or "N"; throws CLI::ValidationError for `option`.
+/// N of "1:N", "1 : N" or "N", at least 1; else `option` is refused with E125 (refuse_usage).
 double denominator_of(const std::string& text, const std::string& option);
 
-/// `generalise --series`: NAME.1-N.city.json for each scale, which ascend, and NAME.oplog.jsonl,
-/// for the one input. `profile` may be null.
+/// `generalise --series`: NAME.1-N.city.json, of streams NAME.1-N.city.jsonl, for each scale, which
+/// ascend, and NAME.oplog.jsonl, for all inputs (SeriesFiles). `profile` may be null.
 ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
                       const Profile* profile, const RuleBase& rules, Report& report);
 

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,9 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-InputError missing(const std::string& file, std::string sentence) {
+InputError unusable(const std::string& file, std::string code, std::string sentence) {
   Issue issue;
-  issue.code = "E101";
+  issue.code = std::move(code);
   issue.sentence = std::move(sentence);
   issue.place.file = file;
   return InputError(std::move(issue));
@@ -36,28 +37,41 @@ InputError missing(const std::string& file, std::string sentence) {
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw missing(path, "cannot be read");
+  if (!file) throw unusable(path, "E101", "cannot be read");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The files NAME.1-N.city.json, by N.
+/// The number N of a file that is called START then N then ENDING.
+std::optional<double> scale_in(const std::string& file, const std::string& start,
+                               const std::string& ending) {
+  if (!file.starts_with(start) || !file.ends_with(ending)) return std::nullopt;
+  const char* const last = file.data() + file.size() - ending.size();
+  double scale = 0;
+  const auto result = std::from_chars(file.data() + start.size(), last, scale);
+  if (result.ec != std::errc() || result.ptr != last || !(scale >= 1)) return std::nullopt;
+  return scale;
+}
+
+/// The files NAME.1-N.city.json, or of a series of streams NAME.1-N.city.jsonl, by N.
 std::map<double, std::string> levels_of(const std::string& name) {
   const fs::path path(name);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const std::string start = path.filename().string() + ".1-";
-  const std::string ending = ".city.json";
   std::map<double, std::string> levels;
+  std::set<std::string> endings;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string file = entry.path().filename().string();
-    if (!file.starts_with(start) || !file.ends_with(ending)) continue;
-    const char* const last = file.data() + file.size() - ending.size();
-    double scale = 0;
-    const auto result = std::from_chars(file.data() + start.size(), last, scale);
-    if (result.ec == std::errc() && result.ptr == last && scale >= 1)
-      levels.emplace(scale, entry.path().string());
+    for (const char* ending : {".city.json", ".city.jsonl"})
+      if (const auto scale = scale_in(file, start, ending)) {
+        levels.emplace(*scale, entry.path().string());
+        endings.insert(ending);
+      }
   }
-  if (levels.empty()) throw missing(name, "has no levels: there is no " + name + ".1-N.city.json");
+  if (levels.empty())
+    throw unusable(name, "E101", "has no levels: there is no " + name + ".1-N.city.json");
+  if (endings.size() > 1)
+    throw unusable(name, "G409", "has levels of two series, .city.json and .city.jsonl");
   return levels;
 }
 
@@ -67,43 +81,71 @@ std::pair<double, std::string> nearest(const std::map<double, std::string>& leve
       levels, {}, [&](const auto& level) { return std::abs(std::log(level.first / scale)); });
 }
 
-/// Takes the buildings of a level to another scale.
+/// Takes the buildings of a level to another scale, record by record. The log has them in the same
+/// order.
 class LevelMover {
  public:
-  LevelMover(std::vector<SeriesOperation> operations, double from, double to)
-      : from_(from), to_(to) {
-    for (SeriesOperation& operation : operations)
-      by_building_[operation.building].push_back(std::move(operation));
+  LevelMover(const std::string& log, double from, double to) : log_(log), from_(from), to_(to) {}
+
+  /// Appends the file at the scale; false if the level and the log do not fit, which is told.
+  bool move(const std::string& file, OutputFile& out, Report& report) {
+    Reader reader(file);
+    while (auto record = reader.next()) {
+      if (!record->value) {
+        report.tell(record->issues);
+        return false;
+      }
+      const bool is_stream = reader.format() == Format::cityjson_seq;
+      const auto text = moved(*record->value, is_stream ? "" : text_of(file), report);
+      if (!text) return false;
+      out.append(*text);
+    }
+    if (log_.next() == nullptr) return true;
+    Issue issue = building_issue(Severity::error, "E120", log_.next()->building,
+                                 "is no level of a series: it has no such building");
+    issue.place.file = file;
+    report.tell(issue);
+    return false;
   }
 
-  /// The text of the file at the scale, or nothing if the level and the log do not fit.
-  std::optional<std::string> moved(const std::string& file, Report& report) {
-    Reader reader(file);
-    auto record = reader.next();
-    if (!record || !record->value) {
-      if (record) report.tell(record->issues);
-      return std::nullopt;
-    }
-    const Document& document = *record->value;
+ private:
+  /// The record at the scale; `text` is what it was read from, empty: a line of a stream.
+  std::optional<std::string> moved(const Document& document, const std::string& text,
+                                   Report& report) {
+    const std::string_view line = text.empty() ? source_line(document) : std::string_view(text);
+    const auto operations = operations_of(document);
     std::vector<std::string> ids;
-    for (const auto& [id, operations] : by_building_) ids.push_back(id);
-    auto states = read_level(text_of(file), file, ids);
+    for (const auto& [id, list] : operations) ids.push_back(id);
+    auto states = read_level(line, document.name, ids, header_);
     report.tell(states.issues);
     if (!states.value) return std::nullopt;
+    if (text.empty() && header_.empty()) header_ = line;
     std::vector<LabelledBuilding> labelled;
     WriteOptions options;
     for (LevelState& state : *states.value) {
       const LevelState old = state;
-      if (!move(state, report)) return std::nullopt;
+      if (!move(state, operations.at(state.building), report)) return std::nullopt;
       labelled.push_back(rewritten(old, state, document, options));
     }
     options.finer_digits = WrittenGrid(document, *states.value).finer_digits();
     return write_cityjson(document, labelled, options);
   }
 
- private:
-  bool move(LevelState& state, Report& report) const {
-    if (move_state(state, by_building_.at(state.building), from_, to_)) return true;
+  /// Those that come next in the log, by building.
+  std::map<std::string, std::vector<SeriesOperation>> operations_of(const Document& document) {
+    std::set<std::string> here;
+    for (const Building& building : document.buildings) here.insert(building.id);
+    std::map<std::string, std::vector<SeriesOperation>> operations;
+    while (log_.next() != nullptr && here.contains(log_.next()->building)) {
+      SeriesOperation operation = log_.take();
+      operations[operation.building].push_back(std::move(operation));
+    }
+    return operations;
+  }
+
+  bool move(LevelState& state, const std::vector<SeriesOperation>& operations,
+            Report& report) const {
+    if (move_state(state, operations, from_, to_)) return true;
     report.tell(building_issue(Severity::error, "G409", state.building,
                                fmt::format("the level 1:{} and the log do not fit", from_)));
     return false;
@@ -120,8 +162,9 @@ class LevelMover {
     return labelled;
   }
 
-  std::map<std::string, std::vector<SeriesOperation>> by_building_;
+  OperationReader log_;
   double from_, to_;
+  std::string header_;  ///< of a stream
 };
 
 }  // namespace
@@ -129,13 +172,11 @@ class LevelMover {
 ExitCode write_level_at(const std::string& name, double scale, const std::string& out,
                         Report& report) {
   const std::string log = name + ".oplog.jsonl";
-  auto operations = read_operations(text_of(log), log);
-  report.tell(operations.issues);
-  if (!operations.value) return ExitCode::input;
   const auto [from, file] = nearest(levels_of(name), scale);
-  const auto text = LevelMover(std::move(*operations.value), from, scale).moved(file, report);
-  if (!text) return ExitCode::input;
-  write_file(out, *text);
+  LevelMover mover(log, from, scale);
+  OutputFile whole(out);
+  if (!mover.move(file, whole, report)) return ExitCode::input;
+  whole.commit();
   std::fputs(fmt::format("1:{} from {}\n", scale, file).c_str(), stderr);
   return ExitCode::clean;
 }

@@ -5,6 +5,7 @@
 #include "kernel/io/detail/json_text.h"
 #include "kernel/io/detail/raw_json.h"
 #include "kernel/io/detail/vertex_pool.h"
+#include "kernel/io/written_grid.h"
 
 #include <algorithm>
 #include <charconv>
@@ -63,6 +64,12 @@ std::vector<std::string_view> list_of(std::string_view appearance, std::string_v
   return detail::elements_of(RawNode(appearance).value_of(key));
 }
 
+/// The object of a text, without what stands around it.
+std::string_view root_in(std::string_view text) {
+  const std::size_t start = text.find('{');
+  return text.substr(start, detail::end_of_value(text, start) - start);
+}
+
 }  // namespace
 
 std::int64_t CityJsonCollector::Parts::add(std::string_view text) {
@@ -74,6 +81,7 @@ std::int64_t CityJsonCollector::Parts::add(std::string_view text) {
 
 void CityJsonCollector::begin(std::string_view header) {
   header_ = header;
+  grid_ = grid_of(header);
   // Geometry templates may use what the header has, by number: doubles stay.
   const std::string_view appearance = RawNode(header).value_of("appearance");
   for (const auto& [key, parts] : {std::pair("materials", &materials_), {"textures", &textures_}})
@@ -104,15 +112,78 @@ std::optional<std::string> CityJsonCollector::add(std::string_view line) {
   if (line.empty()) return std::nullopt;
   const bool is_header = header_.empty();
   if (is_header) begin(line);
+  return add_objects(line, is_header ? std::string_view() : RawNode(line).value_of("appearance"));
+}
+
+std::optional<std::string> CityJsonCollector::twin_in(std::string_view text) const {
+  const RawNode objects(RawNode(root_in(text)).value_of("CityObjects"));
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (std::string id = objects.key(i); ids_.contains(id)) return id;
+  return std::nullopt;
+}
+
+std::optional<std::string> CityJsonCollector::add_file(std::string_view text) {
+  const std::string_view file = root_in(text);
+  if (header_.empty()) return add(file);
+  drop_extent();
+  const Grid grid = grid_of(file);
+  if (!origin_ && grid != grid_) go_to_micrometres();
+  grid_ = grid;
+  return add(file);
+}
+
+CityJsonCollector::Grid CityJsonCollector::grid_of(std::string_view file) {
+  const std::string_view text = RawNode(file).value_of("transform");
+  if (!RawNode::is_object(text)) return {};
+  const RawNode transform(text);
+  const auto [a, b, c] = three_numbers<double>(transform.value_of("scale"));
+  const auto [x, y, z] = three_numbers<double>(transform.value_of("translate"));
+  return {{a, b, c}, {x, y, z}};
+}
+
+/// The extent that the first file gives is not that of all.
+void CityJsonCollector::drop_extent() {
+  if (std::exchange(is_of_several_, true)) return;
+  RawNode file(header_);
+  const std::string_view there = file.value_of("metadata");
+  if (!RawNode::is_object(there)) return;
+  RawNode metadata(there);
+  metadata.erase("geographicalExtent");
+  file.set("metadata", metadata.text());
+  header_ = file.text();
+}
+
+/// All files have their places in it, wherever their own grids begin.
+void CityJsonCollector::go_to_micrometres() {
+  const Triple origin = grid_point({0, 0, 0}, grid_.scale, grid_.translate);
+  origin_ = origin;
+  for (Triple& vertex : vertices_) vertex = placed(vertex);
+  constexpr double kMicrometre_m = 1e-6;
+  const Vec3 from = metres_of(origin);
+  std::string scale, translate;
+  detail::append_json_array(scale, std::array{kMicrometre_m, kMicrometre_m, kMicrometre_m});
+  detail::append_json_array(translate, std::array{from.x, from.y, from.z});
+  RawNode transform("{}");
+  transform.set("scale", std::move(scale));
+  transform.set("translate", std::move(translate));
+  RawNode file(header_);
+  file.set("transform", transform.text());
+  header_ = file.text();
+}
+
+CityJsonCollector::Triple CityJsonCollector::placed(const Triple& vertex) const {
+  if (!origin_) return vertex;
+  const GridPoint point = grid_point(vertex, grid_.scale, grid_.translate);
+  return {point[0] - (*origin_)[0], point[1] - (*origin_)[1], point[2] - (*origin_)[2]};
+}
+
+std::optional<std::string> CityJsonCollector::add_objects(std::string_view line,
+                                                          std::string_view appearance) {
+  if (auto twin = twin_in(line)) return twin;
   const RawNode feature(line);
   const RawNode objects(feature.value_of("CityObjects"));
   std::vector<std::string> ids;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    ids.push_back(objects.key(i));
-    if (ids_.contains(ids.back())) return ids.back();
-  }
-  const std::string_view appearance =
-      is_header ? std::string_view() : feature.value_of("appearance");
+  for (std::size_t i = 0; i < objects.size(); ++i) ids.push_back(objects.key(i));
   const auto first = static_cast<std::int64_t>(vertices_.size());
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects_.empty()) objects_ += ',';
@@ -123,7 +194,7 @@ std::optional<std::string> CityJsonCollector::add(std::string_view line) {
   for (const std::string_view place : list_of(appearance, "vertices-texture"))
     places_.emplace_back(place);
   detail::for_each_element(feature.value_of("vertices"), [&](std::string_view vertex) {
-    vertices_.push_back(three_numbers<std::int64_t>(vertex));
+    vertices_.push_back(placed(three_numbers<std::int64_t>(vertex)));
   });
   return std::nullopt;
 }

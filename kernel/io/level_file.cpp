@@ -37,9 +37,9 @@ Members members_of(const Json& json, const std::set<std::string>& but) {
 
 class LevelReader {
  public:
-  explicit LevelReader(const Json& root)
+  LevelReader(const Json& root, const Json& header)
       : objects_(root.at("CityObjects")), vertices_(root.at("vertices")) {
-    const Json& transform = root.at("transform");
+    const Json& transform = header.at("transform");
     scale_ = vector_of(transform.at("scale"));
     translate_ = vector_of(transform.at("translate"));
   }
@@ -137,13 +137,15 @@ class LevelReader {
 }  // namespace
 
 Checked<std::vector<LevelState>> read_level(std::string_view text, const std::string& file,
-                                            const std::vector<std::string>& ids) {
+                                            const std::vector<std::string>& ids,
+                                            std::string_view header) {
   Checked<std::vector<LevelState>> out;
   std::vector<LevelState> states;
   std::string building;
   try {
     const Json root = Json::parse(text);
-    LevelReader reader(root);
+    const Json above = header.empty() ? Json() : Json::parse(header);
+    LevelReader reader(root, header.empty() ? root : above);
     for (const std::string& id : ids) {
       building = id;
       states.push_back(reader.state(id));

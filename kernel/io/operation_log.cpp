@@ -1,5 +1,6 @@
 #include "kernel/io/operation_log.h"
 
+#include "kernel/io/detail/input.h"
 #include "kernel/io/detail/text.h"
 
 #include <cmath>
@@ -167,6 +168,16 @@ SeriesOperation operation_of(const Json& json) {
   return operation;
 }
 
+SeriesOperation operation_in(std::string_view line, const detail::TextName& name) {
+  try {
+    return operation_of(Json::parse(line));
+  } catch (const std::exception& fault) {
+    std::string sentence = "is no operation of a series: ";
+    sentence += fault.what();
+    throw InputError(detail::error_in(name, {"E119", std::move(sentence)}));
+  }
+}
+
 }  // namespace
 
 std::string operation_line(const SeriesOperation& operation) {
@@ -197,16 +208,40 @@ Checked<std::vector<SeriesOperation>> read_operations(std::string_view text,
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
     try {
-      operations.push_back(operation_of(Json::parse(line)));
-    } catch (const std::exception& fault) {
-      std::string sentence = "is no operation of a series: ";
-      sentence += fault.what();
-      out.issues.push_back(detail::error_in({file, number}, {"E119", std::move(sentence)}));
+      operations.push_back(operation_in(line, {file, number}));
+    } catch (const InputError& fault) {
+      out.issues.push_back(fault.issue());
       return out;
     }
   }
   out.value = std::move(operations);
   return out;
+}
+
+struct OperationReader::File {
+  explicit File(const std::string& path) : name{path, 0}, input(path) {}
+  detail::TextName name;
+  detail::Input input;
+  std::string line;
+};
+
+OperationReader::OperationReader(const std::string& file) : file_(std::make_unique<File>(file)) {
+  read();
+}
+
+OperationReader::~OperationReader() = default;
+
+void OperationReader::read() {
+  next_.reset();
+  if (!file_->input.read_line(file_->line)) return;
+  ++file_->name.line;
+  next_ = operation_in(file_->line, file_->name);
+}
+
+SeriesOperation OperationReader::take() {
+  SeriesOperation taken = std::move(*next_);
+  read();
+  return taken;
 }
 
 }  // namespace oriel

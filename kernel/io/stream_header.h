@@ -10,4 +10,8 @@ namespace oriel {
 /// header.
 std::string stream_header_facts(std::string_view header);
 
+/// What files depend on that become one file, whatever their grids: version, reference system, and
+/// a hash of the geometry templates if there are any.
+std::string file_facts(std::string_view header);
+
 }  // namespace oriel
