@@ -43,8 +43,8 @@ std::string stem_of(const std::string& path) {
 }  // namespace
 
 Destination::Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
-                         std::optional<Format> from)
-    : out_(std::move(out)), inputs_(std::move(inputs)), from_(from) {
+                         std::optional<Format> from, StlSolids solids)
+    : out_(std::move(out)), inputs_(std::move(inputs)), from_(from), solids_(solids) {
   if (!to.empty()) to_ = parse_format(to);
   is_folder_ = out_.ends_with('/') || fs::is_directory(out_);
   if (inputs_.size() > 1 && !is_folder_)
@@ -154,7 +154,7 @@ std::string Destination::end() {
   const Format format = format_of_output(input_);
   if (format == Format::obj) file_->append(write_obj(mesh_));
   if (format == Format::off) file_->append(write_off(mesh_));
-  if (format == Format::stl) file_->append(write_stl(mesh_));
+  if (format == Format::stl) file_->append(write_stl(mesh_, solids_));
   file_->commit();
   file_.reset();
   return path_;

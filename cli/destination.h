@@ -24,7 +24,7 @@ class Destination {
   /// the input's format (CityJSON for CityGML). Throws CLI::ValidationError if that makes no sense
   /// (several inputs and no folder, a stream into one file).
   Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
-              std::optional<Format> from);
+              std::optional<Format> from, StlSolids solids = StlSolids::by_label);
 
   /// Lines of streams become lines of streams, and nothing else.
   [[nodiscard]] bool is_streaming() const;
@@ -58,6 +58,7 @@ class Destination {
   std::string out_;
   std::vector<std::string> inputs_;
   std::optional<Format> from_, to_;
+  StlSolids solids_;
   bool is_folder_ = false;
 
   std::size_t input_ = 0;

@@ -5,6 +5,7 @@
 #include "cli/targets.h"
 #include "cli/work_place.h"
 #include "cli/written_proof.h"
+#include "generalise/fineness.h"
 #include "generalise/generalise.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
@@ -21,12 +22,13 @@ namespace oriel::cli {
 
 namespace {
 
+/// What --edge-min may be: from the file's own millimetres to the size of a storey.
+constexpr double kLeastEdge_m = 0.001, kMostEdge_m = 10;
+
 struct Arguments : LabelArguments {
-  std::string scale;
-  std::vector<std::string> lods;
+  TargetArguments target;
   std::vector<std::string> series;
   std::string at;
-  std::string profile;
   std::string explain;
   std::string metrics;
 };
@@ -200,18 +202,32 @@ class Generaliser {
     invariants.is_valid = [&](const Solid& solid) {
       return !prove_redrawn(document, building, solid).fault;
     };
-    auto generalised = generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
-                                  arguments_.segment_options(), invariants);
+    const auto carry_out = [&] {
+      return generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
+                        arguments_.segment_options(), invariants);
+    };
+    auto generalised = carry_out();
+    if (profile != nullptr && profile->edge_min_m && profile->edge_owner_b_m)
+      while (generalised.value &&
+             add_fine_owners(*generalised.value, *line.segmentation, table, *profile->edge_min_m,
+                             *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
+        generalised = carry_out();
     if (!keep(generalised.issues, product) || !generalised.value) return std::nullopt;
     const std::string target = targets_.has_lods() ? "LoD " + profile->level : targets_.text();
     if (accounts_.has_any())
       product[Part::deeds] += accounts_.text(
           building.id, target, account(plan, *generalised.value, table, line.interpretation));
     const double least_edge_m = least_edge(profile);
+    // What is kept of it is not known any more once it is redrawn.
+    const Generalised changes{{}, generalised.value->removed, generalised.value->refused};
     const auto keep_figures = [&](const Redrawn& redrawn) {
-      if (!accounts_.has_metrics()) return;
       const auto& solid = redrawn.labelled.geometry;
       const Solid& after = solid ? *solid : *line.solid;
+      if (profile != nullptr)
+        keep(fineness_issues(building, *line.solid, after, *line.segmentation, table, changes,
+                             {least_edge_m, profile->edge_min_m.has_value()}),
+             product);
+      if (!accounts_.has_metrics()) return;
       product[Part::figures] +=
           accounts_.text(building.id, target, least_edge_m, figures_of(*line.solid, least_edge_m),
                          figures_of(after, least_edge_m), hausdorff_m(*line.solid, after));
@@ -230,8 +246,9 @@ class Generaliser {
     return std::move(drawn.value);
   }
 
-  /// The least length that the target shows: the profile's c, else 0.125 mm on the map.
+  /// The least length that the target shows: the profile's, or its c, else 0.125 mm on the map.
   [[nodiscard]] double least_edge(const Profile* profile) const {
+    if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
     const auto sizes = profile != nullptr ? profile->thresholds(targets_.scale) : std::nullopt;
     return sizes ? sizes->c_m : kGapOnMap_m * targets_.scale.value_or(0);
   }
@@ -270,8 +287,9 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
     refuse_usage("--series", "G414",
                  "goes without --explain and --metrics, which are of one scale");
   const std::vector<double> scales = scales_of(arguments.series);
-  if (arguments.profile.empty()) return write_series(arguments, scales, nullptr, rules, report);
-  const auto profile = load_profile_file(arguments.profile);
+  if (arguments.target.profile.empty())
+    return write_series(arguments, scales, nullptr, rules, report);
+  const auto profile = load_profile_file(arguments.target.profile);
   report.tell(profile.issues);
   if (!profile.value) return ExitCode::rules;
   report.tell(check_profile(*profile.value, rules));
@@ -306,9 +324,10 @@ ExitCode work(Arguments& arguments) {
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
   if (const auto code = make_series(arguments, *rules, report)) return *code;
-  const auto targets =
-      targets_of(arguments.scale, arguments.lods, arguments.profile, *rules, report);
+  const auto targets = targets_of(arguments.target, *rules, report);
   if (!targets) return ExitCode::rules;
+  if (std::ranges::any_of(targets->profiles, &Profile::names_classes))
+    arguments.stl_solids = StlSolids::by_class;
   Run run(arguments, &*rules, report);
   Generaliser generaliser(arguments, *targets, *rules, run);
   return generaliser.go();
@@ -327,9 +346,10 @@ void add_generalise(CLI::App& app, Action& action) {
   from->get_validator(0)->active(false);
   from->description(from->get_description() + "; with --at the NAME of a series");
   CLI::Option_group* target = command->add_option_group("Target");
-  target->add_option("--scale", arguments->scale, "Target scale, such as 1:2000");
+  const CLI::Option* scale =
+      target->add_option("--scale", arguments->target.scale, "Target scale, such as 1:2000");
   target
-      ->add_option("--to-lod", arguments->lods,
+      ->add_option("--to-lod", arguments->target.lods,
                    "Levels of detail to make, such as 2.0,1.2; they share a file")
       ->delimiter(',');
   target
@@ -339,19 +359,29 @@ void add_generalise(CLI::App& app, Action& action) {
       ->delimiter(',');
   target->add_option("--at", arguments->at,
                      "The level at this scale, of the series --from NAME, without any input");
-  target->require_option(1);
+  target->require_option(0, 1);
   command->add_option("--explain", arguments->explain,
                       "File for what became of each feature, by which rule, and what was refused "
                       "and why: text, or JSON lines if it ends in .jsonl");
   command->add_option(
       "--metrics", arguments->metrics,
       "File for figures before and after, a JSON line for each building and target");
-  command->add_option("--profile", arguments->profile,
-                      "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
-                      "file (--to-lod: lod; --scale: they stay)");
+  command->add_option(
+      "--profile", arguments->target.profile,
+      "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
+      "file (--to-lod: lod; --scale: they stay); without a target its level is made");
+  command
+      ->add_option("--edge-min", arguments->target.edge_min_m,
+                   "The least length of an edge and a gap that the profile asks for, in m")
+      ->check(CLI::Range(kLeastEdge_m, kMostEdge_m));
   command->footer(
       "Example:\n  oriel generalise house.city.json --scale 1:20000 -o house-1-20000.city.json");
-  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+  command->callback([arguments, &action, target, scale] {
+    if (target->count_all() == 0 && arguments->target.profile.empty())
+      throw CLI::RequiredError("[--scale,--to-lod,--series,--at]");
+    arguments->target.has_scale = scale->count() > 0;
+    action = [arguments] { return work(*arguments); };
+  });
 }
 
 }  // namespace oriel::cli

@@ -51,7 +51,7 @@ LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rule
         "--codelist", fmt::format("the pack has codes for {}", fmt::join(codelists, ", ")));
   if (!arguments.out.empty())
     destination_.emplace(arguments.out, arguments.to, arguments.inputs,
-                         arguments.read_options().format);
+                         arguments.read_options().format, arguments.stl_solids);
   if (arguments.is_isolated && destination_ && destination_->is_gathering(0))
     throw CLI::ValidationError("--isolate", "needs an output that is CityJSON or CityJSONSeq");
   if (!arguments.reuse.empty() && (recipe().empty() || (destination_ && destination_->is_stdout())))

@@ -25,6 +25,8 @@ struct LabelArguments : LineArguments {
   std::string codelist = "sig3d";
   /// Every surface and installation gets its reason, oriel_why.
   bool has_reasons = false;
+  /// What the solids of an STL are called by.
+  StlSolids stl_solids = StlSolids::by_label;
 };
 
 void add_label_arguments(CLI::App& command, LabelArguments& arguments);

@@ -18,11 +18,34 @@ bool is_lod(const std::string& text) {
          (text.size() == 3 && is_digit(text[0]) && text[1] == '.' && is_digit(text[2]));
 }
 
+void check_lod(const std::string& option, const std::string& lod) {
+  if (!is_lod(lod))
+    throw CLI::ValidationError(option, fmt::format("'{}' is no level of detail", lod));
+}
+
+/// The names of the profiles, as load_profile_file takes them.
+std::vector<std::string> profile_names(const TargetArguments& arguments) {
+  const auto& [has_scale, scale, lods, profile, edge_min_m] = arguments;
+  if (lods.empty()) return profile.empty() ? std::vector<std::string>{} : std::vector{profile};
+  std::vector<std::string> sorted = lods;
+  std::ranges::sort(sorted);
+  if (std::ranges::adjacent_find(sorted) != sorted.end())
+    throw CLI::ValidationError("--to-lod", "a level of detail stands twice");
+  std::vector<std::string> names;
+  for (const std::string& lod : lods) {
+    check_lod("--to-lod", lod);
+    names.push_back((profile.empty() ? "lod" : profile) + ":" + lod);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string Targets::recipe() const {
   std::string text = fmt::format("scale={}", scale.value_or(0));
-  for (const Profile& profile : profiles) text += ' ' + profile.level + '=' + profile.sha256;
+  for (const Profile& profile : profiles)
+    text += fmt::format(" {}={} edge={}", profile.level, profile.sha256,
+                        profile.edge_min_m.value_or(0));
   return text;
 }
 
@@ -33,29 +56,21 @@ std::string Targets::text() const {
   return text;
 }
 
-std::optional<Targets> targets_of(const std::string& scale, const std::vector<std::string>& lods,
-                                  const std::string& profile, const RuleBase& rules,
+std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBase& rules,
                                   Report& report) {
   Targets targets;
-  std::vector<std::string> names;
-  if (lods.empty()) {
-    targets.scale = denominator_of(scale, "--scale");
-    if (!profile.empty()) names.push_back(profile);
-  }
-  std::vector<std::string> sorted = lods;
-  std::ranges::sort(sorted);
-  if (std::ranges::adjacent_find(sorted) != sorted.end())
-    throw CLI::ValidationError("--to-lod", "a level of detail stands twice");
-  for (const std::string& lod : lods) {
-    if (!is_lod(lod))
-      throw CLI::ValidationError("--to-lod", fmt::format("'{}' is no level of detail", lod));
-    names.push_back((profile.empty() ? "lod" : profile) + ":" + lod);
-  }
+  if (arguments.has_scale) targets.scale = denominator_of(arguments.scale, "--scale");
+  const std::vector<std::string> names = profile_names(arguments);
+  if (names.empty() && arguments.edge_min_m > 0)
+    throw CLI::ValidationError("--edge-min", "goes with --profile or --to-lod");
   for (const std::string& name : names) {
     auto loaded = load_profile_file(name);
     report.tell(loaded.issues);
     if (!loaded.value) return std::nullopt;
     report.tell(check_profile(*loaded.value, rules));
+    if (arguments.edge_min_m > 0)
+      loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
+    if (targets.has_lods()) check_lod("--profile", loaded.value->level);
     targets.profiles.push_back(std::move(*loaded.value));
   }
   return targets;

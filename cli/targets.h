@@ -23,10 +23,19 @@ struct Targets {
   [[nodiscard]] std::string text() const;
 };
 
-/// What --scale or else --to-lod (`lods`) asks for, with --profile. Nothing if a profile cannot be
-/// used, which is told. Throws CLI::ValidationError for a scale or level that is none.
-std::optional<Targets> targets_of(const std::string& scale, const std::vector<std::string>& lods,
-                                  const std::string& profile, const RuleBase& rules,
+/// What the options of a command ask for.
+struct TargetArguments {
+  bool has_scale = false;
+  std::string scale;
+  std::vector<std::string> lods;
+  std::string profile;
+  double edge_min_m = 0;  ///< 0: what the profile says
+};
+
+/// What --scale or else --to-lod asks for, with --profile; with neither of them the level of the
+/// profile. Nothing if a profile cannot be used, which is told. Throws CLI::ValidationError for a
+/// scale or level that is none.
+std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBase& rules,
                                   Report& report);
 
 }  // namespace oriel::cli

@@ -64,10 +64,11 @@ class ProfileReader {
 
  private:
   void read_level(const YamlNode& node) {
-    Section section(node, "a level",
-                    {"form", "least-piece-m2", "omit", "keep", "imprints", "on-ground", "sizes-m",
-                     "area-m2", "map-mm", "verdicts", "parts", "invariants"},
-                    findings_);
+    Section section(
+        node, "a level",
+        {"form", "least-piece-m2", "omit", "keep", "imprints", "on-ground", "sizes-m", "area-m2",
+         "map-mm", "verdicts", "parts", "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids"},
+        findings_);
     if (!section.is_map()) return;
     if (const YamlNode* form = section.require("form")) read_form(*form);
     if (const YamlNode* piece = section.find("least-piece-m2"))
@@ -77,6 +78,11 @@ class ProfileReader {
     profile_.omits_imprints = word(section.find("imprints"), "keep", "omit");
     if (const YamlNode* on_ground = section.find("on-ground"))
       read_classes(on_ground, profile_.on_ground.emplace());
+    if (const YamlNode* edge = section.find("edge-min-m"))
+      profile_.edge_min_m = positive(*edge, "'edge-min-m'");
+    if (const YamlNode* owner = section.find("edge-owner-b-m"))
+      profile_.edge_owner_b_m = positive(*owner, "'edge-owner-b-m'");
+    profile_.names_classes = word(section.find("stl-solids"), "label", "class");
     read_sizes(section, node);
     if (const YamlNode* parts = section.find("parts")) read_parts(*parts);
     if (const YamlNode* invariants = section.find("invariants")) read_invariants(*invariants);
@@ -202,6 +208,17 @@ std::optional<Thresholds> Profile::thresholds(std::optional<double> scale) const
   if (sizes) return sizes;
   if (map_mm && scale) return map_thresholds(*map_mm, *scale);
   return std::nullopt;
+}
+
+Profile with_edge_min(Profile profile, double edge_min_m) {
+  const double ratio = edge_min_m / profile.edge_min_m.value_or(edge_min_m);
+  profile.edge_min_m = edge_min_m;
+  if (profile.edge_owner_b_m) *profile.edge_owner_b_m *= ratio;
+  if (profile.sizes) {
+    const Thresholds& t = *profile.sizes;
+    profile.sizes = {ratio * t.a_m, ratio * t.b_m, ratio * t.c_m, ratio * ratio * t.area_m2};
+  }
+  return profile;
 }
 
 Checked<Profile> load_profile(std::string text, std::string file, const std::string& level) {

@@ -45,6 +45,13 @@ struct Profile {
   std::optional<Part> part;  ///< missing: size alone decides
   /// Instead of `sizes`: the least length on the map.
   std::optional<double> map_mm;
+  /// The least length of an edge and a gap that the whole result is to have; missing: that of what
+  /// is new only, the thresholds' c.
+  std::optional<double> edge_min_m;
+  /// Features with an edge below `edge_min_m` go if their middle extent b is below this.
+  std::optional<double> edge_owner_b_m;
+  /// An STL has a solid for each class of surfaces (WallSurface), not for each label.
+  bool names_classes = false;
   /// Verdicts that make a feature go that neither the pack nor the lists above decide of.
   std::set<Significance> omitted;
   /// What an operation must not change by more than this, in percent; missing: it may.
@@ -59,6 +66,9 @@ struct Profile {
   /// Map thresholds need a scale; others leave it aside. Nothing if there are neither.
   [[nodiscard]] std::optional<Thresholds> thresholds(std::optional<double> scale) const;
 };
+
+/// The profile for another least edge; if it had one, its sizes change in the same ratio.
+Profile with_edge_min(Profile profile, double edge_min_m);
 
 /// A level of the profile in `text`, called `file` in places. `level` may be empty if there is only
 /// one. Findings have codes: R2xx as in packs, R270 sizes that are no chain, R271 no such level,

@@ -38,14 +38,22 @@ MeshGroup group_of(const std::string& building, const Installation& installation
   return {building, label.empty() ? "installation" : label, installation.id};
 }
 
+/// The semantic surface of a polygon, or null.
+const SemanticSurface* surface_of(const LabelledBuilding& labelled, std::size_t polygon) {
+  const int index =
+      polygon < labelled.surface_of_polygon.size() ? labelled.surface_of_polygon[polygon] : -1;
+  return index < 0 ? nullptr : &labelled.surfaces.at(static_cast<std::size_t>(index));
+}
+
+std::string class_of(const LabelledBuilding& labelled, std::size_t polygon) {
+  const SemanticSurface* surface = surface_of(labelled, polygon);
+  return surface == nullptr ? std::string() : surface->type;
+}
+
 /// The group of each of `count` polygons.
 std::vector<MeshGroup> groups_of(const LabelledBuilding& labelled, std::size_t count) {
   std::vector<MeshGroup> groups(count, {labelled.building, "unlabelled", ""});
-  const auto surface = [&](std::size_t polygon) -> const SemanticSurface* {
-    const int index =
-        polygon < labelled.surface_of_polygon.size() ? labelled.surface_of_polygon[polygon] : -1;
-    return index < 0 ? nullptr : &labelled.surfaces.at(static_cast<std::size_t>(index));
-  };
+  const auto surface = [&](std::size_t polygon) { return surface_of(labelled, polygon); };
   for (std::size_t i = 0; i < count; ++i)
     if (surface(i) != nullptr) groups[i] = group_of(labelled.building, *surface(i));
   for (const Installation& installation : labelled.installations)
@@ -75,14 +83,15 @@ class MeshBuilder {
 
   void add_vertex(Vec3 local) { mesh_.vertices.push_back(local + origin_m_); }
 
-  void add_face(std::vector<std::vector<int>> rings, Vec3 normal, const MeshGroup& group) {
+  void add_face(std::vector<std::vector<int>> rings, Vec3 normal, const MeshGroup& group,
+                std::string surface_class) {
     std::erase_if(rings, [](const std::vector<int>& ring) {
       return std::set<int>(ring.begin(), ring.end()).size() < 3;
     });
     if (rings.empty()) return;
     for (auto& ring : rings)
       for (int& v : ring) v += first_;
-    mesh_.faces.push_back({std::move(rings), normal, number_of(group)});
+    mesh_.faces.push_back({std::move(rings), normal, number_of(group), std::move(surface_class)});
   }
 
  private:
@@ -108,7 +117,8 @@ void add_polygons(LabelledMesh& mesh, const Building& building, const LabelledBu
   for (const Polygon& polygon : building.polygons)
     if (!polygon.rings.empty())
       builder.add_face(polygon.rings, normal_of(building.vertices, polygon.rings[0]),
-                       groups[static_cast<std::size_t>(polygon.source)]);
+                       groups[static_cast<std::size_t>(polygon.source)],
+                       class_of(labelled, static_cast<std::size_t>(polygon.source)));
 }
 
 void add_solid(LabelledMesh& mesh, const Solid& solid, Vec3 origin_m,
@@ -118,7 +128,7 @@ void add_solid(LabelledMesh& mesh, const Solid& solid, Vec3 origin_m,
   const std::vector<MeshGroup> groups = groups_of(labelled, solid.facets.size());
   for (std::size_t f = 0; f < solid.facets.size(); ++f)
     builder.add_face(solid.facets[f].loops, solid.planes[solid.facets[f].plane.index()].normal,
-                     groups[f]);
+                     groups[f], class_of(labelled, f));
 }
 
 }  // namespace

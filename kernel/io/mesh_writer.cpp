@@ -100,10 +100,12 @@ std::string write_off(const LabelledMesh& mesh) {
   return text + faces;
 }
 
-std::string write_stl(const LabelledMesh& mesh) {
+std::string write_stl(const LabelledMesh& mesh, StlSolids solids) {
   std::map<std::string, std::string> facets;
   for (const MeshFace& face : mesh.faces) {
-    std::string& text = facets[name_of(mesh.groups[static_cast<std::size_t>(face.group)].label)];
+    const std::string surface = face.surface_class.empty() ? "Unclassified" : face.surface_class;
+    const std::string& label = mesh.groups[static_cast<std::size_t>(face.group)].label;
+    std::string& text = facets[name_of(solids == StlSolids::by_class ? surface : label)];
     for (const Triangle& triangle : triangles_of(mesh, face)) {
       text += "facet normal ";
       append_point(text, face.normal);

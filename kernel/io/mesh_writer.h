@@ -25,6 +25,8 @@ struct MeshFace {
   Vec3 normal;
   /// Index into LabelledMesh::groups.
   int group = 0;
+  /// The type of its semantic surface, "WallSurface"; empty: none.
+  std::string surface_class{};
 };
 
 /// Labelled buildings as mesh formats have them: points in the input's coordinates, in metres.
@@ -48,8 +50,12 @@ std::string write_obj(const LabelledMesh& mesh);
 /// Numbers read back to the same doubles.
 std::string write_off(const LabelledMesh& mesh);
 
-/// ASCII STL, all triangles, one `solid` for each label. Numbers read back to the same doubles
-/// (binary STL has floats, which lose the centimetres of UTM coordinates).
-std::string write_stl(const LabelledMesh& mesh);
+/// What the solids of an STL are called by: the labels ("window"), or the classes of the semantic
+/// surfaces ("WallSurface"; "Unclassified" without one).
+enum class StlSolids { by_label, by_class };
+
+/// ASCII STL, all triangles, one `solid` for each label or class. Numbers read back to the same
+/// doubles (binary STL has floats, which lose the centimetres of UTM coordinates).
+std::string write_stl(const LabelledMesh& mesh, StlSolids solids = StlSolids::by_label);
 
 }  // namespace oriel

@@ -1,9 +1,14 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +23,23 @@ std::multiset<std::string> lods_of(const json& city, const std::string& id) {
   for (const json& geometry : city["CityObjects"][id]["geometry"])
     lods.insert(geometry["lod"].get<std::string>());
   return lods;
+}
+
+template <class Visit>
+void for_each_edge(const json& city, const std::string& id, const Visit& visit) {
+  for (const json& shell : city["CityObjects"][id]["geometry"][0]["boundaries"])
+    for (const json& polygon : shell)
+      for (const json& ring : polygon)
+        for (std::size_t i = 0; i < ring.size(); ++i)
+          visit(city["vertices"][ring[i].get<std::size_t>()],
+                city["vertices"][ring[(i + 1) % ring.size()].get<std::size_t>()]);
+}
+
+/// Samples are in micrometres.
+double distance_um(const json& p, const json& q) {
+  return std::hypot(p[0].get<double>() - q[0].get<double>(),
+                    p[1].get<double>() - q[1].get<double>(),
+                    p[2].get<double>() - q[2].get<double>());
 }
 
 }  // namespace
@@ -80,5 +102,78 @@ TEST_SUITE("cli") {
     REQUIRE(without.exit == 0);
     REQUIRE(with.exit == 0);
     CHECK(with.out.size() <= without.out.size());
+  }
+
+  TEST_CASE("for flow simulation no edge is too short but those that are told") {
+    for (const std::string name : {"house", "row", "block", "hip"}) {
+      const Outcome made = run({"generalise", sample(name), "--profile", "cfd", "-o", "-"});
+      REQUIRE(made.exit == 0);
+      const json city = json::parse(made.out);
+      CHECK(lods_of(city, name) == std::multiset<std::string>{"2.2"});
+      std::set<std::pair<json, json>> edges;
+      for_each_edge(city, name, [&](const json& p, const json& q) {
+        if (distance_um(p, q) < 199'999) edges.emplace(std::min(p, q), std::max(p, q));
+      });
+      std::size_t told = 0;
+      std::istringstream lines(made.err);
+      for (std::string line; std::getline(lines, line);)
+        if (const auto at = line.find("G415 has "); at != std::string::npos) {
+          told += std::stoul(line.substr(at + 9));
+          CHECK(line.find("it was refused, G401") != std::string::npos);
+        }
+      CHECK(edges.size() == told);
+      for (const json& surface : city["CityObjects"][name]["geometry"][0]["semantics"]["surfaces"])
+        CHECK((surface["type"] != "Window" && surface["type"] != "Door"));
+    }
+  }
+
+  TEST_CASE("an STL for flow simulation is closed and has a solid for each class of surfaces") {
+    const Folder folder;
+    const std::string out = folder / "house.stl";
+    REQUIRE(run({"generalise", sample("house"), "--profile", "cfd", "-o", out}).exit == 0);
+    std::istringstream lines(bytes_of(out));
+    std::multiset<std::string> solids;
+    std::map<std::pair<std::string, std::string>, int> balance;
+    std::vector<std::string> corners;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("solid ")) solids.insert(line.substr(6));
+      if (line.starts_with("vertex ")) corners.push_back(line);
+      if (line != "endloop") continue;
+      REQUIRE(corners.size() == 3);
+      for (std::size_t i = 0; i < 3; ++i) {
+        ++balance[{corners[i], corners[(i + 1) % 3]}];
+        --balance[{corners[(i + 1) % 3], corners[i]}];
+      }
+      corners.clear();
+    }
+    CHECK((solids == std::multiset<std::string>{"GroundSurface", "OuterCeilingSurface",
+                                                "RoofSurface", "WallSurface"}));
+    CHECK(balance.size() > 100);
+    for (const auto& [edge, count] : balance) CHECK(count == 0);
+  }
+
+  TEST_CASE("the least edge of a profile is a parameter") {
+    const Outcome fine =
+        run({"generalise", sample("house"), "--profile", "cfd", "--edge-min", "0.01", "-o", "-"});
+    const Outcome coarse =
+        run({"generalise", sample("house"), "--profile", "cfd", "--edge-min", "0.5", "-o", "-"});
+    REQUIRE(fine.exit == 0);
+    REQUIRE(coarse.exit == 0);
+    CHECK(coarse.out.size() < fine.out.size());
+    CHECK_FALSE(fine.says("G415"));
+    const Outcome told =
+        run({"generalise", sample("hip"), "--profile", "cfd", "--edge-min", "0.5", "-o", "-"});
+    CHECK(told.says("warning: hip: G415 has 4 edges below 0.5 m left"));
+    CHECK(told.says("G416 has 1 gaps below 0.5 m left, the least of 0.350 m"));
+    CHECK(run({"generalise", sample("house"), "--scale", "1:500", "--edge-min", "1", "-o", "-"})
+              .exit == 2);
+    CHECK(run({"generalise", sample("house"), "--profile", "cfd", "--edge-min", "0", "-o", "-"})
+              .exit == 2);
+    CHECK(run({"generalise", sample("house"), "--profile", "plateau", "-o", "-"}).says("R271"));
+    const Outcome noted = run(
+        {"generalise", sample("house"), "--scale", "1:2500", "--profile", "map", "-o", "-", "-v"});
+    CHECK(noted.exit == 0);
+    for (const std::string code : {"warning: house: G415", "warning: house f"})
+      CHECK_FALSE(noted.says(code + " G415"));
   }
 }

@@ -1,5 +1,6 @@
 #include "generalise/to_lod.h"
 
+#include "generalise/fineness.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"
@@ -155,5 +156,75 @@ TEST_SUITE("generalise") {
     REQUIRE(made.value);
     CHECK(volume_m3(*made.value->labelled.geometry) ==
           doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
+  }
+
+  TEST_CASE("edges and gaps below a length are told with the feature that has them") {
+    // A plinth of 0.1 m, and two blocks on the roof 0.15 m from each other.
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {12, 10, 6})
+                                  .add({2, -0.1, 0}, {5, 0, 1.8})
+                                  .add({4, 4, 6}, {6, 7, 8})
+                                  .add({6.15, 2, 6}, {8, 8, 9})
+                                  .build());
+    const auto edges = short_edges(line.solid, line.segmentation, {}, 0.2);
+    CHECK(edges.size() == 4);
+    for (const ShortEdge& edge : edges) {
+      CHECK(edge.length_m == doctest::Approx(0.1).epsilon(1e-6));
+      REQUIRE(edge.feature.is_valid());
+      CHECK(line.segmentation.features[edge.feature.index()].box.min.y ==
+            doctest::Approx(-0.1).epsilon(1e-6));
+    }
+    CHECK(short_edges(line.solid, line.segmentation, {}, 0.1).empty());
+    const auto gaps = narrow_gaps(line.solid, line.segmentation, {}, 0.2);
+    REQUIRE(gaps.size() == 1);
+    CHECK(gaps[0].width_m == doctest::Approx(0.15).epsilon(1e-6));
+    CHECK(narrow_gaps(line.solid, line.segmentation, {}, 0.15).empty());
+    // Facets that look at each other through the wall between them are no gap.
+    CHECK(narrow_gaps(line.solid, line.segmentation, {}, 5).size() == 1);
+
+    Generalised nothing;
+    nothing.solid = line.solid;
+    const auto told = [&](const Fineness& asked) {
+      std::string codes;
+      for (const Issue& issue : fineness_issues(line.building(), line.solid, line.solid,
+                                                line.segmentation, line.table(), nothing, asked)) {
+        CHECK((issue.severity == Severity::warning) == asked.is_everywhere);
+        codes += issue.code + ' ';
+      }
+      return codes;
+    };
+    CHECK(told({0.2, true}) == "G415 G416 ");
+    CHECK(told({0.05, true}).empty());
+    CHECK(told({0.2, false}).empty());  // nothing is new
+    const Solid other = line_of(BoxBody().add({50, 50, 0}, {60, 60, 9}).build()).solid;
+    CHECK_FALSE(fineness_issues(line.building(), other, line.solid, line.segmentation, line.table(),
+                                nothing, {0.2, false})
+                    .empty());
+  }
+
+  TEST_CASE("a feature with an edge too short goes if it is narrow and not if it is wide") {
+    // Capstones that stick out by 0.08 m.
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {20, 10, 6})
+                                  .add({2, 2, 6}, {2.7, 2.7, 8})
+                                  .add({1.92, 1.92, 8}, {2.78, 2.78, 8.2})
+                                  .add({8, 2, 6}, {12, 6, 8})
+                                  .add({7.92, 1.92, 8}, {12.08, 6.08, 8.2})
+                                  .build());
+    Generalised left;
+    left.solid = line.solid;
+    Plan plan;
+    for (int i = 0; i < 3; ++i) {
+      if (!add_fine_owners(left, line.segmentation, line.table(), 0.3, 1.5, "r", plan)) break;
+      left =
+          *generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan).value;
+    }
+    REQUIRE_FALSE(plan.steps.empty());
+    for (const Step& step : plan.steps) {
+      CHECK(step.rule == "r");
+      CHECK(*line.table().number(step.feature, "b") < 1.5);
+    }
+    for (const ShortEdge& edge : short_edges(left.solid, line.segmentation, left.removed, 0.3))
+      CHECK(edge.from.x > 7);
   }
 }

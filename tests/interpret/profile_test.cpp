@@ -47,9 +47,9 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("every level of every built-in profile loads without findings") {
-    const std::array names{"citygml:1",   "citygml:2",   "citygml:3",   "lod:1.0",
-                           "lod:1.2",     "lod:1.3",     "lod:2.0",     "map",
-                           "plateau:2.0", "plateau:2.1", "plateau:2.2", "plateau:3.1"};
+    const std::array names{"cfd",         "citygml:1",   "citygml:2",  "citygml:3", "lod:1.0",
+                           "lod:1.2",     "lod:1.3",     "lod:2.0",    "map",       "plateau:2.0",
+                           "plateau:2.1", "plateau:2.2", "plateau:3.1"};
     const RuleBase residential = *load_pack_file("residential").value;
     for (const char* name : names) {
       const auto loaded = load_profile_file(name);
@@ -58,7 +58,8 @@ TEST_SUITE("interpret") {
       CHECK(loaded.value->thresholds(1000)->is_chain());
       CHECK(check_profile(*loaded.value, residential).empty());
     }
-    CHECK(embedded_profiles() == std::vector<std::string>{"citygml", "lod", "map", "plateau"});
+    CHECK(embedded_profiles() ==
+          std::vector<std::string>{"cfd", "citygml", "lod", "map", "plateau"});
   }
 
   TEST_CASE("sizes that are no chain are refused") {
@@ -86,6 +87,22 @@ TEST_SUITE("interpret") {
     CHECK(codes_of("{}") == "R210 ");
     CHECK_FALSE(load_profile_file("no-such-profile").value);
     CHECK_FALSE(load_profile_file("lod").value);
+  }
+
+  TEST_CASE("another least edge takes the sizes along") {
+    const Profile cfd = *load_profile_file("cfd").value;
+    CHECK(cfd.edge_min_m == 0.2);
+    CHECK(cfd.names_classes);
+    const Profile coarse = with_edge_min(cfd, 0.5);
+    CHECK(coarse.edge_min_m == 0.5);
+    CHECK(coarse.sizes->c_m == doctest::Approx(0.5).epsilon(1e-9));
+    CHECK(coarse.sizes->is_chain());
+    CHECK(*coarse.edge_owner_b_m == doctest::Approx(2.5 * *cfd.edge_owner_b_m).epsilon(1e-9));
+    const Profile lod = with_edge_min(*load_profile_file("lod:2.0").value, 0.1);
+    CHECK(lod.edge_min_m == 0.1);
+    CHECK(lod.sizes->c_m == 2);
+    CHECK(codes_of("{form: as-is, edge-min-m: 0}") == "R211 ");
+    CHECK(codes_of("{form: as-is, stl-solids: name}") == "R211 ");
   }
 
   TEST_CASE("classes that the pack does not have are told") {

@@ -7,6 +7,7 @@
 #include "tests/kernel/io/solids.h"
 
 #include <algorithm>
+#include <set>
 
 #include <doctest/doctest.h>
 
@@ -113,6 +114,19 @@ TEST_SUITE("kernel/io") {
     for (std::size_t at = 0; (at = text.find("facet normal", at)) != std::string::npos; ++at)
       ++facets;
     CHECK(facets == 12);
+  }
+
+  TEST_CASE("STL has one solid for each class of surfaces where that is asked for") {
+    const Document document = house_of(BoxFile().text());
+    const std::string text = write_stl(mesh_of(document, {box_labels()}), StlSolids::by_class);
+    std::set<std::string> classes{"Unclassified"};
+    for (const SemanticSurface& surface : box_labels().surfaces) classes.insert(surface.type);
+    CHECK(classes.size() > 2);
+    std::size_t solids = 0;
+    for (std::size_t at = 0; (at = text.find("\nsolid ", at)) != std::string::npos; ++at) ++solids;
+    CHECK(solids + 1 == classes.size());
+    for (const std::string& name : classes)
+      CHECK(text.find("solid " + name + "\n") != std::string::npos);
   }
 
   TEST_CASE("a replaced geometry is what meshes show") {

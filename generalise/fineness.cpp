@@ -1,0 +1,248 @@
+#include "generalise/fineness.h"
+
+#include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+/// Vertices that cuts made lie off the box of their feature by rounding only; the grid of a solid
+/// is finer than a hundredth of it.
+constexpr double kOnBox_m = 1e-3;
+/// An edge lies on another one, a facet in front of another one, within the rounding of doubles.
+constexpr double kRounding_m = 1e-6;
+/// The sine of the angle up to which an edge runs along the depth of a recess.
+constexpr double kAlong = 1e-3;
+
+using detail::Outline;
+
+bool holds(const Box& box, Vec3 p) {
+  return p.x >= box.min.x - kOnBox_m && p.x <= box.max.x + kOnBox_m &&
+         p.y >= box.min.y - kOnBox_m && p.y <= box.max.y + kOnBox_m &&
+         p.z >= box.min.z - kOnBox_m && p.z <= box.max.z + kOnBox_m;
+}
+
+FeatureId smallest_around(const Segmentation& segmentation, const std::vector<FeatureId>& removed,
+                          Vec3 p, Vec3 q) {
+  FeatureId best;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < std::ssize(segmentation.features); ++i) {
+    const Box& box = segmentation.features[at(i)].box;
+    const double size_m = length(box.max - box.min);
+    if (size_m >= least_m || !holds(box, p) || !holds(box, q)) continue;
+    if (std::ranges::binary_search(removed, FeatureId{i})) continue;
+    best = FeatureId{i};
+    least_m = size_m;
+  }
+  return best;
+}
+
+template <class Visit>
+void for_each_edge_once(const Solid& solid, const Visit& visit) {
+  for (const Facet& facet : solid.facets)
+    for (const Loop& loop : facet.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const int p = loop[i], q = loop[(i + 1) % loop.size()];
+        if (p < q) visit(solid.vertices[at(p)].point, solid.vertices[at(q)].point);
+      }
+}
+
+bool is_in_edge_of(const Solid& solid, const ShortEdge& edge) {
+  bool is_there = false;
+  for_each_edge_once(solid, [&](Vec3 p, Vec3 q) {
+    is_there = is_there || (detail::distance_to_segment(edge.from, p, q) < kRounding_m &&
+                            detail::distance_to_segment(edge.to, p, q) < kRounding_m);
+  });
+  return is_there;
+}
+
+bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
+  if (!edge.feature.is_valid()) return false;
+  const Feature& feature = segmentation.features[edge.feature.index()];
+  if (feature.sense != Sense::hole || feature.planes.empty()) return false;
+  const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
+  return length(cross(normalised(edge.to - edge.from), normal)) < kAlong;
+}
+
+/// A facet of the solid as outlines.
+struct Sheet {
+  std::vector<Outline> outlines;
+  Vec3 normal;
+  double offset_m = 0;
+};
+
+Sheet sheet_of(const Solid& solid, const Facet& facet) {
+  const Plane& plane = solid.planes[facet.plane.index()];
+  Sheet sheet{{}, plane.normal, plane.offset_m};
+  for (const Loop& loop : facet.loops) {
+    Outline& outline = sheet.outlines.emplace_back();
+    for (const int v : loop) outline.push_back(solid.vertices[at(v)].point);
+  }
+  return sheet;
+}
+
+Vec3 moved_onto(const Sheet& sheet, Vec3 p) {
+  return p + (sheet.offset_m - dot(sheet.normal, p)) * sheet.normal;
+}
+
+bool do_cross(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 normal) {
+  const auto side = [&](Vec3 from, Vec3 to, Vec3 of) {
+    const double area = dot(cross(to - from, of - from), normal);
+    return area > kRounding_m * length(to - from)    ? 1
+           : area < -kRounding_m * length(to - from) ? -1
+                                                     : 0;
+  };
+  return side(p, q, r) * side(p, q, s) < 0 && side(r, s, p) * side(r, s, q) < 0;
+}
+
+/// A point of `of` that lies over the other sheet, seen along their normal.
+std::optional<Vec3> point_over(const Sheet& of, const Sheet& other) {
+  std::vector<Vec3> points;
+  if (const auto inside = detail::interior_point(of.outlines, of.normal)) points.push_back(*inside);
+  for (const Outline& outline : of.outlines)
+    points.insert(points.end(), outline.begin(), outline.end());
+  for (const Vec3 p : points)
+    if (detail::contains_clearly(other.outlines, other.normal, moved_onto(other, p), kRounding_m))
+      return p;
+  return std::nullopt;
+}
+
+/// Where an edge of one crosses an edge of the other, seen along their normal.
+std::optional<Vec3> crossing(const Sheet& a, const Sheet& b) {
+  for (const Outline& mine : a.outlines)
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const Vec3 p = moved_onto(b, mine[i]), q = moved_onto(b, mine[(i + 1) % mine.size()]);
+      for (const Outline& yours : b.outlines)
+        for (std::size_t k = 0; k < yours.size(); ++k)
+          if (do_cross(p, q, yours[k], yours[(k + 1) % yours.size()], b.normal)) return yours[k];
+    }
+  return std::nullopt;
+}
+
+std::string place_text(Vec3 local_m, const Frame& frame) {
+  const Vec3 p = local_m + frame.origin_m;
+  return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z);
+}
+
+/// What of one feature, or of the body, is too fine.
+struct Finding {
+  std::size_t count = 0;
+  double least_m = std::numeric_limits<double>::infinity();
+  Vec3 at;
+
+  void add(double length_m, Vec3 where) {
+    ++count;
+    if (length_m >= least_m) return;
+    least_m = length_m;
+    at = where;
+  }
+};
+using Findings = std::map<FeatureId, Finding>;
+
+}  // namespace
+
+std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
+                                   const std::vector<FeatureId>& removed, double least_m) {
+  std::vector<ShortEdge> edges;
+  for_each_edge_once(solid, [&](Vec3 p, Vec3 q) {
+    const double length_m = length(q - p);
+    if (length_m < least_m - kRounding_m)
+      edges.push_back({p, q, length_m, smallest_around(segmentation, removed, p, q)});
+  });
+  return edges;
+}
+
+std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
+                                   const std::vector<FeatureId>& removed, double least_m) {
+  std::map<std::array<std::int64_t, 3>, std::vector<Sheet>> by_normal;
+  for (const Facet& facet : solid.facets)
+    by_normal[solid.planes[facet.plane.index()].coefficients].push_back(sheet_of(solid, facet));
+  std::vector<NarrowGap> gaps;
+  for (const auto& [normal, sheets] : by_normal) {
+    const std::array<std::int64_t, 3> back{-normal[0], -normal[1], -normal[2]};
+    const auto opposite = by_normal.find(back);
+    if (opposite == by_normal.end() || back < normal) continue;
+    for (const Sheet& one : sheets)
+      for (const Sheet& other : opposite->second) {
+        const double width_m = -other.offset_m - one.offset_m;
+        if (width_m < kRounding_m || width_m >= least_m - kRounding_m) continue;
+        auto where = point_over(one, other);
+        if (!where) where = point_over(other, one);
+        if (!where) where = crossing(one, other);
+        if (!where) continue;
+        gaps.push_back({*where, width_m, smallest_around(segmentation, removed, *where, *where)});
+      }
+  }
+  return gaps;
+}
+
+bool add_fine_owners(const Generalised& generalised, const Segmentation& segmentation,
+                     const FeatureTable& table, double least_m, double most_b_m,
+                     const std::string& rule, Plan& plan) {
+  const auto has_step = [&](FeatureId id) {
+    return std::ranges::find(plan.steps, id, &Step::feature) != plan.steps.end();
+  };
+  std::set<FeatureId> owners;
+  for (const ShortEdge& edge :
+       short_edges(generalised.solid, segmentation, generalised.removed, least_m)) {
+    FeatureId id = edge.feature;
+    while (id.is_valid() && has_step(id)) {
+      const Feature& feature = segmentation.features[id.index()];
+      id = feature.parent.is_valid() ? feature.parent : feature.host;
+    }
+    if (id.is_valid() && table.number(id, "b").value_or(most_b_m) < most_b_m) owners.insert(id);
+  }
+  for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
+  std::ranges::stable_sort(plan.steps, {}, &Step::feature);
+  return !owners.empty();
+}
+
+std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
+                                   const Solid& after, const Segmentation& segmentation,
+                                   const FeatureTable& table, const Generalised& generalised,
+                                   const Fineness& asked) {
+  Findings edges, gaps;
+  for (const ShortEdge& edge :
+       short_edges(after, segmentation, generalised.removed, asked.least_m)) {
+    if (!asked.is_everywhere && (is_depth(edge, segmentation) || is_in_edge_of(before, edge)))
+      continue;
+    edges[edge.feature].add(edge.length_m, edge.from);
+  }
+  if (asked.is_everywhere)
+    for (const NarrowGap& gap :
+         narrow_gaps(after, segmentation, generalised.removed, asked.least_m))
+      gaps[gap.feature].add(gap.width_m, gap.at);
+
+  std::vector<Issue> issues;
+  const auto tell = [&](const Findings& findings, const char* code, const char* what) {
+    for (const auto& [feature, finding] : findings) {
+      const auto refused =
+          std::ranges::find(generalised.refused, feature, &CarriedOut::Refused::feature);
+      Issue issue = building_issue(
+          asked.is_everywhere ? Severity::warning : Severity::note, code, building.id,
+          fmt::format(
+              "has {} {} below {} m left, the least of {:.3f} m at {}{}", finding.count, what,
+              asked.least_m, finding.least_m, place_text(finding.at, building.frame),
+              refused == generalised.refused.end() ? "" : ": it was refused, " + refused->code));
+      if (feature.is_valid()) issue.place.feature = table.id(feature);
+      issues.push_back(std::move(issue));
+    }
+  };
+  tell(edges, "G415", "edges");
+  tell(gaps, "G416", "gaps");
+  return issues;
+}
+
+}  // namespace oriel

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "generalise/generalise.h"
+#include "kernel/model/building.h"
+
+#include <optional>
+#include <vector>
+
+namespace oriel {
+
+/// An edge of a solid that is shorter than asked for.
+struct ShortEdge {
+  Vec3 from, to;
+  double length_m = 0;
+  /// The smallest feature whose box holds it; invalid: the body.
+  FeatureId feature;
+};
+
+/// Two parallel facets that look at each other from nearer than asked for, with air between them.
+struct NarrowGap {
+  Vec3 at;  ///< in one of the facets
+  double width_m = 0;
+  FeatureId feature;  ///< as of ShortEdge
+};
+
+/// Edges shorter than `least_m`, each once, in the order of facets. Features that are `removed`
+/// (ascending) have none.
+std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
+                                   const std::vector<FeatureId>& removed, double least_m);
+
+/// Gaps narrower than `least_m` between parallel facets that overlap, seen along their normal.
+std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
+                                   const std::vector<FeatureId>& removed, double least_m);
+
+/// What a target asks for: a least length of edges, of those that are new or, `is_everywhere`, of
+/// all, and of gaps.
+struct Fineness {
+  double least_m = 0;
+  bool is_everywhere = false;
+};
+
+/// What of a building that was redrawn as `after` is finer: for each feature with such edges a
+/// G415, and everywhere for each with such gaps a G416; a warning everywhere, else a note. It says
+/// if the feature was to change and was refused. Edges that `before` had are not new; those along
+/// the depth of a recess are exempt unless everywhere.
+std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
+                                   const Solid& after, const Segmentation& segmentation,
+                                   const FeatureTable& table, const Generalised& generalised,
+                                   const Fineness& asked);
+
+/// Adds to the plan that features go whose edges are too short, everywhere: of what the plan left,
+/// `generalised`, the owner of each short edge, or, if that was to go and was refused, what carries
+/// it. Only features with a middle extent b below `most_b_m` go so. The steps have the rule `rule`.
+/// False if there are none: then the plan stays as it is.
+bool add_fine_owners(const Generalised& generalised, const Segmentation& segmentation,
+                     const FeatureTable& table, double least_m, double most_b_m,
+                     const std::string& rule, Plan& plan);
+
+}  // namespace oriel
