@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/run.h"
+#include "cli/tree_report.h"
 #include "kernel/io/feature_records.h"
 #include "kernel/io/output_file.h"
 #include "kernel/io/segmentation_json.h"
@@ -19,6 +20,7 @@ namespace {
 struct Arguments : LineArguments {
   bool is_json = false;
   bool has_faces = false;
+  bool has_tree = false;
   std::string out = "-";
   std::string features;
 };
@@ -50,7 +52,7 @@ std::string listing(const Building& building, const OnLine& line) {
 /// What the command writes: JSON or a listing, and the records of features, each if asked for.
 class Outputs {
  public:
-  explicit Outputs(const Arguments& arguments) : arguments_(arguments) {}
+  Outputs(const Arguments& arguments, Run& run) : arguments_(arguments), run_(run) {}
 
   void open() {
     const bool has_listing = arguments_.features.empty() || arguments_.out != "-";
@@ -66,12 +68,24 @@ class Outputs {
     std::optional<CellComplex> complex;
     if (arguments_.has_faces) complex = cell_complex(*line.segmentation, arguments_.tolerances);
     const std::string text =
-        arguments_.is_json
+        arguments_.has_tree ? tree_text(building, line)
+        : arguments_.is_json
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
             : listing(building, line);
     if (text_) text_->append(text);
     if (features_)
       features_->append(feature_records(building, *line.segmentation, table, graph, nullptr));
+  }
+
+  /// Of an open building nothing: it has no tree.
+  [[nodiscard]] std::string tree_text(const Building& building, const OnLine& line) const {
+    if (line.is_open) return {};
+    bool is_same = true;
+    std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
+    if (is_same) return text;
+    run_.set_aside(building_issue(Severity::error, "E901", building.id,
+                                  "a fault of oriel's own: its balanced tree is another body"));
+    return {};
   }
 
   void commit() {
@@ -81,6 +95,7 @@ class Outputs {
 
  private:
   const Arguments& arguments_;
+  Run& run_;
   std::unique_ptr<OutputFile> text_;
   std::unique_ptr<FeatureRecordWriter> features_;
 };
@@ -88,7 +103,7 @@ class Outputs {
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   Run run(arguments, nullptr, report);
-  Outputs outputs(arguments);
+  Outputs outputs(arguments, run);
   bool has_ended = false;  // an input did
   Run::Visitor visitor;
   visitor.begin = [&](std::size_t) {
@@ -122,6 +137,9 @@ void add_segment(CLI::App& app, Action& action) {
       ->add_flag("--faces", arguments->has_faces,
                  "With --json: the faces between cells, and which cells touch")
       ->needs(json);
+  command->add_flag("--tree", arguments->has_tree,
+                    "In place of the parts: the CSG tree as cut, balanced and with touching parts "
+                    "merged, its depth and weighted path, and the proof that it is the same body");
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   add_features_argument(*command, arguments->features);
   command->footer(

@@ -172,4 +172,20 @@ TEST_SUITE("cli") {
       CHECK(outcome.says("16 window"));
     }
   }
+
+  TEST_CASE("a tree is told as cut and balanced with the proof that it is one body") {
+    const Outcome text = run({"segment", sample("house"), "--tree"});
+    CHECK(text.exit == 0);
+    CHECK(text.out.starts_with("house:\n  as cut "));
+    CHECK(text.out.find("the same body: 787.5349") != std::string::npos);
+    CHECK(text.out.find("DIFFERS") == std::string::npos);
+    const auto json =
+        nlohmann::json::parse(run({"segment", sample("house"), "--tree", "--json"}).out);
+    CHECK(json["balanced"]["proof"]["holds"] == true);
+    CHECK(json["merged"]["proof"]["holds"] == true);
+    CHECK(json["balanced"]["leaves"] == json["cut"]["leaves"]);
+    CHECK(json["balanced"]["depth"] < json["cut"]["depth"]);
+    CHECK(json["balanced"]["weighted_path"] < json["cut"]["weighted_path"]);
+    CHECK(json["tree"]["kind"] == "difference");
+  }
 }

@@ -1,5 +1,6 @@
 #include "tests/kernel/segment/invariants.h"
 
+#include "kernel/segment/balance.h"
 #include "tests/support/inside.h"
 
 #include <doctest/doctest.h>
@@ -174,6 +175,24 @@ void check_segmentation(const Segmented& s, const Exactness& exactness) {
   check_features(s.segmentation);
   check_cells(s, exactness);
   check_points(s, exactness);
+}
+
+std::size_t check_balanced(const Segmentation& segmentation) {
+  const TreeFigures cut = figures_of(segmentation);
+  BalancedTree tree = balance(segmentation);
+  const TreeFigures balanced = figures_of(tree, segmentation);
+  CHECK(balanced.leaves == cut.leaves);
+  CHECK(balanced.depth <=
+        cut.depth + 1);  // a difference of a union: two levels where there was one
+  const BalanceProof proof = prove(tree, segmentation);
+  CHECK(proof.has_same_cells);
+  CHECK(proof.before_m3 == proof.after_m3);
+  CHECK(proof.points > 0);
+  CHECK(proof.differing == 0);
+  merge_touching(tree, segmentation);
+  CHECK(figures_of(tree, segmentation).leaves + tree.merges.size() == cut.leaves);
+  CHECK(prove(tree, segmentation).holds());
+  return tree.merges.size();
 }
 
 }  // namespace oriel::test

@@ -17,4 +17,8 @@ struct Exactness {
 /// Everything that holds for every segmentation, whatever the body and the order: see segment().
 void check_segmentation(const Segmented& s, const Exactness& exactness = {});
 
+/// The balanced tree, and what merging touching parts makes of it, are the same body with no more
+/// levels. Returns how many merges there were.
+std::size_t check_balanced(const Segmentation& segmentation);
+
 }  // namespace oriel::test

@@ -50,7 +50,7 @@ Building random_body(std::uint64_t seed) {
 
 TEST_SUITE("kernel/segment") {
   TEST_CASE("random bodies of boxes are the sum of their cells in both orders") {
-    std::size_t features = 0, bodies = 0;
+    std::size_t features = 0, bodies = 0, merges = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed)
       for (const Order order : {Order::natural, Order::paper}) {
         CAPTURE(seed);
@@ -60,8 +60,10 @@ TEST_SUITE("kernel/segment") {
         const Segmented s = segmented(random_body(seed), order);
         test::check_segmentation(s, {1e-9, 1e-6, 60});
         features += s.segmentation.features.size();
+        merges += test::check_balanced(s.segmentation);
       }
     CHECK(features > 1000);
+    CHECK(merges > 10);
     CHECK(bodies > 2 * 300 * 9 / 10);
   }
 

@@ -57,6 +57,7 @@ TEST_SUITE("kernel/segment") {
         CAPTURE(to_string(order));
         const Segmented s = segmented(building, order);
         test::check_segmentation(s, {1e-9, 1e-5, 60});
+        test::check_balanced(s.segmentation);
         if (order == Order::paper) continue;
         features += s.segmentation.features.size();
         std::vector<std::vector<FeatureId>> sets{test::all_features(s.segmentation)};
