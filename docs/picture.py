@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws docs/picture.png from files that oriel wrote: python3 docs/picture.py OUT.png IN.city.json...
+"""Draws docs/picture.png from files that oriel wrote: python3 docs/picture.py OUT.png [--azimuth DEG] IN.city.json...
 
 Every file is one view, side by side, parallel projection, hidden parts by a depth buffer, parts coloured by their label.
 Standard library only.
@@ -156,4 +156,8 @@ def main(out, paths):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    arguments = sys.argv[2:]
+    if arguments[0] == "--azimuth":
+        AZIMUTH_DEG = float(arguments[1])
+        arguments = arguments[2:]
+    main(sys.argv[1], arguments)
