@@ -15,7 +15,7 @@ namespace {
 /// Coordinates are meetings of exact planes in doubles: what overlaps by less than this touches.
 constexpr double kTouching_m = 1e-9;
 /// How far vertices by decree may lie off the planes of their facets.
-constexpr double kOnPlane_m = 1e-6;
+constexpr double kBehindPlane_m = 1e-6;
 
 std::vector<NodeId> children_of(const CsgNode& node) {
   std::vector<NodeId> children = node.rest;
@@ -239,7 +239,7 @@ class LeafMerger {
   [[nodiscard]] bool is_behind_all_but(const Hull& hull, const Hull& of, PlaneId contact) const {
     return std::ranges::all_of(of.planes, [&](PlaneId id) {
       return id == contact || std::ranges::all_of(hull.points, [&](Vec3 p) {
-               return dot(plane(id).normal, p) - plane(id).offset_m <= kOnPlane_m;
+               return dot(plane(id).normal, p) - plane(id).offset_m <= kBehindPlane_m;
              });
     });
   }

@@ -106,7 +106,7 @@ std::vector<int> signs_of(const TreeView& view, std::size_t count) {
 }
 
 /// A facet of a cell.
-struct Pane {
+struct CellPane {
   std::vector<detail::Outline> outlines;
   const Plane* plane = nullptr;
 };
@@ -118,7 +118,7 @@ class Evaluation {
       auto& panes = panes_.emplace_back();
       Box& box = boxes_.emplace_back();
       for (const Facet& facet : cell.facets) {
-        Pane pane{{}, &segmentation.planes[facet.plane.index()]};
+        CellPane pane{{}, &segmentation.planes[facet.plane.index()]};
         for (const Loop& loop : facet.loops) {
           pane.outlines.emplace_back();
           for (const int v : loop)
@@ -134,7 +134,7 @@ class Evaluation {
   [[nodiscard]] std::vector<Vec3> points() const {
     std::vector<Vec3> points;
     for (const auto& panes : panes_)
-      for (const Pane& pane : panes)
+      for (const CellPane& pane : panes)
         if (const auto p = detail::interior_point(pane.outlines, pane.plane->normal))
           for (const double side : {kBeside_m, -kBeside_m})
             points.push_back(*p + side * pane.plane->normal);
@@ -168,7 +168,7 @@ class Evaluation {
   [[nodiscard]] bool is_too_near(Vec3 p) const {
     for (std::size_t c = 0; c < panes_.size(); ++c)
       if (is_in_box(boxes_[c], p, kTooNear_m) &&
-          std::ranges::any_of(panes_[c], [&](const Pane& pane) {
+          std::ranges::any_of(panes_[c], [&](const CellPane& pane) {
             return std::abs(dot(pane.plane->normal, p) - pane.plane->offset_m) < kTooNear_m;
           }))
         return true;
@@ -179,7 +179,8 @@ class Evaluation {
     if (!is_in_box(boxes_[id.index()], p, 0)) return false;
     constexpr double kHalf = 0.5;  // the winding number is 0 or 1
     double winding = 0;
-    for (const Pane& pane : panes_[id.index()]) winding += detail::winding_part(pane.outlines, p);
+    for (const CellPane& pane : panes_[id.index()])
+      winding += detail::winding_part(pane.outlines, p);
     return winding > kHalf;
   }
 
@@ -191,7 +192,7 @@ class Evaluation {
   }
 
   const Segmentation& segmentation_;
-  std::vector<std::vector<Pane>> panes_;  ///< by cell
+  std::vector<std::vector<CellPane>> panes_;  ///< by cell
   std::vector<Box> boxes_;
 };
 
