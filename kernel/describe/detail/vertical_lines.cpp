@@ -39,8 +39,8 @@ VerticalLines::VerticalLines(std::span<const SurfaceFace> faces) : faces_(faces)
     lying.push_back(static_cast<int>(f));
     box_.grow(faces[f].box);
   }
-  side_ =
-      std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(lying.size()))), 1, kLargestSide);
+  side_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(lying.size()))), 1,
+                     kLargestSide);
   cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
   for (const int f : lying) {
     const Box& box = faces[static_cast<std::size_t>(f)].box;
