@@ -204,7 +204,7 @@ class Generaliser {
     };
     const auto carry_out = [&] {
       return generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
-                        arguments_.segment_options(), invariants);
+                        arguments_.segment_options(line.tolerances), invariants);
     };
     auto generalised = carry_out();
     if (profile != nullptr && profile->edge_min_m && profile->edge_owner_b_m)
@@ -232,7 +232,7 @@ class Generaliser {
           accounts_.text(building.id, target, least_edge_m, figures_of(*line.solid, least_edge_m),
                          figures_of(after, least_edge_m), hausdorff_m(*line.solid, after));
     };
-    const Tolerances& tolerances = arguments_.segment_options().tolerances;
+    const Tolerances& tolerances = line.tolerances;
     if (!targets_.has_lods()) {
       Redrawn redrawn = redraw(building, labelled, *line.segmentation, table, line.interpretation,
                                std::move(*generalised.value), tolerances);

@@ -113,7 +113,7 @@ Product made_of(std::size_t input, const Document& document, const std::vector<O
       labelled.push_back(outputs.annotated(building, lines[i]));
       if (arguments.is_repaired && lines[i].is_done())
         labelled.back() = on_solid(document, building, lines[i], std::move(labelled.back()),
-                                   arguments.segment_options().tolerances, product.issues);
+                                   lines[i].tolerances, product.issues);
     }
     if (!lines[i].is_done()) continue;
     outputs.make_features(building, lines[i], product);

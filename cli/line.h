@@ -24,6 +24,8 @@ struct OnLine {
   /// The building stayed open: `solid` is no solid but its open_shell, and nothing was cut.
   bool is_open = false;
   std::optional<Segmentation> segmentation;
+  /// Those it was cut with: fitted to its noise.
+  Tolerances tolerances;
   Description description;
   Interpretation interpretation;  ///< empty without rules
   /// With rules, also of a building that was set aside; no rows if that failed.

@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include "kernel/io/feature_records.h"
+#include "kernel/solidify/noise.h"
 
 #include <algorithm>
 #include <string>
@@ -28,10 +29,15 @@ bool LineArguments::is_piped_stream() const {
   return inputs.size() == 1 && inputs[0] == "-" && read_options("-").format == Format::cityjson_seq;
 }
 
-SegmentOptions LineArguments::segment_options() const {
+Tolerances LineArguments::tolerances_for(const Building& building) const {
+  if (is_plane_offset_given) return tolerances;
+  return fitted_to_noise(tolerances, noise_of(building));
+}
+
+SegmentOptions LineArguments::segment_options(const Tolerances& fitted) const {
   SegmentOptions options;
   options.order = order == "paper" ? Order::paper : Order::natural;
-  options.tolerances = tolerances;
+  options.tolerances = fitted;
   options.budget = budget;
   return options;
 }
@@ -47,6 +53,7 @@ std::string LineArguments::configuration() const {
              "close={} close_area_m2={} crossings={}",
              lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
              tolerances.value_rel, budget, close, cap_area_m2, crossings) +
+         (is_plane_offset_given ? "" : " fitted_to_noise") +
          (ignores_semantics ? " ignore_semantics" : "");
 }
 
@@ -112,8 +119,10 @@ void add_solid_arguments(CLI::App& command, LineArguments& a) {
       ->capture_default_str();
   command
       .add_option("--plane-offset", a.tolerances.plane_offset_m,
-                  "... and no further off than this, in m")
+                  "... and no further off than this, in m; more where the input is noisy, if this "
+                  "is not given and buildings are segmented")
       ->check(CLI::Range(0.0, 1.0))
+      ->each([&a](const std::string&) { a.is_plane_offset_given = true; })
       ->capture_default_str();
   command.add_option("--weld", a.tolerances.weld_m, "Vertices closer than this are one, in m")
       ->check(CLI::Range(1e-6, 1.0))

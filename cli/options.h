@@ -23,6 +23,8 @@ struct LineArguments {
   std::string from;
   std::string order = "natural";
   Tolerances tolerances;
+  /// --plane-offset was given: it holds as it is, also for noisy buildings.
+  bool is_plane_offset_given = false;
   std::string close = "planar";
   double cap_area_m2 = RepairOptions{}.cap_area_m2;
   std::string crossings = "leave";
@@ -57,7 +59,10 @@ struct LineArguments {
   [[nodiscard]] ReadOptions read_options(const std::string& input) const;
   /// The one input is a stream on stdin; what comes of it goes to stdout if nothing else is said.
   [[nodiscard]] bool is_piped_stream() const;
-  [[nodiscard]] SegmentOptions segment_options() const;
+  /// The tolerances for a building: `tolerances`, fitted to its noise.
+  [[nodiscard]] Tolerances tolerances_for(const Building& building) const;
+  /// `fitted`: those of the building at hand.
+  [[nodiscard]] SegmentOptions segment_options(const Tolerances& fitted) const;
   [[nodiscard]] RepairOptions repair_options() const;
   /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is
   /// made of.

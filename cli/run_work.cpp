@@ -2,6 +2,7 @@
 #include "cli/run.h"
 #include "cli/work_place.h"
 #include "kernel/model/sha256.h"
+#include "kernel/solidify/noise.h"
 
 #include <algorithm>
 #include <exception>
@@ -18,6 +19,14 @@ Building without_hints(Building building) {
   return building;
 }
 
+Issue noise_note(const Building& building, const Tolerances& fitted) {
+  return building_issue(
+      Severity::note, "E126", building.id,
+      fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: what is "
+                  "within {:.1f} mm is one plane (--plane-offset)",
+                  1e3 * noise_of(building), 1e3 * fitted.plane_offset_m));
+}
+
 }  // namespace
 
 OnLine Run::on_line(const Building& building, Timings& timings) const {
@@ -25,10 +34,13 @@ OnLine Run::on_line(const Building& building, Timings& timings) const {
   if (arguments_.ends_at_reading) return {};
   if (arguments_.ends_at_solid)
     return run_to_solid(building, arguments_.tolerances, repair, timings);
-  const SegmentOptions options = arguments_.segment_options();
+  const SegmentOptions options = arguments_.segment_options(arguments_.tolerances_for(building));
   OnLine line = arguments_.ignores_semantics
                     ? run_line(without_hints(building), options, repair, rules_, timings)
                     : run_line(building, options, repair, rules_, timings);
+  line.tolerances = options.tolerances;
+  if (line.tolerances.plane_offset_m != arguments_.tolerances.plane_offset_m)
+    line.issues.push_back(noise_note(building, line.tolerances));
   if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
   return line;
 }

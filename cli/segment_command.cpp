@@ -66,7 +66,7 @@ class Outputs {
   void add(const Building& building, const OnLine& line) {
     const auto& [table, graph] = line.description;
     std::optional<CellComplex> complex;
-    if (arguments_.has_faces) complex = cell_complex(*line.segmentation, arguments_.tolerances);
+    if (arguments_.has_faces) complex = cell_complex(*line.segmentation, line.tolerances);
     const std::string text =
         arguments_.has_tree ? tree_text(building, line)
         : arguments_.is_json

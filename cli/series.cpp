@@ -137,7 +137,7 @@ class SeriesWriter {
                       *one.line->segmentation,
                       one.line->description.table,
                       one.line->interpretation,
-                      arguments_.segment_options(),
+                      arguments_.segment_options(one.line->tolerances),
                       {}};
     if (profile_ != nullptr)
       input.invariants = {profile_->footprint_pct, profile_->volume_pct, profile_->top_m,

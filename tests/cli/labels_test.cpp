@@ -1,7 +1,11 @@
+#include "examples/generator/cityjson.h"
+#include "examples/generator/generate.h"
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/cli/json_lines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <doctest/doctest.h>
@@ -136,6 +140,42 @@ TEST_SUITE("cli") {
       CHECK(surface["type"] != "Door");
     }
     CHECK(house["geometry"][0]["boundaries"][0].size() < 40);
+  }
+
+  TEST_CASE("a noisy building is cut within its noise, and -v says so") {
+    const Folder folder;
+    oriel::generator::Options options;
+    options.seed = 2722;
+    options.flush = 0.5;
+    options.noise = 5000;  // micrometres
+    std::vector<std::string> houses;
+    double expected = 0;
+    for (int i = 0; i < 4; ++i) {
+      const std::string id = "noisy" + std::to_string(i);
+      const oriel::generator::Building house{id, oriel::generator::generate(options, i), {}};
+      houses.push_back(
+          folder.write(id + ".city.json",
+                       oriel::generator::cityjson(house, oriel::generator::Content::stripped)));
+      for (const auto& object : house.body.objects)
+        expected += object.kind == oriel::generator::Class::window ? 1 : 0;
+    }
+    const auto windows = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments{"label", "-v", "--features", folder / "noisy.jsonl"};
+      arguments.insert(arguments.end(), houses.begin(), houses.end());
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Outcome outcome = run(arguments);
+      CHECK(outcome.exit == 0);
+      const bool is_told = outcome.err.find("note: noisy0: E126") != std::string::npos;
+      CHECK(is_told == more.empty());
+      int count = 0;
+      for (const json& feature : json_lines(bytes_of(folder / "noisy.jsonl")))
+        count += feature.value("label", "") == "window" ? 1 : 0;
+      return count;
+    };
+    CHECK(expected > 40);
+    CHECK(std::abs(windows({}) - expected) < 0.03 * expected);
+    CHECK(std::abs(windows({"--plane-offset", "0.008"}) - expected) < 0.03 * expected);
+    CHECK(std::abs(windows({"--plane-offset", "0.002"}) - expected) > 0.1 * expected);
   }
 
   TEST_CASE("provenance has no clock and no path") {

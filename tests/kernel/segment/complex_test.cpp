@@ -1,5 +1,6 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/cell_complex.h"
+#include "kernel/segment/detail/complex/refine.h"
 #include "tests/kernel/segment/complex_checks.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"
@@ -233,6 +234,17 @@ TEST_SUITE("kernel/segment") {
     CHECK(all > 150);
     CHECK(closed > all * 8 / 10);
     CHECK(close > all * 95 / 100);
+  }
+
+  TEST_CASE("edges that cross where both end are not cut there round after round") {
+    const detail::PlaneAxes axes({0, 0, 1});
+    detail::VertexPool pool({}, 0.001);
+    // The second one begins beside the first one's begin, nearer than doubles tell from its length.
+    const int a = pool.add({0, 0, 0}), b = pool.add({1, 0, 0});
+    const int c = pool.add({0, 1e-18, 0}), d = pool.add({0.5, -1, 0});
+    const auto edges = detail::refine({{a, b, 0, 1}, {c, d, 1, 1}}, axes, pool);
+    CHECK(edges.size() == 2);
+    CHECK(pool.vertices().size() == 4);
   }
 }
 

@@ -1,3 +1,4 @@
+#include "kernel/solidify/noise.h"
 #include "tests/support/changed.h"
 #include "tests/support/houses.h"
 #include "tests/support/solidified.h"
@@ -114,6 +115,40 @@ TEST_SUITE("kernel/solidify") {
         CHECK(std::abs(volume_m3(noisy) - volume_m3(solid)) < 0.001 * area);
       }
     }
+  }
+
+  TEST_CASE("the tolerance follows the noise of the building and nothing else") {
+    const Tolerances defaults;
+    for (const auto& [name, make] : bodies()) {
+      CAPTURE(std::string(name));
+      const Building building = test::in_whole_facets(make());
+      CHECK(noise_of(building) < 1e-6);
+      if (building.polygons.size() < 12) continue;  // too few to tell much of the noise
+      for (const double size_m : {0.0005, 0.002, 0.005}) {
+        const double noise_m = noise_of(test::with_noise(building, size_m, 1));
+        CHECK(noise_m > 0.3 * size_m);
+        CHECK(noise_m < 1.0 * size_m);
+        const double offset_m = fitted_to_noise(defaults, noise_m).plane_offset_m;
+        CHECK(offset_m >= defaults.plane_offset_m);
+        CHECK(offset_m <= 0.01);
+        if (size_m < 0.001)
+          CHECK(offset_m == defaults.plane_offset_m);
+        else
+          CHECK(offset_m > size_m);
+      }
+    }
+    Tolerances wide;
+    wide.plane_offset_m = 0.05;
+    CHECK(fitted_to_noise(wide, 0.004).plane_offset_m == 0.05);
+  }
+
+  TEST_CASE("triangles and a handful of polygons tell no noise") {
+    Building box = test::with_noise(test::in_whole_facets(bodies().front().make()), 0.005, 1);
+    box.polygons.resize(5);
+    CHECK(noise_of(box) == 0);
+    for (Polygon& polygon : box.polygons) polygon.rings[0].resize(3);
+    CHECK(noise_of(box) == 0);
+    CHECK(noise_of(Building{}) == 0);
   }
 
   TEST_CASE("coordinates far from the origin make the same solid in a frame of their own") {

@@ -156,7 +156,12 @@ class Round {
     const Vec3 point = from + (ea / (ea - eb)) * (to - from);
     auto vertex = pool_.find(point);
     if (vertex && !(fits(e, *vertex) && fits(f, *vertex))) vertex.reset();
-    if (!vertex) vertex = pool_.add(point);
+    if (!vertex) {
+      // Where both meet at an end there is nothing to cut: a vertex in the same place would only be
+      // cut off again, round after round.
+      if (!is_shortened_by(e, axes_(point)) || !is_shortened_by(f, axes_(point))) return;
+      vertex = pool_.add(point);
+    }
     for (const std::size_t edge : {e, f})
       if (*vertex != edges_[edge].a && *vertex != edges_[edge].b) cut(edge, *vertex);
   }

@@ -20,8 +20,9 @@ struct PlanarEdge {
 /// half the pool's reach: then what is left and right of an edge is certain in doubles. Where
 /// chords cross the pool gets a vertex, unless one is within reach.
 ///
-/// Ends: a chord is only ever replaced by shorter ones, between vertices of which there are
-/// finitely many. What closed outlines were before are closed outlines after.
+/// Ends: a chord is only ever replaced by shorter ones, and a vertex is made only where it shortens
+/// both chords that cross; where they cross at their ends both stay whole. What closed outlines
+/// were before are closed outlines after.
 std::vector<PlanarEdge> refine(std::vector<Chord> chords, const PlaneAxes& axes, VertexPool& pool);
 
 }  // namespace oriel::detail
