@@ -34,11 +34,11 @@ class DisjointRows {
   std::vector<int> parents_;
 };
 
-using Components = std::vector<std::vector<FeatureId>>;
+using MemberLists = std::vector<std::vector<FeatureId>>;
 
 /// The members of each class hang together.
-Components components_of_classes(const Links& links, auto is_member) {
-  Components components;
+MemberLists components_of_classes(const Links& links, auto is_member) {
+  MemberLists components;
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
     const auto list = links.lists->list(l);
     std::vector<FeatureId> members;
@@ -53,7 +53,7 @@ Components components_of_classes(const Links& links, auto is_member) {
 }
 
 /// Members that pairs of members lead to hang together.
-Components components_of_pairs(const Facts& facts, const Links& links, auto is_member) {
+MemberLists components_of_pairs(const Facts& facts, const Links& links, auto is_member) {
   DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
@@ -65,7 +65,7 @@ Components components_of_pairs(const Facts& facts, const Links& links, auto is_m
   }
   // The root is the first member.
   std::vector<int> component_of(facts.rows, -1);
-  Components components;
+  MemberLists components;
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
     int& component = component_of[at(sets.find(row))];
@@ -79,12 +79,12 @@ Components components_of_pairs(const Facts& facts, const Links& links, auto is_m
 }
 
 /// The members of every component of one kind.
-Components components_of(const GroupKind& kind, const Facts& facts) {
+MemberLists components_of(const GroupKind& kind, const Facts& facts) {
   const auto& members = facts.membership[at(kind.of)];
   const Links& links = facts.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
-  Components components = links.lists->are_classes ? components_of_classes(links, is_member)
-                                                   : components_of_pairs(facts, links, is_member);
+  MemberLists components = links.lists->are_classes ? components_of_classes(links, is_member)
+                                                    : components_of_pairs(facts, links, is_member);
   const auto least = std::max<std::size_t>(1, at(kind.at_least));
   std::erase_if(components, [&](const auto& rows) { return rows.size() < least; });
   return components;

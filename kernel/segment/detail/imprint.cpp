@@ -10,7 +10,7 @@ namespace {
 
 /// A corner of a facet on the section plane: the half-edge that comes to it and the one that
 /// leaves, as they were before any chord was put in.
-struct Corner {
+struct ChordStop {
   int in = -1, out = -1;
   double along = 0;
 };
@@ -91,7 +91,7 @@ class Imprinter {
         entry->second.push_back({e, out, dot(line, body_.at(out))});
       });
       std::ranges::sort(entry->second, {},
-                        [](const Corner& corner) { return std::pair(corner.along, corner.in); });
+                        [](const ChordStop& corner) { return std::pair(corner.along, corner.in); });
     });
   }
 
@@ -122,10 +122,10 @@ class Imprinter {
     const int f = body_.facet_of(begin);
     const Vec3 line = line_in(f);
     const int last_in = body_.prev(end);
-    std::vector<Corner> stops{
+    std::vector<ChordStop> stops{
         {begin, body_.next(begin), dot(line, body_.world().points.at(body_.target(begin)))}};
     const double goal = dot(line, body_.at(end));
-    for (const Corner& corner : corners_.at(f))
+    for (const ChordStop& corner : corners_.at(f))
       if (corner.along > stops[0].along && corner.along < goal) stops.push_back(corner);
     stops.push_back({last_in, end, goal});
     if (body_.target(begin) == body_.origin(end)) stops.pop_back();
@@ -190,7 +190,7 @@ class Imprinter {
   int normal_class_;
   int plane_rank_;
   Vec3 axis_;
-  std::map<int, std::vector<Corner>> corners_;
+  std::map<int, std::vector<ChordStop>> corners_;
   std::map<int, std::vector<int>> fresh_;  ///< half-edges whose cycles have changed, by facet
 };
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double kFrame_m = 0.15;
 /// How far the sides of a notch must turn, and how straight they may go on (see detail/insets.cpp).
 constexpr double kNotch_deg = 150;
-constexpr double kStraight_deg = 1;
+constexpr double kStraightSide_deg = 1;
 
 class RingFinder {
  public:
@@ -204,7 +204,7 @@ class RingFinder {
       const Vec3 p = side(i), q = side(i + 1);
       return std::atan2(dot(cross(p, q), normal), dot(p, q)) * 180 / std::numbers::pi;
     };
-    const auto goes_on = [&](std::size_t i) { return turn_deg(i) <= kStraight_deg; };
+    const auto goes_on = [&](std::size_t i) { return turn_deg(i) <= kStraightSide_deg; };
     std::size_t start = 0;
     while (start < size && goes_on(start)) ++start;
     if (start == size) return;
