@@ -52,7 +52,8 @@ for _ in $(seq 600); do
 done
 kill -9 -- "-$group"
 wait "$group" 2>/dev/null || true
-done_before=$(find label generalise -name '*.done' 2>/dev/null | wc -l)
+# Nothing may have been generalised yet, not even the folder.
+done_before=$({ find label generalise -name '*.done' 2>/dev/null || true; } | wc -l)
 if [ "$done_before" -eq 0 ] || [ -e generalised.city.jsonl ]; then
   echo "it was not killed half-way: $done_before jobs were done"
   tail first.log
