@@ -18,6 +18,8 @@ class Conjunction {
 
   /// `out`, one for each slot of `frame`: yes at first, no where the answer is not needed.
   Conjunction(const Frame& frame, std::span<Truth> out);
+  Conjunction(const Conjunction&) = delete;
+  Conjunction& operator=(const Conjunction&) = delete;
 
   /// True if a slot is not settled.
   [[nodiscard]] bool is_open() const { return open_ > 0; }
