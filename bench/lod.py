@@ -5,19 +5,16 @@
 
 Ground areas are those of facets that look down; their overlap is measured along 400 lines across each building.
 """
-import json
 import statistics
 import sys
+
+from city_lines import records
 
 
 def solids(path, lod):
     """id -> list of shells, each a list of polygons (rings of points), of all geometries at that lod."""
-    found, transform = {}, None
-    for line in open(path):
-        record = json.loads(line)
-        transform = record.get("transform", transform)
-        scale, shift = transform["scale"], transform["translate"]
-        points = [[v[i] * scale[i] + shift[i] for i in range(3)] for v in record["vertices"]]
+    found = {}
+    for record, points in records(path):
         for name, thing in record["CityObjects"].items():
             for geometry in thing.get("geometry", []):
                 if geometry["lod"] != lod or "Solid" not in geometry["type"]:

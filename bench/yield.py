@@ -18,6 +18,8 @@ import sys
 import tempfile
 from collections import defaultdict
 
+from city_lines import records
+
 TARGETS = [("--scale", f"1:{n}") for n in (500, 1000, 2500, 5000, 10000)] + [("--to-lod", l) for l in ("2.0", "1.2", "1.0")]
 NEAR_M = 0.005  # ends of an edge that stays: snapping moves them by some mm
 
@@ -29,13 +31,9 @@ def least_edge_m(target):
 
 def buildings(paths, lod=None):
     """id -> facets (outer and inner rings of points) of the solid at the lod, else at the highest."""
-    found, transform = {}, None
+    found = {}
     for path in paths:
-        for line in open(path):
-            record = json.loads(line)
-            transform = record.get("transform", transform)
-            scale, shift = transform["scale"], transform["translate"]
-            points = [[v[i] * scale[i] + shift[i] for i in range(3)] for v in record["vertices"]]
+        for record, points in records(path):
             for name, thing in record["CityObjects"].items():
                 if not thing["type"].startswith("Building") or thing["type"] == "BuildingInstallation":
                     continue

@@ -1,6 +1,7 @@
 #include "generalise/remove_cells.h"
 
 #include "generalise/detail/stays.h"
+#include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/cell_complex.h"
@@ -263,7 +264,7 @@ class CellRemover {
     if (!point) return *known;
     for (int f = 0; f < std::ssize(solid_.facets); ++f) {
       const Plane& its = solid_.planes[solid_.facets[at(f)].plane.index()];
-      if (std::abs(dot(its.normal, plane.normal)) < kSame ||
+      if (!are_parallel(its, plane) ||
           std::abs(dot(its.normal, *point) - its.offset_m) > options_.tolerances.weld_m)
         continue;
       if (detail::contains(outlines_of(solid_.vertices, solid_.facets[at(f)].loops), its.normal,
@@ -272,8 +273,10 @@ class CellRemover {
     }
     return *known;
   }
-  /// Cosine of directions that are one: planes of the segmentation are those of the solid.
-  static constexpr double kSame = 1 - 1e-9;
+  /// Exact: planes of the segmentation are those of the solid.
+  static bool are_parallel(const Plane& p, const Plane& q) {
+    return p.coefficients == q.coefficients || p.coefficients == exact::opposite(q).coefficients;
+  }
 
   const Solid& solid_;
   const Segmentation& segmentation_;

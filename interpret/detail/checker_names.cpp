@@ -19,10 +19,6 @@ const std::vector<std::string>& host_kinds() {
   return kinds;
 }
 
-bool contains(const std::vector<std::string>& list, std::string_view name) {
-  return std::ranges::find(list, name) != list.end();
-}
-
 }  // namespace
 
 const std::vector<Attribute>& Checker::schema() const {

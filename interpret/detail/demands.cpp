@@ -24,21 +24,6 @@ bool is_same_but_for_level(const Expr& x, const Expr& y) {
          x.is_previous == y.is_previous && x.args.size() == y.args.size();
 }
 
-Op mirrored(Op op) {
-  switch (op) {
-    case Op::less:
-      return Op::greater;
-    case Op::less_equal:
-      return Op::greater_equal;
-    case Op::greater:
-      return Op::less;
-    case Op::greater_equal:
-      return Op::less_equal;
-    default:
-      return op;
-  }
-}
-
 Op negated(Op op) {
   switch (op) {
     case Op::less:

@@ -108,4 +108,20 @@ inline bool is_quantifier(Op op) {
   return op == Op::count || op == Op::exists || op == Op::none || op == Op::all || is_aggregate(op);
 }
 
+/// The comparison that says the same with its sides exchanged.
+constexpr Op mirrored(Op op) {
+  switch (op) {
+    case Op::less:
+      return Op::greater;
+    case Op::less_equal:
+      return Op::greater_equal;
+    case Op::greater:
+      return Op::less;
+    case Op::greater_equal:
+      return Op::less_equal;
+    default:
+      return op;
+  }
+}
+
 }  // namespace oriel::rules

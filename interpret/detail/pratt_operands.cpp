@@ -22,10 +22,6 @@ const std::vector<std::string>& functions() {
   return words;
 }
 
-bool contains(const std::vector<std::string>& list, std::string_view word) {
-  return std::ranges::find(list, word) != list.end();
-}
-
 /// What is called with one fixed word, which says of whom it speaks. They are words of the language
 /// only where a bracket follows.
 struct Measure {

@@ -38,21 +38,6 @@ const char* symbol_of(Op op) {
 }
 
 /// The comparison seen from its right side.
-Op mirrored(Op op) {
-  switch (op) {
-    case Op::less:
-      return Op::greater;
-    case Op::less_equal:
-      return Op::greater_equal;
-    case Op::greater:
-      return Op::less;
-    case Op::greater_equal:
-      return Op::less_equal;
-    default:
-      return op;
-  }
-}
-
 const char* yes_or_no(Truth truth) {
   if (truth == Truth::unknown) return "?";
   return truth == Truth::yes ? "yes" : "no";

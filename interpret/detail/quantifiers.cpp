@@ -22,6 +22,10 @@ Truth answer_of(Op op, Truth is_other, Truth answer) {
   return op == Op::all ? std::max(negated(is_other), answer) : std::min(is_other, answer);
 }
 
+bool has_unknown_in(const Truth* truths, std::size_t count) {
+  return std::find(truths, truths + count, Truth::unknown) != truths + count;
+}
+
 /// How many others of a slot are asked at first: some more than could be enough.
 std::size_t first_share(Evaluator::Enough enough) {
   constexpr int kAll = std::numeric_limits<int>::max() / 4;
@@ -57,9 +61,8 @@ class Evaluator::Rounds {
         out_(out),
         enough_(enough) {
     if (expr.filter != kNoExpr) filter_ = evaluator.column(expr.filter, expr.level + 1).data();
-    const Truth* const end = filter_ + evaluator.facts_->rows;
     may_be_unknown_ = !links_.are_all_certain() ||
-                      (filter_ != nullptr && std::find(filter_, end, Truth::unknown) != end);
+                      (filter_ != nullptr && has_unknown_in(filter_, evaluator.facts_->rows));
     for (std::size_t slot = 0; slot < out.size(); ++slot) {
       out[slot] = {0, 0, 0};
       if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;

@@ -20,10 +20,6 @@ const std::vector<std::string>& taken_names() {
   return names;
 }
 
-bool contains(const std::vector<std::string>& list, std::string_view name) {
-  return std::ranges::find(list, name) != list.end();
-}
-
 bool is_version(std::string_view text) {
   int parts = 0;
   while (true) {

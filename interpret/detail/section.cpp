@@ -30,10 +30,6 @@ std::string describe(const YamlNode& node) {
   return "";
 }
 
-bool contains(const std::vector<std::string>& list, std::string_view text) {
-  return std::ranges::find(list, text) != list.end();
-}
-
 bool expect(const YamlNode& node, Kind kind, const std::string& what, const std::string& wanted,
             Findings& findings) {
   if (node.kind == kind) return true;

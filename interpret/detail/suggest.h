@@ -6,6 +6,8 @@
 
 namespace oriel::rules {
 
+bool contains(const std::vector<std::string>& names, std::string_view name);
+
 /// The candidate that `name` was probably meant to be: the least edits (insert, delete, replace,
 /// swap neighbours) away, at most a third of the name's length and at least one; the first of
 /// equals. Empty if none is near.

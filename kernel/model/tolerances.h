@@ -8,8 +8,8 @@ struct Tolerances {
   /// Two polygons may share a plane if their normals differ by no more than this. 0.5° is what
   /// surveyed LoD3 walls show between panes of one facade.
   double coplanar_deg = 0.5;
-  /// …and if no vertex of the polygon lies further from that plane than this. 2–5 × the noise of
-  /// the input works best; 2 mm suits models written in millimetres.
+  /// …and if no vertex of the polygon lies further from that plane than this. 1.5–2 × the noise
+  /// of the input works best (docs/solidify.md, "Noise"); 2 mm suits models written in millimetres.
   double plane_offset_m = 0.002;
   /// Vertices closer than this are one vertex. The grid that coordinates are rounded to is the
   /// largest power of two ≤ weld_m / 1024, so rounding is far below it.
