@@ -17,9 +17,6 @@ namespace {
 
 using detail::Outline;
 
-/// Cosine of directions that are one: a facet keeps its plane but for rounding.
-constexpr double kSameDirection = 1 - 1e-9;
-
 Outline outline_of_loop(const std::vector<Vertex>& vertices, const Loop& loop) {
   Outline outline;
   for (const int v : loop) outline.push_back(vertices[at(v)].point);
@@ -53,7 +50,7 @@ class RingFiller {
 
  private:
   [[nodiscard]] bool lies_in(const Plane& its, const Plane& plane) const {
-    return dot(its.normal, plane.normal) >= kSameDirection &&
+    return its.coefficients == plane.coefficients &&
            std::abs(its.offset_m - plane.offset_m) <= options_.tolerances.weld_m;
   }
 
