@@ -26,7 +26,8 @@ std::vector<Deed> account(const Plan& plan, const Generalised& generalised,
       deed.rule = step->rule;
     }
     if (is_gone)
-      deed.outcome = deed.operation == "omit" ? "omitted" : "went along";
+      deed.outcome =
+          deed.operation == "omit" || deed.operation == "flatten" ? "omitted" : "went along";
     else if (std::ranges::binary_search(generalised.changed, id))
       deed.outcome = "changed";
     else if (refused != generalised.refused.end()) {

@@ -42,7 +42,7 @@ bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
   if (interpretation.verdicts[refused.feature.index()].label.empty()) return true;
   const auto step = std::ranges::find(plan.steps, refused.feature, &Step::feature);
   return step != plan.steps.end() &&
-         significance_of(step->rule.substr(step->rule.find('/') + 1)).has_value();
+         is_verdict_of_size(step->rule.substr(step->rule.find('/') + 1));
 }
 
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,

@@ -3,6 +3,7 @@
 #include "interpret/detail/pack.h"
 #include "interpret/profile.h"
 #include "kernel/model/detail/index.h"
+#include "kernel/model/wall_lean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,8 @@ constexpr double kOnGround_m = 0.3;
 /// is part of the ground plan, whatever it is called: a passage, or a corner that is not built on.
 constexpr double kWallDepth_m = 0.5;
 
-/// What is less steep than 80° is roof, as where features are described.
-constexpr double kRoofRise = 0.1736;
+/// What was enlarged to a length is as long as that when it is read again, rounded.
+constexpr double kGrownEnough_m = 0.001;
 
 class ProfilePlanner {
  public:
@@ -50,7 +51,7 @@ class ProfilePlanner {
     spare_carriers();
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
       if (const std::string& why = reason_[at(i)]; !why.empty())
-        plan_.steps.push_back({FeatureId{i}, "omit", profile_.title() + "/" + why});
+        plan_.steps.push_back(step_for({i}, why));
     std::ranges::stable_sort(plan_.steps, {}, &Step::feature);
     return std::move(plan_);
   }
@@ -83,7 +84,43 @@ class ProfilePlanner {
     if (!thresholds_ || !a || !b || !c) return;
     const Significance verdict = significance(*a, *b, *c, *thresholds_);
     if (verdict == Significance::keep || (main_parts_ && main_parts_->has(id))) return hold(id);
-    if (profile_.omitted.contains(verdict)) why = to_string(verdict);
+    if (verdict == Significance::sheet)
+      why = why_sheet_goes(id);
+    else if (profile_.omitted.contains(verdict))
+      why = to_string(verdict);
+  }
+
+  /// Its place, if the profile has something to be done to sheets there. What is as thick as it is
+  /// to become stays.
+  [[nodiscard]] std::string why_sheet_goes(FeatureId id) const {
+    const SheetPlace place = sheet_place(table_, id, thresholds_->c_m);
+    const auto found = profile_.sheets.find(place);
+    if (found == profile_.sheets.end()) return {};
+    const bool is_done = found->second == "enlarge" && has_label(id) &&
+                         table_.number(id, "c").value_or(0) >= thresholds_->c_m - kGrownEnough_m;
+    return is_done ? std::string() : to_string(place);
+  }
+
+  [[nodiscard]] bool has_label(FeatureId id) const {
+    return !interpretation_.verdicts[id.index()].label.empty();
+  }
+
+  [[nodiscard]] Step step_for(FeatureId id, const std::string& why) const {
+    Step step{id, "omit", profile_.title() + "/" + why};
+    const auto place = sheet_place_of(why);
+    if (!place) return step;
+    step.operation = profile_.sheets.at(*place);
+    const Sense sense = segmentation_.features[id.index()].sense;
+    if (step.operation == "flatten" && sense == Sense::hole && has_label(id))
+      step.operation = "collapse";
+    if (step.operation == "omit" && *place == SheetPlace::enclosed && sense == Sense::protrusion)
+      step.operation = "merge";
+    if (step.operation != "enlarge") return step;
+    if (has_label(id))
+      step.numbers = {{"to", thresholds_->c_m}, {"gap", thresholds_->c_m}};
+    else
+      step.operation = "omit";
+    return step;
   }
 
   [[nodiscard]] bool reaches_ground(FeatureId id) const {
@@ -105,10 +142,10 @@ class ProfilePlanner {
   /// called. Its size decides.
   [[nodiscard]] bool is_notch(FeatureId id) const {
     return segmentation_.features[id.index()].sense == Sense::hole && has_plane(id, is_roof) &&
-           has_plane(id, [](const Plane& plane) { return std::abs(plane.normal.z) <= kRoofRise; });
+           has_plane(id, [](const Plane& plane) { return std::abs(plane.normal.z) <= kWallLean; });
   }
 
-  static bool is_roof(const Plane& plane) { return plane.normal.z > kRoofRise; }
+  static bool is_roof(const Plane& plane) { return plane.normal.z > kWallLean; }
 
   template <class Test>
   [[nodiscard]] bool has_plane(FeatureId id, const Test& test) const {
@@ -133,7 +170,7 @@ class ProfilePlanner {
     while (true) {
       for (int i = 0; i < std::ssize(reason_); ++i) {
         goes_at_all[at(i)] = goes({i}) ? 1 : 0;
-        goes_for_size[at(i)] = significance_of(reason_[at(i)]) ? 1 : 0;
+        goes_for_size[at(i)] = is_verdict_of_size(reason_[at(i)]) ? 1 : 0;
       }
       const FeatureId id = main_parts_->holder_of_ridge(goes_at_all, goes_for_size);
       if (!id.is_valid()) return;
@@ -156,7 +193,7 @@ class ProfilePlanner {
       staying.pop_back();
       for (const FeatureId carrier : {feature.parent, feature.host}) {
         if (!carrier.is_valid() || reason_[carrier.index()].empty()) continue;
-        const bool is_for_size = significance_of(reason_[carrier.index()]).has_value();
+        const bool is_for_size = is_verdict_of_size(reason_[carrier.index()]);
         const bool hangs_over =
             stands && segmentation_.features[carrier.index()].box.min.z > lowest_m + kOnGround_m;
         if (!is_for_size && !hangs_over) continue;

@@ -159,11 +159,29 @@ class ProfileReader {
   }
 
   void read_verdicts(const YamlNode& node) {
-    Section section(node, "'verdicts'", {"point", "line", "small", "sheet"}, findings_);
+    Section section(node, "'verdicts'",
+                    {"point", "line", "small", "sheet", "lamina", "cap", "fin", "enclosed"},
+                    findings_);
     if (!section.is_map()) return;
     for (const Significance verdict :
-         {Significance::point, Significance::line, Significance::small, Significance::sheet})
+         {Significance::point, Significance::line, Significance::small})
       if (word(section.find(to_string(verdict)), "keep", "omit")) profile_.omitted.insert(verdict);
+    const bool all_go = word(section.find("sheet"), "keep", "omit");
+    const std::map<SheetPlace, std::vector<std::string>> operators{
+        {SheetPlace::lamina, {"omit", "flatten"}},
+        {SheetPlace::cap, {"omit", "flatten"}},
+        {SheetPlace::fin, {"omit", "enlarge"}},
+        {SheetPlace::enclosed, {"omit"}}};
+    for (const auto& [place, words] : operators) {
+      const YamlNode* own = section.find(to_string(place));
+      const std::string verdict = own == nullptr ? (all_go ? "omit" : "keep") : own->text;
+      if (verdict == "keep") continue;
+      if (std::ranges::find(words, verdict) != words.end())
+        profile_.sheets[place] = verdict;
+      else
+        findings_.error("R211", own->span,
+                        fmt::format("write keep, {}, not '{}'", rules::join(words), verdict));
+    }
   }
 
   void read_parts(const YamlNode& node) {

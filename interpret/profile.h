@@ -8,6 +8,7 @@
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -52,8 +53,11 @@ struct Profile {
   std::optional<double> edge_owner_b_m;
   /// An STL has a solid for each class of surfaces (WallSurface), not for each label.
   bool names_classes = false;
-  /// Verdicts that make a feature go that neither the pack nor the lists above decide of.
+  /// Verdicts that make a feature go that neither the pack nor the lists above decide of; sheets
+  /// are below.
   std::set<Significance> omitted;
+  /// What becomes of such sheets: the operator "omit", "flatten" or "enlarge"; missing: they stay.
+  std::map<SheetPlace, std::string> sheets;
   /// What an operation must not change by more than this, in percent; missing: it may.
   std::optional<double> footprint_pct, volume_pct;
   /// The same of the highest point, in metres.
@@ -90,7 +94,10 @@ std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base);
 /// building (Profile::Part). A recess that reaches the ground and is deep, or has no lintel, is
 /// part of the ground plan: it stays where what is on the ground stays. A feature that carries one
 /// that is to stay by the profile does not go for its size. Steps are called "NAME:LEVEL/omit" or
-/// "NAME:LEVEL/VERDICT". `scale` is needed by map profiles.
+/// "NAME:LEVEL/VERDICT", of sheets with their place as verdict. `flatten` of a recess with a label
+/// is a step `collapse`, so that its outline stays; `enlarge` grows to c, and what has no label
+/// goes instead; what is enclosed and material is merged into its host. `scale` is needed by map
+/// profiles.
 Plan plan_by_profile(Plan plan, const Profile& profile, const RuleBase& base,
                      const Segmentation& segmentation, const FeatureTable& table,
                      const Interpretation& interpretation, std::optional<double> scale);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/model/feature_table.h"
+
 #include <optional>
 #include <string>
 
@@ -37,9 +39,28 @@ enum class Significance {
 /// in the paper's order: c > x_c, a < x_a, b < x_b, a · b < x_A, else a sheet.
 Significance significance(double a_m, double b_m, double c_m, const Thresholds& thresholds);
 
+/// How a sheet lies to the part it touches (paper 5.1, Figure 7; our reading of it: design of the
+/// generalisation). It decides what can be done to it.
+enum class SheetPlace {
+  lamina,   ///< flat on its facet: a plate, a shallow niche
+  cap,      ///< flat on its facet and reaching beyond it: an overhang
+  fin,      ///< on edge: a slab, a canopy, a parapet
+  enclosed  ///< within the box of what it touches: a slot, a groove, a cavity, an inner wall
+};
+
+/// Of a sheet with the attributes of describe(): flat on its facet is what is no deeper than c
+/// along its normal, a cap if it reaches more than c sideways out of the box of the part it
+/// touches. Of the others, what reaches no more than c out of that box is enclosed.
+SheetPlace sheet_place(const FeatureTable& table, FeatureId id, double c_m);
+
 /// "keep", "point", "line", "small", "sheet".
 std::string to_string(Significance significance);
+/// "lamina", "cap", "fin", "enclosed".
+std::string to_string(SheetPlace place);
 /// What a text of to_string() says.
 std::optional<Significance> significance_of(const std::string& text);
+std::optional<SheetPlace> sheet_place_of(const std::string& text);
+/// True of both: it is a verdict of size, not one of a list of classes.
+bool is_verdict_of_size(const std::string& text);
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #include "generalise/detail/host.h"
 
+#include "kernel/attach/move_facet.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
@@ -57,11 +58,7 @@ std::optional<FacetId> ground_under(const Solid& solid, const Host& host, const 
 
 /// A plane parallel to the host's, `out_m` in front of it, that looks out (+1) or in (-1).
 Plane parallel(const Solid& solid, const Plane& plane, double out_m, int sign) {
-  const auto& c = plane.coefficients;
-  const double size =
-      length({static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])});
-  const Plane moved =
-      exact::make_plane(c, plane.offset + std::llround(out_m * size / solid.grid_m), solid.grid_m);
+  const Plane moved = plane_in_front(plane, out_m, solid.grid_m);
   return sign > 0 ? moved : exact::opposite(moved);
 }
 

@@ -5,6 +5,7 @@
 #include "generalise/operators/collapse.h"
 #include "generalise/operators/displace.h"
 #include "generalise/operators/enlarge.h"
+#include "generalise/operators/flatten.h"
 #include "generalise/operators/merge.h"
 #include "generalise/operators/omit.h"
 #include "generalise/operators/symbolise.h"
@@ -101,6 +102,8 @@ class StepRunner {
     if (is_in_another) return;  // it went with what carries it
     Placed placed = place_task({out.solid, segmentation_, task.steps, plan_.scale});
     if (!placed.solid) return fail(task, "G403", placed.reason);
+    if (task.operation == "flatten" && is_valid_ && !is_valid_(*placed.solid))
+      return fail(task, "G403", "the moved facet would meet another part");
     out.solid = std::move(*placed.solid);
     for (std::size_t i = 0; i < represented(task); ++i) {
       std::erase(out.removed, task.steps[i].feature);
@@ -116,11 +119,13 @@ class StepRunner {
     if (operation == "aggregate") return aggregate(redrawing);
     if (operation == "typify") return typify(redrawing);
     if (operation == "displace") return displace(redrawing);
+    if (operation == "flatten") return flatten(redrawing);
     return collapse(redrawing);
   }
 
-  /// How many members of a group stand for it afterwards.
+  /// How many of the features of a task are still there afterwards.
   [[nodiscard]] static std::size_t represented(const PlanTask& task) {
+    if (task.operation == "flatten") return 0;
     if (task.operation == "aggregate") return 1;
     if (task.operation != "typify") return task.steps.size();
     const auto ratio = task.steps[0].numbers.find("ratio");

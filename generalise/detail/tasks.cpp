@@ -9,8 +9,10 @@ namespace oriel::detail {
 
 namespace {
 
-bool is_drawn_last(const std::string& operation) {
-  return operation == "collapse" || operation == "flatten";
+/// What moves a facet comes after what is put onto it, outlines come last.
+int rank_of(const std::string& operation) {
+  if (operation == "collapse") return 2;
+  return operation == "flatten" ? 1 : 0;
 }
 
 class TaskMaker {
@@ -35,7 +37,7 @@ class TaskMaker {
         add_row({members[0].operation, std::move(members)});
     std::ranges::sort(tasks_, {}, [](const PlanTask& task) {
       const auto first = std::ranges::min(task.steps, {}, &Step::feature).feature;
-      return std::pair{is_drawn_last(task.operation), first};
+      return std::pair{rank_of(task.operation), first};
     });
     return std::move(tasks_);
   }

@@ -18,11 +18,10 @@ struct PlanTask {
 bool is_for_groups(const std::string& operation);
 
 /// The steps of a plan as tasks, in the order in which they are carried out: of their first
-/// features, outlines last; those that only take off (omit) are left out. Steps for groups
-/// (aggregate, typify,
-/// displace) of one rule and wall plane are together if they are of one group of the pack
-/// (Step::group), else if their heights overlap by half of the lower one's; they are ordered along
-/// the wall.
+/// features, then what moves facets (flatten), outlines last; those that only take off (omit) are
+/// left out. Steps for groups (aggregate, typify, displace) of one rule and wall plane are together
+/// if they are of one group of the pack (Step::group), else if their heights overlap by half of the
+/// lower one's; they are ordered along the wall.
 std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation);
 
 }  // namespace oriel::detail

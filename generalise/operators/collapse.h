@@ -4,7 +4,7 @@
 
 namespace oriel {
 
-/// The operators `collapse` and `flatten`: a recess, or what sticks out, loses its depth and leaves
+/// The operator `collapse`: a recess, or what sticks out, loses its depth and leaves
 /// its outline on its wall or roof as an imprint (paper 5.1; design, "collapse to imprint").
 ///
 /// Precondition: its facet is found again and the outline, the rectangle around it in that facet,

@@ -9,8 +9,9 @@ detail::Placed enlarge(const Redrawing& task) {
   if (!host) return {std::nullopt, "its wall is not found any more"};
   const Feature& feature = task.feature();
   const detail::Extents now = extents_of(*host, task.segmentation, feature);
-  if (feature.sense != Sense::hole || !is_box(feature, now))
-    return {std::nullopt, "only recesses that are boxes can be enlarged"};
+  const bool is_block = feature.sense == Sense::protrusion;
+  if ((feature.sense != Sense::hole && !is_block) || !is_box(feature, now))
+    return {std::nullopt, "only recesses and blocks that are boxes can be enlarged"};
   const double to_m = task.to_m();
   const double more_u = std::max(0.0, to_m - now.width());
   const double more_v = std::max(0.0, to_m - now.height());
@@ -25,8 +26,9 @@ detail::Placed enlarge(const Redrawing& task) {
     then.u1 += u / 2;
     then.v0 -= is_on_sill ? 0 : v / 2;
     then.v1 += is_on_sill ? v : v / 2;
-    placed = place_box(task.solid, *host, then, now.depth(), Attach::sink, task.gap_m(),
-                       feature.source_polygons);
+    placed =
+        place_box(task.solid, *host, then, now.depth(), is_block ? Attach::raise : Attach::sink,
+                  task.gap_m(), feature.source_polygons);
     if (placed.solid) break;
   }
   return placed;

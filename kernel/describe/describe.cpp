@@ -7,6 +7,7 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/geometry/visible_level.h"
 #include "kernel/model/detail/index.h"
+#include "kernel/model/wall_lean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,7 +177,11 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
   table.set(s.id, columns().growth_up, beyond({0, 0, 1}));
   table.set(s.id, columns().growth_down, beyond({0, 0, -1}));
   table.set(s.id, columns().growth_out, beyond(*s.normal));
-  table.set(s.id, columns().growth_side, std::max(beyond(s.across), beyond(-s.across)));
+  double side = std::max(beyond(s.across), beyond(-s.across));
+  // Along a wall's other direction, up and down, the two columns above say it.
+  const Vec3 slope = cross(*s.normal, s.across);
+  if (std::abs(s.normal->z) > kWallLean) side = std::max({side, beyond(slope), beyond(-slope)});
+  table.set(s.id, columns().growth_side, side);
 }
 
 /// Input polygons as what is parallel to a plane.

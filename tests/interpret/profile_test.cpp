@@ -1,6 +1,7 @@
 #include "interpret/profile.h"
 
 #include <array>
+#include <map>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -36,6 +37,46 @@ TEST_SUITE("interpret") {
     CHECK(significance(1.5, .6, .5, t) == Significance::point);
     CHECK(significance(3, 2.5, 1.2, t) == Significance::keep);
     CHECK(significance(2.2, 1.2, .2, t) == Significance::small);
+  }
+
+  TEST_CASE("sheets are told apart by where they are thin and how they grow") {
+    const auto place = [](std::map<std::string, double> numbers) {
+      FeatureTable table("b", 1);
+      for (const auto& [name, number] : numbers) table.set(FeatureId{0}, name, number);
+      return to_string(sheet_place(table, FeatureId{0}, 0.25));
+    };
+    CHECK(place({{"depth", 0.2}, {"inclination", 90}, {"growth_out", 0.2}}) == "lamina");
+    CHECK(place({{"depth", 0.2}, {"inclination", 90}, {"growth_up", 0.5}}) == "cap");
+    CHECK(place({{"depth", 0.2}, {"inclination", 0}, {"growth_up", 0.2}}) == "lamina");
+    CHECK(place({{"depth", 0.2}, {"inclination", 0}, {"growth_side", 0.3}}) == "cap");
+    CHECK(place({{"depth", 1.5}, {"inclination", 90}, {"growth_out", 1.5}}) == "fin");
+    CHECK(place({{"depth", 1.5}, {"inclination", 90}, {"growth_out", 0}}) == "enclosed");
+    CHECK(place({}) == "enclosed");  // a cavity
+    for (const char* name : {"lamina", "cap", "fin", "enclosed"})
+      CHECK(to_string(*sheet_place_of(name)) == name);
+    CHECK(is_verdict_of_size("fin"));
+    CHECK(is_verdict_of_size("point"));
+    CHECK_FALSE(is_verdict_of_size("omit"));
+  }
+
+  TEST_CASE("verdicts of sheets are one for all or one for each place") {
+    const std::string head = "{form: as-is, map-mm: 0.5, verdicts: ";
+    const auto sheets = [&](const std::string& verdicts) {
+      std::string out;
+      const auto loaded = load_profile(profile_with(head + verdicts + "}"), "p.yaml", "");
+      REQUIRE(loaded.value);
+      for (const auto& [place, verdict] : loaded.value->sheets)
+        out += to_string(place) + "=" + verdict + " ";
+      return out;
+    };
+    CHECK(sheets("{sheet: keep}") == "");
+    CHECK(sheets("{sheet: omit}") == "lamina=omit cap=omit fin=omit enclosed=omit ");
+    CHECK(sheets("{sheet: omit, fin: enlarge, cap: keep}") ==
+          "lamina=omit fin=enlarge enclosed=omit ");
+    CHECK(codes_of(head + "{fin: flatten}}") == "R211 ");
+    CHECK(codes_of(head + "{sheet: flatten}}") == "R211 ");
+    CHECK(codes_of(head + "{lamina: enlarge}}") == "R211 ");
+    CHECK(codes_of(head + "{slot: omit}}") == "R209 ");
   }
 
   TEST_CASE("the thresholds of a map are a chain at every scale") {

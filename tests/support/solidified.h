@@ -29,6 +29,17 @@ inline std::string outcome_of(const Building& building, const Tolerances& tolera
   return out;
 }
 
+/// The first facet that looks in that direction, or the test ends.
+inline FacetId facet_looking(const Solid& solid, Vec3 direction) {
+  for (int f = 0; f < static_cast<int>(solid.facets.size()); ++f) {
+    const FacetId id{f};
+    if (dot(solid.planes[solid.facets[id.index()].plane.index()].normal, direction) > 0.999)
+      return id;
+  }
+  FAIL("no such facet");
+  return {};
+}
+
 /// The building with one polygon for each facet of its solid, inner rings and all: as surveyed
 /// models come, where bodies made in code are in pieces.
 inline Building in_whole_facets(const Building& building) {

@@ -16,16 +16,6 @@ namespace {
 
 Solid block() { return solid_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).build()); }
 
-FacetId facet_looking(const Solid& solid, Vec3 direction) {
-  for (int f = 0; f < std::ssize(solid.facets); ++f) {
-    const FacetId id{f};
-    if (dot(solid.planes[solid.facets[id.index()].plane.index()].normal, direction) > 0.999)
-      return id;
-  }
-  FAIL("no such facet");
-  return {};
-}
-
 /// Planes of a box that look out of it, without the one whose normal is `without`.
 std::vector<Plane> box_planes(const Solid& solid, Vec3 min, Vec3 max,
                               const std::vector<Vec3>& without) {
