@@ -199,6 +199,9 @@ class Generaliser {
     if (profile != nullptr)
       invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m,
                     profile->overhang_pct};
+    // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
+    if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
+      invariants.least_edge_m = least_edge(profile);
     invariants.is_valid = [&](const Solid& solid) {
       return !prove_redrawn(document, building, solid).fault;
     };

@@ -1,9 +1,12 @@
 #include "generalise/carry_out.h"
 
 #include "generalise/detail/steps.h"
+#include "generalise/fineness.h"
 
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel {
 
@@ -14,19 +17,21 @@ using detail::carry_out_steps;
 class Guard {
  public:
   Guard(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-        const SegmentOptions& options, const Invariants& invariants)
+        const SegmentOptions& options, const Invariants& invariants, const Pieces& pieces)
       : solid_(solid),
         segmentation_(segmentation),
         plan_(plan),
         options_(options),
         invariants_(invariants),
+        pieces_(pieces),
         before_(measures_of(solid)) {}
 
   CarriedOut run() {
     while (true) {
       CarriedOut out = first(plan_.steps.size());
       const auto broken = violation(before_, measures_of(out.solid), invariants_);
-      if (!broken) return with_undone(std::move(out));
+      if (!broken && !undo_torn(out)) return with_undone(std::move(out));
+      if (!broken) continue;
       if (undone_.size() == plan_.steps.size()) return with_undone(std::move(out));
       undone_.push_back(culprit(*broken));
     }
@@ -43,6 +48,37 @@ class Guard {
     for (std::size_t i = 0; i < count; ++i)
       if (!is_undone(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
     return carry_out_steps(solid_, segmentation_, some, options_, invariants_.is_valid);
+  }
+
+  /// Takes back what tears a piece off; false if nothing does.
+  bool undo_torn(const CarriedOut& out) {
+    if (invariants_.least_edge_m <= 0 || pieces_.may_stay.empty()) return false;
+    const std::size_t count = undone_.size();
+    for (const ShortEdge& edge :
+         new_short_edges(solid_, out.solid, segmentation_, out.removed, invariants_.least_edge_m))
+      for (const Step& step : plan_.steps)
+        if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
+            std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
+            is_torn(step.feature, edge))
+          undone_.push_back({step.feature, "G418",
+                             fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
+    return undone_.size() > count;
+  }
+
+  /// The edge is where the piece was torn off what stays.
+  [[nodiscard]] bool is_torn(FeatureId piece, const ShortEdge& edge) const {
+    constexpr double kRounded_m = 0.001;
+    const Box& box = segmentation_.features[piece.index()].box;
+    if (!edge.feature.is_valid() || edge.length_m > pieces_.c_m[piece.index()] + kRounded_m ||
+        (!holds(box, edge.from) && !holds(box, edge.to)))
+      return false;
+    return pieces_.c_m[edge.feature.index()] < invariants_.least_edge_m ||
+           carries(edge.feature, piece);
+  }
+
+  [[nodiscard]] bool carries(FeatureId carrier, FeatureId id) const {
+    while (id.is_valid() && id != carrier) id = segmentation_.features[id.index()].parent;
+    return id.is_valid();
   }
 
   /// The first `good` steps break nothing, the first `bad` do.
@@ -68,6 +104,7 @@ class Guard {
   const Plan& plan_;
   const SegmentOptions& options_;
   const Invariants& invariants_;
+  const Pieces& pieces_;
   Measures before_;
   std::vector<CarriedOut::Refused> undone_;
 };
@@ -75,8 +112,9 @@ class Guard {
 }  // namespace
 
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                     const SegmentOptions& options, const Invariants& invariants) {
-  return Guard(solid, segmentation, plan, options, invariants).run();
+                     const SegmentOptions& options, const Invariants& invariants,
+                     const Pieces& pieces) {
+  return Guard(solid, segmentation, plan, options, invariants, pieces).run();
 }
 
 }  // namespace oriel

@@ -24,11 +24,22 @@ struct CarriedOut {
   std::vector<FeatureId> changed{};
 };
 
+/// What may be a piece of something larger: a plinth, the eaves, a parapet.
+struct Pieces {
+  /// What is to be taken off for its size, or has no name. Ascending.
+  std::vector<FeatureId> may_stay;
+  /// By feature its shortest extent, the paper's c; infinite where it is not known.
+  std::vector<double> c_m;
+};
+
 /// Carries out the steps of a plan on its solid, one operator after the other, and takes back, one
 /// by one, the steps by which an invariant would break (G405), or something would
 /// hang in the air (G411). Which one that is, is found by halving: the last of the fewest first
-/// steps that break it.
+/// steps that break it. A piece is torn off what it runs on into if a new edge that is too short
+/// arises at it, no longer than the piece is thin, and belongs to something thin that stays or to
+/// what carries the piece: then its step is taken back, if it may stay (G418).
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                     const SegmentOptions& options, const Invariants& invariants = {});
+                     const SegmentOptions& options, const Invariants& invariants = {},
+                     const Pieces& pieces = {});
 
 }  // namespace oriel

@@ -28,12 +28,6 @@ constexpr double kAlong = 1e-3;
 
 using detail::Outline;
 
-bool holds(const Box& box, Vec3 p) {
-  return p.x >= box.min.x - kOnBox_m && p.x <= box.max.x + kOnBox_m &&
-         p.y >= box.min.y - kOnBox_m && p.y <= box.max.y + kOnBox_m &&
-         p.z >= box.min.z - kOnBox_m && p.z <= box.max.z + kOnBox_m;
-}
-
 FeatureId smallest_around(const Segmentation& segmentation, const std::vector<FeatureId>& removed,
                           Vec3 p, Vec3 q) {
   FeatureId best;
@@ -59,14 +53,42 @@ void for_each_edge_once(const Solid& solid, const Visit& visit) {
       }
 }
 
-bool is_in_edge_of(const Solid& solid, const ShortEdge& edge) {
-  bool is_there = false;
+/// Edges shorter than asked for, their owners not known yet.
+std::vector<ShortEdge> edges_below(const Solid& solid, double least_m) {
+  std::vector<ShortEdge> edges;
   for_each_edge_once(solid, [&](Vec3 p, Vec3 q) {
-    is_there = is_there || (detail::distance_to_segment(edge.from, p, q) < kRounding_m &&
-                            detail::distance_to_segment(edge.to, p, q) < kRounding_m);
+    const double length_m = length(q - p);
+    if (length_m < least_m - kRounding_m) edges.push_back({p, q, length_m, {}});
   });
-  return is_there;
+  return edges;
 }
+
+void find_owners(std::vector<ShortEdge>& edges, const Segmentation& segmentation,
+                 const std::vector<FeatureId>& removed) {
+  for (ShortEdge& edge : edges)
+    edge.feature = smallest_around(segmentation, removed, edge.from, edge.to);
+}
+
+/// The corners of a solid, sorted, to find again what stays where it was.
+class Corners {
+ public:
+  explicit Corners(const Solid& solid) {
+    for (const Facet& facet : solid.facets)
+      for (const Loop& loop : facet.loops)
+        for (const int v : loop) points_.push_back(solid.vertices[at(v)].point);
+    std::ranges::sort(points_, {}, &Vec3::x);
+  }
+
+  [[nodiscard]] bool has(Vec3 p) const {
+    auto next = std::ranges::lower_bound(points_, p.x - kOnBox_m, {}, &Vec3::x);
+    for (; next != points_.end() && next->x <= p.x + kOnBox_m; ++next)
+      if (length(*next - p) <= kOnBox_m) return true;
+    return false;
+  }
+
+ private:
+  std::vector<Vec3> points_;
+};
 
 bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
   if (!edge.feature.is_valid()) return false;
@@ -153,14 +175,29 @@ using Findings = std::map<FeatureId, Finding>;
 
 }  // namespace
 
+bool holds(const Box& box, Vec3 p) {
+  return p.x >= box.min.x - kOnBox_m && p.x <= box.max.x + kOnBox_m &&
+         p.y >= box.min.y - kOnBox_m && p.y <= box.max.y + kOnBox_m &&
+         p.z >= box.min.z - kOnBox_m && p.z <= box.max.z + kOnBox_m;
+}
+
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m) {
-  std::vector<ShortEdge> edges;
-  for_each_edge_once(solid, [&](Vec3 p, Vec3 q) {
-    const double length_m = length(q - p);
-    if (length_m < least_m - kRounding_m)
-      edges.push_back({p, q, length_m, smallest_around(segmentation, removed, p, q)});
-  });
+  std::vector<ShortEdge> edges = edges_below(solid, least_m);
+  find_owners(edges, segmentation, removed);
+  return edges;
+}
+
+std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
+                                       const Segmentation& segmentation,
+                                       const std::vector<FeatureId>& removed, double least_m) {
+  std::vector<ShortEdge> edges = edges_below(after, least_m);
+  if (edges.empty()) return edges;
+  const Corners corners(before);
+  std::erase_if(
+      edges, [&](const ShortEdge& edge) { return corners.has(edge.from) && corners.has(edge.to); });
+  find_owners(edges, segmentation, removed);
+  std::erase_if(edges, [&](const ShortEdge& edge) { return is_depth(edge, segmentation); });
   return edges;
 }
 
@@ -214,12 +251,11 @@ std::vector<Issue> fineness_issues(const Building& building, const Solid& before
                                    const FeatureTable& table, const Generalised& generalised,
                                    const Fineness& asked) {
   Findings edges, gaps;
-  for (const ShortEdge& edge :
-       short_edges(after, segmentation, generalised.removed, asked.least_m)) {
-    if (!asked.is_everywhere && (is_depth(edge, segmentation) || is_in_edge_of(before, edge)))
-      continue;
-    edges[edge.feature].add(edge.length_m, edge.from);
-  }
+  const auto found =
+      asked.is_everywhere
+          ? short_edges(after, segmentation, generalised.removed, asked.least_m)
+          : new_short_edges(before, after, segmentation, generalised.removed, asked.least_m);
+  for (const ShortEdge& edge : found) edges[edge.feature].add(edge.length_m, edge.from);
   if (asked.is_everywhere)
     for (const NarrowGap& gap :
          narrow_gaps(after, segmentation, generalised.removed, asked.least_m))

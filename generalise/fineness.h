@@ -23,10 +23,20 @@ struct NarrowGap {
   FeatureId feature;  ///< as of ShortEdge
 };
 
+/// The point is in the box, or no more than a millimetre off it.
+bool holds(const Box& box, Vec3 point);
+
 /// Edges shorter than `least_m`, each once, in the order of facets. Features that are `removed`
 /// (ascending) have none.
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m);
+
+/// Those that arose between `before` and `after`: without edges from a corner of `before` to
+/// another one, which stand for shorter ones that were between them, and without those along the
+/// depth of a recess.
+std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
+                                       const Segmentation& segmentation,
+                                       const std::vector<FeatureId>& removed, double least_m);
 
 /// Gaps narrower than `least_m` between parallel facets that overlap, seen along their normal.
 std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
@@ -41,8 +51,7 @@ struct Fineness {
 
 /// What of a building that was redrawn as `after` is finer: for each feature with such edges a
 /// G415, and everywhere for each with such gaps a G416; a warning everywhere, else a note. It says
-/// if the feature was to change and was refused. Edges that `before` had are not new; those along
-/// the depth of a recess are exempt unless everywhere.
+/// if the feature was to change and was refused. What is new: new_short_edges().
 std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
                                    const Solid& after, const Segmentation& segmentation,
                                    const FeatureTable& table, const Generalised& generalised,

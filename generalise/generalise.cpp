@@ -34,15 +34,35 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
   return issue;
 }
 
+bool is_unnamed(FeatureId id, const Interpretation& interpretation) {
+  return interpretation.verdicts[id.index()].label.empty();
+}
+
+bool is_for_size(const Step& step) {
+  return is_verdict_of_size(step.rule.substr(step.rule.find('/') + 1));
+}
+
+/// What is taken off for its size only, or has no name, may turn out to be a part of the building.
+Pieces pieces_of(const Plan& plan, const FeatureTable& table,
+                 const Interpretation& interpretation) {
+  Pieces pieces;
+  for (const Step& step : plan.steps)
+    if (step.operation == "omit" && (is_unnamed(step.feature, interpretation) || is_for_size(step)))
+      pieces.may_stay.push_back(step.feature);
+  std::ranges::sort(pieces.may_stay);
+  for (int i = 0; i < static_cast<int>(table.rows()); ++i)
+    pieces.c_m.push_back(table.number(FeatureId{i}, "c").value_or(Box::kInfinity));
+  return pieces;
+}
+
 }  // namespace
 
 bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
              const Interpretation& interpretation) {
-  if (refused.code != "G411" && refused.code != "G412") return false;
-  if (interpretation.verdicts[refused.feature.index()].label.empty()) return true;
+  if (refused.code != "G411" && refused.code != "G412" && refused.code != "G418") return false;
   const auto step = std::ranges::find(plan.steps, refused.feature, &Step::feature);
-  return step != plan.steps.end() &&
-         is_verdict_of_size(step->rule.substr(step->rule.find('/') + 1));
+  return is_unnamed(refused.feature, interpretation) ||
+         (step != plan.steps.end() && is_for_size(*step));
 }
 
 Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmentation,
@@ -52,7 +72,8 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
   Checked<Generalised> out;
   const std::string target =
       plan.scale > 0 ? fmt::format("1:{}", plan.scale) : std::string("this level of detail");
-  CarriedOut done = carry_out(solid, segmentation, plan, options, invariants);
+  CarriedOut done = carry_out(solid, segmentation, plan, options, invariants,
+                              pieces_of(plan, table, interpretation));
   for (const CarriedOut::Refused& refusal : done.refused)
     out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, plan, target));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {

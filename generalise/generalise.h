@@ -32,14 +32,15 @@ struct Generalised {
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something
-/// that stays would hang in the air (G411), or the building would reach out of its box (G412). What
+/// that stays would hang in the air (G411), the building would reach out of its box (G412), or an
+/// edge would be left that is too short (G418): a piece of a plinth that runs on. What
 /// the plan names by its class is refused instead.
 bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
              const Interpretation& interpretation);
 
 /// Carries out the plan of one building on its solid. Operations that cannot be carried out are
-/// left out, each with a warning G401, or G405, G411 or G412 if an invariant would break, that
-/// names the feature and the reason; the others go on. Of a part (is_part), and of a feature
+/// left out, each with a warning G401, or G405, G411, G412 or G418 if an invariant would break,
+/// that names the feature and the reason; the others go on. Of a part (is_part), and of a feature
 /// without a label that is a piece of another one, it is a note: such pieces come of how a concave
 /// part was cut, and many have no cut of their own in the whole building. No value if nothing would
 /// be left of the building (G402): it is to stay as it is.

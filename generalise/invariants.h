@@ -20,6 +20,8 @@ struct Invariants {
   /// How much of the footprint, in percent, may hang in the air that did not. If given, the box of
   /// the building must not grow either, by more than a centimetre.
   std::optional<double> overhang_pct{};
+  /// No new edge may be shorter (new_short_edges); 0: it may.
+  double least_edge_m = 0;
   /// If given, what has no cut of its own goes as cells where that leaves what this calls valid
   /// (remove_cells).
   Judge is_valid{};

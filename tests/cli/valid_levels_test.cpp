@@ -54,7 +54,7 @@ Said said_in(const std::string& text) {
     while (id.ends_with(':')) id.pop_back();
     if (kind == "error:") said.set_aside.insert(id);
     const bool is_refusal = std::ranges::any_of(
-        Names{"G401", "G403", "G405", "G408", "G410", "G411", "G412"},
+        Names{"G401", "G403", "G405", "G408", "G410", "G411", "G412", "G418"},
         [&](const std::string& code) { return line.find(code) != std::string::npos; });
     if (kind == "warning:" && is_refusal) said.refused.insert(id);
   }

@@ -1,6 +1,8 @@
 #include "generalise/generalise.h"
 
+#include "generalise/fineness.h"
 #include "tests/generalise/line.h"
+#include "tests/support/shapes.h"
 
 #include <algorithm>
 #include <set>
@@ -136,6 +138,41 @@ TEST_SUITE("generalise") {
     for (const Issue& issue : coarser.issues)
       CHECK(!std::ranges::binary_search(coarser.generalised.removed,
                                         line.table().find(issue.place.feature)));
+  }
+
+  TEST_CASE("a piece of a plinth does not go while the rest of it stays") {
+    // A plinth of 6 cm around a block, cut into pieces by a door.
+    Line line = line_of(BoxBody()
+                            .add({0, 0, 0}, {10, 8, 6})
+                            .add({-0.06, -0.06, 0}, {10.06, 8.06, 0.45})
+                            .remove({3, -0.06, 0}, {4, 0, 0.45})
+                            .build());
+    for (Verdict& verdict : line.interpretation.verdicts) verdict.label.clear();
+    Plan plan{10000, {}, {}};
+    for (int i = 0; i < static_cast<int>(line.table().rows()); ++i)
+      if (line.table().number(FeatureId{i}, "a") < 5.0)
+        plan.steps.push_back({FeatureId{i}, "omit", "small.omit"});
+    REQUIRE_FALSE(plan.steps.empty());
+    const auto made = [&](double least_edge_m) {
+      Invariants invariants;
+      invariants.least_edge_m = least_edge_m;
+      auto out = generalise(line.solid, line.segmentation, line.table(), line.interpretation, plan,
+                            SegmentOptions{}, invariants);
+      REQUIRE(out.value);
+      return std::move(*out.value);
+    };
+    const auto stubs = [&](const Generalised& of) {
+      return new_short_edges(line.solid, of.solid, line.segmentation, of.removed, 1.25).size();
+    };
+    const Generalised torn = made(0), whole = made(1.25);
+    CHECK(torn.refused.empty());
+    CHECK(stubs(torn) > 0);
+    CHECK(stubs(whole) == 0);
+    REQUIRE_FALSE(whole.refused.empty());
+    for (const auto& refused : whole.refused) {
+      CHECK(refused.code == "G418");
+      CHECK(is_part(refused, plan, line.interpretation));
+    }
   }
 
   TEST_CASE("a solid of which nothing is left stays as it is") {
