@@ -1,6 +1,7 @@
 #include "generalise/detail/level_operations.h"
 
 #include "generalise/change.h"
+#include "generalise/detail/draft.h"
 #include "generalise/detail/tasks.h"
 #include "generalise/removed.h"
 #include "kernel/model/issue.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -17,17 +17,6 @@
 namespace oriel::detail {
 
 namespace {
-
-/// What one operation does, before its change is known.
-struct Draft {
-  Step step;
-  double scale = 0;
-  bool is_redrawing = false;
-  std::vector<Step> steps;        ///< to be carried out for it
-  std::set<FeatureId> gone{};     ///< features that are gone with it
-  std::vector<FeatureId> with{};  ///< other features that it is about
-  Change change{};
-};
 
 bool is_same(const Step& a, const Step& b) {
   return std::tie(a.operation, a.rule, a.numbers, a.words) ==
@@ -49,8 +38,8 @@ class LevelOperations {
       return {};
     }
     share_out_gone();
-    share_out(all);
-    set_apart(state);
+    std::vector<Step> done = before_.steps;
+    set_apart(std::exchange(drafts_, {}), state, all, done);
     share_out_installations(all);
     auto operations = finish(state);
     if (!(state == target)) throw GeometryError("the operations of a level do not lead to it");
@@ -144,90 +133,20 @@ class LevelOperations {
     for (Draft& one : drafts_) std::ranges::sort(one.with);
   }
 
-  /// The operation of each input polygon.
-  [[nodiscard]] std::map<int, std::size_t> polygon_owners() const {
-    std::map<int, std::size_t> owners;
-    for (std::size_t i = 0; i < drafts_.size(); ++i) {
-      std::set<FeatureId> features = drafts_[i].gone;
-      features.insert(drafts_[i].step.feature);
-      features.insert(drafts_[i].with.begin(), drafts_[i].with.end());
-      for (const FeatureId id : features)
-        for (const int polygon : feature(id).source_polygons) owners.emplace(polygon, i);
-    }
-    return owners;
-  }
-
-  /// Gives the parts of a change to the operations whose polygons they have. Operations that meet
-  /// in a part are one for now: the last of them, with the others in `joined_`.
-  void share_out(const Change& all) {
-    const auto owners = polygon_owners();
-    std::vector<std::size_t> parent(drafts_.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto find = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i];
-      return i;
-    };
-    std::vector<std::pair<std::size_t, Change>> placed;
-    for (Change& part : parts_of(all)) {
-      std::set<std::size_t> meeting;
-      for (const auto* facets : {&part.removed, &part.added})
-        for (const auto& [outer, facet] : *facets)
-          for (const int polygon : facet.polygons)
-            if (const auto its = owners.find(polygon); its != owners.end())
-              meeting.insert(its->second);
-      if (meeting.empty()) meeting.insert(nearest(part));
-      const std::size_t last = find(*meeting.rbegin());
-      std::size_t top = last;
-      for (const std::size_t i : meeting) top = std::max(top, find(i));
-      for (const std::size_t i : meeting) parent[find(i)] = top;
-      placed.emplace_back(top, std::move(part));
-    }
-    for (auto& [number, part] : placed) unite(drafts_[find(number)].change, std::move(part));
-    for (std::size_t i = 0; i < drafts_.size(); ++i)
-      if (find(i) != i) joined_[find(i)].push_back(i);
-  }
-
-  /// The operation whose feature's box is nearest to the middle of a part without polygons.
-  [[nodiscard]] std::size_t nearest(const Change& part) const {
-    const Box box = box_of(part).moved(-input_.building.frame.origin_m);
-    const Vec3 middle = 0.5 * (box.min + box.max);
-    const auto distance = [&](const Draft& one) {
-      const Box& its = feature(one.step.feature).box;
-      const Vec3 near{std::clamp(middle.x, its.min.x, its.max.x),
-                      std::clamp(middle.y, its.min.y, its.max.y),
-                      std::clamp(middle.z, its.min.z, its.max.z)};
-      return length(middle - near);
-    };
-    const auto best = std::ranges::min_element(drafts_, {}, distance);
-    return static_cast<std::size_t>(best - drafts_.begin());
-  }
-
-  /// Orders the operations and takes those apart that were joined.
-  void set_apart(LevelState state) {
-    std::vector<Draft> ordered;
-    std::set<std::size_t> is_joined;
-    for (const auto& [last, others] : joined_) is_joined.insert(others.begin(), others.end());
-    std::vector<Step> done = before_.steps;
-    for (std::size_t i = 0; i < drafts_.size(); ++i) {
-      if (is_joined.contains(i)) continue;
-      if (joined_[i].empty()) {
-        if (!apply(state, drafts_[i].change)) throw GeometryError("a part of a level does not fit");
-        for (const Step& step : drafts_[i].steps) put(step, done);
-        ordered.push_back(std::move(drafts_[i]));
-        continue;
-      }
+  /// Orders drafts that together make `change` of `state`, each with its own, behind drafts_;
+  /// `done` is what is carried out in the state.
+  void set_apart(const std::vector<Draft>& drafts, LevelState state, const Change& change,
+                 std::vector<Step>& done) {
+    for (DraftShare& share :
+         shares_of(drafts, change, input_.segmentation, input_.building.frame.origin_m)) {
       std::vector<Draft> some;
-      for (const std::size_t other : joined_[i]) some.push_back(drafts_[other]);
-      some.push_back(drafts_[i]);
+      for (const std::size_t i : share.drafts) some.push_back(drafts[i]);
+      for (Draft& one : some) one.scale = some.back().scale;
       LevelState next = state;
-      if (!apply(next, drafts_[i].change)) throw GeometryError("a part of a level does not fit");
-      for (Draft& one : in_turn(std::move(some), state, next, done)) {
-        for (const Step& step : one.steps) put(step, done);
-        ordered.push_back(std::move(one));
-      }
+      if (!apply(next, share.change)) throw GeometryError("a part of a level does not fit");
+      in_turn(std::move(some), std::move(state), next, done);
       state = std::move(next);
     }
-    drafts_ = std::move(ordered);
   }
 
   static void put(const Step& step, std::vector<Step>& steps) {
@@ -236,28 +155,35 @@ class LevelOperations {
     std::ranges::sort(steps, {}, &Step::feature);
   }
 
-  /// Operations that together lead from `state` to `next`, each with its own change; those that
-  /// cannot be carried out alone go with the next one.
-  std::vector<Draft> in_turn(std::vector<Draft> some, LevelState state, const LevelState& next,
-                             std::vector<Step> done) const {
-    std::vector<Draft> out;
-    for (Draft& one : some) one.scale = some.back().scale;
-    for (std::size_t i = 0; i + 1 < some.size(); ++i) {
-      for (const Step& step : some[i].steps) put(step, done);
-      auto middle = state_of(done, some[i]);
+  /// Drafts that together lead from `state` to `next`. One is carried out, those at the rim of a
+  /// facet first; of the others it may then be told what each does. What cannot be carried out
+  /// alone goes with the next one.
+  void in_turn(std::vector<Draft> some, LevelState state, const LevelState& next,
+               std::vector<Step>& done) {
+    const Change whole = difference(state, next);
+    std::ranges::stable_partition(some, [&](const Draft& one) {
+      return is_on_rim(one, whole, input_.segmentation, input_.building.frame.origin_m);
+    });
+    while (some.size() > 1) {
+      Draft first = std::move(some.front());
+      some.erase(some.begin());
+      std::vector<Step> with_first = done;
+      for (const Step& step : first.steps) put(step, with_first);
+      auto middle = state_of(with_first, first);
       if (!middle) {
-        join(some[i], some[i + 1]);
+        join(first, some.front());
         continue;
       }
       middle->installations = state.installations;
       middle->attributes = state.attributes;
-      some[i].change = difference(state, *middle);
-      state = std::move(*middle);
-      out.push_back(std::move(some[i]));
+      first.change = difference(state, *middle);
+      drafts_.push_back(std::move(first));
+      done = std::move(with_first);
+      return set_apart(some, *middle, difference(*middle, next), done);
     }
-    some.back().change = difference(state, next);
-    out.push_back(std::move(some.back()));
-    return out;
+    for (const Step& step : some[0].steps) put(step, done);
+    some[0].change = difference(state, next);
+    drafts_.push_back(std::move(some[0]));
   }
 
   static void join(Draft& one, Draft& into) {
@@ -373,8 +299,6 @@ class LevelOperations {
   const Placer& place_;
   std::vector<Draft> drafts_;
   std::map<FeatureId, int> draft_of_;  ///< by feature
-  std::map<std::size_t, std::vector<std::size_t>>
-      joined_;  ///< by the operation that has the change
 };
 
 }  // namespace
