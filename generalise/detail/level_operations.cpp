@@ -141,12 +141,23 @@ class LevelOperations {
          shares_of(drafts, change, input_.segmentation, input_.building.frame.origin_m)) {
       std::vector<Draft> some;
       for (const std::size_t i : share.drafts) some.push_back(drafts[i]);
+      if (some.size() == 1) {
+        if (!apply(state, share.change)) throw GeometryError("a part of a level does not fit");
+        add_set_apart(std::move(some[0]), std::move(share.change), done);
+        continue;
+      }
       for (Draft& one : some) one.scale = some.back().scale;
       LevelState next = state;
       if (!apply(next, share.change)) throw GeometryError("a part of a level does not fit");
       in_turn(std::move(some), std::move(state), next, done);
       state = std::move(next);
     }
+  }
+
+  void add_set_apart(Draft one, Change change, std::vector<Step>& done) {
+    for (const Step& step : one.steps) put(step, done);
+    one.change = std::move(change);
+    drafts_.push_back(std::move(one));
   }
 
   static void put(const Step& step, std::vector<Step>& steps) {
@@ -181,9 +192,7 @@ class LevelOperations {
       done = std::move(with_first);
       return set_apart(some, *middle, difference(*middle, next), done);
     }
-    for (const Step& step : some[0].steps) put(step, done);
-    some[0].change = difference(state, next);
-    drafts_.push_back(std::move(some[0]));
+    add_set_apart(std::move(some[0]), difference(state, next), done);
   }
 
   static void join(Draft& one, Draft& into) {
