@@ -6,8 +6,8 @@ const std::vector<OperatorKind>& operator_table() {
   static const std::vector<OperatorKind> table = {
       {"omit", "takes the feature out; its host is closed again", {}},
       {"aggregate",
-       "makes one strip of the recesses of a row",
-       {{"into", "word", "what they become", {"strip"}},
+       "makes one strip of the recesses of a row, or one block of a feature and what sits on it",
+       {{"into", "word", "what they become", {"strip", "block"}},
         {"gap", "length", "the least distance to what is beside"}}},
       {"collapse", "leaves an outline without depth", {}},
       {"displace",

@@ -1,5 +1,7 @@
 #include "generalise/detail/tasks.h"
 
+#include "generalise/operators/aggregate.h"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -25,7 +27,7 @@ class TaskMaker {
     for (const Step& step : plan_.steps) {
       if (step.operation == "omit") continue;
       const auto& planes = feature(step).planes;
-      if (is_for_groups(step.operation) && !planes.empty())
+      if (is_for_groups(step) && !planes.empty())
         groups[{step.rule, planes[0], step.group}].push_back(step);
       else
         tasks_.push_back({step.operation, {step}});
@@ -85,8 +87,9 @@ class TaskMaker {
 
 }  // namespace
 
-bool is_for_groups(const std::string& operation) {
-  return operation == "aggregate" || operation == "typify" || operation == "displace";
+bool is_for_groups(const Step& step) {
+  return (step.operation == "aggregate" && !becomes_block(step)) || step.operation == "typify" ||
+         step.operation == "displace";
 }
 
 std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation) {

@@ -14,8 +14,8 @@ struct PlanTask {
   std::vector<Step> steps;
 };
 
-/// True of operators that redraw several features together.
-bool is_for_groups(const std::string& operation);
+/// True of steps whose operator redraws several features together.
+bool is_for_groups(const Step& step);
 
 /// The steps of a plan as tasks, in the order in which they are carried out: of their first
 /// features, then what moves facets (flatten), outlines last; those that only take off (omit) are

@@ -1,10 +1,44 @@
 #include "generalise/operators/aggregate.h"
 
+#include "kernel/segment/remove.h"
+
 #include <algorithm>
 
 namespace oriel {
 
+namespace {
+
+void unite(detail::Extents& all, const detail::Extents& one) {
+  all = {std::min(all.u0, one.u0), std::max(all.u1, one.u1),     std::min(all.v0, one.v0),
+         std::max(all.v1, one.v1), std::min(all.out0, one.out0), std::max(all.out1, one.out1)};
+}
+
+/// The box around a feature and all that sits on it.
+detail::Placed block(const Redrawing& task, const detail::Host& host) {
+  const Feature& feature = task.feature();
+  if (feature.sense != Sense::protrusion)
+    return {std::nullopt, "only what sticks out becomes a block"};
+  detail::Extents all = extents_of(host, task.segmentation, feature);
+  if (is_box(feature, all)) return {std::nullopt, "it is a block already"};
+  for (const FeatureId id : with_what_sits_on(task.segmentation, {task.steps[0].feature}))
+    unite(all, extents_of(host, task.segmentation, task.segmentation.features[id.index()]));
+  return place_box(task.solid, host, all, all.out1, Attach::raise, task.gap_m(),
+                   feature.source_polygons);
+}
+
+}  // namespace
+
+bool becomes_block(const Step& step) {
+  const auto into = step.words.find("into");
+  return step.operation == "aggregate" && into != step.words.end() && into->second == "block";
+}
+
 detail::Placed aggregate(const Redrawing& task) {
+  if (becomes_block(task.steps[0])) {
+    const auto its_host = task.host();
+    return its_host ? block(task, *its_host)
+                    : detail::Placed{std::nullopt, "its wall is not found any more"};
+  }
   if (task.steps.size() < 2) return {std::nullopt, "it is the only one of its storey and facade"};
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is not found any more"};

@@ -4,10 +4,14 @@
 
 namespace oriel {
 
+/// True of `{aggregate: {into: block}}`, which is for single features.
+bool becomes_block(const Step& step);
+
 /// The operator `aggregate`: the openings of one storey on one facade become a strip (paper 5.1,
 /// "aggregation").
 ///
-/// `{aggregate: {into: strip, gap: LENGTH}}`; a strip is all they can become. The strip is one
+/// `{aggregate: {into: block}}` is for a slab with its parapet: the box around the feature and all
+/// that sits on it takes their place. `{aggregate: {into: strip, gap: LENGTH}}`: the strip is one
 /// recess as wide as all of them together from the first to the last, with the area of all of them
 /// (so it is lower), about the middle of their heights, and with their mean depth. It stands for
 /// the first of them along the wall; the others are gone. Precondition: at least two recesses that

@@ -10,9 +10,9 @@ namespace oriel {
 /// What juts out beyond its facet is trimmed. If the rest covers more than half of the facet, the
 /// facet takes its place: it moves outwards (of a recess inwards) by the feature's volume over its
 /// own area, so that upright on its neighbours the volume is kept. The feature is gone in either
-/// case. Precondition: it has depth; if its facet, which may have gone, is to move: it was split off
-/// by one plane, no outline that stays is on the facet, and it can move (move_facet). Touches: the
-/// facet and those around it. Inverse: the facet moves back, and the feature's cells, which the
+/// case. Precondition: it has depth; if its facet, which may have gone, is to move: it was split
+/// off by one plane, no outline that stays is on the facet, and it can move (move_facet). Touches:
+/// the facet and those around it. Inverse: the facet moves back, and the feature's cells, which the
 /// segmentation still has.
 detail::Placed flatten(const Redrawing& task);
 

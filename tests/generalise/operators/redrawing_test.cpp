@@ -176,6 +176,27 @@ TEST_SUITE("generalise") {
     CHECK(volume_m3(balcony.solid) == doctest::Approx(volume_m3(line.solid)).epsilon(1e-6));
   }
 
+  TEST_CASE("a slab and its parapet become one block") {
+    const Line line = line_of(BoxBody()
+                                  .add({0, 0, 0}, {10, 8, 6})
+                                  .add({2, -1.2, 3}, {5, 0, 3.2})
+                                  .add({2, -1.2, 3.2}, {5, -1.1, 4})
+                                  .add({2, -1.2, 3.2}, {2.1, 0, 4})
+                                  .add({4.9, -1.2, 3.2}, {5, 0, 4})
+                                  .build());
+    const auto is_balcony = [](const Feature& f) {
+      return !f.parent.is_valid() && !f.host.is_valid() && f.box.min.y < -1;
+    };
+    const Plan plan =
+        plan_for(line, step("aggregate", {{"gap", 0.1}}, {{"into", "block"}}), is_balcony);
+    REQUIRE(plan.steps.size() == 1);
+    const auto out = carried(line, plan);
+    CHECK(out.refused.empty());
+    CHECK(out.changed.size() == 1);
+    CHECK(volume_m3(out.solid) == doctest::Approx(480 + 3 * 1.2).epsilon(1e-6));
+    CHECK(out.solid.facets.size() == 11);
+  }
+
   TEST_CASE("a window that collapses leaves its outline and no recess") {
     const Line line = line_of(facade().build());
     const auto out = carried(line, plan_for(line, step("collapse"), is_high));
@@ -192,6 +213,7 @@ TEST_SUITE("generalise") {
         step("symbolise", {{"to", 0.8}, {"gap", 0.1}}, {{"with", "dormer_box"}}),
         step("symbolise", {{"to", 0.8}, {"gap", 0.1}}, {{"with", "balcony_box"}}),
         step("aggregate", {{"gap", 0.1}}),
+        step("aggregate", {{"gap", 0.1}}, {{"into", "block"}}),
         step("typify", {{"ratio", 0.5}, {"gap", 0.1}}),
         step("flatten"),
         step("displace", {{"to", 1.2}, {"gap", 0.1}}),
