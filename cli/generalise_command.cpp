@@ -10,6 +10,7 @@
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
 #include "kernel/compare/hausdorff.h"
+#include "kernel/validate/validate.h"
 
 #include <algorithm>
 #include <map>
@@ -216,6 +217,7 @@ class Generaliser {
                              *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
         generalised = carry_out();
     if (!keep(generalised.issues, product) || !generalised.value) return std::nullopt;
+    mend_unchanged(document, building, line, *generalised.value, product);
     const std::string target = targets_.has_lods() ? "LoD " + profile->level : targets_.text();
     if (accounts_.has_any())
       product[Part::deeds] += accounts_.text(
@@ -247,6 +249,19 @@ class Generaliser {
     if (!keep(drawn.issues, product)) return std::nullopt;
     keep_figures(*drawn.value);
     return std::move(drawn.value);
+  }
+
+  /// What nothing was done to stays as it came, unless it came as no valid solid and its solid is
+  /// valid: then that is drawn.
+  static void mend_unchanged(const Document& document, const Building& building, const OnLine& line,
+                             Generalised& generalised, Product& product) {
+    if (!generalised.removed.empty() || !generalised.changed.empty()) return;
+    const auto findings = validate(building);
+    if (findings.empty() || prove_written(document, building, *line.solid).fault) return;
+    generalised.is_drawn_anew = true;
+    product.issues.push_back(building_issue(
+        Severity::note, "G419", building.id,
+        fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
   }
 
   /// The least length that the target shows: the profile's, or its c, else 0.125 mm on the map.
