@@ -102,14 +102,13 @@ class Generaliser {
         continue;
       }
       outputs_.make_features(document.buildings[i], lines[i], product);
-      drawn.push_back({i, timings.measure(Stage::generalise, [&] {
-                         return redraw_building(document, document.buildings[i], lines[i], product);
-                       })});
+      drawn.push_back(timings.measure(
+          Stage::generalise, [&] { return drawn_building(document, i, lines[i], false); }));
     }
     for (Drawn& one : drawn) {
       now_at_building(one.building);
-      timings.measure(Stage::write,
-                      [&] { keep_valid(document, lines[one.building], one, product); });
+      timings.measure(Stage::write, [&] { keep_valid(document, lines[one.building], one); });
+      tell(std::move(one.told), product);
       add(std::move(one.all), labelled, options, product);
     }
     now_at_building(kNoBuilding);
@@ -123,30 +122,55 @@ class Generaliser {
   struct Drawn {
     std::size_t building = 0;
     std::vector<Redrawn> all;
+    Product told;  ///< what is to be told of it
   };
+  Drawn drawn_building(const Document& document, std::size_t building, const OnLine& line,
+                       bool is_thorough) const {
+    Drawn drawn{building, {}, {}};
+    drawn.all =
+        redraw_building(document, document.buildings[building], line, is_thorough, drawn.told);
+    return drawn;
+  }
 
   /// Says how fine the file has to be for a building to be valid in it. What is valid at no scale
-  /// stays as it came; levels of detail are set aside.
-  void keep_valid(const Document& document, const OnLine& line, Drawn& drawn,
-                  Product& product) const {
-    const Building& building = document.buildings[drawn.building];
-    std::optional<Issue> fault;
-    for (Redrawn& redrawn : drawn.all) {
-      if (!redrawn.labelled.geometry) continue;
-      WrittenProof proof = prove_redrawn(document, building, *redrawn.labelled.geometry);
-      redrawn.labelled.digits = proof.digits;
-      if (proof.fault) fault = std::move(proof.fault);
-    }
+  /// is drawn again with each step judged; if that is valid at none either it stays as it came,
+  /// levels of detail are set aside.
+  void keep_valid(const Document& document, const OnLine& line, Drawn& drawn) const {
+    std::optional<Issue> fault = prove(document, drawn);
     if (!fault) return;
+    Drawn again = drawn_building(document, drawn.building, line, true);
+    if (!again.all.empty() && !prove(document, again)) {
+      drawn = std::move(again);
+      return;
+    }
     drawn.all.clear();
     if (targets_.has_lods()) {
-      product.issues.push_back(*fault);
+      drawn.told.issues.push_back(*fault);
       return;
     }
     fault->severity = Severity::warning;
     fault->sentence += "; it stays as it came";
-    product.issues.push_back(*fault);
-    drawn.all.push_back({outputs_.annotated(building, line), {}, {}});
+    drawn.told.issues.push_back(*fault);
+    drawn.all.push_back({outputs_.annotated(document.buildings[drawn.building], line), {}, {}});
+  }
+
+  /// Of each target how fine the file has to be; what is valid at no scale is the fault.
+  static std::optional<Issue> prove(const Document& document, Drawn& drawn) {
+    std::optional<Issue> fault;
+    for (Redrawn& redrawn : drawn.all) {
+      if (!redrawn.labelled.geometry) continue;
+      WrittenProof proof =
+          prove_redrawn(document, document.buildings[drawn.building], *redrawn.labelled.geometry);
+      redrawn.labelled.digits = proof.digits;
+      if (proof.fault) fault = std::move(proof.fault);
+    }
+    return fault;
+  }
+
+  static void tell(Product told, Product& product) {
+    for (std::size_t part = 0; part < told.bytes.size(); ++part)
+      product.bytes[part] += told.bytes[part];
+    product.issues.insert(product.issues.end(), told.issues.begin(), told.issues.end());
   }
 
   /// Of several levels of detail the first says what is gone from the building; an installation
@@ -170,15 +194,16 @@ class Generaliser {
     return std::ranges::find(list, id, &Installation::id) != list.end();
   }
 
-  /// One for each target; none if one of them cannot be had.
+  /// One for each target; none if one of them cannot be had. `is_thorough` as of Judge.
   std::vector<Redrawn> redraw_building(const Document& document, const Building& building,
-                                       const OnLine& line, Product& product) const {
+                                       const OnLine& line, bool is_thorough,
+                                       Product& product) const {
     std::vector<Redrawn> all;
     const LabelledBuilding labelled = outputs_.annotated(building, line);
     const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
       auto redrawn = redraw_for(i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr,
-                                document, building, labelled, line, product);
+                                document, building, labelled, line, is_thorough, product);
       if (!redrawn) return {};
       all.push_back(std::move(*redrawn));
     }
@@ -187,7 +212,7 @@ class Generaliser {
 
   std::optional<Redrawn> redraw_for(const Profile* profile, const Document& document,
                                     const Building& building, const LabelledBuilding& labelled,
-                                    const OnLine& line, Product& product) const {
+                                    const OnLine& line, bool is_thorough, Product& product) const {
     const auto& [table, graph] = line.description;
     Plan plan;
     if (targets_.scale)
@@ -203,9 +228,7 @@ class Generaliser {
     // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
     if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
       invariants.least_edge_m = least_edge(profile);
-    invariants.is_valid = [&](const Solid& solid) {
-      return !prove_redrawn(document, building, solid).fault;
-    };
+    invariants.judge = judge_as_written(document, building, is_thorough);
     const auto carry_out = [&] {
       return generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
                         arguments_.segment_options(line.tolerances), invariants);

@@ -34,4 +34,15 @@ WrittenProof prove_redrawn(const Document& document, const Building& building, c
   return proof;
 }
 
+Judge judge_as_written(const Document& document, const Building& building, bool is_thorough) {
+  std::optional<bool> came_valid;
+  return {[&document, &building, came_valid](const Solid& solid) mutable {
+            if (!prove_written(document, building, solid).fault) return Fitness::valid;
+            if (!came_valid) came_valid = validate(building).empty();
+            return *came_valid ? Fitness::unfit : Fitness::as_it_came;
+          },
+          {},
+          is_thorough};
+}
+
 }  // namespace oriel::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generalise/invariants.h"
 #include "kernel/io/document.h"
 #include "kernel/model/issue.h"
 #include "kernel/model/solid.h"
@@ -21,5 +22,9 @@ WrittenProof prove_written(const Document& document, const Building& building, c
 /// The same of a solid that was redrawn. Its fault is a G410, and none if the building was not
 /// valid as it was read.
 WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& solid);
+
+/// A judge of solids to be written in the place of the polygons of `building`; both must outlive
+/// it.
+Judge judge_as_written(const Document& document, const Building& building, bool is_thorough);
 
 }  // namespace oriel::cli

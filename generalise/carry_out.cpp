@@ -24,7 +24,12 @@ class Guard {
         options_(options),
         invariants_(invariants),
         pieces_(pieces),
-        before_(measures_of(solid)) {}
+        before_(measures_of(solid)),
+        judge_(invariants.judge) {
+    judge_.violation_of = [this](const Solid& left) {
+      return violation(before_, measures_of(left), invariants_);
+    };
+  }
 
   CarriedOut run() {
     while (true) {
@@ -47,7 +52,7 @@ class Guard {
     Plan some{plan_.scale, {}, {}};
     for (std::size_t i = 0; i < count; ++i)
       if (!is_undone(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
-    return carry_out_steps(solid_, segmentation_, some, options_, invariants_.is_valid);
+    return carry_out_steps(solid_, segmentation_, some, options_, judge_);
   }
 
   /// Takes back what tears a piece off; false if nothing does.
@@ -106,6 +111,7 @@ class Guard {
   const Invariants& invariants_;
   const Pieces& pieces_;
   Measures before_;
+  Judge judge_;
   std::vector<CarriedOut::Refused> undone_;
 };
 

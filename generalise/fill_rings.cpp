@@ -130,7 +130,7 @@ class RingFiller {
 
 }  // namespace
 
-Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, const Judge& is_valid,
+Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, const Judge& judge,
                      const SegmentOptions& options) {
   std::vector<FeatureId> rings;
   for (const Refusal& refusal : remainder.refused)
@@ -143,8 +143,8 @@ Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, cons
     std::vector<FeatureId> gone = remainder.removed;
     gone.push_back(id);
     gone = with_what_sits_on(segmentation, gone);
-    if (detail::loses_what_stays(*made, segmentation, gone)) continue;
-    if (is_valid && !is_valid(*made)) continue;
+    if (detail::loses_what_stays(remainder.solid, *made, segmentation, gone)) continue;
+    if (judge && judge.fitness_of(*made) == Fitness::unfit) continue;
     remainder.solid = std::move(*made);
     remainder.removed = std::move(gone);
   }

@@ -9,7 +9,30 @@
 namespace oriel {
 
 /// Whether a solid is fit to be written.
-using Judge = std::function<bool(const Solid&)>;
+enum class Fitness {
+  unfit,
+  as_it_came,  ///< not valid, but the building was not valid either
+  valid
+};
+
+/// What changed that must not.
+struct Violation {
+  /// G411: of what stays something would hang in the air; G412: it would reach out of its box; else
+  /// G405.
+  std::string code;
+  std::string sentence;  ///< "the footprint would change by 2.10 %"
+};
+
+/// Says how fit a solid is. Judging takes longer than cutting, and whoever writes judges anyway.
+struct Judge {
+  std::function<Fitness(const Solid&)> fitness_of{};
+  /// If given, what must not change that has: what would do that does not go as cells.
+  std::function<std::optional<Violation>(const Solid&)> violation_of{};
+  /// What is left after cuts is judged also if all of them went well.
+  bool is_thorough = false;
+
+  explicit operator bool() const { return static_cast<bool>(fitness_of); }
+};
 
 /// What must not change by generalising.
 struct Invariants {
@@ -22,9 +45,9 @@ struct Invariants {
   std::optional<double> overhang_pct{};
   /// No new edge may be shorter (new_short_edges); 0: it may.
   double least_edge_m = 0;
-  /// If given, what has no cut of its own goes as cells where that leaves what this calls valid
+  /// If given, what has no cut of its own goes as cells where that leaves what this calls fit
   /// (remove_cells).
-  Judge is_valid{};
+  Judge judge{};
 };
 
 /// Facets that look down are ground if they lie no higher than this over the lowest point.
@@ -44,14 +67,6 @@ struct Measures {
 
 /// A box that `before`, larger by `slack_m` on all sides, does not hold.
 bool reaches_out(const Box& before, const Box& after, double slack_m);
-
-/// What changed that must not.
-struct Violation {
-  /// G411: of what stays something would hang in the air; G412: it would reach out of its box; else
-  /// G405.
-  std::string code;
-  std::string sentence;  ///< "the footprint would change by 2.10 %"
-};
 
 Measures measures_of(const Solid& solid);
 

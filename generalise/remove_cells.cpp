@@ -1,17 +1,21 @@
 #include "generalise/remove_cells.h"
 
 #include "generalise/detail/stays.h"
+#include "generalise/detail/take_out.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/cell_complex.h"
 #include "kernel/model/detail/index.h"
+#include "kernel/segment/body_without.h"
 #include "kernel/segment/cell_complex.h"
 #include "kernel/solidify/solidify.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -53,28 +57,34 @@ int lumps_of(const Solid& solid) {
 class CellRemover {
  public:
   CellRemover(const Solid& solid, const Segmentation& segmentation, const Remainder& remainder,
-              const Judge& is_valid, double unseen_m, const SegmentOptions& options)
+              const Judge& judge, double unseen_m, const SegmentOptions& options)
       : solid_(solid),
         segmentation_(segmentation),
-        is_valid_(is_valid),
+        judge_(judge),
         unseen_m_(unseen_m),
         options_(options),
-        complex_(cell_complex(segmentation, options.tolerances)),
-        footprint_m2_(measures_of(remainder.solid).footprint_m2),
-        facets_of_face_(complex_.faces().size()) {
+        footprint_m2_(measures_of(remainder.solid).footprint_m2) {
+    for (int f = 0; f < std::ssize(solid.facets); ++f)
+      facets_along_[along(solid.planes[solid.facets[at(f)].plane.index()])].push_back(f);
     for (const FeatureId id : remainder.removed)
       if (!is_carried(id, remainder.removed)) gone_.push_back(id);
   }
 
-  /// What is left of the solid if as many of these go as can, with those that are gone already or,
-  /// if that made no valid solid, with as many of them as can.
-  std::optional<Solid> run(Ids more, bool is_sound) {
-    if (!is_sound) {
-      more.insert(more.end(), gone_.begin(), gone_.end());
-      std::ranges::sort(more);
-      gone_.clear();
+  /// What is left of the solid if as many of these go as can. `left`: what is left without those
+  /// that are gone already; if that is unfit, as many of them go as can, too.
+  std::optional<Solid> run(Ids more, const Solid& left, Fitness fitness) {
+    base_ = fitness == Fitness::unfit ? solid_ : left;
+    if (fitness == Fitness::unfit) more.insert(more.end(), gone_.begin(), gone_.end());
+    if (fitness == Fitness::unfit) gone_.clear();
+    base_gone_ = gone_;
+    std::ranges::sort(more);
+    least_ = fitness == Fitness::as_it_came ? fitness : Fitness::valid;
+    add_all(more);
+    // What was not valid as it came need not be, but where it can be it is.
+    if (has_excused_ && least_ == Fitness::valid) {
+      least_ = Fitness::as_it_came;
+      add_all(more);
     }
-    add(more);
     return std::move(best_);
   }
   /// Why a feature cannot go that was tried on its own; null if that is not known.
@@ -95,22 +105,41 @@ class CellRemover {
     return is_in(feature(id).parent) || is_in(feature(id).host);
   }
 
+  /// In the planes of the building, or by planes found anew.
+  enum class Way { in_planes, anew };
+
+  void add_all(const Ids& more) {
+    for (const Way way : {Way::in_planes, Way::anew}) {
+      Ids rest = more;
+      std::erase_if(rest, [&](FeatureId id) { return std::ranges::binary_search(gone_, id); });
+      add(rest, way);
+    }
+  }
+
   /// All of them if they can go together, else those of either half that can.
-  void add(const Ids& more) {
-    if (more.empty() || attempt(more) || more.size() == 1) return;
+  void add(const Ids& more, Way way) {
+    if (more.empty() || attempt(more, way) || more.size() == 1) return;
     const auto middle = more.begin() + std::ssize(more) / 2;
-    add({more.begin(), middle});
-    add({middle, more.end()});
+    add({more.begin(), middle}, way);
+    add({middle, more.end()}, way);
   }
 
   /// Keeps what comes of it if it is a closed solid.
-  bool attempt(const Ids& more) {
+  bool attempt(const Ids& more, Way way) {
     Ids all = gone_;
     all.insert(all.end(), more.begin(), more.end());
     std::ranges::sort(all);
-    auto made = without(all, more);
-    if (!made) return false;
+    std::optional<Refusal> fault;
+    auto made = way == Way::in_planes ? taken_out(all, fault) : without(all, fault);
+    if (!made) {
+      if (fault && more.size() == 1) faults_.insert_or_assign(more[0], *fault);
+      return false;
+    }
     gone_ = std::move(all);
+    if (way == Way::in_planes) {
+      base_ = *made;
+      base_gone_ = gone_;
+    }
     best_ = std::move(made);
     return true;
   }
@@ -137,42 +166,51 @@ class CellRemover {
     return fates;
   }
 
-  [[nodiscard]] std::vector<CellId> cells_without(const Ids& all) const {
-    const auto fates = fates_of(all);
+  /// The cells of what is left.
+  [[nodiscard]] std::vector<CellId> cells_without(
+      const std::vector<std::optional<bool>>& fates) const {
     std::vector<CellId> cells;
-    for (int c = 0; c < std::ssize(segmentation_.cells); ++c) {
-      const Cell& cell = segmentation_.cells[at(c)];
-      const auto fate =
-          cell.feature.is_valid() ? fates[cell.feature.index()] : std::optional<bool>();
-      if (fate.value_or(cell.sign > 0)) cells.push_back({c});
-    }
+    for (int c = 0; c < std::ssize(segmentation_.cells); ++c)
+      if (fate_of({c}, fates).value_or(segmentation_.cells[at(c)].sign > 0)) cells.push_back({c});
     return cells;
   }
+  /// The cells of what goes.
+  [[nodiscard]] std::vector<CellId> cells_with(
+      const std::vector<std::optional<bool>>& fates) const {
+    std::vector<CellId> cells;
+    for (int c = 0; c < std::ssize(segmentation_.cells); ++c)
+      if (fate_of({c}, fates)) cells.push_back({c});
+    return cells;
+  }
+  [[nodiscard]] std::optional<bool> fate_of(CellId cell,
+                                            const std::vector<std::optional<bool>>& fates) const {
+    const FeatureId feature = segmentation_.cells[cell.index()].feature;
+    return feature.is_valid() ? fates[feature.index()] : std::optional<bool>();
+  }
 
-  /// What the complex says of the building without some features.
+  /// What the cells say of the building without some features.
   struct Draft {
     Building shell;  ///< polygon i is of face i
-    std::vector<BoundaryFace> faces;
+    std::vector<Face> faces;
     double volume_m3 = 0;
     double area_m2 = 0;
   };
 
-  [[nodiscard]] Draft draft_without(const Ids& all) const {
+  [[nodiscard]] Draft draft_of(const CellComplex& complex, const std::vector<CellId>& cells) const {
     Draft draft;
     std::map<int, int> numbers;  // vertices that no face uses may lie anywhere
     const auto number = [&](int v) {
       const auto [entry, is_new] = numbers.emplace(v, static_cast<int>(numbers.size()));
-      if (is_new) draft.shell.vertices.push_back(complex_.vertices()[at(v)].point);
+      if (is_new) draft.shell.vertices.push_back(complex.vertices()[at(v)].point);
       return entry->second;
     };
-    draft.faces = complex_.boundary(cells_without(all));
-    for (const BoundaryFace& part : draft.faces) {
-      const Face& face = complex_.face(part.face);
+    for (const BoundaryFace& part : complex.boundary(cells)) {
+      Face& face = draft.faces.emplace_back(complex.face(part.face));
       Polygon polygon;
-      polygon.rings.assign(face.loops.begin(), face.loops.end());
-      for (auto& ring : polygon.rings) {
-        if (part.is_reversed) std::ranges::reverse(ring);
+      for (Loop& ring : face.loops) {
         for (int& v : ring) v = number(v);
+        polygon.rings.emplace_back(ring);
+        if (part.is_reversed) std::ranges::reverse(polygon.rings.back());
       }
       polygon.source = static_cast<int>(draft.shell.polygons.size());
       draft.shell.polygons.push_back(std::move(polygon));
@@ -183,11 +221,45 @@ class CellRemover {
     return draft;
   }
 
-  /// The solid without these features; nothing if it would not do. `last`: what is new of them.
-  std::optional<Solid> without(const Ids& all, const Ids& last) {
+  /// What is left without these features, in the planes of the building; nothing if it would not
+  /// do.
+  std::optional<Solid> taken_out(const Ids& all, std::optional<Refusal>& fault) {
+    const auto before = fates_of(base_gone_), after = fates_of(all);
+    std::vector<CellId> leaves = cells_with(after);
+    std::erase_if(leaves, [&](CellId cell) { return fate_of(cell, before).has_value(); });
+    auto made = detail::take_out(base_, segmentation_, leaves, options_.tolerances);
+    if (!made) return std::nullopt;
     const Ids gone = with_what_sits_on(segmentation_, all);
-    const Draft draft = draft_without(all);
-    std::optional<Refusal> fault;
+    const std::set<int> lost = polygons_of(gone);
+    for (Facet& facet : made->facets) {
+      const auto polygons = polygons_around(outlines_of(made->vertices, facet.loops),
+                                            made->planes[facet.plane.index()]);
+      std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
+    }
+    fault = fault_of(*made, gone, options_.tolerances);
+    if (fault) return std::nullopt;
+    return made;
+  }
+
+  /// The solid without these features, put together anew; nothing if it would not do.
+  std::optional<Solid> without(const Ids& all, std::optional<Refusal>& fault) {
+    const Ids gone = with_what_sits_on(segmentation_, all);
+    const auto fates = fates_of(all);
+    if (!complex_) complex_ = cell_complex(segmentation_, options_.tolerances);
+    auto made = solid_of(draft_of(*complex_, cells_without(fates)), gone, fault);
+    // Cells that others cut through meet where all planes of the building do; what goes meets the
+    // building in a few of them.
+    if (!made)
+      made = solid_of(
+          draft_of(body_without(solid_, segmentation_, cells_with(fates), options_.tolerances),
+                   {CellId{0}}),
+          gone, fault);
+    return made;
+  }
+
+  /// A solid of these faces that does, with vertices as near to each other as that takes.
+  std::optional<Solid> solid_of(const Draft& draft, const Ids& gone,
+                                std::optional<Refusal>& fault) {
     for (const double coarser : kCoarser) {
       Tolerances tolerances = options_.tolerances;
       tolerances.weld_m *= coarser;
@@ -195,11 +267,10 @@ class CellRemover {
       if (!made.value || !is_closed(*made.value) ||
           std::abs(volume_m3(*made.value) - draft.volume_m3) > tolerances.weld_m * draft.area_m2)
         continue;
-      name_polygons(*made.value, draft.faces, gone);
+      name_polygons(*made.value, draft, gone);
       fault = fault_of(*made.value, gone, tolerances);
       if (!fault) return std::move(made.value);
     }
-    if (fault && last.size() == 1) faults_.insert_or_assign(last[0], *fault);
     return std::nullopt;
   }
 
@@ -207,22 +278,35 @@ class CellRemover {
   /// building's box, the footprint changes by more than what goes covers, more has changed than the
   /// features hold, it is not valid, or what stays has no surface.
   [[nodiscard]] std::optional<Refusal> fault_of(const Solid& made, const Ids& gone,
-                                                const Tolerances& tolerances) const {
+                                                const Tolerances& tolerances) {
     if (lumps_of(made) > lumps_of(solid_))
       return Refusal{{}, "the building would fall apart", "G411"};
     // The planes are found anew, and a vertex may lie so far off its own.
     const double slack_m = tolerances.weld_m + tolerances.plane_offset_m + unseen_m_;
     if (reaches_out(box_of(solid_), box_of(made), slack_m))
       return Refusal{{}, "the building would reach further than it did", "G412"};
+    if (auto broken = violation_of(made)) return broken;
     const double footprint_m2 = measures_of(made).footprint_m2;
     double most_m3 = tolerances.weld_m * surface_m2(solid_);
     for (const FeatureId id : gone) most_m3 += feature(id).volume_m3;
     if (std::abs(footprint_m2 - footprint_m2_) >
             kFootprint * footprint_m2_ + ground_below_m2(gone) ||
-        std::abs(volume_m3(made) - volume_m3(solid_)) > most_m3 || !is_valid_(made) ||
-        detail::loses_what_stays(made, segmentation_, gone))
+        std::abs(volume_m3(made) - volume_m3(solid_)) > most_m3 ||
+        detail::loses_what_stays(solid_, made, segmentation_, gone) || !is_fit(made))
       return Refusal{{}, "what is left would be no valid solid"};
     return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Refusal> violation_of(const Solid& made) const {
+    const auto broken = judge_.violation_of ? judge_.violation_of(made) : std::nullopt;
+    if (!broken) return std::nullopt;
+    return Refusal{{}, broken->sentence, broken->code};
+  }
+
+  [[nodiscard]] bool is_fit(const Solid& made) {
+    const Fitness fitness = judge_.fitness_of(made);
+    has_excused_ |= fitness == Fitness::as_it_came;
+    return fitness >= least_;
   }
 
   /// How much of the ground these features cover at most.
@@ -236,76 +320,94 @@ class CellRemover {
     return area_m2;
   }
 
-  /// Facets of the solid made name faces of the complex; then the input polygons of the facets of
+  /// The input polygons of features.
+  [[nodiscard]] std::set<int> polygons_of(const Ids& features) const {
+    std::set<int> polygons;
+    for (const FeatureId id : features)
+      polygons.insert(feature(id).source_polygons.begin(), feature(id).source_polygons.end());
+    return polygons;
+  }
+
+  /// Facets of the solid made name faces of the draft; then the input polygons of the facets of
   /// the solid that these lie in, but for those of features that are gone.
-  void name_polygons(Solid& made, const std::vector<BoundaryFace>& faces, const Ids& gone) {
-    std::set<int> lost;
-    for (const FeatureId id : gone)
-      lost.insert(feature(id).source_polygons.begin(), feature(id).source_polygons.end());
+  void name_polygons(Solid& made, const Draft& draft, const Ids& gone) const {
+    const std::set<int> lost = polygons_of(gone);
     for (Facet& facet : made.facets) {
       std::set<int> polygons;
-      for (const int i : facet.polygons)
-        for (const int f : facets_around(faces[at(i)]))
-          for (const int polygon : solid_.facets[at(f)].polygons)
-            if (!lost.contains(polygon)) polygons.insert(polygon);
-      facet.polygons.assign(polygons.begin(), polygons.end());
+      for (const int i : facet.polygons) {
+        const Face& face = draft.faces[at(i)];
+        std::vector<detail::Outline> shape;
+        for (const Loop& loop : face.loops) {
+          shape.emplace_back();
+          for (const int v : loop) shape.back().push_back(draft.shell.vertices[at(v)]);
+        }
+        polygons.merge(polygons_around(shape, segmentation_.planes[face.plane.index()]));
+      }
+      facet.polygons.clear();
+      std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
     }
   }
 
-  /// The facet of the solid that the face lies in; none if it is new.
-  const std::vector<int>& facets_around(BoundaryFace part) {
-    auto& known = facets_of_face_[part.face.index()];
-    if (known) return *known;
-    known.emplace();
-    const Face& face = complex_.face(part.face);
-    const Plane& plane = segmentation_.planes[face.plane.index()];
-    const auto shape = outlines_of(complex_.vertices(), face.loops);
+  /// The input polygons of the facets of the solid that a figure lies in; none if it is new.
+  [[nodiscard]] std::set<int> polygons_around(const std::vector<detail::Outline>& shape,
+                                              const Plane& plane) const {
+    const auto near = facets_along_.find(along(plane));
+    if (near == facets_along_.end()) return {};
     const auto point = detail::interior_point(shape, plane.normal);
-    if (!point) return *known;
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      const Plane& its = solid_.planes[solid_.facets[at(f)].plane.index()];
-      if (!are_parallel(its, plane) ||
-          std::abs(dot(its.normal, *point) - its.offset_m) > options_.tolerances.weld_m)
-        continue;
-      if (detail::contains(outlines_of(solid_.vertices, solid_.facets[at(f)].loops), its.normal,
-                           *point))
-        known->push_back(f);
+    if (!point) return {};
+    std::set<int> polygons;
+    for (const int f : near->second) {
+      const Facet& facet = solid_.facets[at(f)];
+      const Plane& its = solid_.planes[facet.plane.index()];
+      // The point may lie off its plane, as vertices do.
+      const bool is_same = its.coefficients == plane.coefficients ? its.offset == plane.offset
+                                                                  : its.offset == -plane.offset;
+      const bool is_in_plane =
+          is_same || std::abs(dot(its.normal, *point) - its.offset_m) <= options_.tolerances.weld_m;
+      if (!is_in_plane) continue;
+      if (detail::contains(outlines_of(solid_.vertices, facet.loops), its.normal, *point))
+        polygons.insert(facet.polygons.begin(), facet.polygons.end());
     }
-    return *known;
+    return polygons;
   }
-  /// Exact: planes of the segmentation are those of the solid.
-  static bool are_parallel(const Plane& p, const Plane& q) {
-    return p.coefficients == q.coefficients || p.coefficients == exact::opposite(q).coefficients;
+  /// The same for parallel planes. Exact: planes of the segmentation are those of the solid.
+  static std::array<std::int64_t, 3> along(const Plane& plane) {
+    return std::max(plane.coefficients, exact::opposite(plane).coefficients);
   }
 
   const Solid& solid_;
   const Segmentation& segmentation_;
-  const Judge& is_valid_;
+  const Judge& judge_;
   double unseen_m_;
   const SegmentOptions& options_;
-  CellComplex complex_;
+  std::optional<CellComplex> complex_;  ///< once asked for
   double footprint_m2_;
-  /// By face of the complex, once asked for.
-  std::vector<std::optional<std::vector<int>>> facets_of_face_;
+  std::map<std::array<std::int64_t, 3>, std::vector<int>> facets_along_;  ///< by direction
   std::map<FeatureId, Refusal> faults_;
   Ids gone_;  ///< in order; without what goes along
+  Ids base_gone_;
+  Solid base_;  ///< what is left without base_gone_, in the planes of the building
+  Fitness least_ = Fitness::valid;
+  bool has_excused_ = false;  ///< something was not valid, but the building was not either
   std::optional<Solid> best_;
 };
 
 }  // namespace
 
 Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Remainder remainder,
-                       const Judge& is_valid, double unseen_m, const SegmentOptions& options) {
+                       const Judge& judge, double unseen_m, const SegmentOptions& options) {
   Ids refused;
   for (const Refusal& refusal : remainder.refused) {
     const Feature& feature = segmentation.features[refusal.feature.index()];
     if (feature.node.is_valid() && feature.sense != Sense::imprint)
       refused.push_back(refusal.feature);
   }
-  if (refused.empty()) return remainder;  // judging takes longer than cutting: whoever writes does
-  const bool is_sound = remainder.solid.facets.empty() || is_valid(remainder.solid);
-  CellRemover remover(solid, segmentation, remainder, is_valid, unseen_m, options);
-  auto made = remover.run(std::move(refused), is_sound);
+  if (refused.empty() && !judge.is_thorough) return remainder;
+  const Fitness fitness =
+      remainder.solid.facets.empty() ? Fitness::valid : judge.fitness_of(remainder.solid);
+  if (refused.empty() && fitness != Fitness::unfit) return remainder;
+  CellRemover remover(solid, segmentation, remainder, judge, unseen_m, options);
+  auto made = remover.run(std::move(refused), remainder.solid, fitness);
   for (Refusal& refusal : remainder.refused)
     if (const Refusal* fault = remover.fault_of(refusal.feature); fault && fault->code != "G401")
       refusal = {refusal.feature, fault->reason, fault->code};

@@ -22,12 +22,12 @@ namespace {
 class StepRunner {
  public:
   StepRunner(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-             const SegmentOptions& options, const Judge& is_valid)
+             const SegmentOptions& options, const Judge& judge)
       : solid_(solid),
         segmentation_(segmentation),
         plan_(plan),
         options_(options),
-        is_valid_(is_valid),
+        judge_(judge),
         tasks_(tasks_of(plan, segmentation)) {}
 
   CarriedOut run() {
@@ -59,7 +59,7 @@ class StepRunner {
       off.steps.push_back(step);
       off.steps.back().operation = "omit";
     }
-    Remainder remainder = omit(solid_, segmentation_, off, options_, is_valid_);
+    Remainder remainder = omit(solid_, segmentation_, off, options_, judge_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
     for (const PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
     for (const Refusal& refusal : remainder.refused)
@@ -138,7 +138,7 @@ class StepRunner {
   const Segmentation& segmentation_;
   const Plan& plan_;
   const SegmentOptions& options_;
-  const Judge& is_valid_;
+  const Judge& judge_;
   std::vector<PlanTask> tasks_;
   std::map<FeatureId, CarriedOut::Refused> failed_;
 };
@@ -146,8 +146,8 @@ class StepRunner {
 }  // namespace
 
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                           const SegmentOptions& options, const Judge& is_valid) {
-  return StepRunner(solid, segmentation, plan, options, is_valid).run();
+                           const SegmentOptions& options, const Judge& judge) {
+  return StepRunner(solid, segmentation, plan, options, judge).run();
 }
 
 }  // namespace oriel::detail

@@ -8,8 +8,8 @@ namespace oriel::detail {
 /// at once, then those operators that leave something put it in their place, in the order of the
 /// features; what moves facets (flatten) and outlines last. What cannot be taken off (G401) or put
 /// back (G403) is left as it was, and the rest is done anew without it: no feature is ever half
-/// changed. Steps for groups are carried out together or not at all. `is_valid` as omit() takes it.
+/// changed. Steps for groups are carried out together or not at all. `judge` as omit() takes it.
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                           const SegmentOptions& options, const Judge& is_valid);
+                           const SegmentOptions& options, const Judge& judge);
 
 }  // namespace oriel::detail

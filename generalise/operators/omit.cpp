@@ -10,7 +10,7 @@
 namespace oriel {
 
 Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-               const SegmentOptions& options, const Judge& is_valid) {
+               const SegmentOptions& options, const Judge& judge) {
   const double half_m3 = volume_m3(solid) / 2;
   std::vector<FeatureId> features;
   std::vector<Refusal> refused;
@@ -23,10 +23,10 @@ Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan&
       features.push_back(step.feature);
   }
   Remainder remainder = remove_features(solid, segmentation, features, options);
-  if (is_valid)
-    remainder = remove_cells(solid, segmentation, std::move(remainder), is_valid,
+  if (judge)
+    remainder = remove_cells(solid, segmentation, std::move(remainder), judge,
                              kGapOnMap_m * plan.scale, options);
-  remainder = fill_rings(segmentation, std::move(remainder), is_valid, options);
+  remainder = fill_rings(segmentation, std::move(remainder), judge, options);
   remainder.refused.insert(remainder.refused.end(), refused.begin(), refused.end());
   std::ranges::sort(remainder.refused, {}, &Refusal::feature);
   return remainder;

@@ -17,6 +17,6 @@ namespace oriel {
 /// with its reason and stays whole. With a judge, features without a cut of their own go as cells
 /// (remove_cells).
 Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-               const SegmentOptions& options, const Judge& is_valid = {});
+               const SegmentOptions& options, const Judge& judge = {});
 
 }  // namespace oriel

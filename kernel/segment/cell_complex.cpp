@@ -37,13 +37,20 @@ bool box_passes(const Box& box, const Plane& plane) {
   return std::abs(dot(n, middle) - plane.offset_m) < reach;
 }
 
+std::vector<std::vector<Facet>> facets_of_cells(const Segmentation& segmentation) {
+  std::vector<std::vector<Facet>> facets;
+  facets.reserve(segmentation.cells.size());
+  for (const Cell& cell : segmentation.cells) facets.push_back(cell.facets);
+  return facets;
+}
+
 class ComplexBuilder {
  public:
   ComplexBuilder(const Segmentation& segmentation, const Tolerances& tolerances)
       : segmentation_(segmentation),
         pool_(segmentation.vertices, tolerances.weld_m * kReach),
-        sheet_of_(detail::sheets_of(segmentation)),
-        facets_of_(detail::whole_outlines(segmentation, sheet_of_, pool_)),
+        sheet_of_(detail::sheets_of(segmentation.planes)),
+        facets_of_(detail::whole_outlines(facets_of_cells(segmentation), sheet_of_, pool_)),
         owners_(segmentation),
         vertices_of_cell_(segmentation.cells.size()),
         box_of_cell_(segmentation.cells.size()),

@@ -4,13 +4,17 @@
 #include "generalise/fill_rings.h"
 #include "generalise/generalise.h"
 #include "generalise/remove_cells.h"
+#include "kernel/segment/cell_complex.h"
 #include "tests/generalise/line.h"
+#include "tests/support/changed.h"
 #include "tests/support/houses.h"
 #include "tests/support/inside.h"
 #include "tests/support/segmented.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 
 #include <doctest/doctest.h>
 
@@ -33,7 +37,10 @@ Remainder without_all(const Line& line) {
   return omit(line.solid, line.segmentation, omit_all(line), {});
 }
 
-bool any_solid(const Solid& solid) { return is_closed(solid); }
+Fitness any_solid_fitness(const Solid& solid) {
+  return is_closed(solid) ? Fitness::valid : Fitness::unfit;
+}
+const Judge any_solid{any_solid_fitness};
 
 /// All features gone, nothing refused, and the bare block left without a seam.
 void check_bare(const BoxBody& body, std::size_t features) {
@@ -197,6 +204,86 @@ TEST_SUITE("generalise") {
     CHECK(pieces > 0);
   }
 
+  TEST_CASE("features come off as cells where the cell complex stays open") {
+    std::size_t open = 0, gone = 0, refused = 0;
+    for (const auto make : {ridge_chimney, dormer_with_window, chimney_with_head})
+      for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        const Segmented s = segmented(with_noise(make(), 0.002, seed));
+        open += cell_complex(s.segmentation).open_edge_count() == 0 ? 0 : 1;
+        for (const FeatureId id : all_features(s.segmentation)) {
+          const Feature& feature = s.segmentation.features[id.index()];
+          if (!feature.node.is_valid() || feature.parent.is_valid()) continue;
+          const Remainder rest =
+              remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, any_solid);
+          CHECK(is_closed(rest.solid));
+          gone += rest.refused.empty() ? 1 : 0;
+          // A shaft under its head is a part of the building, and the air beside a roof is no hole.
+          if (rest.refused.empty()) continue;
+          const std::string& code = rest.refused[0].code;
+          refused += code != "G411" && code != "G412" ? 1 : 0;
+        }
+      }
+    CHECK(open == 12);
+    CHECK(gone > 30);
+    CHECK(refused == 0);
+  }
+
+  TEST_CASE("what was cut is put together anew if a thorough judge finds it unfit") {
+    const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
+    const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
+    for (const bool is_thorough : {false, true}) {
+      int judged = 0;
+      const Judge judge{
+          [&](const Solid&) { return ++judged == 1 ? Fitness::unfit : Fitness::valid; },
+          {},
+          is_thorough};
+      const Remainder cut = remove_features(s.solid, s.segmentation, {id});
+      REQUIRE(cut.refused.empty());
+      const Remainder rest = remove_cells(s.solid, s.segmentation, cut, judge);
+      CHECK(judged == (is_thorough ? 2 : 0));
+      CHECK(rest.removed == std::vector{id});
+      CHECK(rest.refused.empty());
+      CHECK(volume_m3(rest.solid) == doctest::Approx(480).epsilon(1e-9));
+      CHECK(rest.solid.facets.size() == 6);
+    }
+  }
+
+  TEST_CASE("what is valid comes before what is as it came") {
+    const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
+    const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
+    // The first result that it sees is not valid, but neither was the building.
+    int judged = 0;
+    const Judge judge{[&](const Solid& solid) {
+      return solid.facets.size() == 6 && ++judged == 1 ? Fitness::as_it_came : Fitness::valid;
+    }};
+    const Remainder rest =
+        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, judge);
+    CHECK(judged == 2);
+    CHECK(rest.refused.empty());
+    // Where nothing is valid it goes all the same.
+    const Judge never{[&](const Solid& solid) {
+      return solid.facets.size() == 6 ? Fitness::as_it_came : Fitness::valid;
+    }};
+    CHECK(remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, never)
+              .refused.empty());
+  }
+
+  TEST_CASE("no cells go by which the judge finds a violation") {
+    const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
+    const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
+    Judge judge = any_solid;
+    judge.violation_of = [](const Solid& solid) -> std::optional<Violation> {
+      if (solid.facets.size() > 6) return std::nullopt;
+      return Violation{"G405", "the block would go"};
+    };
+    const Remainder rest =
+        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, judge);
+    REQUIRE(rest.refused.size() == 1);
+    CHECK(rest.refused[0].code == "G405");
+    CHECK(rest.refused[0].reason == "the block would go");
+    CHECK(rest.removed.empty());
+  }
+
   TEST_CASE("what stands in a ring goes with it unless it leads through the building") {
     for (const double depth_m : {1.0, 8.0}) {
       const Segmented s = segmented(
@@ -236,7 +323,7 @@ TEST_SUITE("generalise") {
     for (const FeatureId id : all_features(line.segmentation)) {
       const Plan plan{1000, {{id, "omit", "test"}}, {}};
       Invariants invariants;
-      invariants.is_valid = any_solid;
+      invariants.judge = any_solid;
       const auto done = generalise(line.solid, line.segmentation, line.table(), bare, plan,
                                    SegmentOptions{}, invariants);
       REQUIRE(done.value);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-using Windings = std::vector<std::pair<int, int>>;
+using Windings = Arrangement::Windings;
 
 /// base + sign × change; both sorted by label.
 Windings sum_of(const Windings& base, const Windings& change, int sign) {
@@ -110,7 +110,7 @@ std::size_t Arrangement::nearest_to_the_left(Vec2 point) const {
   return nearest;
 }
 
-std::vector<std::vector<int>> Arrangement::labels() const {
+std::vector<Windings> Arrangement::windings() const {
   std::vector<std::vector<std::size_t>> around(region_count_);
   for (std::size_t h = 0; h < half_edge_count(); ++h) around[region(h)].push_back(h);
   std::vector<Windings> windings(region_count_);
@@ -126,9 +126,14 @@ std::vector<std::vector<int>> Arrangement::labels() const {
       // To the left of half-edge 2e the edge's labels hold more often.
       windings[across] = sum_of(windings[reached[i]], edges_[h / 2].windings, h % 2 == 0 ? -1 : 1);
     }
+  return windings;
+}
+
+std::vector<std::vector<int>> Arrangement::labels() const {
+  const std::vector<Windings> of_region = windings();
   std::vector<std::vector<int>> labels(region_count_);
   for (std::size_t r = 0; r < region_count_; ++r)
-    for (const auto& [label, count] : windings[r])
+    for (const auto& [label, count] : of_region[r])
       if (count > 0) labels[r].push_back(label);
   return labels;
 }

@@ -29,7 +29,11 @@ class Arrangement {
     return region_of_cycle_[cycle_[half_edge]];
   }
 
-  /// For each region the labels that hold in it, ascending.
+  /// How often labels hold in a region, by label; those that hold 0 times are left out.
+  using Windings = std::vector<std::pair<int, int>>;
+  /// For each region.
+  [[nodiscard]] std::vector<Windings> windings() const;
+  /// For each region the labels that hold in it more than 0 times, ascending.
   [[nodiscard]] std::vector<std::vector<int>> labels() const;
 
  private:

@@ -16,21 +16,19 @@ using Line = std::pair<PlaneId, PlaneId>;
 
 class Outlines {
  public:
-  Outlines(const Segmentation& segmentation, const std::vector<PlaneId>& sheets,
+  Outlines(std::vector<std::vector<Facet>> bodies, const std::vector<PlaneId>& sheets,
            const VertexPool& pool)
-      : sheets_(sheets), pool_(pool) {
-    for (const Cell& cell : segmentation.cells) {
-      auto& facets = cells_.emplace_back(cell.facets);
+      : sheets_(sheets), pool_(pool), bodies_(std::move(bodies)) {
+    for (auto& facets : bodies_)
       for (Facet& facet : facets)
         for (Loop& loop : facet.loops) represent(loop);
-    }
     find_incidences();
   }
 
   std::vector<std::vector<Facet>> whole() {
-    std::vector<std::vector<Facet>> whole = cells_;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const auto across = facets_by_edge(cells_[c]);
+    std::vector<std::vector<Facet>> whole = bodies_;
+    for (std::size_t c = 0; c < bodies_.size(); ++c) {
+      const auto across = facets_by_edge(bodies_[c]);
       for (Facet& facet : whole[c])
         for (Loop& loop : facet.loops) loop = whole_loop(loop, sheet_of(facet), across);
     }
@@ -51,7 +49,7 @@ class Outlines {
   /// Which vertices lie on which lines.
   void find_incidences() {
     std::map<int, std::set<PlaneId>> sheets_at;
-    for (const auto& facets : cells_)
+    for (const auto& facets : bodies_)
       for (const Facet& facet : facets)
         for (const Loop& loop : facet.loops)
           for (const int v : loop) sheets_at[v].insert(sheet_of(facet));
@@ -102,17 +100,17 @@ class Outlines {
 
   const std::vector<PlaneId>& sheets_;
   const VertexPool& pool_;
-  std::vector<std::vector<Facet>> cells_;
+  std::vector<std::vector<Facet>> bodies_;
   std::map<Line, std::vector<int>> on_line_;
 };
 
 }  // namespace
 
-std::vector<PlaneId> sheets_of(const Segmentation& segmentation) {
+std::vector<PlaneId> sheets_of(const std::vector<Plane>& planes) {
   std::vector<PlaneId> sheets;
   std::map<std::array<std::int64_t, 4>, PlaneId> first;
-  for (int p = 0; p < std::ssize(segmentation.planes); ++p) {
-    const Plane& plane = segmentation.planes[static_cast<std::size_t>(p)];
+  for (int p = 0; p < std::ssize(planes); ++p) {
+    const Plane& plane = planes[static_cast<std::size_t>(p)];
     const auto& normal = plane.coefficients;
     const std::array key{normal[0], normal[1], normal[2], plane.offset};
     const std::array opposite{-normal[0], -normal[1], -normal[2], -plane.offset};
@@ -121,10 +119,10 @@ std::vector<PlaneId> sheets_of(const Segmentation& segmentation) {
   return sheets;
 }
 
-std::vector<std::vector<Facet>> whole_outlines(const Segmentation& segmentation,
+std::vector<std::vector<Facet>> whole_outlines(std::vector<std::vector<Facet>> bodies,
                                                const std::vector<PlaneId>& sheets,
                                                const VertexPool& pool) {
-  return Outlines(segmentation, sheets, pool).whole();
+  return Outlines(std::move(bodies), sheets, pool).whole();
 }
 
 }  // namespace oriel::detail

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+
+#include <optional>
+#include <span>
+
+namespace oriel::detail {
+
+/// The solid without these leaves of the segmentation (body_without), in planes of the building:
+/// what leaves do not touch stays as it is. Facets name no polygons. `solid` is the one that was
+/// segmented, or another one in its planes that has the leaves.
+///
+/// Nothing if that is no closed solid, if it touches itself along more edges than before, or if
+/// more facets are narrower than weld_m: where vertices lie off their planes slivers come up, and
+/// the pieces have to be solidified anew.
+std::optional<Solid> take_out(const Solid& solid, const Segmentation& segmentation,
+                              std::span<const CellId> leaves, const Tolerances& tolerances);
+
+}  // namespace oriel::detail
