@@ -78,10 +78,12 @@ class CellRemover {
     if (fitness == Fitness::unfit) gone_.clear();
     base_gone_ = gone_;
     std::ranges::sort(more);
-    least_ = fitness == Fitness::as_it_came ? fitness : Fitness::valid;
-    add_all(more);
     // What was not valid as it came need not be, but where it can be it is.
-    if (has_excused_ && least_ == Fitness::valid) {
+    if (fitness == Fitness::as_it_came)
+      attempt(more, Way::anew);
+    else
+      add_all(more);
+    if (has_excused_ || fitness == Fitness::as_it_came) {
       least_ = Fitness::as_it_came;
       add_all(more);
     }

@@ -102,7 +102,7 @@ class StepRunner {
     if (is_in_another) return;  // it went with what carries it
     Placed placed = place_task({out.solid, segmentation_, task.steps, plan_.scale});
     if (!placed.solid) return fail(task, "G403", placed.reason);
-    if (task.operation == "flatten" && is_valid_ && !is_valid_(*placed.solid))
+    if (task.operation == "flatten" && judge_ && judge_.fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, "G403", "the moved facet would meet another part");
     out.solid = std::move(*placed.solid);
     for (std::size_t i = 0; i < represented(task); ++i) {
