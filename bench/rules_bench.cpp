@@ -49,9 +49,19 @@ std::uint8_t code_of(std::string_view label) {
 std::vector<Labelled> label(const RuleBase& rules,
                             const std::vector<bench::FacadeBuilding>& buildings) {
   std::vector<Labelled> all;
-  for (const bench::FacadeBuilding& building : buildings)
-    for (const Verdict& verdict : interpret(rules, building.table, relate(building)).verdicts)
-      all.push_back({code_of(verdict.label), !verdict.groups.empty()});
+  Name last;
+  std::uint8_t code = 0;
+  for (const bench::FacadeBuilding& building : buildings) {
+    const Interpretation said = interpret(rules, building.table, relate(building));
+    const std::size_t first = all.size();
+    for (const Verdict& verdict : said.verdicts) {
+      if (verdict.label != last) code = code_of(verdict.label);
+      last = verdict.label;
+      all.push_back({code, false});
+    }
+    for (const Group& row : said.groups)
+      for (const FeatureId member : row.members) all[first + member.index()].is_in_row = true;
+  }
   return all;
 }
 
@@ -107,8 +117,7 @@ std::string pack_of(int rules) {
 /// margin nor the runner-up leave the labelling.
 struct BareVerdict {
   FeatureId feature;
-  std::string label;
-  std::vector<std::string> groups;
+  Name label;
 };
 
 std::size_t label_barely(const rules::Pack& pack, const FeatureTable& table,
@@ -120,12 +129,9 @@ std::size_t label_barely(const rules::Pack& pack, const FeatureTable& table,
   for (std::size_t row = 0; row < choices.size(); ++row) {
     verdicts[row].feature = FeatureId{static_cast<int>(row)};
     if (choices[row].rule >= 0)
-      verdicts[row].label = pack.classes[at(pack.rules[at(choices[row].rule)].label)].name;
+      verdicts[row].label = pack.rules[at(choices[row].rule)].name_of_label;
   }
-  for (const Group& group : rules::find_groups(pack, facts, table))
-    for (const FeatureId member : group.members)
-      verdicts[member.index()].groups.push_back(group.id);
-  return verdicts.size();
+  return verdicts.size() + rules::find_groups(pack, facts, table).size();
 }
 
 /// The reason of every feature that has a label, in one line, as label --explain writes it.

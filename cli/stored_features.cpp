@@ -8,6 +8,7 @@
 #include <map>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,8 +23,19 @@ class Verdicts {
   Verdicts(const std::vector<DescribedBuilding>& buildings, const std::vector<Interpretation>& run)
       : buildings_(buildings), run_(run) {}
 
-  /// The verdict of a record behind those that were found so far, or null.
-  const Verdict* find(const FeatureRecord& record) {
+  /// Puts into a record the verdict of its feature, behind those that were found so far; false if
+  /// there is none.
+  bool set(FeatureRecord& record) {
+    const auto row = find(record);
+    if (!row) return false;
+    if (groups_of_ != building_) groups_ = groups_by_feature(run_[building_]);
+    groups_of_ = building_;
+    set_verdict(record, run_[building_].verdicts[*row], groups_[*row]);
+    return true;
+  }
+
+ private:
+  std::optional<std::size_t> find(const FeatureRecord& record) {
     std::size_t row = row_;
     for (std::size_t b = building_; b < buildings_.size(); ++b, row = 0) {
       const FeatureTable& table = buildings_[b].table;
@@ -33,17 +45,19 @@ class Verdicts {
         if (table.id(feature) != record.id) continue;
         building_ = b;
         row_ = row + 1;
-        return &run_[b].verdicts[row];
+        return row;
       }
     }
-    return nullptr;
+    return std::nullopt;
   }
 
- private:
   const std::vector<DescribedBuilding>& buildings_;
   const std::vector<Interpretation>& run_;
   std::size_t building_ = 0;
   std::size_t row_ = 0;
+  /// The groups of the features of that building.
+  std::optional<std::size_t> groups_of_;
+  std::vector<std::vector<std::string>> groups_;
 };
 
 }  // namespace
@@ -102,9 +116,7 @@ void StoredFeatures::write(const std::string& path, const std::vector<Interpreta
   Verdicts verdicts(buildings_, run);
   for (const std::string& file : files_) {
     const auto issues = visit_feature_records(file, [&](FeatureRecord record) {
-      const Verdict* verdict = verdicts.find(record);
-      if (verdict == nullptr) return;
-      set_verdict(record, *verdict);
+      if (!verdicts.set(record)) return;
       writer.append({std::move(record)});
     });
     // What the tables could be read without was not told yet: boxes, polygons.

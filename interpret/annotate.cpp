@@ -105,6 +105,8 @@ class Annotator {
   const AnnotateOptions& options_;
   std::optional<Explainer> explainer_;
   std::vector<Role> roles_;
+  /// By feature, the ids of its groups.
+  std::vector<std::vector<std::string>> groups_;
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
   std::vector<std::vector<int>> owners_;
@@ -129,6 +131,7 @@ void Annotator::find_roles() {
   roles_.resize(segmentation_.features.size());
   for (const Verdict& verdict : interpretation_.verdicts)
     roles_[verdict.feature.index()] = role_of(base_.pack(), verdict.label);
+  groups_ = groups_by_feature(interpretation_);
 }
 
 void Annotator::find_polygons() {
@@ -222,7 +225,8 @@ Members Annotator::members_of(int feature) const {
   if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
   members.emplace_back("oriel_score", rounded(verdict.score));
   members.emplace_back("oriel_rule", verdict.rule);
-  if (!verdict.groups.empty()) members.emplace_back("oriel_groups", joined(verdict.groups));
+  if (const auto& groups = groups_[index(feature)]; !groups.empty())
+    members.emplace_back("oriel_groups", joined(groups));
   if (explainer_) members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
   return members;
 }

@@ -85,7 +85,7 @@ std::string headline(const Explanation& explanation) {
   }
   std::string text = fmt::format("{} -> {} {:.2f} by {}, margin {:.2f}", explanation.feature,
                                  verdict.label, verdict.score, verdict.rule, verdict.margin);
-  if (!verdict.runner_up.empty()) text += ", then " + verdict.runner_up;
+  if (!verdict.runner_up.empty()) text += ", then " + verdict.runner_up.text();
   return text;
 }
 
@@ -115,7 +115,7 @@ std::string reason(const Explanation& explanation) {
   const Verdict& verdict = explanation.verdict;
   if (verdict.label.empty()) return headline(explanation).substr(explanation.feature.size() + 4);
   std::string text = fmt::format("{} {:.2f} by {}", verdict.label, verdict.score, verdict.rule);
-  const auto rule = std::ranges::find(explanation.rules, verdict.rule, &RuleReport::id);
+  const auto rule = std::ranges::find(explanation.rules, verdict.rule.text(), &RuleReport::id);
   if (rule == explanation.rules.end()) return text;
   const auto rows = rows_of(*rule);
   const char* separator = ": ";

@@ -19,16 +19,14 @@ const rules::Rule& rule_of(const rules::Pack& pack, int rule) {
   return pack.rules[static_cast<std::size_t>(rule)];
 }
 
-const std::string& label_of(const rules::Pack& pack, int rule) {
-  return pack.classes[static_cast<std::size_t>(rule_of(pack, rule).label)].name;
-}
+Name label_of(const rules::Pack& pack, int rule) { return rule_of(pack, rule).name_of_label; }
 
 void fill(Verdict& verdict, const rules::Pack& pack, const rules::Choice& choice) {
   if (choice.rule < 0) return;
   verdict.label = label_of(pack, choice.rule);
   verdict.score = choice.score;
   verdict.margin = choice.margin;
-  verdict.rule = rule_of(pack, choice.rule).id;
+  verdict.rule = rule_of(pack, choice.rule).name;
   if (choice.runner_up >= 0) verdict.runner_up = label_of(pack, choice.runner_up);
 }
 
@@ -38,7 +36,7 @@ Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTa
   issue.code = "R260";
   issue.sentence =
       fmt::format("{} {:.2f} is close to {}: margin {:.2f} < {:.2f}", verdict.label, verdict.score,
-                  verdict.runner_up, verdict.margin, pack.decide.ambiguous_below);
+                  verdict.runner_up.text(), verdict.margin, pack.decide.ambiguous_below);
   issue.place.building = table.building();
   issue.place.feature = table.id(verdict.feature);
   return issue;
@@ -77,9 +75,6 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   if (const auto rows = labelling.unsettled(); !rows.empty())
     result.issues.push_back(unsettled(pack, rows, table));
   result.groups = rules::find_groups(pack, facts, table);
-  for (const Group& group : result.groups)
-    for (const FeatureId member : group.members)
-      result.verdicts[member.index()].groups.push_back(group.id);
   return result;
 }
 

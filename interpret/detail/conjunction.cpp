@@ -1,20 +1,19 @@
 #include "interpret/detail/conjunction.h"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
 
 namespace oriel::rules {
 
 namespace {
 
+/// Counted in few bits, so that many fit into a register.
 std::size_t count_open(std::span<const Truth> truths) {
-  return truths.size() - static_cast<std::size_t>(std::ranges::count(truths, Truth::no));
-}
-
-Truth counted(Truth answer, Conjunction::As as) {
-  if (as == Conjunction::As::itself) return answer;
-  if (as == Conjunction::As::opposite) return negated(answer);
-  return truth_of(answer != Truth::yes);
+  static_assert(kBlock <= std::numeric_limits<std::uint16_t>::max());
+  std::uint16_t open = 0;
+  for (const Truth truth : truths)
+    open = static_cast<std::uint16_t>(open + static_cast<std::uint16_t>(truth != Truth::no));
+  return open;
 }
 
 }  // namespace
@@ -31,6 +30,20 @@ Conjunction::Conjunction(const Frame& frame, std::span<Truth> out)
 }
 
 void Conjunction::ask(Evaluator& evaluator, ExprId id, As as) {
+  if (as != As::itself) {
+    ask_turned(evaluator, id, as);
+  } else if (const auto parts = evaluator.parts(id); !parts.empty()) {
+    for (const ExprId part : parts)
+      if (is_open()) ask(evaluator, part);
+    return;
+  } else {
+    evaluator.narrow(id, frame_, truths_);
+  }
+  open_ = count_open(truths_);
+  if (2 * open_ <= truths_.size()) move_together();
+}
+
+void Conjunction::ask_turned(Evaluator& evaluator, ExprId id, As as) {
   std::array<Truth, kBlock> block;
   const auto answers = std::span(block).first(truths_.size());
   evaluator.truths(id, frame_, answers);
@@ -38,24 +51,13 @@ void Conjunction::ask(Evaluator& evaluator, ExprId id, As as) {
     for (std::size_t i = 0; i < answers.size(); ++i)
       truths_[i] = std::min(truths_[i], count(answers[i]));
   };
-  switch (as) {
-    case As::itself:
-      fold([](Truth t) { return t; });
-      break;
-    case As::opposite:
-      fold([](Truth t) { return counted(t, As::opposite); });
-      break;
-    case As::veto:
-      fold([](Truth t) { return counted(t, As::veto); });
-      break;
-  }
-  open_ = count_open(truths_);
-  if (2 * open_ <= truths_.size()) move_together();
+  if (as == As::opposite)
+    fold([](Truth t) { return negated(t); });
+  else
+    fold([](Truth t) { return truth_of(t != Truth::yes); });
 }
 
-/// What is left out has been settled with no, which `out` holds until finish() fills in the rest.
 void Conjunction::move_together() {
-  if (!is_moved_) std::iota(slots_.begin(), slots_.begin() + truths_.size(), std::uint16_t{0});
   std::size_t size = 0;
   std::array<std::uint16_t, kBlock> kept;
   for (std::size_t i = 0; i < truths_.size(); ++i) {
@@ -63,7 +65,7 @@ void Conjunction::move_together() {
     size += truths_[i] != Truth::no ? 1U : 0U;
   }
   for (std::size_t k = 0; k < size; ++k) {
-    slots_[k] = slots_[kept[k]];
+    slots_[k] = is_moved_ ? slots_[kept[k]] : kept[k];
     moved_[k] = truths_[kept[k]];
   }
   for (std::size_t level = 0; level < frame_.rows.size(); ++level) {
@@ -72,7 +74,6 @@ void Conjunction::move_together() {
     for (std::size_t k = 0; k < size; ++k) rows_[level][k] = rows[kept[k]];
     frame_.rows[level] = rows_[level].data();
   }
-  if (!is_moved_) std::ranges::fill(out_, Truth::no);
   is_moved_ = true;
   truths_ = std::span(moved_).first(size);
   frame_.size = size;
@@ -80,8 +81,10 @@ void Conjunction::move_together() {
   frame_.needed = truths_.data();
 }
 
+/// What is left out has been settled with no.
 void Conjunction::finish() {
   if (!is_moved_) return;
+  std::ranges::fill(out_, Truth::no);
   for (std::size_t i = 0; i < truths_.size(); ++i) out_[slots_[i]] = truths_[i];
 }
 

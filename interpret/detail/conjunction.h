@@ -23,6 +23,7 @@ class Conjunction {
 
   /// True if a slot is not settled.
   [[nodiscard]] bool is_open() const { return open_ > 0; }
+  /// A conjunction is asked part by part.
   void ask(Evaluator& evaluator, ExprId id, As as = As::itself);
 
   /// The slots that are left, with `needed` where they are open.
@@ -31,10 +32,11 @@ class Conjunction {
   [[nodiscard]] std::span<Truth> truths() { return truths_; }
   [[nodiscard]] std::size_t slot(std::size_t i) const { return is_moved_ ? slots_[i] : i; }
 
-  /// Completes `out`, to be called once.
+  /// Completes `out`, which holds nothing before; to be called once, if at all.
   void finish();
 
  private:
+  void ask_turned(Evaluator& evaluator, ExprId id, As as);
   void move_together();
 
   Frame frame_;

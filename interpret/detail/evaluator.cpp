@@ -127,9 +127,9 @@ void Evaluator::truths(ExprId id, const Frame& frame, std::span<Truth> out) {
     case Op::any_of:
       return combine(expr, frame, out);
     case Op::is_class:
-      return membership(expr, frame, out);
     case Op::facet_is:
-      return facet_kind(expr, frame, out);
+      std::ranges::fill(out, Truth::yes);
+      return narrow(id, frame, out);
     case Op::exists:
     case Op::none:
     case Op::all:
@@ -212,24 +212,32 @@ void Evaluator::combine(const Expr& expr, const Frame& frame, std::span<Truth> o
   for (Truth& truth : out) truth = negated(truth);
 }
 
-void Evaluator::membership(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
-  const auto& known = expr.is_previous ? facts_->previous : facts_->membership;
-  pick(known[static_cast<std::size_t>(expr.index)], expr, frame, out);
+/// The answers of a test that is known of all features; null for other expressions.
+const std::vector<Truth>* Evaluator::known_column(const Expr& expr) const {
+  const auto index = static_cast<std::size_t>(expr.index);
+  if (expr.op == Op::facet_is) return &facts_->hosts[index];
+  if (expr.op != Op::is_class) return nullptr;
+  return &(expr.is_previous ? facts_->previous : facts_->membership)[index];
 }
 
-void Evaluator::facet_kind(const Expr& expr, const Frame& frame, std::span<Truth> out) const {
-  pick(facts_->hosts[static_cast<std::size_t>(expr.index)], expr, frame, out);
-}
-
-/// The entries of a column of answers.
-void Evaluator::pick(const std::vector<Truth>& column, const Expr& expr, const Frame& frame,
-                     std::span<Truth> out) {
-  const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
-  if (frame.is_run) {
-    std::copy_n(column.begin() + rows[0], out.size(), out.begin());
+void Evaluator::narrow(ExprId id, const Frame& frame, std::span<Truth> all) {
+  const Expr& expr = at(id);
+  const auto* column = known_column(expr);
+  if (column == nullptr) {
+    TruthBlock block;
+    const auto answers = std::span(block).first(all.size());
+    truths(id, frame, answers);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::min(all[i], answers[i]);
     return;
   }
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = column[static_cast<std::size_t>(rows[i])];
+  const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
+  const Truth* answers = column->data();
+  if (frame.is_run) {
+    answers += rows[0];
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::min(all[i], answers[i]);
+  } else {
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::min(all[i], answers[rows[i]]);
+  }
 }
 
 }  // namespace oriel::rules

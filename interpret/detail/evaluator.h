@@ -56,6 +56,13 @@ class Evaluator {
 
   void numbers(ExprId id, const Frame& frame, std::span<double> out);
   void truths(ExprId id, const Frame& frame, std::span<Truth> out);
+  /// Lowers `all` to the answers, where they are less.
+  void narrow(ExprId id, const Frame& frame, std::span<Truth> all);
+  /// The conditions of which an expression is the conjunction; none if it is something else.
+  [[nodiscard]] std::span<const ExprId> parts(ExprId id) const {
+    const Expr& expr = at(id);
+    return expr.op == Op::all_of ? std::span(expr.args) : std::span<const ExprId>();
+  }
 
   /// How the others of a quantifier answer; filled by tally().
   struct Tally {
@@ -102,10 +109,7 @@ class Evaluator {
   void in_list(const Expr& expr, const Frame& frame, std::span<Truth> out);
   void similar(const Expr& expr, const Frame& frame, std::span<Truth> out);
   void combine(const Expr& expr, const Frame& frame, std::span<Truth> out);
-  void membership(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
-  void facet_kind(const Expr& expr, const Frame& frame, std::span<Truth> out) const;
-  static void pick(const std::vector<Truth>& column, const Expr& expr, const Frame& frame,
-                   std::span<Truth> out);
+  [[nodiscard]] const std::vector<Truth>* known_column(const Expr& expr) const;
   void quantify(ExprId id, const Frame& frame, std::span<Truth> out);
 
   /// The answers of an expression of one level for all features, kept until forget().
@@ -117,6 +121,10 @@ class Evaluator {
   [[nodiscard]] double most_in(std::size_t column) const;
 
   struct Pairs;
+  class AskedOthers;
+  class PairTests;
+  template <std::size_t kTests>
+  class AtOnce;
   class Rounds;
   struct Values;
   void flush(const Expr& expr, Pairs& pairs, Values& values);

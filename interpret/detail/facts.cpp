@@ -17,42 +17,66 @@ namespace oriel::rules {
 
 namespace {
 
-/// The texts of a column as numbers: those of `words` by their position, others after them.
-std::vector<double> code_texts(const std::vector<std::string>& texts,
-                               std::unordered_map<std::string_view, double>& codes) {
-  std::vector<double> coded;
-  coded.reserve(texts.size());
-  for (const std::string& text : texts) {
-    if (text.empty()) {
-      coded.push_back(kUnknown);
-    } else if (!coded.empty() && text == texts[coded.size() - 1]) {
-      coded.push_back(coded.back());
+/// Numbers of texts: of the pack's words their position, of others those that follow.
+class TextCodes {
+ public:
+  explicit TextCodes(const Pack& pack) : pack_(pack) {}
+
+  double of(const std::string& text) {
+    if (const auto word = pack_.reads.words.find(text); word != pack_.reads.words.end())
+      return static_cast<double>(word->second);
+    const auto next = static_cast<double>(pack_.words.size() + others_.size());
+    return others_.try_emplace(text, next).first->second;
+  }
+
+ private:
+  const Pack& pack_;
+  std::unordered_map<std::string_view, double> others_;
+};
+
+/// The texts of a column as numbers: those of the pack by their position, others after them.
+std::vector<double> code_texts(const std::vector<std::string>& texts, TextCodes& codes) {
+  std::vector<double> coded(texts.size(), kUnknown);
+  for (std::size_t row = 0; row < texts.size(); ++row) {
+    const std::string& text = texts[row];
+    if (text.empty()) continue;
+    if (row > 0 && text == texts[row - 1]) {
+      coded[row] = coded[row - 1];
     } else {
-      const auto next = static_cast<double>(codes.size());
-      coded.push_back(codes.try_emplace(text, next).first->second);
+      coded[row] = codes.of(text);
     }
   }
   return coded;
 }
 
+const std::vector<std::size_t>& columns_of_numbers() {
+  static const std::vector<std::size_t> all = [] {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < feature_schema().size(); ++i)
+      if (feature_schema()[i].unit != Unit::text) numbers.push_back(i);
+    return numbers;
+  }();
+  return all;
+}
+
 /// Throws std::invalid_argument where the graph is of other features than the table.
 void check_rows(const FeatureLinks& links, const std::string& relation, std::size_t rows) {
-  const int last = links.others.empty() ? -1 : *std::ranges::max_element(links.others);
+  int last = -1;
+  for (const int other : links.others) last = std::max(last, other);
   if (links.list_of.size() > rows || last >= static_cast<int>(rows))
     throw std::invalid_argument("the relation " + relation +
                                 " leads to features that the table does not have");
 }
 
-/// The relations that expressions and groups lead over, and those that these narrow.
-std::vector<bool> find_needed(const Pack& pack, std::size_t count) {
-  std::vector<bool> is_needed(count, false);
-  for (const Expr& expr : pack.code)
-    if (is_quantifier(expr.op)) is_needed[static_cast<std::size_t>(expr.index)] = true;
-  for (const GroupKind& kind : pack.groups) is_needed[static_cast<std::size_t>(kind.by)] = true;
-  for (std::size_t i = pack.relations.size(); i-- > 0;)
-    if (is_needed[relation_schema().size() + i])
-      is_needed[static_cast<std::size_t>(pack.relations[i].within)] = true;
-  return is_needed;
+/// yes where x lies in the range and not in those before; unknown where it is missing.
+std::vector<Truth> answers_of_kind(std::span<const double> x, HostRange range,
+                                   std::initializer_list<const std::vector<Truth>*> before) {
+  std::vector<Truth> answers(x.size());
+  compare_range(x, range.low_deg, range.high_deg, answers);
+  for (const std::vector<Truth>* earlier : before)
+    for (std::size_t row = 0; row < x.size(); ++row)
+      answers[row] = (*earlier)[row] == Truth::yes ? Truth::no : answers[row];
+  return answers;
 }
 
 }  // namespace
@@ -67,42 +91,31 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
       coded_texts_(columns.size()) {
   std::iota(row_numbers.begin(), row_numbers.end(), 0);
   if (rows == 0) return;
-  std::unordered_map<std::string_view, double> codes;
-  for (std::size_t i = 0; i < pack.words.size(); ++i)
-    codes.emplace(pack.words[i], static_cast<double>(i));
-  for (const Expr& expr : pack.code) {
-    const auto i = static_cast<std::size_t>(expr.index);
-    if (expr.type == Type::text && expr.op == Op::attribute && coded_texts_[i].empty())
-      columns[i] = coded_texts_[i] = code_texts(table.texts(i), codes);
-  }
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (feature_schema()[i].unit != Unit::text) columns[i] = table.numbers(i);
+  TextCodes codes(pack);
+  for (const std::size_t i : pack.reads.texts)
+    columns[i] = coded_texts_[i] = code_texts(table.texts(i), codes);
+  for (const std::size_t i : columns_of_numbers()) columns[i] = table.numbers(i);
   find_hosts(pack);
   link(pack, graph);
 }
 
 void Facts::find_hosts(const Pack& pack) {
-  std::array<bool, 4> is_asked{};
-  for (const Expr& expr : pack.code)
-    if (expr.op == Op::facet_is) is_asked[static_cast<std::size_t>(expr.index)] = true;
+  if (!pack.reads.host_kind) return;
   const auto inclinations = columns[host_inclination];
-  for (std::size_t kind = 0; kind < hosts.size(); ++kind)
-    if (is_asked[kind]) hosts[kind].resize(rows, Truth::no);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const bool is_unknown = std::isnan(inclinations[row]);
-    const auto of_row = static_cast<std::size_t>(kind_of_facet(pack.hosts, inclinations[row]));
-    for (std::size_t kind = 0; kind < hosts.size(); ++kind)
-      if (is_asked[kind]) hosts[kind][row] = is_unknown ? Truth::unknown : truth_of(kind == of_row);
-  }
+  auto& [wall, roof, ground, none] = hosts;
+  wall = answers_of_kind(inclinations, pack.hosts.wall, {});
+  roof = answers_of_kind(inclinations, pack.hosts.roof, {&wall});
+  ground = answers_of_kind(inclinations, pack.hosts.ground, {&wall, &roof});
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  none = answers_of_kind(inclinations, {-kEndless, kEndless}, {&wall, &roof, &ground});
 }
 
 /// Relations of the pack read the columns, and the relation they narrow, which stands before them.
 void Facts::link(const Pack& pack, const FeatureGraph& graph) {
   const std::size_t built_in = relation_schema().size();
-  const std::vector<bool> is_needed = find_needed(pack, relations.size());
   narrowed_.reserve(pack.relations.size());
   for (std::size_t i = 0; i < relations.size(); ++i) {
-    if (!is_needed[i]) continue;
+    if (!pack.reads.relations[i]) continue;
     if (i < built_in) {
       const std::string& name = relation_schema()[i].name;
       relations[i].lists = &graph.links(name);
@@ -123,9 +136,7 @@ Facts::Facts(const Pack& pack, const SurfaceTable& table)
       coded_texts_(columns.size()) {
   std::iota(row_numbers.begin(), row_numbers.end(), 0);
   if (rows == 0) return;
-  std::unordered_map<std::string_view, double> codes;
-  for (std::size_t i = 0; i < pack.words.size(); ++i)
-    codes.emplace(pack.words[i], static_cast<double>(i));
+  TextCodes codes(pack);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (surface_schema()[i].unit == Unit::text)
       columns[i] = coded_texts_[i] = code_texts(table.texts(i), codes);

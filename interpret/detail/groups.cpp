@@ -36,18 +36,16 @@ class DisjointRows {
 
 using MemberLists = std::vector<std::vector<FeatureId>>;
 
-/// The members of each class hang together.
-MemberLists components_of_classes(const Links& links, auto is_member) {
+/// The members of each class hang together, if they are so many.
+MemberLists components_of_classes(const Links& links, std::size_t least, auto is_member) {
   MemberLists components;
+  components.reserve(links.lists->lists());
+  std::vector<FeatureId> members;
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
-    const auto list = links.lists->list(l);
-    std::vector<FeatureId> members;
-    for (const int row : list) {
-      if (!is_member(row) || !links.is_certain(row)) continue;
-      if (members.empty()) members.reserve(list.size());
-      members.push_back(FeatureId{row});
-    }
-    if (!members.empty()) components.push_back(std::move(members));
+    members.clear();
+    for (const int row : links.lists->list(l))
+      if (is_member(row) && links.is_certain(row)) members.push_back(FeatureId{row});
+    if (members.size() >= least) components.push_back(members);
   }
   return components;
 }
@@ -83,17 +81,33 @@ MemberLists components_of(const GroupKind& kind, const Facts& facts) {
   const auto& members = facts.membership[at(kind.of)];
   const Links& links = facts.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
-  MemberLists components = links.lists->are_classes ? components_of_classes(links, is_member)
-                                                    : components_of_pairs(facts, links, is_member);
   const auto least = std::max<std::size_t>(1, at(kind.at_least));
+  if (links.lists->are_classes) return components_of_classes(links, least, is_member);
+  MemberLists components = components_of_pairs(facts, links, is_member);
   std::erase_if(components, [&](const auto& rows) { return rows.size() < least; });
   return components;
 }
 
-Group make_group(const GroupKind& kind, std::vector<FeatureId> members, const FeatureTable& table) {
-  const auto first = std::ranges::min_element(
-      members, {}, [&](FeatureId id) -> const std::string& { return table.id(id); });
-  return {kind.name + "." + table.id(*first), kind.name, std::move(members)};
+/// The smallest id of the members, which names them.
+const std::string& id_of(const std::vector<FeatureId>& members, const FeatureTable& table) {
+  const std::string* first = &table.id(members.front());
+  for (const FeatureId member : members)
+    if (table.id(member) < *first) first = &table.id(member);
+  return *first;
+}
+
+/// Of one kind, sorted by their ids, and so by what names them.
+void add_groups(const GroupKind& kind, MemberLists components, const FeatureTable& table,
+                std::vector<Group>& groups) {
+  std::vector<std::pair<const std::string*, std::size_t>> order;
+  order.reserve(components.size());
+  for (std::size_t i = 0; i < components.size(); ++i)
+    order.emplace_back(&id_of(components[i], table), i);
+  std::ranges::sort(order, [](const auto& p, const auto& q) { return *p.first < *q.first; });
+  groups.reserve(groups.size() + order.size());
+  const std::string prefix = kind.name + ".";
+  for (const auto& [id, i] : order)
+    groups.push_back({prefix + *id, kind.name, std::move(components[i])});
 }
 
 }  // namespace
@@ -101,13 +115,8 @@ Group make_group(const GroupKind& kind, std::vector<FeatureId> members, const Fe
 std::vector<Group> find_groups(const Pack& pack, const Facts& facts, const FeatureTable& table) {
   std::vector<Group> groups;
   if (facts.rows == 0) return groups;
-  for (const GroupKind& kind : pack.groups) {
-    const std::size_t begin = groups.size();
-    for (auto& members : components_of(kind, facts))
-      groups.push_back(make_group(kind, std::move(members), table));
-    std::sort(groups.begin() + static_cast<std::ptrdiff_t>(begin), groups.end(),
-              [](const Group& p, const Group& q) { return p.id < q.id; });
-  }
+  for (const GroupKind& kind : pack.groups)
+    add_groups(kind, components_of(kind, facts), table, groups);
   return groups;
 }
 

@@ -52,7 +52,7 @@ void score(const Pack& pack, const Rule& rule, Evaluator& evaluator, Conjunction
     }
   }
   for (std::size_t i = 0; i < frame.size; ++i) {
-    scores[held.slot(i)] = weight[i] > 0 ? sum[i] / weight[i] : 0;
+    scores[i] = weight[i] > 0 ? sum[i] / weight[i] : 0;
     if (weight[i] == 0) held.truths()[i] = std::min(held.truths()[i], Truth::unknown);
   }
 }
@@ -79,17 +79,26 @@ void judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator, c
   }
 }
 
-void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
-           Judgement& judgement) {
-  Conjunction held(frame, std::span(judgement.truth).first(frame.size));
+void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, Conjunction& held,
+           std::span<double> scores) {
   for (const ExprId id : rule.require)
     if (held.is_open()) held.ask(evaluator, id);
   for (const ExprId id : rule.unless)
     if (held.is_open()) held.ask(evaluator, id, Conjunction::As::veto);
+  if (!held.is_open()) return;
   if (rule.score.empty())
-    std::ranges::fill(std::span(judgement.score).first(frame.size), 1.0);
-  else if (held.is_open())
-    score(pack, rule, evaluator, held, judgement.score);
+    std::fill_n(scores.begin(), held.truths().size(), 1.0);
+  else
+    score(pack, rule, evaluator, held, scores);
+}
+
+void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
+           Judgement& judgement) {
+  Conjunction held(frame, std::span(judgement.truth).first(frame.size));
+  std::array<double, kBlock> scores;
+  judge(pack, rule, evaluator, held, scores);
+  const std::size_t size = held.is_open() ? held.truths().size() : 0;
+  for (std::size_t i = 0; i < size; ++i) judgement.score[held.slot(i)] = scores[i];
   held.finish();
 }
 

@@ -83,13 +83,13 @@ void Labelling::run_predicates(const Step& step) {
 bool Labelling::apply_predicate(const Rule& rule) {
   evaluator_.forget();
   bool has_changed = false;
-  Judgement judgement;
+  NumberBlock scores;
   std::vector<Truth> truths(facts_->rows);
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
     const Frame frame = block_of(*facts_, begin);
-    judge(*pack_, rule, evaluator_, frame, judgement);
-    std::copy_n(judgement.truth.begin(), frame.size,
-                truths.begin() + static_cast<std::ptrdiff_t>(begin));
+    Conjunction held(frame, std::span(truths).subspan(begin, frame.size));
+    judge(*pack_, rule, evaluator_, held, scores);
+    held.finish();
   }
   for (std::size_t row = 0; row < truths.size(); ++row)
     has_changed = raise_membership(rule.label, row, truths[row]) || has_changed;
@@ -126,28 +126,42 @@ bool Labelling::is_open(std::size_t row, ClassId label) const {
   return decided == kNoClass || (decided != label && is_within(pack_->classes, label, decided));
 }
 
+/// Those that a rule for the label may still decide.
+std::span<const int> Labelling::open_rows(ClassId label) {
+  if (!is_any_decided_) return facts_->row_numbers;
+  open_rows_.clear();
+  for (const int row : facts_->row_numbers)
+    if (is_open(index(row), label)) open_rows_.push_back(row);
+  return open_rows_;
+}
+
 void Labelling::collect(int id) {
-  TruthBlock open;
-  Judgement judgement;
+  TruthBlock truths;
+  NumberBlock scores;
   const ClassId label = rule(id).label;
-  for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
-    Frame frame = block_of(*facts_, begin);
-    if (is_any_decided_) {
-      for (std::size_t i = 0; i < frame.size; ++i) open[i] = truth_of(is_open(begin + i, label));
-      frame.needed = open.data();
-    }
-    judge(*pack_, rule(id), evaluator_, frame, judgement);
-    for (std::size_t i = 0; i < frame.size; ++i) {
-      if (judgement.truth[i] == Truth::no) continue;
-      const std::size_t row = begin + i;
-      if (judgement.truth[i] == Truth::unknown) {
-        unknown_rows_[index(label)].push_back(static_cast<int>(row));
-        continue;
-      }
-      candidates_.push_back({id, judgement.score[i], first_candidate_[row]});
-      first_candidate_[row] = static_cast<int>(candidates_.size()) - 1;
+  const auto rows = open_rows(label);
+  for (std::size_t begin = 0; begin < rows.size(); begin += kBlock) {
+    Frame frame;
+    frame.size = std::min(kBlock, rows.size() - begin);
+    frame.rows[0] = rows.data() + begin;
+    frame.is_run = !is_any_decided_;
+    Conjunction held(frame, std::span(truths).first(frame.size));
+    judge(*pack_, rule(id), evaluator_, held, scores);
+    if (!held.is_open()) continue;
+    const int* const left = held.frame().rows[0];
+    for (std::size_t i = 0; i < held.truths().size(); ++i) {
+      if (held.truths()[i] == Truth::yes)
+        add_candidate(left[i], id, scores[i]);
+      else if (held.truths()[i] == Truth::unknown)
+        unknown_rows_[index(label)].push_back(left[i]);
     }
   }
+}
+
+void Labelling::add_candidate(int row, int id, double score) {
+  int& first = first_candidate_[index(row)];
+  candidates_.push_back({id, score, first});
+  first = static_cast<int>(candidates_.size()) - 1;
 }
 
 /// By what wins: enough score, then priority, then score, then the rule's id.

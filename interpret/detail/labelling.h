@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/detail/conjunction.h"
 #include "interpret/detail/evaluator.h"
 #include "interpret/detail/facts.h"
 #include "interpret/detail/pack.h"
@@ -21,6 +22,11 @@ struct Judgement {
 /// Where frame.needed is no, the truth is no.
 void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame& frame,
            Judgement& judgement);
+
+/// The same for those of whom `held` asks: leaves in it what the rule says of the slots that are
+/// left, and by those slots the scores. Not finished.
+void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, Conjunction& held,
+           std::span<double> scores);
 
 /// 0…1, or NaN where the term is unknown: how the values of a term are judged.
 void judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator, const Frame& frame,
@@ -69,7 +75,9 @@ class Labelling {
   bool apply_predicate(const Rule& rule);
   void run_decision(const Step& step);
   void collect(int rule);
+  void add_candidate(int row, int rule, double score);
   [[nodiscard]] bool is_open(std::size_t row, ClassId label) const;
+  std::span<const int> open_rows(ClassId label);
   void decide(std::size_t row);
   [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
   void settle_membership(const Step& step);
@@ -95,6 +103,8 @@ class Labelling {
   std::vector<ClassId> decided_;
   std::vector<int> decided_now_;
   bool is_any_decided_ = false;
+  /// The rows that the rule at hand is asked of, if not all.
+  std::vector<int> open_rows_;
 };
 
 }  // namespace oriel::rules

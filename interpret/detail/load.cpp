@@ -2,6 +2,7 @@
 
 #include "interpret/detail/loader.h"
 #include "interpret/detail/reach.h"
+#include "interpret/detail/reads.h"
 #include "interpret/detail/section.h"
 #include "interpret/detail/strata.h"
 #include "interpret/detail/yaml_tree.h"
@@ -135,6 +136,11 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   find_strata(pack, findings);
   if (!findings.has_errors()) check_reach(pack, findings);
   add_default_emissions(pack);
+  pack.reads = find_reads(pack);
+  for (Rule& rule : pack.rules) {
+    rule.name = rule.id;
+    rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;
+  }
 }
 
 }  // namespace

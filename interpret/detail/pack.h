@@ -2,8 +2,10 @@
 
 #include "interpret/detail/expr.h"
 #include "interpret/detail/source.h"
+#include "kernel/model/name.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -71,6 +73,9 @@ struct ScoreTerm {
 struct Rule {
   std::string id;
   ClassId label = kNoClass;
+  /// The id and the label as verdicts carry them, once the pack is read.
+  Name name;
+  Name name_of_label;
   int priority = 0;
   std::vector<ExprId> require;
   std::vector<ExprId> unless;
@@ -162,6 +167,18 @@ struct Entry {
 struct SurfaceRules;
 
 /// A pack, checked: every name is looked up and every expression has a type.
+/// What a pack reads of a building.
+struct Reads {
+  /// Columns of texts.
+  std::vector<std::size_t> texts;
+  /// Whether it asks what a host facet is.
+  bool host_kind = false;
+  /// By number: whether an expression or a group leads over the relation, or one that narrows it.
+  std::vector<bool> relations;
+  /// Pack::words, each with its number.
+  std::map<std::string, std::size_t, std::less<>> words;
+};
+
 struct Pack {
   explicit Pack(Source text) : source(std::move(text)) {}
 
@@ -185,6 +202,8 @@ struct Pack {
   Code code;
   /// The words that texts are compared with; the value of a text is the number of its word.
   std::vector<std::string> words;
+  /// Found when all of it is read.
+  Reads reads;
 };
 
 /// True if `id` is `ancestor` or beneath it.

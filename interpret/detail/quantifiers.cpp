@@ -1,9 +1,13 @@
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/asked_others.h"
+#include "interpret/detail/conjunction.h"
+#include "interpret/detail/pair_tests.h"
 #include "interpret/detail/pairs.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace oriel::rules {
@@ -22,8 +26,20 @@ Truth answer_of(Op op, Truth is_other, Truth answer) {
   return op == Op::all ? std::max(negated(is_other), answer) : std::min(is_other, answer);
 }
 
-bool has_unknown_in(const Truth* truths, std::size_t count) {
-  return std::find(truths, truths + count, Truth::unknown) != truths + count;
+/// Calls `run` with the number of tests as a constant.
+auto with_size(std::size_t size, auto run) {
+  switch (size) {
+    case 0:
+      return run(std::integral_constant<std::size_t, 0>());
+    case 1:
+      return run(std::integral_constant<std::size_t, 1>());
+    case 2:
+      return run(std::integral_constant<std::size_t, 2>());
+    case 3:
+      return run(std::integral_constant<std::size_t, 3>());
+    default:
+      return run(std::integral_constant<std::size_t, 4>());
+  }
 }
 
 /// How many others of a slot are asked at first: some more than could be enough.
@@ -48,26 +64,89 @@ const std::vector<Truth>& Evaluator::column(ExprId id, int level) {
   return answers;
 }
 
+/// Pairs are answered one by one, each at once: for conditions that are tests, all of them.
+template <std::size_t kTests>
+class Evaluator::AtOnce {
+ public:
+  AtOnce(const Expr& expr, AskedOthers& asked, const PairTests& tests, Enough enough)
+      : op_(expr.op), asked_(asked), tests_(tests), enough_(enough) {}
+
+  void run(const int* rows, const Truth* needed, std::span<Tally> out) {
+    const bool can_be_plain = enough_.ignores_no && op_ != Op::all;
+    for (std::size_t slot = 0; slot < out.size(); ++slot) {
+      if (needed != nullptr && needed[slot] == Truth::no) {
+        out[slot] = {0, 0, 0};
+        continue;
+      }
+      const int row = rows[slot];
+      const auto range = asked_.links().range_of(row);
+      if (range.begin == range.end)
+        out[slot] = {0, 0, 0};
+      else if (can_be_plain && !asked_.has_unknown(row))
+        out[slot] = plain_answers(row, range, tests_.template of<kTests>(slot));
+      else
+        out[slot] = answers(row, range, tests_.template of<kTests>(slot));
+    }
+  }
+
+ private:
+  using OfSelf = PairTests::OfSelf<kTests>;
+
+  /// Where nothing is unknown before the tests, and what is no need not be counted.
+  [[nodiscard]] Tally plain_answers(int row, Links::Range range, const OfSelf& tests) const {
+    const int* const others = asked_.links().lists->others.data();
+    Tally tally{0, 0, 0};
+    for (std::size_t link = range.begin; link < range.end; ++link) {
+      const int other = others[link];
+      if (other == row || asked_.filtered(other) == Truth::no) continue;
+      const Truth answer = tests.answer(other);
+      if (answer == Truth::no) continue;
+      tally.unknown += answer == Truth::unknown ? 1 : 0;
+      tally.yes += answer == Truth::yes ? 1 : 0;
+      if (tally.yes >= enough_.yes) break;
+    }
+    return tally;
+  }
+
+  [[nodiscard]] Tally answers(int row, Links::Range range, const OfSelf& tests) {
+    const bool minds = enough_.minds_unknown && asked_.has_unknown(row);
+    Tally tally{0, 0, 0};
+    for (std::size_t link = range.begin; link < range.end; ++link) {
+      if (!minds && enough_.settles(tally)) break;
+      const int other = asked_.links().other(link);
+      if (other == row) continue;
+      Truth answer = asked_.filtered(other);
+      if (answer != Truth::no) answer = std::min(answer, tests.answer(other));
+      add(tally, answer_of(op_, asked_.links().is_other(row, link), answer));
+    }
+    return tally;
+  }
+
+  const Op op_;
+  AskedOthers& asked_;
+  const PairTests& tests_;
+  const Enough enough_;
+};
+
 /// Pairs are asked in rounds, of each slot that is still open some of its others, then twice as
 /// many: so a block holds pairs of many slots, and few pairs are asked that nobody needs.
 class Evaluator::Rounds {
  public:
-  Rounds(Evaluator& evaluator, const Expr& expr, const Frame& frame, std::span<Tally> out,
-         Enough enough)
+  Rounds(Evaluator& evaluator, const Expr& expr, AskedOthers& asked, const PairTests& tests,
+         const Frame& frame, std::span<Tally> out, Enough enough)
       : evaluator_(evaluator),
         expr_(expr),
-        links_(evaluator.facts_->relations[static_cast<std::size_t>(expr.index)]),
-        rows_(frame.rows[static_cast<std::size_t>(expr.level)]),
+        links_(asked.links()),
+        tests_(tests),
+        rows_(frame.rows[oriel::at(expr.level)]),
         out_(out),
-        enough_(enough) {
-    if (expr.filter != kNoExpr) filter_ = evaluator.column(expr.filter, expr.level + 1).data();
-    may_be_unknown_ = !links_.are_all_certain() ||
-                      (filter_ != nullptr && has_unknown_in(filter_, evaluator.facts_->rows));
+        enough_(enough),
+        filter_(asked.filter()) {
     for (std::size_t slot = 0; slot < out.size(); ++slot) {
       out[slot] = {0, 0, 0};
       if (frame.needed != nullptr && frame.needed[slot] == Truth::no) continue;
       left_of_[slot] = links_.range_of(rows_[slot]);
-      has_unknown_[slot] = may_be_unknown_ && has_unknown(rows_[slot]);
+      has_unknown_[slot] = asked.has_unknown(rows_[slot]);
       open_[open_count_++] = static_cast<std::uint16_t>(slot);
     }
   }
@@ -77,7 +156,8 @@ class Evaluator::Rounds {
       std::size_t left = 0;
       for (std::size_t i = 0; i < open_count_; ++i) {
         const std::size_t slot = open_[i];
-        const bool is_plain = enough_.ignores_no && expr_.op != Op::all && !has_unknown_[slot];
+        const bool is_plain =
+            enough_.ignores_no && expr_.op != Op::all && !has_unknown_[slot] && tests_.size() == 0;
         const bool is_open = is_plain ? ask_plain(slot, share) : ask(slot, share);
         if (is_open) open_[left++] = open_[i];
       }
@@ -93,43 +173,27 @@ class Evaluator::Rounds {
     return !(enough_.minds_unknown && has_unknown_[slot]) && enough_.settles(out_[slot]);
   }
 
-  /// Whether it is unknown of an other of the row that it is one, or how it answers the filter.
-  /// Rows that share a list share the answer.
-  bool has_unknown(int row) {
-    enum : char { unseen, without, with };
-    const auto [begin, end] = links_.range_of(row);
-    if (begin == end) return false;
-    const auto list = static_cast<std::size_t>(links_.lists->list_of[oriel::at(row)]);
-    seen_.resize(links_.lists->lists(), unseen);
-    if (seen_[list] == unseen) seen_[list] = looks_unknown(row) ? with : without;
-    return seen_[list] == with;
-  }
-
-  [[nodiscard]] bool looks_unknown(int row) const {
-    const auto [begin, end] = links_.range_of(row);
-    bool is_unknown = false;
-    for (std::size_t link = begin; link < end; ++link) {
-      const Truth filtered =
-          filter_ == nullptr ? Truth::yes : filter_[oriel::at(links_.other(link))];
-      is_unknown |= std::min(links_.is_other(row, link), filtered) == Truth::unknown;
-    }
-    return is_unknown;
-  }
-
   /// Asks up to `share` others of a slot; true if some are left.
   bool ask(std::size_t slot, std::size_t share) {
+    return with_size(tests_.size(),
+                     [&](auto size) { return ask(slot, share, tests_.template of<size>(slot)); });
+  }
+
+  template <class OfSelf>
+  bool ask(std::size_t slot, std::size_t share, const OfSelf& tests) {
     auto& [link, end] = left_of_[slot];
     for (; link < end && share > 0 && !is_settled(slot); ++link) {
       const int other = links_.other(link);
       if (other == rows_[slot]) continue;
       const Truth is_other = links_.is_other(rows_[slot], link);
-      const Truth filtered = filter_ == nullptr ? Truth::yes : filter_[oriel::at(other)];
-      if (filtered == Truth::no || expr_.join == kNoExpr) {
-        add(out_[slot], answer_of(expr_.op, is_other, filtered));
+      Truth answer = filter_ == nullptr ? Truth::yes : filter_[oriel::at(other)];
+      if (answer != Truth::no) answer = std::min(answer, tests.answer(other));
+      if (answer == Truth::no) {
+        add(out_[slot], answer_of(expr_.op, is_other, answer));
         continue;
       }
       if (pairs_.size == kBlock) flush();
-      pairs_.add(slot, rows_[slot], other, is_other, filtered);
+      pairs_.add(slot, rows_[slot], other, is_other, answer);
       --share;
     }
     return link < end;
@@ -158,10 +222,10 @@ class Evaluator::Rounds {
 
   void flush() {
     const auto joined = std::span(joined_).first(pairs_.size);
-    if (expr_.join == kNoExpr)
-      std::ranges::fill(joined, Truth::yes);
-    else
-      evaluator_.truths(expr_.join, pairs_.frame(expr_.level), joined);
+    Conjunction held(pairs_.frame(expr_.level), joined);
+    for (const ExprId id : tests_.left())
+      if (held.is_open()) held.ask(evaluator_, id);
+    held.finish();
     for (std::size_t i = 0; i < joined.size(); ++i)
       add(out_[pairs_.slots[i]],
           answer_of(expr_.op, pairs_.is_other[i], std::min(pairs_.filtered[i], joined[i])));
@@ -171,24 +235,29 @@ class Evaluator::Rounds {
   Evaluator& evaluator_;
   const Expr& expr_;
   const Links& links_;
+  const PairTests& tests_;
   const int* rows_;
   std::span<Tally> out_;
   Enough enough_;
-  const Truth* filter_ = nullptr;
-  bool may_be_unknown_ = false;
+  const Truth* filter_;
   Pairs pairs_;
   TruthBlock joined_;
   /// Of each slot the links that are left, and whether an other may be one or not.
   std::array<Links::Range, kBlock> left_of_;
   std::array<bool, kBlock> has_unknown_;
-  /// By list, what is known of it.
-  std::vector<char> seen_;
   std::array<std::uint16_t, kBlock> open_;
   std::size_t open_count_ = 0;
 };
 
 void Evaluator::tally(ExprId id, const Frame& frame, std::span<Tally> out, Enough enough) {
-  Rounds(*this, at(id), frame, out, enough).run();
+  const Expr& expr = at(id);
+  AskedOthers asked(*this, expr);
+  const PairTests tests(*this, expr, frame);
+  if (!tests.left().empty()) return Rounds(*this, expr, asked, tests, frame, out, enough).run();
+  with_size(tests.size(), [&](auto size) {
+    AtOnce<size>(expr, asked, tests, enough)
+        .run(frame.rows[oriel::at(expr.level)], frame.needed, out);
+  });
 }
 
 /// exists: one yes settles it, else one unknown leaves it open. all is the mirror image, and holds

@@ -1,5 +1,6 @@
 #include "interpret/detail/loader.h"
 #include "interpret/detail/parser.h"
+#include "interpret/detail/reads.h"
 #include "interpret/detail/section.h"
 #include "interpret/detail/suggest.h"
 #include "interpret/detail/surface_rules.h"
@@ -35,7 +36,10 @@ class SurfaceReader {
   }
 
   void read(const YamlNode& entry);
-  std::shared_ptr<const SurfaceRules> rules() { return rules_; }
+  std::shared_ptr<const SurfaceRules> rules() {
+    if (!findings_.has_errors()) rules_->pack.reads = find_reads(rules_->pack);
+    return rules_;
+  }
 
  private:
   void read_id(const YamlNode& node, SurfaceRule& rule);

@@ -11,31 +11,46 @@ namespace oriel::rules {
 
 namespace {
 
-std::vector<double> numbers_of(const Facts& facts, Evaluator& evaluator, ExprId id) {
-  std::vector<double> numbers(facts.rows);
+using Column = std::span<const double>;
+
+/// What a key says of every feature: a column of the table as it stands, or evaluated into
+/// `evaluated`.
+Column numbers_of(const Pack& pack, const Facts& facts, Evaluator& evaluator, ExprId id,
+                  std::vector<double>& evaluated) {
+  const Expr& key = pack.code[at(id)];
+  if (key.op == Op::attribute) return facts.columns[at(key.index)];
+  evaluated.resize(facts.rows);
   for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
     const Frame frame = block_of(facts, begin);
-    evaluator.numbers(id, frame, std::span(numbers).subspan(begin, frame.size));
+    evaluator.numbers(id, frame, std::span(evaluated).subspan(begin, frame.size));
   }
-  return numbers;
+  return evaluated;
 }
 
-/// Gives features of one class that differ in their values classes of their own.
-void part_classes(std::vector<int>& class_of, const std::vector<double>& values) {
-  const FeatureLinks classes = links_of_classes(class_of);
-  int count = 0;
-  std::vector<int> members;
-  for (std::size_t c = 0; c < classes.lists(); ++c) {
-    const auto list = classes.list(c);
-    if (list.empty()) continue;
-    members.assign(list.begin(), list.end());
-    std::ranges::sort(members, {}, [&](int row) { return std::pair(values[at(row)], row); });
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      if (i > 0 && values[at(members[i])] != values[at(members[i - 1])]) ++count;
-      class_of[at(members[i])] = count;
+/// Cuts the classes of `from` where their members differ in `values`; those that do not fit are
+/// left out.
+FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Column values) {
+  FeatureLinks parts;
+  parts.are_classes = true;
+  parts.list_of.assign(fits.size(), -1);
+  parts.others.reserve(from.others.size());
+  std::vector<std::pair<double, int>> members;
+  for (std::size_t c = 0; c < from.lists(); ++c) {
+    members.clear();
+    for (const int row : from.list(c))
+      if (fits[at(row)] != Truth::no) members.emplace_back(values[at(row)], row);
+    if (members.empty()) continue;
+    if (!std::ranges::is_sorted(members)) std::ranges::sort(members);
+    double last = members.front().first;
+    for (const auto& [value, row] : members) {
+      if (value != last) parts.starts.push_back(static_cast<int>(parts.others.size()));
+      last = value;
+      parts.list_of[at(row)] = static_cast<int>(parts.lists());
+      parts.others.push_back(row);
     }
-    ++count;
+    parts.starts.push_back(static_cast<int>(parts.others.size()));
   }
+  return parts;
 }
 
 }  // namespace
@@ -60,26 +75,28 @@ std::vector<Truth> answers_of(const Facts& facts, Evaluator& evaluator,
   return all;
 }
 
-std::optional<Narrowed> refined_classes(const Facts& facts, Evaluator& evaluator, const Links& from,
-                                        const std::vector<ExprId>& conditions,
+std::optional<Narrowed> refined_classes(const Pack& pack, const Facts& facts, Evaluator& evaluator,
+                                        const Links& from, const std::vector<ExprId>& conditions,
                                         const std::vector<ExprId>& keys) {
   std::vector<Truth> fits = answers_of(facts, evaluator, conditions, 0);
-  std::vector<int> class_of = from.lists->list_of;
-  class_of.resize(facts.rows, -1);
-  bool has_unknown = false;
-  for (std::size_t row = 0; row < facts.rows; ++row) {
-    if (!from.certain_rows.empty()) fits[row] = std::min(fits[row], from.certain_rows[row]);
-    if (fits[row] == Truth::no) class_of[row] = -1;
-    has_unknown |= class_of[row] >= 0 && fits[row] == Truth::unknown;
-  }
-  for (const ExprId key : keys) {
-    const std::vector<double> values = numbers_of(facts, evaluator, key);
+  if (!from.certain_rows.empty())
     for (std::size_t row = 0; row < facts.rows; ++row)
-      if (class_of[row] >= 0 && std::isnan(values[row])) return std::nullopt;
-    part_classes(class_of, values);
+      fits[row] = std::min(fits[row], from.certain_rows[row]);
+  std::vector<std::vector<double>> evaluated(keys.size());
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    columns.push_back(numbers_of(pack, facts, evaluator, keys[i], evaluated[i]));
+  bool has_unknown = false, is_missing = false;
+  for (const int row : from.lists->others) {
+    if (fits[at(row)] == Truth::no) continue;
+    has_unknown |= fits[at(row)] == Truth::unknown;
+    for (const Column& values : columns) is_missing |= std::isnan(values[at(row)]);
   }
+  if (is_missing) return std::nullopt;
   Narrowed result;
-  result.lists = links_of_classes(class_of);
+  if (columns.empty()) result.lists = parted(*from.lists, fits, std::vector<double>(facts.rows));
+  for (const Column& values : columns)
+    result.lists = parted(&values == columns.data() ? *from.lists : result.lists, fits, values);
   if (has_unknown) result.links.certain_rows = std::move(fits);
   return result;
 }

@@ -137,7 +137,7 @@ Narrowed narrowed(const Pack& pack, const Facts& facts, const Relation& relation
   const Sides sides(pack, relation);
   Evaluator evaluator(pack, facts);
   if (const auto keys = compared_in(pack, sides); keys && from.lists->are_classes) {
-    auto refined = refined_classes(facts, evaluator, from, sides.of_self, *keys);
+    auto refined = refined_classes(pack, facts, evaluator, from, sides.of_self, *keys);
     if (refined) return std::move(*refined);
   }
   return Narrowing(facts, evaluator, sides).run(from);

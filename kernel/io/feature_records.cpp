@@ -157,18 +157,21 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     records.push_back(std::move(record));
   }
   if (interpretation == nullptr) return records;
-  for (const Verdict& verdict : interpretation->verdicts)
-    set_verdict(records.at(verdict.feature.index()), verdict);
+  auto groups = groups_by_feature(*interpretation);
+  for (const Verdict& verdict : interpretation->verdicts) {
+    const std::size_t row = verdict.feature.index();
+    set_verdict(records.at(row), verdict, std::move(groups.at(row)));
+  }
   return records;
 }
 
-void set_verdict(FeatureRecord& record, const Verdict& verdict) {
+void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups) {
   record.label = verdict.label;
   record.score = verdict.score;
   record.margin = verdict.margin;
   record.rule = verdict.rule;
   record.runner_up = verdict.runner_up;
-  record.groups = verdict.groups;
+  record.groups = std::move(groups);
 }
 
 std::optional<RecordFormat> record_format_of(std::string_view path) {

@@ -59,8 +59,8 @@ std::vector<FeatureRecord> feature_records(const Building& building,
                                            const FeatureTable& table, const FeatureGraph& graph,
                                            const Interpretation* interpretation);
 
-/// Puts a verdict into a record in place of what it says.
-void set_verdict(FeatureRecord& record, const Verdict& verdict);
+/// Puts a verdict and the ids of its groups into a record in place of what it says.
+void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups);
 
 /// The formats of records, by extension: .csv, .json (an array), .jsonl (an object a line).
 enum class RecordFormat { csv, json, jsonl };

@@ -2,6 +2,7 @@
 
 #include "kernel/model/ids.h"
 #include "kernel/model/issue.h"
+#include "kernel/model/name.h"
 
 #include <string>
 #include <vector>
@@ -12,18 +13,16 @@ namespace oriel {
 struct Verdict {
   FeatureId feature;
   /// A concrete class of the pack, or empty: unknown.
-  std::string label;
+  Name label;
   /// 0…1, the winning rule's; 0 for unknown.
   double score = 0;
   /// Score of the winner minus that of the best rule for another label at the same priority; the
   /// score itself where there is none.
   double margin = 0;
   /// Id of the rule that won, or empty.
-  std::string rule;
+  Name rule;
   /// The label that came second, or empty.
-  std::string runner_up;
-  /// Ids of the groups it is in, in the order of Interpretation::groups.
-  std::vector<std::string> groups{};
+  Name runner_up;
 };
 
 /// Features that belong together: a component of one of the pack's `groups:`.
@@ -43,5 +42,8 @@ struct Interpretation {
   std::vector<Group> groups;
   std::vector<Issue> issues;
 };
+
+/// By feature: the ids of the groups it is in, in their order.
+std::vector<std::vector<std::string>> groups_by_feature(const Interpretation& interpretation);
 
 }  // namespace oriel

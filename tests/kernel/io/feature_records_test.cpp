@@ -19,7 +19,7 @@ std::vector<FeatureRecord> sample(bool with_verdicts) {
   Interpretation interpretation;
   interpretation.verdicts = {{FeatureId{0}, "bay, \"big\"", 0.9, 0.3, "bay-rule", "balcony"},
                              {FeatureId{1}, "", 0, 0, "", ""}};
-  interpretation.verdicts[0].groups = {"row.b1", "pair.b1"};
+  interpretation.groups = {{"row.b1", "row", {FeatureId{0}}}, {"pair.b1", "pair", {FeatureId{0}}}};
   return feature_records(small.building, small.segmentation, small.table, small.graph,
                          with_verdicts ? &interpretation : nullptr);
 }

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "interpret/detail/evaluator.h"
+#include "kernel/model/detail/index.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace oriel::rules {
+
+/// Whom a quantifier asks: the others to which its relation leads, and how they answer its filter,
+/// which is evaluated once for every feature.
+class Evaluator::AskedOthers {
+ public:
+  AskedOthers(Evaluator& evaluator, const Expr& quantifier)
+      : links_(evaluator.facts_->relations[oriel::at(quantifier.index)]) {
+    bool is_filter_unknown = false;
+    if (quantifier.filter != kNoExpr) {
+      const auto& answers = evaluator.column(quantifier.filter, quantifier.level + 1);
+      filter_ = answers.data();
+      for (const Truth answer : answers) is_filter_unknown |= answer == Truth::unknown;
+    }
+    may_be_unknown_ = !links_.are_all_certain() || is_filter_unknown;
+  }
+
+  [[nodiscard]] const Links& links() const { return links_; }
+  [[nodiscard]] const Truth* filter() const { return filter_; }
+  [[nodiscard]] Truth filtered(int other) const {
+    return filter_ == nullptr ? Truth::yes : filter_[oriel::at(other)];
+  }
+
+  /// Whether it is unknown of an other of the row that it is one, or how it answers the filter.
+  /// Rows that share a list share the answer.
+  [[nodiscard]] bool has_unknown(int row) {
+    enum : char { unseen, without, with };
+    if (!may_be_unknown_) return false;
+    const auto [begin, end] = links_.range_of(row);
+    if (begin == end) return false;
+    const auto list = oriel::at(links_.lists->list_of[oriel::at(row)]);
+    seen_.resize(links_.lists->lists(), unseen);
+    if (seen_[list] == unseen) seen_[list] = looks_unknown(row) ? with : without;
+    return seen_[list] == with;
+  }
+
+ private:
+  [[nodiscard]] bool looks_unknown(int row) const {
+    const auto [begin, end] = links_.range_of(row);
+    bool is_unknown = false;
+    for (std::size_t link = begin; link < end; ++link) {
+      const Truth answer = std::min(links_.is_other(row, link), filtered(links_.other(link)));
+      is_unknown |= answer == Truth::unknown;
+    }
+    return is_unknown;
+  }
+
+  const Links& links_;
+  const Truth* filter_ = nullptr;
+  bool may_be_unknown_ = false;
+  /// By list, what is known of it.
+  std::vector<char> seen_;
+};
+
+}  // namespace oriel::rules
