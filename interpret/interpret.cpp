@@ -15,19 +15,14 @@ namespace oriel {
 
 namespace {
 
-const rules::Rule& rule_of(const rules::Pack& pack, int rule) {
-  return pack.rules[static_cast<std::size_t>(rule)];
-}
-
-Name label_of(const rules::Pack& pack, int rule) { return rule_of(pack, rule).name_of_label; }
-
-void fill(Verdict& verdict, const rules::Pack& pack, const rules::Choice& choice) {
-  if (choice.rule < 0) return;
-  verdict.label = label_of(pack, choice.rule);
-  verdict.score = choice.score;
-  verdict.margin = choice.margin;
-  verdict.rule = rule_of(pack, choice.rule).name;
-  if (choice.runner_up >= 0) verdict.runner_up = label_of(pack, choice.runner_up);
+Verdict verdict_of(const rules::Pack& pack, FeatureId feature, const rules::Choice& choice) {
+  if (choice.rule < 0) return {feature, {}, 0, 0, {}, {}};
+  const auto rule_of = [&](int rule) -> const rules::Rule& {
+    return pack.rules[static_cast<std::size_t>(rule)];
+  };
+  const rules::Rule& rule = rule_of(choice.rule);
+  const Name second = choice.runner_up < 0 ? Name() : rule_of(choice.runner_up).name_of_label;
+  return {feature, rule.name_of_label, choice.score, choice.margin, rule.name, second};
 }
 
 Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
@@ -65,12 +60,12 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   rules::Labelling labelling(pack, facts);
   const auto choices = labelling.run();
   Interpretation result;
-  result.verdicts.resize(choices.size());
-  for (std::size_t row = 0; row < choices.size(); ++row) {
-    Verdict& verdict = result.verdicts[row];
-    verdict.feature = FeatureId{static_cast<int>(row)};
-    fill(verdict, pack, choices[row]);
-    if (choices[row].is_ambiguous) result.issues.push_back(ambiguity(pack, verdict, table));
+  result.verdicts.reserve(choices.size());
+  for (const rules::Choice& choice : choices) {
+    const FeatureId feature{static_cast<int>(result.verdicts.size())};
+    result.verdicts.push_back(verdict_of(pack, feature, choice));
+    if (choice.is_ambiguous)
+      result.issues.push_back(ambiguity(pack, result.verdicts.back(), table));
   }
   if (const auto rows = labelling.unsettled(); !rows.empty())
     result.issues.push_back(unsettled(pack, rows, table));

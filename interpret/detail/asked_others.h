@@ -4,6 +4,7 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace oriel::rules {
@@ -14,13 +15,14 @@ class Evaluator::AskedOthers {
  public:
   AskedOthers(Evaluator& evaluator, const Expr& quantifier)
       : links_(evaluator.facts_->relations[oriel::at(quantifier.index)]) {
-    bool is_filter_unknown = false;
+    std::uint8_t is_filter_unknown = 0;
     if (quantifier.filter != kNoExpr) {
       const auto& answers = evaluator.column(quantifier.filter, quantifier.level + 1);
       filter_ = answers.data();
-      for (const Truth answer : answers) is_filter_unknown |= answer == Truth::unknown;
+      for (const Truth answer : answers)
+        is_filter_unknown |= static_cast<std::uint8_t>(answer == Truth::unknown);
     }
-    may_be_unknown_ = !links_.are_all_certain() || is_filter_unknown;
+    may_be_unknown_ = !links_.are_all_certain() || is_filter_unknown != 0;
   }
 
   [[nodiscard]] const Links& links() const { return links_; }
@@ -31,9 +33,11 @@ class Evaluator::AskedOthers {
 
   /// Whether it is unknown of an other of the row that it is one, or how it answers the filter.
   /// Rows that share a list share the answer.
-  [[nodiscard]] bool has_unknown(int row) {
+  [[nodiscard]] bool has_unknown(int row) { return may_be_unknown_ && look_for_unknown(row); }
+
+ private:
+  bool look_for_unknown(int row) {
     enum : char { unseen, without, with };
-    if (!may_be_unknown_) return false;
     const auto [begin, end] = links_.range_of(row);
     if (begin == end) return false;
     const auto list = oriel::at(links_.lists->list_of[oriel::at(row)]);
@@ -42,7 +46,6 @@ class Evaluator::AskedOthers {
     return seen_[list] == with;
   }
 
- private:
   [[nodiscard]] bool looks_unknown(int row) const {
     const auto [begin, end] = links_.range_of(row);
     bool is_unknown = false;

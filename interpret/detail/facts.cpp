@@ -17,6 +17,8 @@ namespace oriel::rules {
 
 namespace {
 
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
 /// Numbers of texts: of the pack's words their position, of others those that follow.
 class TextCodes {
  public:
@@ -68,17 +70,6 @@ void check_rows(const FeatureLinks& links, const std::string& relation, std::siz
                                 " leads to features that the table does not have");
 }
 
-/// yes where x lies in the range and not in those before; unknown where it is missing.
-std::vector<Truth> answers_of_kind(std::span<const double> x, HostRange range,
-                                   std::initializer_list<const std::vector<Truth>*> before) {
-  std::vector<Truth> answers(x.size());
-  compare_range(x, range.low_deg, range.high_deg, answers);
-  for (const std::vector<Truth>* earlier : before)
-    for (std::size_t row = 0; row < x.size(); ++row)
-      answers[row] = (*earlier)[row] == Truth::yes ? Truth::no : answers[row];
-  return answers;
-}
-
 }  // namespace
 
 Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph)
@@ -99,15 +90,21 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
   link(pack, graph);
 }
 
+/// Kind by kind: of one are those in its range that were of none before, unknown those whose
+/// inclination is missing. The last kind is what is left.
 void Facts::find_hosts(const Pack& pack) {
-  if (!pack.reads.host_kind) return;
-  const auto inclinations = columns[host_inclination];
-  auto& [wall, roof, ground, none] = hosts;
-  wall = answers_of_kind(inclinations, pack.hosts.wall, {});
-  roof = answers_of_kind(inclinations, pack.hosts.roof, {&wall});
-  ground = answers_of_kind(inclinations, pack.hosts.ground, {&wall, &roof});
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
-  none = answers_of_kind(inclinations, {-kEndless, kEndless}, {&wall, &roof, &ground});
+  const auto& asked = pack.reads.host_kinds;
+  const auto last = std::find(asked.rbegin(), asked.rend(), true);
+  const std::array<HostRange, 4> ranges = {pack.hosts.wall, pack.hosts.roof, pack.hosts.ground,
+                                           HostRange{-kEndless, kEndless}};
+  for (std::size_t kind = 0; kind < static_cast<std::size_t>(asked.rend() - last); ++kind) {
+    std::vector<Truth>& answers = hosts[kind];
+    answers.resize(rows);
+    compare_range(columns[host_inclination], ranges[kind].low_deg, ranges[kind].high_deg, answers);
+    for (std::size_t before = 0; before < kind; ++before)
+      for (std::size_t row = 0; row < rows; ++row)
+        answers[row] = hosts[before][row] == Truth::yes ? Truth::no : answers[row];
+  }
 }
 
 /// Relations of the pack read the columns, and the relation they narrow, which stands before them.

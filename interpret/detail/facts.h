@@ -78,8 +78,8 @@ struct Facts {
   std::vector<std::vector<Truth>> membership;
   /// The same after the round before; of no size without `iterate:`.
   std::vector<std::vector<Truth>> previous;
-  /// Whether the host facet is of a kind, by HostKind and row; of no size where no rule asks of
-  /// any.
+  /// Whether the host facet is of a kind, by HostKind and row; of no size where no rule asks for
+  /// the kind or one behind it.
   std::array<std::vector<Truth>, 4> hosts;
   /// The column of that attribute.
   std::size_t host_inclination = 0;

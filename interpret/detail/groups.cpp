@@ -41,10 +41,12 @@ MemberLists components_of_classes(const Links& links, std::size_t least, auto is
   MemberLists components;
   components.reserve(links.lists->lists());
   std::vector<FeatureId> members;
+  const bool are_certain = links.are_all_certain();
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
     members.clear();
     for (const int row : links.lists->list(l))
-      if (is_member(row) && links.is_certain(row)) members.push_back(FeatureId{row});
+      if (is_member(row) && (are_certain || links.is_certain(row)))
+        members.push_back(FeatureId{row});
     if (members.size() >= least) components.push_back(members);
   }
   return components;

@@ -9,6 +9,16 @@ namespace {
 
 std::size_t index(int id) { return static_cast<std::size_t>(id); }
 
+/// True if a member was raised.
+bool raise_all(std::vector<Truth>& members, const std::vector<Truth>& truths) {
+  std::uint8_t has_changed = 0;
+  for (std::size_t row = 0; row < truths.size(); ++row) {
+    has_changed |= static_cast<std::uint8_t>(truths[row] > members[row]);
+    members[row] = std::max(members[row], truths[row]);
+  }
+  return has_changed != 0;
+}
+
 }  // namespace
 
 Labelling::Labelling(const Pack& pack, Facts& facts)
@@ -20,6 +30,8 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       unknown_rows_(pack.classes.size()),
       raised_(pack.classes.size()),
       decided_(facts.rows, kNoClass) {
+  candidates_.reserve(2 * facts.rows);
+  open_rows_.resize(facts.rows);
   for (ClassId id = 0; id < static_cast<ClassId>(raised_.size()); ++id)
     for (ClassId at = id; at != kNoClass; at = pack.classes[index(at)].parent) {
       const Class& c = pack.classes[index(at)];
@@ -91,21 +103,17 @@ bool Labelling::apply_predicate(const Rule& rule) {
     judge(*pack_, rule, evaluator_, held, scores);
     held.finish();
   }
-  for (std::size_t row = 0; row < truths.size(); ++row)
-    has_changed = raise_membership(rule.label, row, truths[row]) || has_changed;
+  for (const ClassId at : raised_[index(rule.label)])
+    has_changed = raise_all(facts_->membership[index(at)], truths) || has_changed;
   return has_changed;
 }
 
 /// Also raises what `id` is a kind of, where that is the union of its subclasses.
-bool Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
-  if (truth == Truth::no) return false;
-  bool has_changed = false;
+void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
   for (const ClassId at : raised_[index(id)]) {
     Truth& member = facts_->membership[index(at)][row];
-    has_changed = has_changed || truth > member;
     member = std::max(member, truth);
   }
-  return has_changed;
 }
 
 void Labelling::run_decision(const Step& step) {
@@ -121,24 +129,29 @@ void Labelling::run_decision(const Step& step) {
 }
 
 /// A label is final, but a later stratum may refine it to a subclass.
-bool Labelling::is_open(std::size_t row, ClassId label) const {
-  const ClassId decided = decided_[row];
+bool Labelling::is_open(ClassId decided, ClassId label) const {
   return decided == kNoClass || (decided != label && is_within(pack_->classes, label, decided));
 }
 
 /// Those that a rule for the label may still decide.
 std::span<const int> Labelling::open_rows(ClassId label) {
   if (!is_any_decided_) return facts_->row_numbers;
-  open_rows_.clear();
-  for (const int row : facts_->row_numbers)
-    if (is_open(index(row), label)) open_rows_.push_back(row);
-  return open_rows_;
+  std::vector<char> is_class_open;
+  for (ClassId decided = kNoClass; decided < static_cast<ClassId>(raised_.size()); ++decided)
+    is_class_open.push_back(is_open(decided, label) ? 1 : 0);
+  std::size_t size = 0;
+  for (std::size_t row = 0; row < decided_.size(); ++row) {
+    open_rows_[size] = static_cast<int>(row);
+    size += static_cast<std::size_t>(is_class_open[index(decided_[row] + 1)]);
+  }
+  return std::span(open_rows_).first(size);
 }
 
 void Labelling::collect(int id) {
   TruthBlock truths;
   NumberBlock scores;
-  const ClassId label = rule(id).label;
+  const Rule& judging = rule(id);
+  const ClassId label = judging.label;
   const auto rows = open_rows(label);
   for (std::size_t begin = 0; begin < rows.size(); begin += kBlock) {
     Frame frame;
@@ -146,22 +159,19 @@ void Labelling::collect(int id) {
     frame.rows[0] = rows.data() + begin;
     frame.is_run = !is_any_decided_;
     Conjunction held(frame, std::span(truths).first(frame.size));
-    judge(*pack_, rule(id), evaluator_, held, scores);
+    judge(*pack_, judging, evaluator_, held, scores);
     if (!held.is_open()) continue;
     const int* const left = held.frame().rows[0];
     for (std::size_t i = 0; i < held.truths().size(); ++i) {
-      if (held.truths()[i] == Truth::yes)
-        add_candidate(left[i], id, scores[i]);
-      else if (held.truths()[i] == Truth::unknown)
+      if (held.truths()[i] == Truth::yes) {
+        int& first = first_candidate_[index(left[i])];
+        candidates_.push_back({id, judging.priority, label, first, scores[i]});
+        first = static_cast<int>(candidates_.size()) - 1;
+      } else if (held.truths()[i] == Truth::unknown) {
         unknown_rows_[index(label)].push_back(left[i]);
+      }
     }
   }
-}
-
-void Labelling::add_candidate(int row, int id, double score) {
-  int& first = first_candidate_[index(row)];
-  candidates_.push_back({id, score, first});
-  first = static_cast<int>(candidates_.size()) - 1;
 }
 
 /// By what wins: enough score, then priority, then score, then the rule's id.
@@ -169,32 +179,32 @@ bool Labelling::beats(const Candidate& p, const Candidate& q) const {
   const bool is_p_enough = p.score >= pack_->decide.min_score;
   const bool is_q_enough = q.score >= pack_->decide.min_score;
   if (is_p_enough != is_q_enough) return is_p_enough;
-  const Rule& first = rule(p.rule);
-  const Rule& second = rule(q.rule);
-  if (first.priority != second.priority) return first.priority > second.priority;
+  if (p.priority != q.priority) return p.priority > q.priority;
   if (p.score != q.score) return p.score > q.score;
-  return first.id < second.id;
+  return rule(p.rule).id < rule(q.rule).id;
 }
 
 void Labelling::decide(std::size_t row) {
-  const Candidate* best = nullptr;
-  for (int c = first_candidate_[row]; c >= 0; c = candidates_[index(c)].next)
-    if (best == nullptr || beats(candidates_[index(c)], *best)) best = &candidates_[index(c)];
-  if (best == nullptr || best->score < pack_->decide.min_score) return;
-  const Rule& winner = rule(best->rule);
-  Choice choice{best->rule, best->score, best->score, -1, false};
+  const Candidate* best = &candidates_[index(first_candidate_[row])];
+  for (int c = best->next; c >= 0; c = candidates_[index(c)].next)
+    if (beats(candidates_[index(c)], *best)) best = &candidates_[index(c)];
+  if (best->score < pack_->decide.min_score) return;
+  Choice& choice = choices_[row];
+  choice.rule = best->rule;
+  choice.score = best->score;
+  double margin = best->score;
   const Candidate* second = nullptr;
   for (int c = first_candidate_[row]; c >= 0; c = candidates_[index(c)].next) {
     const Candidate& other = candidates_[index(c)];
-    if (rule(other.rule).label == winner.label) continue;
+    if (other.label == best->label) continue;
     if (second == nullptr || beats(other, *second)) second = &other;
-    if (rule(other.rule).priority != winner.priority) continue;
-    choice.margin = std::min(choice.margin, best->score - other.score);
-    choice.is_ambiguous = choice.margin < pack_->decide.ambiguous_below;
+    if (other.priority != best->priority) continue;
+    margin = std::min(margin, best->score - other.score);
+    choice.is_ambiguous = margin < pack_->decide.ambiguous_below;
   }
-  if (second != nullptr) choice.runner_up = second->rule;
-  choices_[row] = choice;
-  decided_[row] = winner.label;
+  choice.margin = margin;
+  choice.runner_up = second == nullptr ? -1 : second->rule;
+  decided_[row] = best->label;
   decided_now_.push_back(static_cast<int>(row));
 }
 
@@ -205,7 +215,7 @@ void Labelling::settle_membership(const Step& step) {
   for (const int id : step.rules) {
     const ClassId label = rule(id).label;
     for (const int row : unknown_rows_[index(label)])
-      if (is_open(index(row), label)) raise_membership(label, index(row), Truth::unknown);
+      if (is_open(decided_[index(row)], label)) raise_membership(label, index(row), Truth::unknown);
   }
 }
 

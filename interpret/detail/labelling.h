@@ -66,22 +66,23 @@ class Labelling {
 
   struct Candidate {
     int rule = -1;
-    double score = 0;
+    int priority = 0;
+    ClassId label = kNoClass;
     /// The next candidate of the same feature, or -1.
     int next = -1;
+    double score = 0;
   };
 
   void run_predicates(const Step& step);
   bool apply_predicate(const Rule& rule);
   void run_decision(const Step& step);
   void collect(int rule);
-  void add_candidate(int row, int rule, double score);
-  [[nodiscard]] bool is_open(std::size_t row, ClassId label) const;
+  [[nodiscard]] bool is_open(ClassId decided, ClassId label) const;
   std::span<const int> open_rows(ClassId label);
   void decide(std::size_t row);
   [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
   void settle_membership(const Step& step);
-  bool raise_membership(ClassId id, std::size_t row, Truth truth);
+  void raise_membership(ClassId id, std::size_t row, Truth truth);
 
   [[nodiscard]] const Rule& rule(int id) const {
     return pack_->rules[static_cast<std::size_t>(id)];

@@ -5,6 +5,7 @@
 #include "kernel/model/name.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -171,8 +172,8 @@ struct SurfaceRules;
 struct Reads {
   /// Columns of texts.
   std::vector<std::size_t> texts;
-  /// Whether it asks what a host facet is.
-  bool host_kind = false;
+  /// By HostKind: whether it asks that of host facets.
+  std::array<bool, 4> host_kinds{};
   /// By number: whether an expression or a group leads over the relation, or one that narrows it.
   std::vector<bool> relations;
   /// Pack::words, each with its number.

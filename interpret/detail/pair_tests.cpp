@@ -4,6 +4,8 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace oriel::rules {
@@ -161,9 +163,10 @@ std::span<double> Evaluator::PairTests::fill(ExprId id, NumberBlock& block) {
 
 /// What is compared with a missing bound is unknown, whatever it is: the bound is made endless.
 void Evaluator::PairTests::let_pass_missing(std::span<double> bounds, double endless) {
-  bool is_missing = false;
-  for (const double bound : bounds) is_missing |= bound != bound;
-  if (!is_missing) return;
+  constexpr std::uint64_t kOne = 1;
+  std::uint64_t is_missing = 0;  // as wide as a double, so that many are looked at together
+  for (const double bound : bounds) is_missing |= bound != bound ? kOne : 0;
+  if (is_missing == 0) return;
   if (!is_bound_missing_) std::fill_n(best_.begin(), frame_.size, Truth::yes);
   is_bound_missing_ = true;
   for (std::size_t i = 0; i < bounds.size(); ++i) {

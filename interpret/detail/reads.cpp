@@ -13,7 +13,7 @@ Reads find_reads(const Pack& pack) {
   reads.relations.resize(built_in + pack.relations.size(), false);
   for (const Expr& expr : pack.code) {
     if (is_quantifier(expr.op)) reads.relations[at(expr.index)] = true;
-    if (expr.op == Op::facet_is) reads.host_kind = true;
+    if (expr.op == Op::facet_is) reads.host_kinds.at(at(expr.index)) = true;
     if (expr.op == Op::attribute && expr.type == Type::text) reads.texts.push_back(at(expr.index));
   }
   std::ranges::sort(reads.texts);

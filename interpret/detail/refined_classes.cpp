@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace oriel::rules {
@@ -35,13 +36,20 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
   parts.list_of.assign(fits.size(), -1);
   parts.others.reserve(from.others.size());
   std::vector<std::pair<double, int>> members;
+  members.reserve(from.others.size());
   for (std::size_t c = 0; c < from.lists(); ++c) {
     members.clear();
-    for (const int row : from.list(c))
-      if (fits[at(row)] != Truth::no) members.emplace_back(values[at(row)], row);
+    bool is_sorted = true;
+    double last = -std::numeric_limits<double>::infinity();
+    for (const int row : from.list(c)) {
+      if (fits[at(row)] == Truth::no) continue;
+      is_sorted &= last <= values[at(row)];
+      last = values[at(row)];
+      members.emplace_back(last, row);
+    }
     if (members.empty()) continue;
-    if (!std::ranges::is_sorted(members)) std::ranges::sort(members);
-    double last = members.front().first;
+    if (!is_sorted) std::ranges::sort(members);
+    last = members.front().first;
     for (const auto& [value, row] : members) {
       if (value != last) parts.starts.push_back(static_cast<int>(parts.others.size()));
       last = value;
