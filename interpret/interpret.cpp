@@ -15,14 +15,15 @@ namespace oriel {
 
 namespace {
 
-Verdict verdict_of(const rules::Pack& pack, FeatureId feature, const rules::Choice& choice) {
-  if (choice.rule < 0) return {feature, {}, 0, 0, {}, {}};
-  const auto rule_of = [&](int rule) -> const rules::Rule& {
-    return pack.rules[static_cast<std::size_t>(rule)];
-  };
-  const rules::Rule& rule = rule_of(choice.rule);
-  const Name second = choice.runner_up < 0 ? Name() : rule_of(choice.runner_up).name_of_label;
-  return {feature, rule.name_of_label, choice.score, choice.margin, rule.name, second};
+void fill(Verdict& verdict, const rules::Pack& pack, const rules::Choice& choice) {
+  if (choice.rule < 0) return;
+  const rules::Rule& rule = pack.rules[static_cast<std::size_t>(choice.rule)];
+  verdict.label = rule.name_of_label;
+  verdict.score = choice.score;
+  verdict.margin = choice.margin;
+  verdict.rule = rule.name;
+  if (choice.runner_up < 0) return;
+  verdict.runner_up = pack.rules[static_cast<std::size_t>(choice.runner_up)].name_of_label;
 }
 
 Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
@@ -60,12 +61,12 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   rules::Labelling labelling(pack, facts);
   const auto choices = labelling.run();
   Interpretation result;
-  result.verdicts.reserve(choices.size());
-  for (const rules::Choice& choice : choices) {
-    const FeatureId feature{static_cast<int>(result.verdicts.size())};
-    result.verdicts.push_back(verdict_of(pack, feature, choice));
-    if (choice.is_ambiguous)
-      result.issues.push_back(ambiguity(pack, result.verdicts.back(), table));
+  result.verdicts.resize(choices.size());
+  for (std::size_t row = 0; row < choices.size(); ++row) {
+    Verdict& verdict = result.verdicts[row];
+    verdict.feature = FeatureId{static_cast<int>(row)};
+    fill(verdict, pack, choices[row]);
+    if (choices[row].is_ambiguous) result.issues.push_back(ambiguity(pack, verdict, table));
   }
   if (const auto rows = labelling.unsettled(); !rows.empty())
     result.issues.push_back(unsettled(pack, rows, table));
