@@ -28,15 +28,11 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       choices_(facts.rows),
       first_candidate_(facts.rows, -1),
       unknown_rows_(pack.classes.size()),
-      raised_(pack.classes.size()),
-      decided_(facts.rows, kNoClass) {
+      decided_(facts.rows, kNoClass),
+      open_rows_(facts.rows),
+      is_class_open_(pack.classes.size() + 1) {
   candidates_.reserve(2 * facts.rows);
-  open_rows_.resize(facts.rows);
-  for (ClassId id = 0; id < static_cast<ClassId>(raised_.size()); ++id)
-    for (ClassId at = id; at != kNoClass; at = pack.classes[index(at)].parent) {
-      const Class& c = pack.classes[index(at)];
-      if (at == id || !c.is_abstract || !c.has_rules) raised_[index(id)].push_back(at);
-    }
+  decided_now_.reserve(facts.rows);
 }
 
 std::vector<Choice> Labelling::run() {
@@ -103,14 +99,14 @@ bool Labelling::apply_predicate(const Rule& rule) {
     judge(*pack_, rule, evaluator_, held, scores);
     held.finish();
   }
-  for (const ClassId at : raised_[index(rule.label)])
+  for (const ClassId at : pack_->classes[index(rule.label)].raised)
     has_changed = raise_all(facts_->membership[index(at)], truths) || has_changed;
   return has_changed;
 }
 
 /// Also raises what `id` is a kind of, where that is the union of its subclasses.
 void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
-  for (const ClassId at : raised_[index(id)]) {
+  for (const ClassId at : pack_->classes[index(id)].raised) {
     Truth& member = facts_->membership[index(at)][row];
     member = std::max(member, truth);
   }
@@ -136,13 +132,12 @@ bool Labelling::is_open(ClassId decided, ClassId label) const {
 /// Those that a rule for the label may still decide.
 std::span<const int> Labelling::open_rows(ClassId label) {
   if (!is_any_decided_) return facts_->row_numbers;
-  std::vector<char> is_class_open;
-  for (ClassId decided = kNoClass; decided < static_cast<ClassId>(raised_.size()); ++decided)
-    is_class_open.push_back(is_open(decided, label) ? 1 : 0);
+  for (std::size_t i = 0; i < is_class_open_.size(); ++i)
+    is_class_open_[i] = is_open(static_cast<ClassId>(i) - 1, label) ? 1 : 0;
   std::size_t size = 0;
   for (std::size_t row = 0; row < decided_.size(); ++row) {
     open_rows_[size] = static_cast<int>(row);
-    size += static_cast<std::size_t>(is_class_open[index(decided_[row] + 1)]);
+    size += static_cast<std::size_t>(is_class_open_[index(decided_[row] + 1)]);
   }
   return std::span(open_rows_).first(size);
 }

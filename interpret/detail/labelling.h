@@ -98,14 +98,14 @@ class Labelling {
   std::vector<int> first_candidate_;
   /// By class: the rows for which a rule for it was unknown in the decision at hand.
   std::vector<std::vector<int>> unknown_rows_;
-  /// By class: what a feature of it is, too: itself first.
-  std::vector<std::vector<ClassId>> raised_;
   /// By row: the class that was decided, or -1; and the rows of the decision at hand.
   std::vector<ClassId> decided_;
   std::vector<int> decided_now_;
   bool is_any_decided_ = false;
   /// The rows that the rule at hand is asked of, if not all.
   std::vector<int> open_rows_;
+  /// Whether that rule may decide what was decided as a class, by class; first what was not.
+  std::vector<char> is_class_open_;
 };
 
 }  // namespace oriel::rules

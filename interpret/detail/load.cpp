@@ -121,6 +121,16 @@ void add_default_emissions(Pack& pack) {
   }
 }
 
+void find_raised(std::vector<Class>& classes) {
+  for (std::size_t id = 0; id < classes.size(); ++id)
+    for (auto at = static_cast<ClassId>(id); at != kNoClass;) {
+      const Class& c = classes[static_cast<std::size_t>(at)];
+      const bool is_itself = at == static_cast<ClassId>(id);
+      if (is_itself || !c.is_abstract || !c.has_rules) classes[id].raised.push_back(at);
+      at = c.parent;
+    }
+}
+
 void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   check_traps(root, findings);
   Section top(root, "a pack", top_keys(), findings);
@@ -137,6 +147,7 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   if (!findings.has_errors()) check_reach(pack, findings);
   add_default_emissions(pack);
   pack.reads = find_reads(pack);
+  find_raised(pack.classes);
   for (Rule& rule : pack.rules) {
     rule.name = rule.id;
     rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;

@@ -52,6 +52,9 @@ struct Class {
   /// True if a rule names it as its label. An abstract class without rules is the union of its
   /// subclasses.
   bool has_rules = false;
+  /// What a feature of it is, too: itself first, then what is the union of its subclasses. Found
+  /// when all of the pack is read.
+  std::vector<ClassId> raised;
   std::vector<Typical> typical;
   std::optional<Emission> emission;
   Span span;

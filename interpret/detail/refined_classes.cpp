@@ -28,6 +28,23 @@ Column numbers_of(const Pack& pack, const Facts& facts, Evaluator& evaluator, Ex
   return evaluated;
 }
 
+using Member = std::pair<double, int>;
+
+/// Most stand where they belong, as features are found row by row.
+void sort_members(std::vector<Member>& members) {
+  constexpr std::size_t kMany = 64;
+  if (members.size() > kMany) {
+    std::ranges::sort(members);
+    return;
+  }
+  for (auto next = members.begin() + 1; next != members.end(); ++next) {
+    const Member member = *next;
+    auto place = next;
+    for (; place != members.begin() && member < place[-1]; --place) *place = place[-1];
+    *place = member;
+  }
+}
+
 /// Cuts the classes of `from` where their members differ in `values`; those that do not fit are
 /// left out.
 FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Column values) {
@@ -35,7 +52,8 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
   parts.are_classes = true;
   parts.list_of.assign(fits.size(), -1);
   parts.others.reserve(from.others.size());
-  std::vector<std::pair<double, int>> members;
+  parts.starts.reserve(from.others.size() + 1);
+  std::vector<Member> members;
   members.reserve(from.others.size());
   for (std::size_t c = 0; c < from.lists(); ++c) {
     members.clear();
@@ -48,7 +66,7 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
       members.emplace_back(last, row);
     }
     if (members.empty()) continue;
-    if (!is_sorted) std::ranges::sort(members);
+    if (!is_sorted) sort_members(members);
     last = members.front().first;
     for (const auto& [value, row] : members) {
       if (value != last) parts.starts.push_back(static_cast<int>(parts.others.size()));
