@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -16,8 +17,6 @@
 namespace oriel::rules {
 
 namespace {
-
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Numbers of texts: of the pack's words their position, of others those that follow.
 class TextCodes {
@@ -94,9 +93,10 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
 /// inclination is missing. The last kind is what is left.
 void Facts::find_hosts(const Pack& pack) {
   const auto& asked = pack.reads.host_kinds;
+  constexpr double kAny = std::numeric_limits<double>::infinity();
   const auto last = std::find(asked.rbegin(), asked.rend(), true);
   const std::array<HostRange, 4> ranges = {pack.hosts.wall, pack.hosts.roof, pack.hosts.ground,
-                                           HostRange{-kEndless, kEndless}};
+                                           HostRange{-kAny, kAny}};
   for (std::size_t kind = 0; kind < static_cast<std::size_t>(asked.rend() - last); ++kind) {
     std::vector<Truth>& answers = hosts[kind];
     answers.resize(rows);

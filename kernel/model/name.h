@@ -25,6 +25,7 @@ class Name {
   operator std::string_view() const { return text(); }
   [[nodiscard]] const std::string& text() const { return text_ == nullptr ? kEmpty : *text_; }
   [[nodiscard]] bool empty() const { return text_ == nullptr; }
+  void clear() { text_ = nullptr; }
 
   friend bool operator==(Name p, Name q) { return p.text_ == q.text_; }
   friend std::strong_ordering operator<=>(Name p, Name q) { return p.text() <=> q.text(); }

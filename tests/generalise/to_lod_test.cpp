@@ -29,7 +29,7 @@ std::size_t steps_at_lod2(const Line& line) {
 std::size_t steps_with(Vec3 from, Vec3 to) {
   Line line = line_of(
       BoxBody().add({0, 0, 0}, {12, 10, 4}).add({0, 5, 4}, {12, 10, 9}).add(from, to).build());
-  for (Verdict& verdict : line.interpretation.verdicts) verdict.label = Name();
+  for (Verdict& verdict : line.interpretation.verdicts) verdict.label.clear();
   return steps_at_lod2(line);
 }
 
@@ -106,7 +106,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("a building smaller than the sizes keeps its parts and a notch without lintel stays") {
     Line shed =
         line_of(BoxBody().add({0, 0, 0}, {3, 3, 2.5}).add({1, 1, 2.5}, {2, 2, 3.2}).build());
-    for (Verdict& verdict : shed.interpretation.verdicts) verdict.label = Name();
+    for (Verdict& verdict : shed.interpretation.verdicts) verdict.label.clear();
     REQUIRE(shed.segmentation.features.size() == 1);
     CHECK(steps_at_lod2(shed) == 0);
     for (const double top_m : {2.1, 6.0}) {

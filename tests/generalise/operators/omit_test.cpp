@@ -318,7 +318,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("what carries what stays is a part of the building unless its class was to go") {
     const Line line = line_of(chimney_with_head());
     Interpretation bare = line.interpretation;
-    for (Verdict& verdict : bare.verdicts) verdict.label = Name();
+    for (Verdict& verdict : bare.verdicts) verdict.label.clear();
     std::size_t carriers = 0;
     for (const FeatureId id : all_features(line.segmentation)) {
       const Plan plan{1000, {{id, "omit", "test"}}, {}};
