@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -147,24 +148,29 @@ class Segmenter {
     return task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own;
   }
 
-  /// A fingerprint of the sides and areas of the facets, sorted: bodies of one segmentation with
-  /// the same are the same. 128 bits, so that long histories take little room.
+  /// A fingerprint of the sides and areas of the facets, whatever their order: bodies of one
+  /// segmentation with the same are the same. 128 bits, so that long histories take little room.
   using State = std::array<std::uint64_t, 2>;
   static State state_of(const Boundary& body) {
     constexpr double kPerSquareMetre = 1e6;
-    std::vector<std::array<std::int64_t, 2>> facets;
-    for (const int f : body.living_facets())
-      facets.push_back({body.facet(f).side, std::llround(body.area(f) * kPerSquareMetre)});
-    std::ranges::sort(facets);
-    // Two FNV-1a hashes with different starts.
-    State state{0xcbf29ce484222325U, 0x9e3779b97f4a7c15U};
-    for (std::uint64_t& hash : state)
-      for (const auto& facet : facets)
-        for (const std::int64_t number : facet)
-          for (int byte = 0; byte < 8; ++byte)
-            hash = (hash ^ (static_cast<std::uint64_t>(number) >> (8 * byte) & 0xFFU)) *
-                   0x100000001b3U;
+    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
+    State state{};
+    for (int f = 0; f < body.facet_count(); ++f) {
+      if (!body.is_alive(f)) continue;
+      const auto side = static_cast<std::uint64_t>(body.facet(f).side);
+      const auto area = static_cast<std::uint64_t>(std::llround(body.area(f) * kPerSquareMetre));
+      const std::uint64_t facet = mixed(mixed(side * kOdd) + area);
+      state[0] += facet;
+      state[1] += mixed(facet + kOdd);
+    }
     return state;
+  }
+
+  /// The bits of a number stirred, one to one (the finaliser of SplitMix64).
+  static std::uint64_t mixed(std::uint64_t number) {
+    number = (number ^ number >> 30U) * 0xbf58476d1ce4e5b9U;
+    number = (number ^ number >> 27U) * 0x94d049bb133111ebU;
+    return number ^ number >> 31U;
   }
 
   /// The rest that the last cut has left is in pieces: its lumps become the `rest` of the node made
@@ -200,6 +206,7 @@ class Segmenter {
       Feature feature;
       feature.sense = Sense::cavity;
       feature.value = feature.quality = 0;
+      measure(feature, cavity);
       add_part(task, std::move(cavity), -task.sign, std::move(feature), {});
     }
     parent_of_rest_ = task.node;
@@ -248,7 +255,14 @@ class Segmenter {
     const std::size_t first_part = tasks_.size();
     std::vector<detail::Change> changes;
     is_body_changed_ = false;
-    for (const detail::Lump& lump : choice.lumps) {
+    const std::vector<std::size_t> models = models_of(choice);
+    for (std::size_t i = 0; i < choice.lumps.size(); ++i) {
+      const detail::Lump& lump = choice.lumps[i];
+      if (!models.empty() && models[i] != i) {
+        is_body_changed_ = true;
+        changes.push_back(take_off_copy(task, choice, lump, choice.lumps[models[i]]));
+        continue;
+      }
       std::vector<int> touched;
       const auto caps = imprint(task.body, *choice.section, lump, touched);
       is_body_changed_ = is_body_changed_ || !touched.empty();
@@ -265,10 +279,33 @@ class Segmenter {
       changes.push_back(take_off_part(task, choice, patch.caps,
                                       {patch.new_area, patch.new_area / patch.old_area}, {}));
     }
-    models_.find_congruent(tasks_, first_part, ground_);
+    if (models.empty())
+      models_.find_congruent(tasks_, first_part, ground_);
+    else
+      models_.let_wait(tasks_, first_part, models);
     parent_of_rest_ = task.node;
     task.node = rest;
     return changes;
+  }
+
+  /// Of each lump of a choice the last one that is the same convex pocket, moved: what becomes of
+  /// the one is known from the other. Itself, if there is none; nothing if that is not known of one.
+  static std::vector<std::size_t> models_of(const Choice& choice) {
+    std::map<int, std::size_t> last_of_kind;
+    const auto& lumps = choice.lumps;
+    for (std::size_t i = 0; i < lumps.size(); ++i) {
+      if (lumps[i].is_alone) continue;
+      if (lumps[i].pocket < 0) return {};
+      const int kind = choice.pockets->kind_of(lumps[i].pocket);
+      if (!choice.pockets->is_convex(kind)) return {};
+      last_of_kind[kind] = i;
+    }
+    std::vector<std::size_t> models;
+    for (std::size_t i = 0; i < lumps.size(); ++i)
+      models.push_back(lumps[i].is_alone
+                           ? i
+                           : last_of_kind.at(choice.pockets->kind_of(lumps[i].pocket)));
+    return models;
   }
 
   struct Measures {
@@ -278,15 +315,54 @@ class Segmenter {
 
   detail::Change take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
                                Measures measures, std::vector<int> touched) {
-    const FeatureId id{static_cast<int>(out_.features.size())};
     const bool is_natural = choice.is_natural && touched.empty();
-    auto carved = take_off(task.body, caps, choice.is_hole, id, std::move(touched));
+    auto carved = take_off(task.body, caps, choice.is_hole, next_feature(), std::move(touched));
     detail::Change change = change_of(carved, caps);
     change.is_natural = is_natural;
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
     std::ranges::stable_sort(caps, std::greater{},
                              [&](const detail::Cap& cap) { return area_of(cap); });
 
+    Feature feature = feature_of(task, choice, caps, measures);
+    feature.cap_point = carved.cap_point;
+    for (const detail::Cap& cap : caps) feature.surface_m2 -= area_of(cap);
+    measure(feature, carved.lump);
+    std::vector<int> own_planes;
+    if (!choice.is_hole && choice.sides.size() > 1)
+      for (const Side side : choice.sides) own_planes.push_back(side >> 1);
+    const int sign = sign_of(feature);
+    add_part(task, std::move(carved.lump), sign, std::move(feature), std::move(own_planes));
+    return change;
+  }
+
+  /// Takes off a pocket that needs no body of its own: it gets a copy of what becomes of `model`.
+  detail::Change take_off_copy(Task& task, const Choice& choice, const detail::Lump& lump,
+                               const detail::Lump& model) {
+    const std::vector<detail::Cap> caps{choice.pockets->cap_of(lump.pocket)};
+    auto how = choice.pockets->congruence(model.pocket, lump.pocket);
+    auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),
+                              choice.is_hole, next_feature());
+    Feature feature = feature_of(task, choice, caps, {lump.new_area, lump.value});
+    feature.cap_point = filled.cap_point;
+    feature.surface_m2 = filled.surface;
+    feature.volume_m3 = filled.volume;
+    feature.vertices = filled.points;
+    const int sign = sign_of(feature);
+    add_part(task, Boundary(world_), sign, std::move(feature), {});
+    tasks_.back().copy_of_model = std::move(how);
+    detail::Change change{filled.points, std::move(filled.points), {}, true, {}, false};
+    for (const detail::CapEdge& edge : caps[0].loops[0].edges)
+      change.rim.emplace_back(edge.from, edge.to);
+    return change;
+  }
+
+  [[nodiscard]] FeatureId next_feature() const {
+    return FeatureId{static_cast<int>(out_.features.size())};
+  }
+
+  /// A part as a feature, as far as its cut tells: its caps, the largest first.
+  Feature feature_of(const Task& task, const Choice& choice, const std::vector<detail::Cap>& caps,
+                     Measures measures) {
     Feature feature;
     // A hole in a void is material: the sense is that of the building.
     const bool is_material = choice.is_hole == (task.sign < 0);
@@ -295,20 +371,13 @@ class Segmenter {
     feature.quality = measures.new_area / choice.old_area;
     feature.new_area_m2 = measures.new_area;
     feature.old_area_m2 = choice.old_area;
-    feature.cap_point = carved.cap_point;
     feature.is_natural = choice.is_natural;
-    std::vector<int> own_planes;
     for (const detail::Cap& cap : caps) {
       const PlaneId plane = cells_.plane_id(task.sign < 0 ? cap.side ^ 1 : cap.side);
       if (std::ranges::find(feature.planes, plane) == feature.planes.end())
         feature.planes.push_back(plane);
-      feature.surface_m2 -= area_of(cap);
     }
-    if (!choice.is_hole && choice.sides.size() > 1)
-      for (const Side side : choice.sides) own_planes.push_back(side >> 1);
-    add_part(task, std::move(carved.lump), is_material ? 1 : -1, std::move(feature),
-             std::move(own_planes));
-    return change;
+    return feature;
   }
 
   static detail::Change change_of(const detail::Carved& carved,
@@ -341,12 +410,10 @@ class Segmenter {
     return area;
   }
 
-  void add_part(const Task& task, Boundary body, int sign, Feature feature,
-                std::vector<int> own_planes) {
-    const NodeId id = add_node();
-    node(task.node).parts.push_back(id);
-    feature.node = id;
-    feature.parent = task.feature;
+  static int sign_of(const Feature& feature) { return feature.sense == Sense::protrusion ? 1 : -1; }
+
+  /// What a part's own body tells of it.
+  static void measure(Feature& feature, const Boundary& body) {
     feature.volume_m3 = body.volume();
     for (const int f : body.living_facets()) {
       feature.surface_m2 += body.area(f);
@@ -355,12 +422,19 @@ class Segmenter {
     std::ranges::sort(feature.vertices);
     feature.vertices.erase(std::unique(feature.vertices.begin(), feature.vertices.end()),
                            feature.vertices.end());
+  }
+
+  /// `feature` is measured.
+  void add_part(const Task& task, Boundary body, int sign, Feature feature,
+                std::vector<int> own_planes) {
+    const NodeId id = add_node();
+    node(task.node).parts.push_back(id);
+    feature.node = id;
+    feature.parent = task.feature;
     for (const int v : feature.vertices) feature.box.grow(world_.points.at(v));
-    const FeatureId feature_id{static_cast<int>(out_.features.size())};
+    const FeatureId feature_id = next_feature();
     out_.features.push_back(std::move(feature));
-    std::vector<Boundary> bodies;
-    bodies.push_back(std::move(body));
-    hang(std::move(bodies), feature_id, sign, own_planes, id);
+    tasks_.push_back({std::move(body), id, feature_id, sign, std::move(own_planes)});
   }
 
   void add_leaf(const Task& task, LeafFlag flag) {

@@ -118,7 +118,7 @@ int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> 
   OnSide& on = on_side_[index(place->second)];
   on.facets.push_back(f);
   ++on.living;
-  facets_.push_back({side, {}, sources, std::move(marks), place->second});
+  facets_.push_back({side, {}, sources, std::move(marks), place->second, 0});
   return f;
 }
 
@@ -149,6 +149,7 @@ void Boundary::attach(int l, int f) {
   // A loop of no width is the outer loop of a sliver: no hole is so thin.
   record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(outline(l));
   facets_[index(f)].loops.push_back(l);
+  if (!record.is_hole) ++facets_[index(f)].outer_loops;
   on_side_of(f).area += record.area;
 }
 
@@ -157,6 +158,7 @@ void Boundary::detach(int l) {
   on_side_of(record.facet).area -= record.area;
   auto& loops = facets_[index(record.facet)].loops;
   loops.erase(std::ranges::find(loops, l));
+  if (!record.is_hole) --facets_[index(record.facet)].outer_loops;
   record.facet = -1;
 }
 
@@ -174,6 +176,7 @@ void Boundary::kill_facet(int f) {
     loops_[index(l)].facet = -1;
   }
   record.loops.clear();
+  record.outer_loops = 0;
   --on.living;
   record.side = -1;
   record.marks.clear();
@@ -186,6 +189,25 @@ void Boundary::remove(const std::vector<int>& facets) {
     kill_facet(f);
     for (const int e : edges) kill_edge(e);
   }
+}
+
+void Boundary::fill_hole(int hole, double cap_area) {
+  // The sum goes the way it goes when the cap is added, merged and freed of its seams, so that it is
+  // the same to the last bit; and the cap's half-edges count among the dead.
+  double& area = on_side_of(loop(hole).facet).area;
+  area += cap_area;
+  area -= cap_area;
+  area += cap_area;
+  detach(hole);
+  area -= cap_area;
+  std::size_t size = 0;
+  for (int e = loop(hole).first; is_alive_edge(e); ++size) {
+    const int after = next(e);
+    kill_edge(e);
+    e = after;
+  }
+  half_edges_.resize(half_edges_.size() + size);
+  dead_edges_ += static_cast<int>(size);
 }
 
 void Boundary::split_edge(int e, int point) {
@@ -220,10 +242,9 @@ void Boundary::retrace(int f, const std::vector<int>& extra) {
 /// If the facet has several outer loops, all but the first become facets of their own, each with
 /// the holes inside it.
 void Boundary::part(int f) {
-  const auto is_outer = [&](int l) { return !loop(l).is_hole; };
-  if (std::ranges::count_if(facet(f).loops, is_outer) <= 1) return;
+  if (facet(f).outer_loops <= 1) return;
   std::vector<int> outer, holes;
-  for (const int l : facet(f).loops) (is_outer(l) ? outer : holes).push_back(l);
+  for (const int l : facet(f).loops) (loop(l).is_hole ? holes : outer).push_back(l);
   part(f, outer, holes);
 }
 

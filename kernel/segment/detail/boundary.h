@@ -59,7 +59,8 @@ class Boundary {
     Few<int, 2> loops;
     Sources sources;
     std::vector<CapMark> marks;
-    int on_side = -1;  ///< where on_side_ counts it
+    int on_side = -1;     ///< where on_side_ counts it
+    int outer_loops = 0;  ///< how many of `loops` are no holes
   };
 
   explicit Boundary(World& world) : world_(&world) {}
@@ -148,6 +149,9 @@ class Boundary {
   /// Removes the seams between a facet (a new cap) and its coplanar neighbours, so that facets are
   /// maximal again.
   void heal(int cap);
+  /// Takes a hole out of its facet, and its edges out of the body, as a cap there that is healed
+  /// does: what lay inside is removed already. `cap_area` is the area of that cap.
+  void fill_hole(int hole, double cap_area);
   /// Removes facets with all their half-edges. Twins that stay must be paired anew.
   void remove(const std::vector<int>& facets);
 

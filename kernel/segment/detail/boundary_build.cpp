@@ -44,8 +44,10 @@ void pair_twins(Boundary& boundary, int vertices) {
 
 Boundary boundary_of(const Solid& solid, int lump, World& world) {
   Boundary boundary(world);
-  boundary.reserve(4 * static_cast<int>(solid.vertices.size()),
-                   static_cast<int>(solid.facets.size()));
+  // With room for what the first cuts make: to grow means to copy all.
+  constexpr int kRoom = 8;  // one for so many
+  const auto with_room = [](std::size_t size) { return static_cast<int>(size + size / kRoom); };
+  boundary.reserve(with_room(4 * solid.vertices.size()), with_room(solid.facets.size()));
   for (const Shell& shell : solid.shells) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {

@@ -5,11 +5,23 @@
 #include "kernel/segment/detail/number_map.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace oriel::detail {
 
 namespace {
+
+/// A point inside a cap, on its plane; nothing if it has no area.
+std::optional<Vec3> point_inside(const std::vector<Outline>& cap, Side side,
+                                 const PlaneTable& planes) {
+  const Vec3 normal = planes.normal(side);
+  const auto inside = interior_point(cap, normal);
+  if (!inside) return std::nullopt;
+  // The first vertex of the outline may lie on its plane by decree only.
+  const double off = dot(normal, *inside) - planes.offset_m(side);
+  return *inside - off * normal;
+}
 
 class Remover {
  public:
@@ -166,13 +178,9 @@ class Remover {
     for (std::size_t i = 1; i < facets.size(); ++i)
       if (rank(i) > rank(best)) best = i;
     const int largest = facets[best];
-    const auto shape = body_.outlines(largest);
-    const Side side = body_.facet(largest).side;
-    const Vec3 normal = body_.world().planes.normal(side);
-    if (const auto inside = interior_point(shape, normal)) {
-      // The first vertex of the outline may lie on its plane by decree only.
-      const double off = dot(normal, *inside) - body_.world().planes.offset_m(side);
-      cap_point_ = *inside - off * normal;
+    if (const auto inside = point_inside(body_.outlines(largest), body_.facet(largest).side,
+                                         body_.world().planes)) {
+      cap_point_ = *inside;
       if (!caps_[best].is_taken) body_.add_mark(largest, {mark, cap_point_});
     }
   }
@@ -188,7 +196,60 @@ class Remover {
   bool has_rim_left_ = false;
 };
 
+/// Points of a cap loop as the lump has it: of a hole as the rest has it, else the other way round.
+Outline outline_on_lump(const CapLoop& loop, const PointTable& points, bool is_hole) {
+  Outline outline;
+  for (const CapEdge& edge : loop.edges) outline.push_back(points.at(is_hole ? edge.from : edge.to));
+  if (!is_hole) std::ranges::reverse(outline);
+  return outline;
+}
+
 }  // namespace
+
+Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facets, bool is_hole,
+                   FeatureId mark) {
+  const PlaneTable& planes = body.world().planes;
+  const PointTable& points = body.world().points;
+  const int flip = is_hole ? 1 : 0;
+  const std::vector<Outline> shape{outline_on_lump(cap.loops[0], points, true)};
+  const double area = signed_area(shape[0], planes.normal(cap.side));
+  Filled filled;
+  filled.surface = -area;
+  Outline outline;
+  // Sums as Boundary makes them of a body that is copied facet by facet, turned round if it is air.
+  for (const int f : facets) {
+    outline.clear();
+    const int first = body.loop(body.facet(f).loops[0]).first;
+    int e = first;
+    do {
+      filled.points.push_back(body.origin(e));
+      outline.push_back(is_hole ? points.at(body.target(e)) : body.at(e));
+      e = is_hole ? body.prev(e) : body.next(e);
+    } while (e != first);
+    const Side side = body.facet(f).side ^ flip;
+    const double facet_area = signed_area(outline, planes.normal(side));
+    filled.volume += planes.offset_m(side) * facet_area;
+    filled.surface += facet_area;
+  }
+  const Side inward = cap.side ^ flip ^ 1;
+  const double cap_area =
+      signed_area(outline_on_lump(cap.loops[0], points, is_hole), planes.normal(inward));
+  filled.volume = (filled.volume + planes.offset_m(inward) * cap_area) / 3;
+  filled.surface += cap_area;
+  std::ranges::sort(filled.points);
+  filled.points.erase(std::unique(filled.points.begin(), filled.points.end()),
+                      filled.points.end());
+
+  const int beyond = body.twin(cap.loops[0].edges[0].rim);
+  const int hole = body.edge(beyond).loop, wall = body.facet_of(beyond);
+  body.remove(facets);
+  if (const auto inside = point_inside(shape, cap.side, planes)) {
+    filled.cap_point = *inside;
+    body.add_mark(wall, {mark, *inside});
+  }
+  body.fill_hole(hole, area);
+  return filled;
+}
 
 Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
                 std::vector<int> touched) {

@@ -45,6 +45,14 @@ struct Carved {
   bool has_rim_left = false;
 };
 
+/// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.
+struct Filled {
+  Vec3 cap_point;           ///< a point inside its cap
+  double volume = 0;        ///< of the body it would have been
+  double surface = 0;       ///< its area without the cap
+  std::vector<int> points;  ///< its vertices, sorted
+};
+
 /// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and
 /// returns its caps. Points that were made and the ends of edges that were split are added to
 /// `touched`.
@@ -60,5 +68,10 @@ std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lum
 /// more.
 Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
                 std::vector<int> touched);
+
+/// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
+/// pocket, ascending; `cap`: what closes the rest.
+Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facets, bool is_hole,
+                   FeatureId mark);
 
 }  // namespace oriel::detail

@@ -17,6 +17,12 @@ constexpr double kSame = 1e-9;  // tolerance of doubles, no tolerance of the mod
 
 bool is_same_value(double p, double q) { return std::abs(p - q) <= kSame * std::max(p, q); }
 
+/// No other one of some sorted values is the same.
+bool is_alone_in(const std::vector<double>& values, double value) {
+  const auto first = std::ranges::lower_bound(values, value * (1 - kSame));
+  return first + 1 == values.end() || !is_same_value(*(first + 1), value);
+}
+
 // The keys by which the passes of the orders sort one-plane candidates; nothing: not a candidate of
 // the pass.
 
@@ -54,7 +60,8 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
       own_planes_(std::move(own_planes)),
       stats_(stats),
       work_(work),
-      slots_(body, options, free_side, own_planes_, stats, work) {}
+      slots_(body, options, free_side, own_planes_, stats, work),
+      pockets_(body, free_side) {}
 
 std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
   banned_ = &banned;
@@ -130,13 +137,38 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
   return order(p) > order(q);
 }
 
-/// Floods from the candidate and gives it the key of its whole lump. False if it is no feature, or
-/// none of the pass.
-bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder) {
+/// The lump in front of a candidate. Of pockets of one kind the first is flooded; a lump that is
+/// alone is none of a kind.
+Lump Chooser::lump_at(const Candidate& candidate, LumpFinder& finder, bool is_alone) {
+  const int pocket =
+      is_alone ? -1 : pockets_.find(candidate.slot->section, candidate.region);
+  if (pocket < 0) {
+    Lump lump = finder.find(candidate.region);
+    lump.is_alone = is_alone;
+    return lump;
+  }
+  const int kind = pockets_.kind_of(pocket);
+  if (kind == std::ssize(lump_of_kind_)) {
+    lump_of_kind_.push_back(static_cast<int>(lumps_.size()));
+    Lump first = finder.find(candidate.region);
+    first.pocket = pocket;
+    return first;
+  }
+  Lump same = lumps_[at(lump_of_kind_[at(kind)])];
+  same.regions = {candidate.region};
+  same.new_area = candidate.slot->section.regions[at(candidate.region)].new_area;
+  same.pocket = pocket;
+  return same;
+}
+
+/// Gives a candidate its lump, and the key of that as a whole. False if it is no feature, or none
+/// of the pass.
+bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder, bool is_alone) {
   const Section& section = candidate.slot->section;
   const Region& region = section.regions[at(candidate.region)];
+  Lump found = lump_at(candidate, finder, is_alone);
   candidate.lump = static_cast<int>(lumps_.size());
-  lumps_.push_back(finder.find(candidate.region));
+  lumps_.push_back(std::move(found));
   const Lump& lump = lumps_.back();
   if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 ||
       (!region.is_material && !lump.has_bend))
@@ -161,15 +193,20 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) {
     double least = candidates[0].key;
     for (const Candidate& c : candidates) least = std::min(least, c.key);
     bool is_settled = true;
+    const auto leads = [&](const Candidate& c) { return c.lump < 0 && c.key <= least * group; };
+    std::vector<double> keys;
+    for (const Candidate& c : candidates)
+      if (leads(c)) keys.push_back(c.key);
+    std::ranges::sort(keys);
     // Candidates of one slot stand together, so one finder at a time does.
     const Slot* found_in = nullptr;
     std::optional<LumpFinder> finder;
     std::erase_if(candidates, [&](Candidate& c) {
-      if (c.lump >= 0 || c.key > least * group) return false;
+      if (!leads(c)) return false;
       is_settled = false;
       if (c.slot != found_in) finder.emplace(body_, c.slot->section);
       found_in = c.slot;
-      return !check(c, key, *finder);
+      return !check(c, key, *finder, is_alone_in(keys, c.key));
     });
     if (is_settled) return;
   }
@@ -178,6 +215,8 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) {
 std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch>& rivals) {
   std::vector<Candidate> candidates;
   lumps_.clear();
+  pockets_.clear();
+  lump_of_kind_.clear();
   for (const std::size_t i : slots_.promising()) {
     const Slot& slot = slots_[i];
     for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
@@ -221,6 +260,7 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
   choice.quality = lump_of(first).new_area / choice.old_area;
   choice.sides = {section.split_side(region)};
   choice.section = &section;
+  choice.pockets = &pockets_;
   for (const Candidate& c : candidates) {
     if (c.slot != first.slot || c.lump < 0 ||
         c.key > first.key * (1 + std::max(kSame, options_.tolerances.value_rel)))

@@ -3,6 +3,7 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/detail/corner_holes.h"
 #include "kernel/segment/detail/lump.h"
+#include "kernel/segment/detail/pockets.h"
 #include "kernel/segment/detail/slots.h"
 #include "kernel/segment/segment.h"
 
@@ -30,7 +31,8 @@ struct Choice {
 
   const Section* section = nullptr;  ///< for one plane
   std::vector<Lump> lumps;
-  std::vector<Patch> patches;  ///< for several
+  const Pockets* pockets = nullptr;  ///< that the lumps may be
+  std::vector<Patch> patches;        ///< for several
   /// The body that the patches are of, if planes were imprinted for them.
   std::shared_ptr<const Boundary> imprinted;
 };
@@ -75,7 +77,8 @@ class Chooser {
   std::optional<Choice> paper_next();
   std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
   void check_leaders(std::vector<Candidate>& candidates, Key key);
-  bool check(Candidate& candidate, Key key, LumpFinder& finder);
+  bool check(Candidate& candidate, Key key, LumpFinder& finder, bool is_alone);
+  Lump lump_at(const Candidate& candidate, LumpFinder& finder, bool is_alone);
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
   Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
@@ -101,7 +104,10 @@ class Chooser {
   std::int64_t& work_;
   Slots slots_;
   const std::set<CutKey>* banned_ = nullptr;
-  std::vector<Lump> lumps_;  ///< found in the pass at hand
+  // Found in the pass at hand.
+  std::vector<Lump> lumps_;
+  Pockets pockets_;
+  std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets
 };
 
 }  // namespace oriel::detail

@@ -15,6 +15,9 @@ struct Lump {
   double new_area = 0;
   double volume = 0;
   double value = 0;  ///< the key that the order sorts it by
+  int pocket = -1;   ///< its number among the pockets, if it is one that was looked for
+  /// Its value is like that of no other lump of its section: it is congruent to none.
+  bool is_alone = false;
   /// Of air: it does not run out into the open. Material is always finite.
   bool is_finite = true;
   /// Its pieces of facets have positive area. A hole that pokes out of its facet (bad input) makes

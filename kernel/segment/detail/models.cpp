@@ -12,6 +12,20 @@ void Models::find_congruent(std::vector<Task>& tasks, std::size_t first, Side gr
       if (!tasks[j].copy_of_model && become_copy(tasks[i], tasks[j], ground)) break;
 }
 
+void Models::let_wait(std::vector<Task>& tasks, std::size_t first,
+                      const std::vector<std::size_t>& models) {
+  for (std::size_t i = 0; i < models.size(); ++i)
+    if (models[i] != i) tasks[first + i].model = number_of(tasks[first + models[i]]);
+}
+
+int Models::number_of(Task& model) {
+  if (model.model < 0) {
+    model.model = static_cast<int>(models_.size());
+    models_.emplace_back();
+  }
+  return model.model;
+}
+
 bool Models::become_copy(Task& task, Task& model, Side ground) {
   const Feature &one = out_.features[model.feature.index()],
                 &two = out_.features[task.feature.index()];
@@ -22,11 +36,7 @@ bool Models::become_copy(Task& task, Task& model, Side ground) {
   // The planes of their cut are no split planes of either.
   for (const int plane : model.own_planes)
     if (find_in(how->planes, plane).value_or(plane) != plane) return false;
-  if (model.model < 0) {
-    model.model = static_cast<int>(models_.size());
-    models_.emplace_back();
-  }
-  task.model = model.model;
+  task.model = number_of(model);
   task.copy_of_model = std::move(how);
   return true;
 }

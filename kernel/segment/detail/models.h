@@ -29,6 +29,11 @@ class Models {
   /// for it.
   void find_congruent(std::vector<Task>& tasks, std::size_t first, Side ground);
 
+  /// Of the parts of one node, the tasks from `first`, the i-th waits for the one that `models` has
+  /// for it, as its copy_of_model says; those that are their own model wait for none.
+  void let_wait(std::vector<Task>& tasks, std::size_t first,
+                const std::vector<std::size_t>& models);
+
   /// Tells that `task` is begun and that so many wait below it: if it is a model, its subtree
   /// begins here.
   void open(const Task& task, std::size_t waiting);
@@ -43,6 +48,7 @@ class Models {
     Subtree subtree;
     std::size_t waiting = 0;  ///< tasks below it
   };
+  int number_of(Task& model);
   bool become_copy(Task& task, Task& model, Side ground);
 
   World& world_;

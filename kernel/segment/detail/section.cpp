@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/section.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/segment/detail/nearly_sorted.h"
 #include "kernel/segment/detail/nested_loops.h"
 
 #include <algorithm>
@@ -142,8 +143,9 @@ class Sectioner {
     if (ends.size() % 2 != 0) return false;
     const Vec3 line = line_in(facet);
     for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[at(end.crossing)].at);
-    std::ranges::sort(ends, {}, [](const ChordEnd& end) {
-      return std::tuple(end.along, end.leads_down, end.crossing);
+    sort_nearly_sorted(ends, [](const ChordEnd& p, const ChordEnd& q) {
+      if (p.along != q.along) return p.along < q.along;
+      return std::pair(p.leads_down, p.crossing) < std::pair(q.leads_down, q.crossing);
     });
     for (std::size_t i = 0; i < ends.size();) {
       std::size_t j = i + 1;

@@ -1,0 +1,297 @@
+#include "kernel/segment/detail/pockets.h"
+
+#include "kernel/model/detail/index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oriel::detail {
+
+namespace {
+
+/// What has more facets is flooded and cut by itself.
+constexpr std::size_t kMostPocketFacets = 24;
+
+/// Points that are moved alike differ by no more than rounding.
+bool is_same_place(Vec3 difference) {
+  constexpr double kSame_m = 1e-9;  // tolerance of doubles, planes are compared exactly
+  return dot(difference, difference) <= kSame_m * kSame_m;
+}
+
+Vec3 metres(const std::array<std::int64_t, 3>& shift, double grid_m) {
+  return {static_cast<double>(shift[0]) * grid_m, static_cast<double>(shift[1]) * grid_m,
+          static_cast<double>(shift[2]) * grid_m};
+}
+
+void make_sorted_map(NumberMap& map) {
+  std::ranges::sort(map);
+  map.erase(std::unique(map.begin(), map.end()), map.end());
+}
+
+}  // namespace
+
+void Pockets::clear() {
+  pockets_.clear();
+  kinds_.clear();
+  edges_.clear();
+  rims_.clear();
+}
+
+int Pockets::find(const Section& section, int region) {
+  const Region& here = section.regions[at(region)];
+  if (!trace_rim(section, here) || !find_facets(section)) return -1;
+  Pocket pocket;
+  const Side cap = section.split_side(here);
+  for (int k = 0; k < std::ssize(kinds_) && pocket.kind < 0; ++k)
+    if (kinds_[at(k)].cap == cap && kinds_[at(k)].direction == section.direction &&
+        is_like(kinds_[at(k)], pocket))
+      pocket.kind = k;
+  if (pocket.kind < 0) pocket.kind = new_kind(section, here);
+  pocket.first_edge = static_cast<int>(edges_.size());
+  pocket.first_rim = static_cast<int>(rims_.size());
+  edges_.insert(edges_.end(), walk_.begin(), walk_.end());
+  rims_.insert(rims_.end(), rim_.begin(), rim_.end());
+  pockets_.push_back(pocket);
+  return static_cast<int>(pockets_.size()) - 1;
+}
+
+/// The edges along the region's outline, and the facet beyond them. False if a chord is more or
+/// less than an edge, or if they are not all of a hole of that facet.
+bool Pockets::trace_rim(const Section& section, const Region& region) {
+  if (!region.is_natural || region.loops.size() != 1 || !region.covered.empty()) return false;
+  const auto& planes = body_.world().planes;
+  const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
+  const int rank = planes.rank_of(section.plane);
+  rim_.clear();
+  const int first = section.loops[at(region.loops[0])].first;
+  int c = first;
+  do {
+    const int e = body_.next(section.crossings[at(c)].edge);
+    c = section.crossings[at(c)].next;
+    if (body_.next(e) != body_.twin(section.crossings[at(c)].edge)) return false;
+    if (ranks[at(body_.origin(e))] != rank || ranks[at(body_.target(e))] != rank) return false;
+    const int beyond = body_.twin(e);
+    if (!rim_.empty() && body_.next(beyond) != body_.twin(rim_.back())) return false;
+    rim_.push_back(e);
+  } while (c != first);
+  const int beyond = body_.twin(rim_.front());
+  if (body_.next(beyond) != body_.twin(rim_.back())) return false;
+  wall_ = body_.facet_of(beyond);
+  return body_.loop(body_.edge(beyond).loop).is_hole &&
+         body_.facet(wall_).side == section.split_side(region);
+}
+
+/// What hangs together inside the rim. False if it is no pocket: its half-edges begin in front of
+/// the section or on the rim, and to the wall there are edges of the rim only.
+bool Pockets::find_facets(const Section& section) {
+  StampSet& is_found = body_.world().scratch.facets_of_lump;
+  is_found.start(body_.facet_count());
+  facets_.clear();
+  sources_.clear();
+  is_found.insert(wall_);
+  const auto& planes = body_.world().planes;
+  const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
+  const int rank = planes.rank_of(section.plane);
+  Box box;
+  const auto meet = [&](int f) {
+    if (is_found.insert(f)) facets_.push_back(f);
+  };
+  for (const int e : rim_) meet(body_.facet_of(e));
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    const auto& facet = body_.facet(facets_[i]);
+    if (facet.loops.size() != 1 || !facet.marks.empty() || i == kMostPocketFacets) return false;
+    sources_.insert(sources_.end(), facet.sources.begin(), facet.sources.end());
+    const int first = body_.loop(facet.loops[0]).first;
+    int e = first;
+    do {
+      const int beyond = body_.facet_of(body_.twin(e));
+      const int above = (ranks[at(body_.origin(e))] - rank) * section.direction;
+      if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
+      if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
+      box.grow(body_.at(e));
+      meet(beyond);
+      e = body_.next(e);
+    } while (e != first);
+  }
+  corner_ = box.min;
+  extent_ = box.max - box.min;
+  std::ranges::sort(sources_);
+  return std::ranges::adjacent_find(sources_) == sources_.end();
+}
+
+std::span<const int> Pockets::edges_of(const Pocket& pocket) const {
+  return std::span(edges_).subspan(at(pocket.first_edge), kinds_[at(pocket.kind)].twins.size());
+}
+
+/// Whether the pocket at hand is of a kind. If so its half-edges are in walk_, in the kind's order.
+bool Pockets::is_like(const Kind& kind, Pocket& pocket) {
+  if (facets_.size() != kind.sizes.size() || std::ssize(rim_) != kind.rim ||
+      !is_same_place(extent_ - kind.extent))
+    return false;
+  const double grid_m = body_.world().points.grid_m();
+  const Vec3 difference = corner_ - kind.corner;
+  pocket.shift = {std::llround(difference.x / grid_m), std::llround(difference.y / grid_m),
+                  std::llround(difference.z / grid_m)};
+  if (!is_moved(kind.cap, kind.cap, pocket.shift)) return false;
+  const auto edges = edges_of(pockets_[at(kind.first)]);
+  const Vec3 shift = metres(pocket.shift, grid_m), from = body_.at(edges[0]) + shift;
+  const auto start =
+      std::ranges::find_if(rim_, [&](int e) { return is_same_place(body_.at(e) - from); });
+  if (start == rim_.end() || !walk_like(kind, *start)) return false;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (!is_same_place(body_.at(walk_[i]) - body_.at(edges[i]) - shift)) return false;
+  return are_facets_like(kind, pocket);
+}
+
+/// Lists the half-edges of the pocket at hand from `start` on as those of the kind are listed.
+/// False if its facets hang together otherwise.
+bool Pockets::walk_like(const Kind& kind, int start) {
+  walk_.clear();
+  for (std::size_t f = 0; f < kind.sizes.size(); ++f) {
+    const int first = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
+    int e = first;
+    for (int i = 0; i < kind.sizes[f]; ++i) {
+      if (i > 0 && e == first) return false;
+      walk_.push_back(e);
+      e = body_.next(e);
+    }
+    if (e != first) return false;
+  }
+  for (std::size_t i = 0; i < walk_.size(); ++i) {
+    const int twin = body_.twin(walk_[i]);
+    if (kind.twins[i] < 0 ? body_.facet_of(twin) != wall_ : twin != walk_[at(kind.twins[i])])
+      return false;
+  }
+  return true;
+}
+
+/// The planes are those of the kind, moved, and the facets are made of as many of the solid's.
+bool Pockets::are_facets_like(const Kind& kind, const Pocket& pocket) const {
+  const auto edges = edges_of(pockets_[at(kind.first)]);
+  std::size_t i = 0;
+  return std::ranges::all_of(kind.sizes, [&](int size) {
+    const auto &one = body_.facet(body_.facet_of(edges[i])),
+               &two = body_.facet(body_.facet_of(walk_[i]));
+    i += at(size);
+    return one.sources.size() == two.sources.size() && is_moved(one.side, two.side, pocket.shift);
+  });
+}
+
+/// A side, moved, is the other one. The ground is none but itself.
+bool Pockets::is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const {
+  const auto& planes = body_.world().planes;
+  if ((from & 1) != (to & 1) || planes.class_of(from >> 1) != planes.class_of(to >> 1))
+    return false;
+  const Plane& plane = planes.plane(from >> 1);
+  std::int64_t offset = plane.offset;
+  for (std::size_t i = 0; i < 3; ++i) offset += plane.coefficients[i] * shift[i];
+  if (planes.plane(to >> 1).offset != offset) return false;
+  return from == to || (from >> 1 != ground_plane_ && to >> 1 != ground_plane_);
+}
+
+/// The pocket at hand is the first of its kind.
+int Pockets::new_kind(const Section& section, const Region& region) {
+  Kind kind;
+  kind.cap = section.split_side(region);
+  kind.direction = section.direction;
+  kind.first = static_cast<int>(pockets_.size());
+  kind.corner = corner_;
+  kind.extent = extent_;
+  kind.rim = static_cast<int>(rim_.size());
+  StampSet& is_met = body_.world().scratch.facets_of_piece;
+  is_met.start(body_.facet_count());
+  is_met.insert(wall_);
+  walk_.clear();
+  const auto list = [&](int first) {
+    int e = first, size = 0;
+    do {
+      walk_.push_back(e);
+      ++size;
+      e = body_.next(e);
+    } while (e != first);
+    kind.sizes.push_back(size);
+    is_met.insert(body_.facet_of(first));
+  };
+  list(rim_[0]);
+  for (std::size_t i = 0; i < walk_.size(); ++i) {
+    const int twin = body_.twin(walk_[i]);
+    if (is_met.contains(body_.facet_of(twin))) continue;
+    kind.entries.push_back(static_cast<int>(i));
+    list(twin);
+  }
+  for (const int e : walk_) {
+    const auto twin = std::ranges::find(walk_, body_.twin(e));
+    kind.twins.push_back(twin == walk_.end() ? -1 : static_cast<int>(twin - walk_.begin()));
+  }
+  kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
+  kinds_.push_back(std::move(kind));
+  return static_cast<int>(kinds_.size()) - 1;
+}
+
+bool Pockets::is_convex_pocket(const Kind& kind, std::span<const int> edges, bool is_hole) const {
+  constexpr double kHardly = 0.02;  // sine: flatter edges are left to Boundary::is_reflex
+  const auto& planes = body_.world().planes;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int e = edges[i];
+    const Vec3 mine = planes.normal(body_.side_of_edge(e));
+    const Vec3 along = normalised(body_.world().points.at(body_.target(e)) - body_.at(e));
+    // A cap in the rest looks the other way than one on the lump, as the walls of a hole do.
+    const Vec3 theirs = kind.twins[i] < 0 ? -planes.normal(kind.cap)
+                                          : planes.normal(body_.side_of_edge(body_.twin(e)));
+    const double bend = dot(cross(mine, theirs), along);
+    if ((is_hole ? -bend : bend) <= kHardly) return false;
+  }
+  return true;
+}
+
+Cap Pockets::cap_of(int pocket) const {
+  const Pocket& here = pockets_[at(pocket)];
+  const Kind& kind = kinds_[at(here.kind)];
+  Cap cap{kind.cap, {}, {}};
+  CapLoop& loop = cap.loops.emplace_back();
+  loop.edges.reserve(at(kind.rim));
+  for (const int e : std::span(rims_).subspan(at(here.first_rim), at(kind.rim)))
+    loop.edges.push_back({e, body_.origin(e), body_.target(e)});
+  return cap;
+}
+
+std::vector<int> Pockets::facets_of(int pocket) const {
+  const Pocket& here = pockets_[at(pocket)];
+  std::vector<int> facets;
+  int i = here.first_edge;
+  for (const int size : kinds_[at(here.kind)].sizes) {
+    facets.push_back(body_.facet_of(edges_[at(i)]));
+    i += size;
+  }
+  std::ranges::sort(facets);
+  return facets;
+}
+
+Congruence Pockets::congruence(int model, int other) const {
+  const Pocket &one = pockets_[at(model)], &two = pockets_[at(other)];
+  const Kind& kind = kinds_[at(one.kind)];
+  Congruence how;
+  for (std::size_t i = 0; i < 3; ++i) how.shift[i] = two.shift[i] - one.shift[i];
+  how.shift_m = metres(how.shift, body_.world().points.grid_m());
+  const auto edges = edges_of(one), others = edges_of(two);
+  how.points.reserve(edges.size());
+  how.planes.reserve(kind.sizes.size() + 1);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    how.points.emplace_back(body_.origin(edges[i]), body_.origin(others[i]));
+  how.planes.emplace_back(kind.cap >> 1, kind.cap >> 1);
+  std::size_t first = 0;
+  for (const int size : kind.sizes) {
+    const auto &facet = body_.facet(body_.facet_of(edges[first])),
+               &same = body_.facet(body_.facet_of(others[first]));
+    how.planes.emplace_back(facet.side >> 1, same.side >> 1);
+    for (std::size_t i = 0; i < facet.sources.size(); ++i)
+      how.sources.emplace_back(facet.sources[i], same.sources[i]);
+    first += at(size);
+  }
+  make_sorted_map(how.points);
+  make_sorted_map(how.planes);
+  make_sorted_map(how.sources);
+  return how;
+}
+
+}  // namespace oriel::detail

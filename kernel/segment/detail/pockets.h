@@ -1,0 +1,91 @@
+#pragma once
+
+#include "kernel/segment/detail/carve.h"
+#include "kernel/segment/detail/congruence.h"
+#include "kernel/segment/detail/section.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Finds pockets: lumps that leave nothing but a ring in the facet they are in (or on), a window in
+/// its wall. Equal windows are the same pocket moved, so of those of one kind one is flooded, and
+/// one is made a body; of the others it is known what would become of them.
+///
+/// A pocket has one region of its section, whose chords are edges, one each, around a hole of one
+/// facet; what lies before them are facets of one loop without marks, and made of different facets
+/// of the solid.
+class Pockets {
+ public:
+  /// `ground`: the side of the ground, -1: none.
+  Pockets(const Boundary& body, Side ground) : body_(body), ground_plane_(ground >> 1) {}
+
+  /// Forgets all. To be called when the body has changed.
+  void clear();
+
+  /// The number of the pocket in front of a region; -1 if the lump there is none.
+  int find(const Section& section, int region);
+
+  /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
+  /// asks for (find_congruence).
+  [[nodiscard]] int kind_of(int pocket) const { return pockets_[index(pocket)].kind; }
+  /// As a body of its own it has no reflex edge for certain.
+  [[nodiscard]] bool is_convex(int kind) const { return kinds_[index(kind)].is_convex; }
+
+  /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
+  [[nodiscard]] Cap cap_of(int pocket) const;
+  /// Its facets, ascending.
+  [[nodiscard]] std::vector<int> facets_of(int pocket) const;
+  /// How one pocket is another one of its kind, moved; needs both as they were in the body.
+  [[nodiscard]] Congruence congruence(int model, int other) const;
+
+ private:
+  struct Pocket {
+    int kind = -1;
+    int first_edge = 0, first_rim = 0;         ///< in edges_, rims_
+    std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
+  };
+  /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
+  /// listed facet by facet, in the order in which these are met.
+  struct Kind {
+    Side cap = -1;
+    int direction = 0;
+    bool is_convex = false;
+    int first = -1;  ///< the first pocket
+    Vec3 corner, extent;
+    std::vector<int> sizes;    ///< of the facets, in half-edges
+    std::vector<int> entries;  ///< of each facet but the first: the half-edge over which it is met
+    std::vector<int> twins;    ///< by half-edge; -1: of the rim
+    int rim = 0;               ///< how many
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  bool trace_rim(const Section& section, const Region& region);
+  bool find_facets(const Section& section);
+  [[nodiscard]] bool is_rim(int e) const { return std::ranges::find(rim_, e) != rim_.end(); }
+  [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket);
+  bool walk_like(const Kind& kind, int start);
+  [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket) const;
+  [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
+  int new_kind(const Section& section, const Region& region);
+  [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
+                                      bool is_hole) const;
+  [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;
+
+  const Boundary& body_;
+  int ground_plane_;
+  std::vector<Pocket> pockets_;
+  std::vector<Kind> kinds_;
+  std::vector<int> edges_, rims_;  ///< of the pockets
+
+  // The pocket at hand.
+  std::vector<int> rim_, facets_, sources_, walk_;
+  int wall_ = -1;
+  Vec3 corner_, extent_;
+};
+
+}  // namespace oriel::detail
