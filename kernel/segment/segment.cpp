@@ -126,7 +126,7 @@ class Segmenter {
         remove_seams(task.body);
         chooser.reset();
       } else {
-        chooser->changed(std::move(*changes));
+        chooser->changed(*changes);
       }
       if (may_have_parted_) {
         may_have_parted_ = false;
@@ -380,12 +380,19 @@ class Segmenter {
     return feature;
   }
 
+  static void make_unique(std::vector<int>& points) {
+    std::ranges::sort(points);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+  }
+
   static detail::Change change_of(const detail::Carved& carved,
                                   const std::vector<detail::Cap>& caps) {
     detail::Change change{carved.touched, {}, {}, false, {}, false};
     const Boundary& part = carved.lump;
     for (int e = 0; e < part.half_edge_count(); ++e)
       if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));
+    make_unique(change.points);
+    make_unique(change.part);
     const bool is_simple = caps.size() == 1 && caps[0].loops.size() == 1 &&
                            caps[0].covered.empty() && !caps[0].is_taken;
     if (is_simple)
@@ -419,9 +426,7 @@ class Segmenter {
       feature.surface_m2 += body.area(f);
       body.for_each_edge(f, [&](int e) { feature.vertices.push_back(body.origin(e)); });
     }
-    std::ranges::sort(feature.vertices);
-    feature.vertices.erase(std::unique(feature.vertices.begin(), feature.vertices.end()),
-                           feature.vertices.end());
+    make_unique(feature.vertices);
   }
 
   /// `feature` is measured.

@@ -56,7 +56,7 @@ class Chooser {
   std::optional<Choice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
-  void changed(std::vector<Change> changes) { slots_.changed(std::move(changes)); }
+  void changed(const std::vector<Change>& changes) { slots_.changed(changes); }
 
  private:
   using Slot = Slots::Slot;

@@ -43,55 +43,58 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
       work_(work),
       planes_(split_planes_of(body, own_planes)),
       edges_(body, planes_),
+      margins_(2 * planes_.size()),
       chains_(body, planes_, free_side) {
   slots_.reserve(2 * planes_.size());
-  for (std::size_t i = 0; i < planes_.size(); ++i)
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    const int k = world_.planes.class_of(planes_[i]);
+    if (classes_.empty() || classes_.back().number != k) classes_.push_back({k, i, i, {}});
+    ++classes_.back().last;
+    classes_.back().ranks.push_back(world_.planes.rank_of(planes_[i]));
     for (const int direction : {1, -1}) {
       to_do_.push_back(slots_.size());
       slots_.push_back({i});
       slots_.back().section.plane = planes_[i];
       slots_.back().section.direction = direction;
     }
+  }
 }
 
 /// Where a class has so many planes to section that this would meet the body's edges many times
 /// over, a sweep tells first at which of them there is nothing to cut.
 void Slots::sweep_classes() {
   constexpr std::size_t kManyTimes = 2;  // a sweep costs about as much per edge as two sections
-  for (std::size_t first = 0; first < planes_.size();) {
-    const int k = world_.planes.class_of(planes_[first]);
-    std::size_t last = first, met = 0;
-    for (; last < planes_.size() && world_.planes.class_of(planes_[last]) == k; ++last)
-      for (const std::size_t slot : {2 * last, 2 * last + 1})
-        if (slots_[slot].is_stale) met += edges_.edges_at(last).size();
-    if (met > kManyTimes * static_cast<std::size_t>(body_.half_edge_count()))
-      sweep_class(k, first, last);
-    first = last;
-  }
+  std::vector<std::size_t> met(at(world_.planes.class_count()), 0);
+  for (const std::size_t i : to_do_)
+    if (slots_[i].is_stale)
+      met[at(world_.planes.class_of(planes_[slots_[i].entry]))] +=
+          edges_.edges_at(slots_[i].entry).size();
+  for (const Class& c : classes_)
+    if (met[at(c.number)] > kManyTimes * at(body_.half_edge_count())) sweep_class(c);
   std::erase_if(to_do_, [&](std::size_t i) { return slots_[i].is_idle; });
 }
 
-void Slots::sweep_class(int normal_class, std::size_t first, std::size_t last) {
-  const std::vector<int> planes(planes_.begin() + static_cast<std::ptrdiff_t>(first),
-                                planes_.begin() + static_cast<std::ptrdiff_t>(last));
-  const auto passed = sweep(body_, normal_class, planes);
+void Slots::sweep_class(const Class& c) {
+  const std::vector<int> planes(planes_.begin() + static_cast<std::ptrdiff_t>(c.first),
+                                planes_.begin() + static_cast<std::ptrdiff_t>(c.last));
+  const auto passed = sweep(body_, c.number, planes);
   work_ += 2 * body_.half_edge_count();
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (passed[i].in_front_m2) let_rest(slots_[2 * (first + i)], *passed[i].in_front_m2);
-    if (passed[i].behind_m2) let_rest(slots_[2 * (first + i) + 1], *passed[i].behind_m2);
+    if (passed[i].in_front_m2) let_rest(2 * (c.first + i), *passed[i].in_front_m2);
+    if (passed[i].behind_m2) let_rest(2 * (c.first + i) + 1, *passed[i].behind_m2);
   }
 }
 
 /// The section is one region of material that is not natural. Nothing can be cut there if it is
 /// larger than the old area, whatever coplanar facets cover of it.
-void Slots::let_rest(Slot& slot, double area_m2) {
+void Slots::let_rest(std::size_t number, double area_m2) {
+  Slot& slot = slots_[number];
   if (!slot.is_stale) return;
   const Side looking = slot.section.looking();
   const double old = body_.area_on(looking), covered = body_.area_on(looking ^ 1);
   const double margin = area_m2 - kSweptArea_m2 - covered - old;
   if (old > 0 && margin <= 0) return;
-  slot.margins.fill(std::numeric_limits<double>::infinity());
-  if (old > 0) slot.margins[0] = margin;
+  margins_.set(number, old > 0 ? margin : Margins::kNone);
   slot.is_idle = true;
   slot.is_stale = false;
   count_tests(slot);
@@ -103,66 +106,134 @@ void Slots::count_tests(const Slot& slot) {
   if (body_.area_on(looking ^ 1) > 0) ++stats_.hole_tests;
 }
 
-void Slots::changed(std::vector<Change> changes) {
+void Slots::changed(const std::vector<Change>& changes) {
   edges_.update();
-  for (Change& change : changes) {
-    change.has_covered ? chains_.forget() : chains_.expect(change.new_edges);
-    for (auto* points : {&change.points, &change.part}) {
-      std::ranges::sort(*points);
-      points->erase(std::unique(points->begin(), points->end()), points->end());
-    }
-    apply(change);
+  std::vector<Box> parts(changes.size());
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes[i].has_covered ? chains_.forget() : chains_.expect(changes[i].new_edges);
+    for (const int p : changes[i].part) parts[i].grow(world_.points.at(p));
   }
+  for (const Class& c : classes_) apply(c, changes, parts);
+  margins_.take_out_spent([&](std::size_t number) { make_stale(number); });
+}
+
+/// Of equal windows those of a row, or of a column, mean the same to one class: they are looked at
+/// together.
+void Slots::apply(const Class& c, const std::vector<Change>& changes,
+                  const std::vector<Box>& parts) {
+  const Vec3 normal = world_.planes.normal_class(c.number).normal;
+  for (std::size_t i = 0; i < changes.size();) {
+    Run run{reach_of(c, changes[i]), most_area(parts[i], normal)};
+    const std::size_t first = i;
+    for (++i; i < changes.size() && run.reach.is_rim_convex; ++i) {
+      if (reach_of(c, changes[i]) != run.reach) break;
+      run.area += most_area(parts[i], normal);
+    }
+    touch_all(c, changes[first], run);
+  }
+}
+
+Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  const auto rank = world_.points.ranks(c.number);
+  Reach reach{kMost, -1, kMost, -1, kMost, -1, -1, change.is_natural, !change.rim.empty(), {}};
+  for (const int p : change.points) {
+    const int here = rank[at(p)];
+    reach.low = std::min(reach.low, here);
+    reach.high = std::max(reach.high, here);
+    if ((here & 1) != 0 && std::ranges::find(reach.hits, here) == reach.hits.end())
+      reach.hits.push_back(here);
+  }
+  std::ranges::sort(reach.hits);
+  for (const int p : change.part) {
+    reach.part_low = std::min(reach.part_low, rank[at(p)]);
+    reach.part_high = std::max(reach.part_high, rank[at(p)]);
+  }
+  int turns = 0, first_way = 0, last_way = 0;
+  for (const auto& [from, to] : change.rim) {
+    const int here = rank[at(from)], there = rank[at(to)];
+    reach.rim_low = std::min(reach.rim_low, here);
+    reach.rim_high = std::max(reach.rim_high, here);
+    const int way = (there > here) - (there < here);
+    if (way == 0) continue;
+    if (first_way == 0) first_way = way;
+    if (last_way != 0 && way != last_way) ++turns;
+    last_way = way;
+  }
+  if (first_way != last_way) ++turns;
+  reach.is_rim_convex &= turns <= 2;
+  if (!change.rim.empty()) reach.rim_start = rank[at(change.rim[0].first)];
+  return reach;
 }
 
 /// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
-void Slots::apply(const Change& change) {
-  Box part;
-  for (const int p : change.part) part.grow(world_.points.at(p));
-  const auto place = [&](int plane) {
-    return std::pair(world_.planes.class_of(plane), world_.planes.rank_of(plane));
-  };
-  for (int k = 0; k < world_.planes.class_count(); ++k) {
-    const auto rank = world_.points.ranks(k);
-    Reach reach{k, std::numeric_limits<int>::max(), -1, std::numeric_limits<int>::max(), -1};
-    for (const int p : change.points) {
-      reach.low = std::min(reach.low, rank[at(p)]);
-      reach.high = std::max(reach.high, rank[at(p)]);
-    }
-    for (const int p : change.part) {
-      reach.part_low = std::min(reach.part_low, rank[at(p)]);
-      reach.part_high = std::max(reach.part_high, rank[at(p)]);
-    }
-    const auto first = std::ranges::lower_bound(planes_, std::pair(k, reach.low), {}, place);
-    const auto last = std::ranges::upper_bound(planes_, std::pair(k, reach.high), {}, place);
-    for (auto plane = first; plane < last; ++plane)
-      for (std::size_t flip = 0; flip < 2; ++flip)
-        touch(2 * static_cast<std::size_t>(plane - planes_.begin()) + flip, change, reach, part);
-  }
+void Slots::touch_all(const Class& c, const Change& change, const Run& run) {
+  if (run.reach.is_rim_convex) return touch_along(c, change, run);
+  for (std::size_t i = c.from(run.reach.low); i < c.from(run.reach.high + 1); ++i)
+    touch_plane(i, change, run);
 }
 
-void Slots::touch(std::size_t number, const Change& change, const Reach& reach, const Box& part) {
+/// Looks at the planes that points of the change lie on, at those that the part is met by and its
+/// rim is not, and at sections that are kept. All others are idle, and stay so with less margin
+/// where the rim meets them, or are of no use, and stay so until they get facets.
+void Slots::touch_along(const Class& c, const Change& change, const Run& run) {
+  const Reach& reach = run.reach;
+  std::size_t first = c.from(reach.low), last = c.from(reach.high + 1);
+  if (first == last) return;
+  for (auto i = lively_.lower_bound(2 * first); i != lively_.end() && *i < 2 * last;)
+    touch(*i++, change, run);
+  const auto touch_unhit = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      if (!std::ranges::binary_search(reach.hits, c.ranks[i - c.first]))
+        touch_plane(i, change, run);
+  };
+  first = c.from(reach.part_low + 1);
+  last = c.from(reach.part_high);
+  const std::size_t rim_first = c.from(reach.rim_low + 1), rim_last = c.from(reach.rim_high);
+  touch_unhit(first, std::min(rim_first, last));
+  first = std::max(first, rim_first);
+  for (const int rank : reach.hits) {
+    const std::size_t hit = c.from(rank);
+    const bool is_plane = hit < c.last && c.ranks[hit - c.first] == rank;
+    if (rank > reach.rim_low && rank <= reach.rim_high) {
+      margins_.take_off(2 * first, 2 * hit, run.area);
+      first = is_plane ? hit + 1 : hit;
+    }
+    if (is_plane) touch_plane(hit, change, run);
+  }
+  margins_.take_off(2 * first, 2 * rim_last, run.area);
+  touch_unhit(std::max(first, rim_last), last);
+}
+
+void Slots::touch_plane(std::size_t entry, const Change& change, const Run& run) {
+  touch(2 * entry, change, run);
+  touch(2 * entry + 1, change, run);
+}
+
+void Slots::touch(std::size_t number, const Change& change, const Run& run) {
   Slot& slot = slots_[number];
-  if (slot.is_stale || (slot.is_idle && stays_idle(slot, change, reach, part))) return;
+  if (slot.is_stale || (slot.is_idle && stays_idle(number, change, run))) return;
+  if (slot.is_idle || !loses_loops_only(slot, run.reach)) return make_stale(number);
   if (!slot.is_to_prune) to_do_.push_back(number);
-  if (!slot.is_idle && loses_loops_only(slot, change, reach))
-    slot.is_to_prune = true;
-  else
-    slot.is_stale = true;
+  slot.is_to_prune = true;
+}
+
+void Slots::make_stale(std::size_t number) {
+  Slot& slot = slots_[number];
+  if (!slot.is_to_prune) to_do_.push_back(number);
+  slot.is_stale = true;
   slot.is_idle = false;
+  margins_.set(number, Margins::kNone);
+  lively_.erase(number);
 }
 
 /// The part of a natural cut whose rim stays on one side of the section was met by it in whole
 /// loops or not at all: its wall has no other end than the rim.
-bool Slots::loses_loops_only(const Slot& slot, const Change& change, const Reach& reach) const {
-  if (!change.is_natural || change.rim.empty()) return false;
-  const auto ranks = world_.points.ranks(reach.normal_class);
+bool Slots::loses_loops_only(const Slot& slot, const Reach& reach) const {
+  if (!reach.is_natural || reach.rim_start < 0) return false;
   const int direction = slot.section.direction;
   const int limit = world_.planes.rank_of(slot.section.plane) * direction;
-  const bool is_up = ranks[at(change.rim[0].first)] * direction > limit;
-  return std::ranges::all_of(change.rim, [&](const std::pair<int, int>& edge) {
-    return (ranks[at(edge.first)] * direction > limit) == is_up;
-  });
+  return (reach.rim_low * direction > limit) == (reach.rim_high * direction > limit);
 }
 
 /// An idle section stays idle if it loses whole loops only: no region gets smaller then, and no
@@ -170,41 +241,45 @@ bool Slots::loses_loops_only(const Slot& slot, const Change& change, const Reach
 /// plane and the part either is not met by it, or meets it in one piece that its cap closes with
 /// one chord: then one stretch of one loop is replaced by that chord. No loop is made, none becomes
 /// natural, and areas change by no more than that of the piece.
-bool Slots::stays_idle(Slot& slot, const Change& change, const Reach& reach,
-                       const Box& part) const {
+bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run) {
   if (change.rim.empty()) return false;
+  const Reach& reach = run.reach;
+  const Slot& slot = slots_[number];
   const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
-  const auto ranks = world_.points.ranks(reach.normal_class);
-  const double area = most_area(part, world_.planes.plane(plane).normal);
-  if (slot.is_fenced && loses_loops_only(slot, change, reach)) {
-    if (ranks[at(change.rim[0].first)] == rank)
-      for (double& margin : slot.margins) margin -= area;
-    return slot.margins[0] > 0 && slot.margins[1] > 0;
+  if (slot.is_fenced && loses_loops_only(slot, reach)) {
+    if (reach.rim_start == rank) margins_.take_off(number, number + 1, run.area);
+    return true;
   }
-  for (const int p : change.points)
-    if (ranks[at(p)] == rank) return false;
+  if (std::ranges::binary_search(reach.hits, rank)) return false;
   if (rank <= reach.part_low || rank >= reach.part_high) return true;
+  const auto ranks = world_.points.ranks(world_.planes.class_of(plane));
   const auto chords = std::ranges::count_if(change.rim, [&](const std::pair<int, int>& edge) {
     return (ranks[at(edge.first)] < rank) != (ranks[at(edge.second)] < rank);
   });
   if (chords != 2) return false;
-  for (double& margin : slot.margins) margin -= area;
-  return slot.margins[0] > 0 && slot.margins[1] > 0;
+  margins_.take_off(number, number + 1, run.area);
+  return true;
 }
 
 /// False if there is nothing to cut: no region is natural or smaller than the old area.
-bool Slots::judge(Slot& slot, const Section& section) const {
-  slot.margins.fill(std::numeric_limits<double>::infinity());
+bool Slots::judge(std::size_t number, const Section& section) {
+  Slot& slot = slots_[number];
+  double least = Margins::kNone;
   bool is_idle = section.crossings.empty() || !section.loops.empty();
   slot.is_fenced = true;
   for (const Region& region : section.regions) {
     const double old = section.old_area(region);
     if (old <= 0) continue;
     slot.is_fenced &= !region.has_natural_outline;
-    double& margin = slot.margins[region.is_material ? 0 : 1];
-    margin = std::min(margin, region.new_area - old);
-    is_idle &= !region.is_natural && margin > 0;
+    least = std::min(least, region.new_area - old);
+    is_idle &= !region.is_natural && least > 0;
   }
+  slot.is_idle = is_idle;
+  margins_.set(number, is_idle ? least : Margins::kNone);
+  if (is_idle)
+    lively_.erase(number);
+  else
+    lively_.insert(number);
   return !is_idle;
 }
 
@@ -220,7 +295,7 @@ void Slots::refresh(bool natural_only) {
   }
   for (const std::size_t i : to_do_) {
     Slot& slot = slots_[i];
-    if (slot.is_stale || !prune(slot)) refresh(slot);
+    if (slot.is_stale || !prune(i)) refresh(i);
     slot.is_stale = slot.is_to_prune = false;
     if (slot.section.regions.empty())
       promising_.erase(i);
@@ -252,16 +327,18 @@ void Slots::put_off() {
 }
 
 /// Takes the loops that have gone from a section. False if it is to be made anew.
-bool Slots::prune(Slot& slot) {
+bool Slots::prune(std::size_t number) {
+  Slot& slot = slots_[number];
   work_ += std::ssize(slot.section.crossings);
   if (!prune_section(body_, slot.section, section_options_)) return false;
-  slot.is_idle = !judge(slot, slot.section);
-  if (slot.is_idle) slot.section.regions.clear();
+  if (!judge(number, slot.section)) slot.section.regions.clear();
   return true;
 }
 
-void Slots::refresh(Slot& slot) {
+void Slots::refresh(std::size_t number) {
+  Slot& slot = slots_[number];
   slot.is_idle = false;
+  lively_.erase(number);
   slot.section.regions.clear();
   const Side looking = slot.section.looking();
   if (body_.area_on(looking) <= 0 && body_.area_on(looking ^ 1) <= 0) return;
@@ -273,8 +350,7 @@ void Slots::refresh(Slot& slot) {
   count_tests(slot);
   for (const Region& region : fresh_.regions)
     if (region.is_candidate && fresh_.old_area(region) > region.new_area) ++stats_.candidates;
-  slot.is_idle = !judge(slot, fresh_);
-  if (!slot.is_idle) std::swap(slot.section, fresh_);
+  if (judge(number, fresh_)) std::swap(slot.section, fresh_);
 }
 
 }  // namespace oriel::detail

@@ -2,11 +2,12 @@
 
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/detail/edge_index.h"
+#include "kernel/segment/detail/margins.h"
 #include "kernel/segment/detail/natural_chains.h"
 #include "kernel/segment/detail/section.h"
 #include "kernel/segment/segment.h"
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -17,9 +18,10 @@ namespace oriel::detail {
 
 /// What one part that was taken off has changed in the body.
 struct Change {
-  /// The points of everything that has changed; an edge without any of them is as it was.
+  /// The points of everything that has changed; an edge without any of them is as it was. Sorted,
+  /// each once.
   std::vector<int> points;
-  /// The points of the part.
+  /// The points of the part, likewise.
   std::vector<int> part;
   /// The edges around its cap, if it has a single one with a single outline that covers nothing;
   /// else none.
@@ -42,10 +44,8 @@ class Slots {
   struct Slot {
     std::size_t entry;  ///< of its plane in planes_
     bool is_stale = true;
-    /// Nothing can be cut here. Of material and of air, the area by which the smallest region is
-    /// too large.
+    /// Nothing can be cut here; margins_ has the area by which the smallest region is too large.
     bool is_idle = false;
-    std::array<double, 2> margins{};
     /// No region's outline follows edges, so none becomes natural by losing a loop in it.
     bool is_fenced = false;
     /// Some loops have gone; nothing else has changed.
@@ -59,7 +59,7 @@ class Slots {
         const std::vector<int>& own_planes, SegmentationStats& stats, std::int64_t& work);
 
   /// Tells that the body has changed in this way and no other.
-  void changed(std::vector<Change> changes);
+  void changed(const std::vector<Change>& changes);
   /// Looks again at what has changed. With `natural_only` slots in which no natural region can be
   /// are put off: they hold nothing to cut until they are asked for without.
   void refresh(bool natural_only);
@@ -69,29 +69,54 @@ class Slots {
   [[nodiscard]] const Slot& operator[](std::size_t i) const { return slots_[i]; }
 
  private:
-  /// What a change means to the planes of one normal class: the ranks of its points, and of those
-  /// of the part.
+  /// The split planes of one normal class: planes_[first…last).
+  struct Class {
+    int number;
+    std::size_t first, last;
+    std::vector<int> ranks;
+    /// The first plane with this rank or more.
+    [[nodiscard]] std::size_t from(int rank) const {
+      return first + static_cast<std::size_t>(std::ranges::lower_bound(ranks, rank) -
+                                              ranks.begin());
+    }
+  };
+  /// What a change means to the planes of one class: the ranks of its points, of those of the part,
+  /// and of those around its cap.
   struct Reach {
-    int normal_class;
     int low, high;
     int part_low, part_high;
+    int rim_low, rim_high, rim_start;
+    bool is_natural;
+    /// There is a cap whose outline goes up once and down once: a plane between its ends that meets
+    /// no point of it is met by it twice.
+    bool is_rim_convex;
+    Few<int, 8> hits;  ///< ranks of planes that points lie on, ascending
+    friend bool operator==(const Reach&, const Reach&) = default;
   };
-
+  /// Changes one after the other that mean the same to a class. No plane of it cuts a larger area
+  /// out of all their parts.
+  struct Run {
+    Reach reach;
+    double area;
+  };
   void find_natural();
   void put_off();
   void sweep_classes();
-  void sweep_class(int normal_class, std::size_t first, std::size_t last);
-  void let_rest(Slot& slot, double area_m2);
+  void sweep_class(const Class& c);
+  void let_rest(std::size_t number, double area_m2);
   void count_tests(const Slot& slot);
-  void refresh(Slot& slot);
-  bool prune(Slot& slot);
-  [[nodiscard]] bool judge(Slot& slot, const Section& section) const;
-  void apply(const Change& change);
-  void touch(std::size_t number, const Change& change, const Reach& reach, const Box& part);
-  [[nodiscard]] bool stays_idle(Slot& slot, const Change& change, const Reach& reach,
-                                const Box& part) const;
-  [[nodiscard]] bool loses_loops_only(const Slot& slot, const Change& change,
-                                      const Reach& reach) const;
+  void refresh(std::size_t number);
+  bool prune(std::size_t number);
+  [[nodiscard]] bool judge(std::size_t number, const Section& section);
+  void apply(const Class& c, const std::vector<Change>& changes, const std::vector<Box>& parts);
+  [[nodiscard]] Reach reach_of(const Class& c, const Change& change);
+  void touch_all(const Class& c, const Change& change, const Run& run);
+  void touch_along(const Class& c, const Change& change, const Run& run);
+  void touch_plane(std::size_t entry, const Change& change, const Run& run);
+  void touch(std::size_t number, const Change& change, const Run& run);
+  void make_stale(std::size_t number);
+  bool stays_idle(std::size_t number, const Change& change, const Run& run);
+  [[nodiscard]] bool loses_loops_only(const Slot& slot, const Reach& reach) const;
 
   const Boundary& body_;
   World& world_;
@@ -100,7 +125,10 @@ class Slots {
   std::int64_t& work_;
   std::vector<int> planes_;  ///< the split planes, ascending
   EdgeIndex edges_;
+  std::vector<Class> classes_;
   std::vector<Slot> slots_;           ///< of each plane in front, then behind
+  Margins margins_;                   ///< of idle slots
+  std::set<std::size_t> lively_;      ///< slots with a section that is kept
   std::vector<std::size_t> to_do_;    ///< slots to look at again
   std::vector<std::size_t> put_off_;  ///< those of them in which nothing natural can be
   NaturalChains chains_;
