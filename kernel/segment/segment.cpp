@@ -350,7 +350,7 @@ class Segmenter {
     const int sign = sign_of(feature);
     add_part(task, Boundary(world_), sign, std::move(feature), {});
     tasks_.back().copy_of_model = std::move(how);
-    detail::Change change{filled.points, std::move(filled.points), {}, true, {}, false};
+    detail::Change change{filled.points, std::move(filled.points), {}, true, true, {}, false};
     for (const detail::CapEdge& edge : caps[0].loops[0].edges)
       change.rim.emplace_back(edge.from, edge.to);
     return change;
@@ -387,7 +387,7 @@ class Segmenter {
 
   static detail::Change change_of(const detail::Carved& carved,
                                   const std::vector<detail::Cap>& caps) {
-    detail::Change change{carved.touched, {}, {}, false, {}, false};
+    detail::Change change{carved.touched, {}, {}, false, carved.is_ring, {}, false};
     const Boundary& part = carved.lump;
     for (int e = 0; e < part.half_edge_count(); ++e)
       if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));

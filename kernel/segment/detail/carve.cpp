@@ -23,6 +23,36 @@ std::optional<Vec3> point_inside(const std::vector<Outline>& cap, Side side,
   return *inside - off * normal;
 }
 
+/// The rim of a cap is all of a hole of a facet of the cap's side, so the cap is what fills it.
+bool is_hole_of_facet(const Boundary& body, const std::vector<Cap>& caps) {
+  const Cap& cap = caps.front();
+  if (caps.size() > 1 || cap.loops.size() > 1 || cap.is_taken || !cap.covered.empty()) return false;
+  const auto& edges = cap.loops[0].edges;
+  if (std::ranges::any_of(edges, [](const CapEdge& edge) { return edge.rim < 0; })) return false;
+  int before = body.twin(edges.back().rim);
+  if (body.side_of_edge(before) != cap.side || !body.loop(body.edge(before).loop).is_hole)
+    return false;
+  for (const CapEdge& edge : edges) {
+    const int beyond = body.twin(edge.rim);
+    if (body.next(beyond) != before) return false;
+    before = beyond;
+  }
+  return true;
+}
+
+/// Fills the hole around which a cap's rim ran; what lay inside is removed already. `beyond`: one
+/// of its half-edges. Returns the point inside the cap at which the mark was left.
+Vec3 fill_ring(Boundary& body, const Cap& cap, int beyond, FeatureId mark) {
+  std::vector<Outline> shape(1);
+  for (const CapEdge& edge : cap.loops[0].edges)
+    shape[0].push_back(body.world().points.at(edge.from));
+  const PlaneTable& planes = body.world().planes;
+  const auto inside = point_inside(shape, cap.side, planes);
+  if (inside) body.add_mark(body.facet_of(beyond), {mark, *inside});
+  body.fill_hole(body.edge(beyond).loop, signed_area(shape[0], planes.normal(cap.side)));
+  return inside.value_or(Vec3{});
+}
+
 class Remover {
  public:
   Remover(Boundary& body, const std::vector<Cap>& caps, bool is_hole)
@@ -32,6 +62,7 @@ class Remover {
         for (const CapEdge& edge : loop.edges)
           if (edge.rim >= 0) twin_of_rim_.emplace_back(edge.rim, body.twin(edge.rim));
     std::ranges::sort(twin_of_rim_);
+    is_ring_ = is_hole_of_facet(body, caps);
     find_lump();
   }
 
@@ -44,8 +75,11 @@ class Remover {
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
     body_.remove(facets_);
-    close_rest(mark);
-    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_};
+    if (is_ring_)
+      cap_point_ = fill_ring(body_, caps_[0], twin_of_rim_[0].second, mark);
+    else
+      close_rest(mark);
+    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_, is_ring_};
   }
 
  private:
@@ -194,6 +228,7 @@ class Remover {
   std::vector<int> cap_facets_;
   Vec3 cap_point_;
   bool has_rim_left_ = false;
+  bool is_ring_ = false;
 };
 
 /// Points of a cap loop as the lump has it: of a hole as the rest has it, else the other way round.
@@ -211,10 +246,8 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   const PlaneTable& planes = body.world().planes;
   const PointTable& points = body.world().points;
   const int flip = is_hole ? 1 : 0;
-  const std::vector<Outline> shape{outline_on_lump(cap.loops[0], points, true)};
-  const double area = signed_area(shape[0], planes.normal(cap.side));
   Filled filled;
-  filled.surface = -area;
+  filled.surface = -signed_area(outline_on_lump(cap.loops[0], points, true), planes.normal(cap.side));
   Outline outline;
   // Sums as Boundary makes them of a body that is copied facet by facet, turned round if it is air.
   for (const int f : facets) {
@@ -241,13 +274,8 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
                       filled.points.end());
 
   const int beyond = body.twin(cap.loops[0].edges[0].rim);
-  const int hole = body.edge(beyond).loop, wall = body.facet_of(beyond);
   body.remove(facets);
-  if (const auto inside = point_inside(shape, cap.side, planes)) {
-    filled.cap_point = *inside;
-    body.add_mark(wall, {mark, *inside});
-  }
-  body.fill_hole(hole, area);
+  filled.cap_point = fill_ring(body, cap, beyond, mark);
   return filled;
 }
 

@@ -136,7 +136,8 @@ void Slots::apply(const Class& c, const std::vector<Change>& changes,
 Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
   constexpr int kMost = std::numeric_limits<int>::max();
   const auto rank = world_.points.ranks(c.number);
-  Reach reach{kMost, -1, kMost, -1, kMost, -1, -1, change.is_natural, !change.rim.empty(), {}};
+  Reach reach{kMost, -1, kMost, -1, kMost, -1, -1, change.is_natural, change.is_ring,
+              !change.rim.empty(), {}};
   for (const int p : change.points) {
     const int here = rank[at(p)];
     reach.low = std::min(reach.low, here);
@@ -250,7 +251,7 @@ bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run)
     if (reach.rim_start == rank) margins_.take_off(number, number + 1, run.area);
     return true;
   }
-  if (std::ranges::binary_search(reach.hits, rank)) return false;
+  if (std::ranges::binary_search(reach.hits, rank)) return stays_idle_beside(number, run);
   if (rank <= reach.part_low || rank >= reach.part_high) return true;
   const auto ranks = world_.points.ranks(world_.planes.class_of(plane));
   const auto chords = std::ranges::count_if(change.rim, [&](const std::pair<int, int>& edge) {
@@ -258,6 +259,23 @@ bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run)
   });
   if (chords != 2) return false;
   margins_.take_off(number, number + 1, run.area);
+  return true;
+}
+
+/// The same where points of the change lie on the plane. If the rim was a hole of one facet its edges
+/// in the plane are gone, so no chord follows them; and points on the plane are on the other side
+/// for the section, so it has met the part not at all, in whole loops, or in one piece. What the
+/// part had in the plane is taken off the old area, or off what covers the new one.
+bool Slots::stays_idle_beside(std::size_t number, const Run& run) {
+  const Reach& reach = run.reach;
+  const Slot& slot = slots_[number];
+  if (!reach.is_natural || !reach.is_ring || !reach.is_rim_convex) return false;
+  const int rank = world_.planes.rank_of(planes_[slot.entry]), direction = slot.section.direction;
+  const auto is_up = [&](int other) { return other * direction > rank * direction; };
+  const bool is_met = is_up(reach.part_low) || is_up(reach.part_high);
+  if (is_met && is_up(reach.rim_low) == is_up(reach.rim_high)) return false;
+  if (is_met || (reach.rim_low == rank && reach.rim_high == rank))
+    margins_.take_off(number, number + 1, run.area);
   return true;
 }
 

@@ -28,6 +28,8 @@ struct Change {
   std::vector<std::pair<int, int>> rim;
   /// The cut follows existing edges: nothing was split.
   bool is_natural = false;
+  /// The rim was a hole of one facet, and is gone without a trace.
+  bool is_ring = false;
   /// Edges that the body may have since.
   std::vector<std::pair<int, int>> new_edges;
   /// Facets were covered, so that more edges than those bound other facets since.
@@ -86,7 +88,7 @@ class Slots {
     int low, high;
     int part_low, part_high;
     int rim_low, rim_high, rim_start;
-    bool is_natural;
+    bool is_natural, is_ring;
     /// There is a cap whose outline goes up once and down once: a plane between its ends that meets
     /// no point of it is met by it twice.
     bool is_rim_convex;
@@ -116,6 +118,7 @@ class Slots {
   void touch(std::size_t number, const Change& change, const Run& run);
   void make_stale(std::size_t number);
   bool stays_idle(std::size_t number, const Change& change, const Run& run);
+  bool stays_idle_beside(std::size_t number, const Run& run);
   [[nodiscard]] bool loses_loops_only(const Slot& slot, const Reach& reach) const;
 
   const Boundary& body_;
