@@ -172,6 +172,9 @@ std::optional<GridPoint> as_grid_point(const Rational& point) {
   const Int128 limit = point.w * kMaxCoordinate;
   if (absolute(point.x) > limit || absolute(point.y) > limit || absolute(point.z) > limit)
     return std::nullopt;
+  if (point.w == 1)
+    return GridPoint{static_cast<std::int64_t>(point.x), static_cast<std::int64_t>(point.y),
+                     static_cast<std::int64_t>(point.z)};
   if (point.x % point.w != 0 || point.y % point.w != 0 || point.z % point.w != 0)
     return std::nullopt;
   return GridPoint{static_cast<std::int64_t>(point.x / point.w),

@@ -340,17 +340,18 @@ class Segmenter {
                                const detail::Lump& model) {
     const std::vector<detail::Cap> caps{choice.pockets->cap_of(lump.pocket)};
     auto how = choice.pockets->congruence(model.pocket, lump.pocket);
-    auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),
+    std::vector<int> points = choice.pockets->points_of(lump.pocket);
+    const auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),
                               choice.is_hole, next_feature());
     Feature feature = feature_of(task, choice, caps, {lump.new_area, lump.value});
     feature.cap_point = filled.cap_point;
     feature.surface_m2 = filled.surface;
     feature.volume_m3 = filled.volume;
-    feature.vertices = filled.points;
+    feature.vertices = points;
     const int sign = sign_of(feature);
     add_part(task, Boundary(world_), sign, std::move(feature), {});
     tasks_.back().copy_of_model = std::move(how);
-    detail::Change change{filled.points, std::move(filled.points), {}, true, true, {}, false};
+    detail::Change change{std::move(points), {}, {}, true, true, {}, false};
     for (const detail::CapEdge& edge : caps[0].loops[0].edges)
       change.rim.emplace_back(edge.from, edge.to);
     return change;
@@ -393,6 +394,7 @@ class Segmenter {
       if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));
     make_unique(change.points);
     make_unique(change.part);
+    if (change.part == change.points) change.part.clear();
     const bool is_simple = caps.size() == 1 && caps[0].loops.size() == 1 &&
                            caps[0].covered.empty() && !caps[0].is_taken;
     if (is_simple)

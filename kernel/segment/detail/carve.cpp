@@ -255,7 +255,6 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
     const int first = body.loop(body.facet(f).loops[0]).first;
     int e = first;
     do {
-      filled.points.push_back(body.origin(e));
       outline.push_back(is_hole ? points.at(body.target(e)) : body.at(e));
       e = is_hole ? body.prev(e) : body.next(e);
     } while (e != first);
@@ -269,10 +268,6 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
       signed_area(outline_on_lump(cap.loops[0], points, is_hole), planes.normal(inward));
   filled.volume = (filled.volume + planes.offset_m(inward) * cap_area) / 3;
   filled.surface += cap_area;
-  std::ranges::sort(filled.points);
-  filled.points.erase(std::unique(filled.points.begin(), filled.points.end()),
-                      filled.points.end());
-
   const int beyond = body.twin(cap.loops[0].edges[0].rim);
   body.remove(facets);
   filled.cap_point = fill_ring(body, cap, beyond, mark);

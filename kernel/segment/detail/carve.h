@@ -49,10 +49,9 @@ struct Carved {
 
 /// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.
 struct Filled {
-  Vec3 cap_point;           ///< a point inside its cap
-  double volume = 0;        ///< of the body it would have been
-  double surface = 0;       ///< its area without the cap
-  std::vector<int> points;  ///< its vertices, sorted
+  Vec3 cap_point;      ///< a point inside its cap
+  double volume = 0;   ///< of the body it would have been
+  double surface = 0;  ///< its area without the cap
 };
 
 /// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and

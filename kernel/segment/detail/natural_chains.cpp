@@ -55,28 +55,35 @@ void NaturalChains::look(const Class& c, std::span<const int> edges) {
     add_step(c, ranks, e);
     add_step(c, ranks, body_.twin(e));
   }
-  std::ranges::sort(steps_, {}, &Step::slot);
-  for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) answers_[slot] = 0;
-  for (std::size_t first = 0; first < steps_.size();) {
-    std::size_t last = first;
-    while (last < steps_.size() && steps_[last].slot == steps_[first].slot) ++last;
-    answers_[steps_[first].slot] = has_chain({steps_.data() + first, last - first}) ? 1 : 0;
-    first = last;
+  sort_steps(c);
+  for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) {
+    const std::size_t first = ends_[slot - 2 * c.first], last = ends_[slot - 2 * c.first + 1];
+    answers_[slot] = first < last && has_chain({sorted_.data() + first, last - first}) ? 1 : 0;
   }
+}
+
+/// Puts the steps of each slot together, in their order: those of the i-th slot of the class stand
+/// from ends_[i] up to ends_[i + 1].
+void NaturalChains::sort_steps(const Class& c) {
+  const std::size_t slots = 2 * (c.last - c.first);
+  ends_.assign(slots + 2, 0);
+  // A place on, as each end moves from the first of its steps to the last.
+  for (const Step& step : steps_) ++ends_[step.slot - 2 * c.first + 2];
+  for (std::size_t i = 2; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
+  sorted_.resize(steps_.size());
+  for (const Step& step : steps_) sorted_[ends_[step.slot - 2 * c.first + 1]++] = step;
 }
 
 void NaturalChains::add_step(const Class& c, std::span<const int> ranks, int e) {
   const int rank = ranks[at(body_.origin(e))];
   const int plane = world_.planes.normal_class(c.number).planes[at(rank / 2)];
   if (body_.side_of_edge(e) >> 1 == plane) return;
-  const auto begin = planes_.begin() + static_cast<std::ptrdiff_t>(c.first),
-             end = planes_.begin() + static_cast<std::ptrdiff_t>(c.last);
-  const auto entry = std::lower_bound(begin, end, plane);
-  if (entry == end || *entry != plane) return;
+  const auto entry = entry_of(c, plane);
+  if (!entry) return;
   const int direction = direction_of(e, rank, ranks);
   const Vec3 normal = world_.planes.normal_class(c.number).normal;
   if (direction == 0 || hangs_below(e, direction * normal)) return;
-  const auto slot = 2 * static_cast<std::size_t>(entry - planes_.begin()) + (direction > 0 ? 0 : 1);
+  const std::size_t slot = 2 * *entry + (direction > 0 ? 0 : 1);
   steps_.push_back({slot, body_.origin(e), body_.target(e)});
 }
 

@@ -45,6 +45,7 @@ class NaturalChains {
   };
 
   void look(const Class& c, std::span<const int> edges);
+  void sort_steps(const Class& c);
   void add_step(const Class& c, std::span<const int> ranks, int e);
   [[nodiscard]] std::optional<std::size_t> entry_of(const Class& c, int plane) const;
   [[nodiscard]] int direction_of(int e, int rank, std::span<const int> ranks) const;
@@ -59,7 +60,8 @@ class NaturalChains {
   std::vector<Class> classes_;
   std::vector<char> answers_;  ///< by slot
 
-  std::vector<Step> steps_;
+  std::vector<Step> steps_, sorted_;
+  std::vector<std::size_t> ends_;
   std::vector<int> leaving_, entering_;  ///< steps of the slot at hand, by point; else 0
 };
 

@@ -138,9 +138,10 @@ bool Pockets::is_like(const Kind& kind, Pocket& pocket) {
   const auto start =
       std::ranges::find_if(rim_, [&](int e) { return is_same_place(body_.at(e) - from); });
   if (start == rim_.end() || !walk_like(kind, *start)) return false;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (!is_same_place(body_.at(walk_[i]) - body_.at(edges[i]) - shift)) return false;
-  return are_facets_like(kind, pocket);
+  const auto fits = [&](int i) {
+    return is_same_place(body_.at(walk_[at(i)]) - body_.at(edges[at(i)]) - shift);
+  };
+  return std::ranges::all_of(kind.corners, fits) && are_facets_like(kind, pocket);
 }
 
 /// Lists the half-edges of the pocket at hand from `start` on as those of the kind are listed.
@@ -223,6 +224,11 @@ int Pockets::new_kind(const Section& section, const Region& region) {
     const auto twin = std::ranges::find(walk_, body_.twin(e));
     kind.twins.push_back(twin == walk_.end() ? -1 : static_cast<int>(twin - walk_.begin()));
   }
+  for (int i = 0; i < std::ssize(walk_); ++i)
+    if (std::ranges::none_of(kind.corners, [&](int corner) {
+          return body_.origin(walk_[at(corner)]) == body_.origin(walk_[at(i)]);
+        }))
+      kind.corners.push_back(i);
   kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
   kinds_.push_back(std::move(kind));
   return static_cast<int>(kinds_.size()) - 1;
@@ -255,6 +261,15 @@ Cap Pockets::cap_of(int pocket) const {
   return cap;
 }
 
+std::vector<int> Pockets::points_of(int pocket) const {
+  const auto edges = edges_of(pockets_[at(pocket)]);
+  std::vector<int> points;
+  for (const int corner : kinds_[at(pockets_[at(pocket)].kind)].corners)
+    points.push_back(body_.origin(edges[at(corner)]));
+  std::ranges::sort(points);
+  return points;
+}
+
 std::vector<int> Pockets::facets_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
   std::vector<int> facets;
@@ -274,10 +289,10 @@ Congruence Pockets::congruence(int model, int other) const {
   for (std::size_t i = 0; i < 3; ++i) how.shift[i] = two.shift[i] - one.shift[i];
   how.shift_m = metres(how.shift, body_.world().points.grid_m());
   const auto edges = edges_of(one), others = edges_of(two);
-  how.points.reserve(edges.size());
+  how.points.reserve(kind.corners.size());
   how.planes.reserve(kind.sizes.size() + 1);
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    how.points.emplace_back(body_.origin(edges[i]), body_.origin(others[i]));
+  for (const int i : kind.corners)
+    how.points.emplace_back(body_.origin(edges[at(i)]), body_.origin(others[at(i)]));
   how.planes.emplace_back(kind.cap >> 1, kind.cap >> 1);
   std::size_t first = 0;
   for (const int size : kind.sizes) {

@@ -36,6 +36,8 @@ class Pockets {
   /// As a body of its own it has no reflex edge for certain.
   [[nodiscard]] bool is_convex(int kind) const { return kinds_[index(kind)].is_convex; }
 
+  /// Its vertices, sorted; needs the body as it was.
+  [[nodiscard]] std::vector<int> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
   [[nodiscard]] Cap cap_of(int pocket) const;
   /// Its facets, ascending.
@@ -60,6 +62,7 @@ class Pockets {
     std::vector<int> sizes;    ///< of the facets, in half-edges
     std::vector<int> entries;  ///< of each facet but the first: the half-edge over which it is met
     std::vector<int> twins;    ///< by half-edge; -1: of the rim
+    std::vector<int> corners;  ///< half-edges that begin at a vertex, one for each
     int rim = 0;               ///< how many
   };
 

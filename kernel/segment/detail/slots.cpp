@@ -111,7 +111,8 @@ void Slots::changed(const std::vector<Change>& changes) {
   std::vector<Box> parts(changes.size());
   for (std::size_t i = 0; i < changes.size(); ++i) {
     changes[i].has_covered ? chains_.forget() : chains_.expect(changes[i].new_edges);
-    for (const int p : changes[i].part) parts[i].grow(world_.points.at(p));
+    for (const int p : changes[i].part.empty() ? changes[i].points : changes[i].part)
+      parts[i].grow(world_.points.at(p));
   }
   for (const Class& c : classes_) apply(c, changes, parts);
   margins_.take_out_spent([&](std::size_t number) { make_stale(number); });
@@ -146,6 +147,8 @@ Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
       reach.hits.push_back(here);
   }
   std::ranges::sort(reach.hits);
+  reach.part_low = change.part.empty() ? reach.low : kMost;
+  reach.part_high = change.part.empty() ? reach.high : -1;
   for (const int p : change.part) {
     reach.part_low = std::min(reach.part_low, rank[at(p)]);
     reach.part_high = std::max(reach.part_high, rank[at(p)]);

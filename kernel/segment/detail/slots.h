@@ -21,7 +21,7 @@ struct Change {
   /// The points of everything that has changed; an edge without any of them is as it was. Sorted,
   /// each once.
   std::vector<int> points;
-  /// The points of the part, likewise.
+  /// The points of the part, likewise. None: the same points.
   std::vector<int> part;
   /// The edges around its cap, if it has a single one with a single outline that covers nothing;
   /// else none.
