@@ -194,7 +194,8 @@ void Boundary::remove(const std::vector<int>& facets) {
 void Boundary::fill_hole(int hole, double cap_area) {
   // The sum goes the way it goes when the cap is added, merged and freed of its seams, so that it is
   // the same to the last bit; and the cap's half-edges count among the dead.
-  double& area = on_side_of(loop(hole).facet).area;
+  const int f = loop(hole).facet;
+  double& area = on_side_of(f).area;
   area += cap_area;
   area -= cap_area;
   area += cap_area;
@@ -208,6 +209,7 @@ void Boundary::fill_hole(int hole, double cap_area) {
   }
   half_edges_.resize(half_edges_.size() + size);
   dead_edges_ += static_cast<int>(size);
+  part(f);
 }
 
 void Boundary::split_edge(int e, int point) {

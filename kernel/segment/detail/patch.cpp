@@ -26,8 +26,9 @@ class PatchFinder {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f)) surface_ += body_.area(f);
     for (int n = 0; n < std::ssize(grown_); ++n) {
-      offer(component_of({n}));
-      for (const auto& sides : fewer_sides(component_of({n})))
+      const Component alone = component_of({n});
+      offer(alone);
+      for (const auto& sides : fewer_sides(alone))
         if (const auto parts = widen(n, sides)) offer(component_of(*parts));
     }
     return std::move(patches_);
