@@ -289,7 +289,8 @@ class Segmenter {
   }
 
   /// Of each lump of a choice the last one that is the same convex pocket, moved: what becomes of
-  /// the one is known from the other. Itself, if there is none; nothing if that is not known of one.
+  /// the one is known from the other. Itself, if there is none; nothing if that is not known of
+  /// one.
   static std::vector<std::size_t> models_of(const Choice& choice) {
     std::map<int, std::size_t> last_of_kind;
     const auto& lumps = choice.lumps;
@@ -302,9 +303,8 @@ class Segmenter {
     }
     std::vector<std::size_t> models;
     for (std::size_t i = 0; i < lumps.size(); ++i)
-      models.push_back(lumps[i].is_alone
-                           ? i
-                           : last_of_kind.at(choice.pockets->kind_of(lumps[i].pocket)));
+      models.push_back(
+          lumps[i].is_alone ? i : last_of_kind.at(choice.pockets->kind_of(lumps[i].pocket)));
     return models;
   }
 
@@ -342,7 +342,7 @@ class Segmenter {
     auto how = choice.pockets->congruence(model.pocket, lump.pocket);
     std::vector<int> points = choice.pockets->points_of(lump.pocket);
     const auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),
-                              choice.is_hole, next_feature());
+                                    choice.is_hole, next_feature());
     Feature feature = feature_of(task, choice, caps, {lump.new_area, lump.value});
     feature.cap_point = filled.cap_point;
     feature.surface_m2 = filled.surface;

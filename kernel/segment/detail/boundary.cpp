@@ -192,8 +192,8 @@ void Boundary::remove(const std::vector<int>& facets) {
 }
 
 void Boundary::fill_hole(int hole, double cap_area) {
-  // The sum goes the way it goes when the cap is added, merged and freed of its seams, so that it is
-  // the same to the last bit; and the cap's half-edges count among the dead.
+  // The sum goes the way it goes when the cap is added, merged and freed of its seams, so that it
+  // is the same to the last bit; and the cap's half-edges count among the dead.
   const int f = loop(hole).facet;
   double& area = on_side_of(f).area;
   area += cap_area;

@@ -234,7 +234,8 @@ class Remover {
 /// Points of a cap loop as the lump has it: of a hole as the rest has it, else the other way round.
 Outline outline_on_lump(const CapLoop& loop, const PointTable& points, bool is_hole) {
   Outline outline;
-  for (const CapEdge& edge : loop.edges) outline.push_back(points.at(is_hole ? edge.from : edge.to));
+  for (const CapEdge& edge : loop.edges)
+    outline.push_back(points.at(is_hole ? edge.from : edge.to));
   if (!is_hole) std::ranges::reverse(outline);
   return outline;
 }
@@ -247,7 +248,8 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   const PointTable& points = body.world().points;
   const int flip = is_hole ? 1 : 0;
   Filled filled;
-  filled.surface = -signed_area(outline_on_lump(cap.loops[0], points, true), planes.normal(cap.side));
+  filled.surface =
+      -signed_area(outline_on_lump(cap.loops[0], points, true), planes.normal(cap.side));
   Outline outline;
   // Sums as Boundary makes them of a body that is copied facet by facet, turned round if it is air.
   for (const int f : facets) {

@@ -140,8 +140,7 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
 /// The lump in front of a candidate. Of pockets of one kind the first is flooded; a lump that is
 /// alone is none of a kind.
 Lump Chooser::lump_at(const Candidate& candidate, LumpFinder& finder, bool is_alone) {
-  const int pocket =
-      is_alone ? -1 : pockets_.find(candidate.slot->section, candidate.region);
+  const int pocket = is_alone ? -1 : pockets_.find(candidate.slot->section, candidate.region);
   if (pocket < 0) {
     Lump lump = finder.find(candidate.region);
     lump.is_alone = is_alone;

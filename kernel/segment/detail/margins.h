@@ -43,7 +43,8 @@ class Margins {
   void take_out_spent(Visit visit) {
     while (least_[1] <= 0) {
       std::size_t node = 1;
-      while (node < leaves_) node = least_[2 * node] <= least_[2 * node + 1] ? 2 * node : 2 * node + 1;
+      while (node < leaves_)
+        node = least_[2 * node] <= least_[2 * node + 1] ? 2 * node : 2 * node + 1;
       visit(node - leaves_);
       set(node - leaves_, kNone);
     }

@@ -48,7 +48,7 @@ class Pockets {
  private:
   struct Pocket {
     int kind = -1;
-    int first_edge = 0, first_rim = 0;         ///< in edges_, rims_
+    int first_edge = 0, first_rim = 0;       ///< in edges_, rims_
     std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
   };
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are

@@ -96,6 +96,7 @@ void Slots::let_rest(std::size_t number, double area_m2) {
   if (old > 0 && margin <= 0) return;
   margins_.set(number, old > 0 ? margin : Margins::kNone);
   slot.is_idle = true;
+  slot.is_clear = true;
   slot.is_stale = false;
   count_tests(slot);
 }
@@ -126,7 +127,7 @@ void Slots::apply(const Class& c, const std::vector<Change>& changes,
   for (std::size_t i = 0; i < changes.size();) {
     Run run{reach_of(c, changes[i]), most_area(parts[i], normal)};
     const std::size_t first = i;
-    for (++i; i < changes.size() && run.reach.is_rim_convex; ++i) {
+    for (++i; i < changes.size() && run.reach.is_plain(); ++i) {
       if (reach_of(c, changes[i]) != run.reach) break;
       run.area += most_area(parts[i], normal);
     }
@@ -137,8 +138,10 @@ void Slots::apply(const Class& c, const std::vector<Change>& changes,
 Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
   constexpr int kMost = std::numeric_limits<int>::max();
   const auto rank = world_.points.ranks(c.number);
-  Reach reach{kMost, -1, kMost, -1, kMost, -1, -1, change.is_natural, change.is_ring,
-              !change.rim.empty(), {}};
+  const auto is_exact = [&](int p) { return world_.points.is_meeting(p); };
+  const bool is_ring = change.is_ring && std::ranges::all_of(change.points, is_exact);
+  Reach reach{kMost, -1, kMost, -1, kMost, -1, -1, change.is_natural, is_ring, !change.rim.empty(),
+              {}};
   for (const int p : change.points) {
     const int here = rank[at(p)];
     reach.low = std::min(reach.low, here);
@@ -172,7 +175,7 @@ Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
 
 /// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
 void Slots::touch_all(const Class& c, const Change& change, const Run& run) {
-  if (run.reach.is_rim_convex) return touch_along(c, change, run);
+  if (run.reach.is_plain()) return touch_along(c, change, run);
   for (std::size_t i = c.from(run.reach.low); i < c.from(run.reach.high + 1); ++i)
     touch_plane(i, change, run);
 }
@@ -248,7 +251,8 @@ bool Slots::loses_loops_only(const Slot& slot, const Reach& reach) const {
 bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run) {
   if (change.rim.empty()) return false;
   const Reach& reach = run.reach;
-  const Slot& slot = slots_[number];
+  Slot& slot = slots_[number];
+  if (!reach.is_plain()) slot.is_clear = false;
   const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
   if (slot.is_fenced && loses_loops_only(slot, reach)) {
     if (reach.rim_start == rank) margins_.take_off(number, number + 1, run.area);
@@ -265,14 +269,14 @@ bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run)
   return true;
 }
 
-/// The same where points of the change lie on the plane. If the rim was a hole of one facet its edges
-/// in the plane are gone, so no chord follows them; and points on the plane are on the other side
-/// for the section, so it has met the part not at all, in whole loops, or in one piece. What the
-/// part had in the plane is taken off the old area, or off what covers the new one.
+/// The same where points of the change lie on the plane. If the rim was a hole of one facet its
+/// edges in the plane are gone, so no chord follows them; and points on the plane are on the other
+/// side for the section, so it has met the part not at all, in whole loops, or in one piece. What
+/// the part had in the plane is taken off the old area, or off what covers the new one.
 bool Slots::stays_idle_beside(std::size_t number, const Run& run) {
   const Reach& reach = run.reach;
   const Slot& slot = slots_[number];
-  if (!reach.is_natural || !reach.is_ring || !reach.is_rim_convex) return false;
+  if (!slot.is_clear || !reach.is_plain()) return false;
   const int rank = world_.planes.rank_of(planes_[slot.entry]), direction = slot.section.direction;
   const auto is_up = [&](int other) { return other * direction > rank * direction; };
   const bool is_met = is_up(reach.part_low) || is_up(reach.part_high);
@@ -296,6 +300,7 @@ bool Slots::judge(std::size_t number, const Section& section) {
     is_idle &= !region.is_natural && least > 0;
   }
   slot.is_idle = is_idle;
+  slot.is_clear = true;
   margins_.set(number, is_idle ? least : Margins::kNone);
   if (is_idle)
     lively_.erase(number);

@@ -48,6 +48,8 @@ class Slots {
     bool is_stale = true;
     /// Nothing can be cut here; margins_ has the area by which the smallest region is too large.
     bool is_idle = false;
+    /// Since its section was made, or swept over, only plain rings were filled within its reach.
+    bool is_clear = false;
     /// No region's outline follows edges, so none becomes natural by losing a loop in it.
     bool is_fenced = false;
     /// Some loops have gone; nothing else has changed.
@@ -78,8 +80,8 @@ class Slots {
     std::vector<int> ranks;
     /// The first plane with this rank or more.
     [[nodiscard]] std::size_t from(int rank) const {
-      return first + static_cast<std::size_t>(std::ranges::lower_bound(ranks, rank) -
-                                              ranks.begin());
+      return first +
+             static_cast<std::size_t>(std::ranges::lower_bound(ranks, rank) - ranks.begin());
     }
   };
   /// What a change means to the planes of one class: the ranks of its points, of those of the part,
@@ -93,6 +95,8 @@ class Slots {
     /// no point of it is met by it twice.
     bool is_rim_convex;
     Few<int, 8> hits;  ///< ranks of planes that points lie on, ascending
+    /// A ring that goes up once and down once was filled.
+    [[nodiscard]] bool is_plain() const { return is_natural && is_ring && is_rim_convex; }
     friend bool operator==(const Reach&, const Reach&) = default;
   };
   /// Changes one after the other that mean the same to a class. No plane of it cuts a larger area
