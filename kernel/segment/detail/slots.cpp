@@ -175,7 +175,9 @@ Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
 
 /// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
 void Slots::touch_all(const Class& c, const Change& change, const Run& run) {
-  if (run.reach.is_plain()) return touch_along(c, change, run);
+  if (!run.reach.is_plain())
+    for (Slot& slot : slots_) slot.is_clear = false;
+  if (run.reach.is_rim_convex) return touch_along(c, change, run);
   for (std::size_t i = c.from(run.reach.low); i < c.from(run.reach.high + 1); ++i)
     touch_plane(i, change, run);
 }
@@ -251,8 +253,7 @@ bool Slots::loses_loops_only(const Slot& slot, const Reach& reach) const {
 bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run) {
   if (change.rim.empty()) return false;
   const Reach& reach = run.reach;
-  Slot& slot = slots_[number];
-  if (!reach.is_plain()) slot.is_clear = false;
+  const Slot& slot = slots_[number];
   const int plane = planes_[slot.entry], rank = world_.planes.rank_of(plane);
   if (slot.is_fenced && loses_loops_only(slot, reach)) {
     if (reach.rim_start == rank) margins_.take_off(number, number + 1, run.area);

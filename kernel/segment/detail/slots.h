@@ -48,7 +48,7 @@ class Slots {
     bool is_stale = true;
     /// Nothing can be cut here; margins_ has the area by which the smallest region is too large.
     bool is_idle = false;
-    /// Since its section was made, or swept over, only plain rings were filled within its reach.
+    /// Since its section was made, or swept over, only plain rings were filled.
     bool is_clear = false;
     /// No region's outline follows edges, so none becomes natural by losing a loop in it.
     bool is_fenced = false;
