@@ -18,7 +18,7 @@ bool is_same_place(Vec3 difference) {
   return dot(difference, difference) <= kSame_m * kSame_m;
 }
 
-Vec3 metres(const std::array<std::int64_t, 3>& shift, double grid_m) {
+Vec3 shift_in_metres(const std::array<std::int64_t, 3>& shift, double grid_m) {
   return {static_cast<double>(shift[0]) * grid_m, static_cast<double>(shift[1]) * grid_m,
           static_cast<double>(shift[2]) * grid_m};
 }
@@ -134,7 +134,7 @@ bool Pockets::is_like(const Kind& kind, Pocket& pocket) {
                   std::llround(difference.z / grid_m)};
   if (!is_moved(kind.cap, kind.cap, pocket.shift)) return false;
   const auto edges = edges_of(pockets_[at(kind.first)]);
-  const Vec3 shift = metres(pocket.shift, grid_m), from = body_.at(edges[0]) + shift;
+  const Vec3 shift = shift_in_metres(pocket.shift, grid_m), from = body_.at(edges[0]) + shift;
   const auto start =
       std::ranges::find_if(rim_, [&](int e) { return is_same_place(body_.at(e) - from); });
   if (start == rim_.end() || !walk_like(kind, *start)) return false;
@@ -287,7 +287,7 @@ Congruence Pockets::congruence(int model, int other) const {
   const Kind& kind = kinds_[at(one.kind)];
   Congruence how;
   for (std::size_t i = 0; i < 3; ++i) how.shift[i] = two.shift[i] - one.shift[i];
-  how.shift_m = metres(how.shift, body_.world().points.grid_m());
+  how.shift_m = shift_in_metres(how.shift, body_.world().points.grid_m());
   const auto edges = edges_of(one), others = edges_of(two);
   how.points.reserve(kind.corners.size());
   how.planes.reserve(kind.sizes.size() + 1);
