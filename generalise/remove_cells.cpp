@@ -1,8 +1,8 @@
 #include "generalise/remove_cells.h"
 
+#include "generalise/detail/polygons_around.h"
 #include "generalise/detail/stays.h"
 #include "generalise/detail/take_out.h"
-#include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/cell_complex.h"
@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -38,16 +37,6 @@ constexpr double kFootprint = 0.0005;
 
 using Ids = std::vector<FeatureId>;
 
-std::vector<detail::Outline> outlines_of(const std::vector<Vertex>& vertices,
-                                         const std::vector<Loop>& loops) {
-  std::vector<detail::Outline> outlines;
-  for (const Loop& loop : loops) {
-    outlines.emplace_back();
-    for (const int v : loop) outlines.back().push_back(vertices[at(v)].point);
-  }
-  return outlines;
-}
-
 int lumps_of(const Solid& solid) {
   int lumps = 0;
   for (const Shell& shell : solid.shells) lumps = std::max(lumps, shell.lump + 1);
@@ -63,9 +52,8 @@ class CellRemover {
         judge_(judge),
         unseen_m_(unseen_m),
         options_(options),
-        footprint_m2_(measures_of(remainder.solid).footprint_m2) {
-    for (int f = 0; f < std::ssize(solid.facets); ++f)
-      facets_along_[along(solid.planes[solid.facets[at(f)].plane.index()])].push_back(f);
+        footprint_m2_(measures_of(remainder.solid).footprint_m2),
+        polygons_around_(solid, options.tolerances.weld_m) {
     for (const FeatureId id : remainder.removed)
       if (!is_carried(id, remainder.removed)) gone_.push_back(id);
   }
@@ -234,8 +222,8 @@ class CellRemover {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const std::set<int> lost = polygons_of(gone);
     for (Facet& facet : made->facets) {
-      const auto polygons = polygons_around(outlines_of(made->vertices, facet.loops),
-                                            made->planes[facet.plane.index()]);
+      const auto polygons = polygons_around_.of(detail::outlines_of(made->vertices, facet.loops),
+                                                made->planes[facet.plane.index()]);
       std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
     }
     fault = fault_of(*made, gone, options_.tolerances);
@@ -343,38 +331,11 @@ class CellRemover {
           shape.emplace_back();
           for (const int v : loop) shape.back().push_back(draft.shell.vertices[at(v)]);
         }
-        polygons.merge(polygons_around(shape, segmentation_.planes[face.plane.index()]));
+        polygons.merge(polygons_around_.of(shape, segmentation_.planes[face.plane.index()]));
       }
       facet.polygons.clear();
       std::ranges::set_difference(polygons, lost, std::back_inserter(facet.polygons));
     }
-  }
-
-  /// The input polygons of the facets of the solid that a figure lies in; none if it is new.
-  [[nodiscard]] std::set<int> polygons_around(const std::vector<detail::Outline>& shape,
-                                              const Plane& plane) const {
-    const auto near = facets_along_.find(along(plane));
-    if (near == facets_along_.end()) return {};
-    const auto point = detail::interior_point(shape, plane.normal);
-    if (!point) return {};
-    std::set<int> polygons;
-    for (const int f : near->second) {
-      const Facet& facet = solid_.facets[at(f)];
-      const Plane& its = solid_.planes[facet.plane.index()];
-      // The point may lie off its plane, as vertices do.
-      const bool is_same = its.coefficients == plane.coefficients ? its.offset == plane.offset
-                                                                  : its.offset == -plane.offset;
-      const bool is_in_plane =
-          is_same || std::abs(dot(its.normal, *point) - its.offset_m) <= options_.tolerances.weld_m;
-      if (!is_in_plane) continue;
-      if (detail::contains(outlines_of(solid_.vertices, facet.loops), its.normal, *point))
-        polygons.insert(facet.polygons.begin(), facet.polygons.end());
-    }
-    return polygons;
-  }
-  /// The same for parallel planes. Exact: planes of the segmentation are those of the solid.
-  static std::array<std::int64_t, 3> along(const Plane& plane) {
-    return std::max(plane.coefficients, exact::opposite(plane).coefficients);
   }
 
   const Solid& solid_;
@@ -384,7 +345,7 @@ class CellRemover {
   const SegmentOptions& options_;
   std::optional<CellComplex> complex_;  ///< once asked for
   double footprint_m2_;
-  std::map<std::array<std::int64_t, 3>, std::vector<int>> facets_along_;  ///< by direction
+  detail::PolygonsAround polygons_around_;
   std::map<FeatureId, Refusal> faults_;
   Ids gone_;  ///< in order; without what goes along
   Ids base_gone_;

@@ -1,17 +1,16 @@
 #include "kernel/segment/segment.h"
 
+#include "kernel/segment/detail/body_state.h"
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/cells.h"
 #include "kernel/segment/detail/choice.h"
 #include "kernel/segment/detail/models.h"
 #include "kernel/segment/detail/parting.h"
+#include "kernel/segment/detail/parts.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -92,7 +91,7 @@ class Segmenter {
   void split(Task task) {
     take_out_cavities(task);
     std::optional<detail::Chooser> chooser;
-    std::set<std::pair<State, detail::CutKey>> seen;
+    std::set<std::pair<detail::BodyState, detail::CutKey>> seen;
     std::set<detail::CutKey> banned;  // those that have led back, and those that failed
     bool has_led_back = false;
     int bend = 0;
@@ -135,42 +134,9 @@ class Segmenter {
     }
   }
 
-  /// What looks at a whole body costs what is dead in it, too.
-  static bool is_mostly_dead(const Boundary& body) {
-    constexpr int kTimes = 16;  // so often the body is copied no more than it has lost
-    constexpr int kFew = 64;    // half-edges that cost nothing
-    const int all = body.half_edge_count(), living = all - body.dead_edge_count();
-    return all > kFew && all > kTimes * living;
-  }
-
   static LeafFlag flag_of_uncut(const Task& task, bool has_led_back) {
     if (has_led_back) return LeafFlag::cycle;
     return task.own_planes.empty() ? LeafFlag::no_candidate : LeafFlag::own;
-  }
-
-  /// A fingerprint of the sides and areas of the facets, whatever their order: bodies of one
-  /// segmentation with the same are the same. 128 bits, so that long histories take little room.
-  using State = std::array<std::uint64_t, 2>;
-  static State state_of(const Boundary& body) {
-    constexpr double kPerSquareMetre = 1e6;
-    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
-    State state{};
-    for (int f = 0; f < body.facet_count(); ++f) {
-      if (!body.is_alive(f)) continue;
-      const auto side = static_cast<std::uint64_t>(body.facet(f).side);
-      const auto area = static_cast<std::uint64_t>(std::llround(body.area(f) * kPerSquareMetre));
-      const std::uint64_t facet = mixed(mixed(side * kOdd) + area);
-      state[0] += facet;
-      state[1] += mixed(facet + kOdd);
-    }
-    return state;
-  }
-
-  /// The bits of a number stirred, one to one (the finaliser of SplitMix64).
-  static std::uint64_t mixed(std::uint64_t number) {
-    number = (number ^ number >> 30U) * 0xbf58476d1ce4e5b9U;
-    number = (number ^ number >> 27U) * 0x94d049bb133111ebU;
-    return number ^ number >> 31U;
   }
 
   /// The rest that the last cut has left is in pieces: its lumps become the `rest` of the node made
@@ -182,16 +148,6 @@ class Segmenter {
       if (i > 0) node(parent_of_rest_).rest.push_back(child);
       tasks_.push_back({std::move(lumps[i]), child, task.feature, task.sign, task.own_planes});
     }
-  }
-
-  /// `bend` is where to look first: a half-edge that was reflex when it was asked for last, if any.
-  [[nodiscard]] static bool is_convex(const Boundary& body, int& bend) {
-    const int size = body.half_edge_count(), start = bend;
-    for (int i = 0; i < size; ++i) {
-      bend = start + i < size ? start + i : start + i - size;
-      if (body.is_alive_edge(bend) && bend < body.twin(bend) && body.is_reflex(bend)) return false;
-    }
-    return true;
   }
 
   void take_out_cavities(Task& task) {
@@ -288,26 +244,6 @@ class Segmenter {
     return changes;
   }
 
-  /// Of each lump of a choice the last one that is the same convex pocket, moved: what becomes of
-  /// the one is known from the other. Itself, if there is none; nothing if that is not known of
-  /// one.
-  static std::vector<std::size_t> models_of(const Choice& choice) {
-    std::map<int, std::size_t> last_of_kind;
-    const auto& lumps = choice.lumps;
-    for (std::size_t i = 0; i < lumps.size(); ++i) {
-      if (lumps[i].is_alone) continue;
-      if (lumps[i].pocket < 0) return {};
-      const int kind = choice.pockets->kind_of(lumps[i].pocket);
-      if (!choice.pockets->is_convex(kind)) return {};
-      last_of_kind[kind] = i;
-    }
-    std::vector<std::size_t> models;
-    for (std::size_t i = 0; i < lumps.size(); ++i)
-      models.push_back(
-          lumps[i].is_alone ? i : last_of_kind.at(choice.pockets->kind_of(lumps[i].pocket)));
-    return models;
-  }
-
   struct Measures {
     double new_area;
     double value;
@@ -321,11 +257,11 @@ class Segmenter {
     change.is_natural = is_natural;
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
     std::ranges::stable_sort(caps, std::greater{},
-                             [&](const detail::Cap& cap) { return area_of(cap); });
+                             [&](const detail::Cap& cap) { return area_of(world_, cap); });
 
     Feature feature = feature_of(task, choice, caps, measures);
     feature.cap_point = carved.cap_point;
-    for (const detail::Cap& cap : caps) feature.surface_m2 -= area_of(cap);
+    for (const detail::Cap& cap : caps) feature.surface_m2 -= area_of(world_, cap);
     measure(feature, carved.lump);
     std::vector<int> own_planes;
     if (!choice.is_hole && choice.sides.size() > 1)
@@ -381,55 +317,7 @@ class Segmenter {
     return feature;
   }
 
-  static void make_unique(std::vector<int>& points) {
-    std::ranges::sort(points);
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-  }
-
-  static detail::Change change_of(const detail::Carved& carved,
-                                  const std::vector<detail::Cap>& caps) {
-    detail::Change change{carved.touched, {}, {}, false, carved.is_ring, {}, false};
-    const Boundary& part = carved.lump;
-    for (int e = 0; e < part.half_edge_count(); ++e)
-      if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));
-    make_unique(change.points);
-    make_unique(change.part);
-    if (change.part == change.points) change.part.clear();
-    const bool is_simple = caps.size() == 1 && caps[0].loops.size() == 1 &&
-                           caps[0].covered.empty() && !caps[0].is_taken;
-    if (is_simple)
-      for (const detail::CapEdge& edge : caps[0].loops[0].edges)
-        change.rim.emplace_back(edge.from, edge.to);
-    for (const detail::Cap& cap : caps) change.has_covered |= !cap.covered.empty() || cap.is_taken;
-    if (carved.has_rim_left)
-      for (const detail::Cap& cap : caps)
-        for (const detail::CapLoop& loop : cap.loops)
-          for (const detail::CapEdge& edge : loop.edges)
-            change.new_edges.emplace_back(edge.from, edge.to);
-    return change;
-  }
-
-  [[nodiscard]] double area_of(const detail::Cap& cap) const {
-    double area = 0;
-    for (const detail::CapLoop& loop : cap.loops) {
-      detail::Outline outline;
-      for (const detail::CapEdge& edge : loop.edges) outline.push_back(world_.points.at(edge.from));
-      area += detail::signed_area(outline, world_.planes.normal(cap.side));
-    }
-    return area;
-  }
-
   static int sign_of(const Feature& feature) { return feature.sense == Sense::protrusion ? 1 : -1; }
-
-  /// What a part's own body tells of it.
-  static void measure(Feature& feature, const Boundary& body) {
-    feature.volume_m3 = body.volume();
-    for (const int f : body.living_facets()) {
-      feature.surface_m2 += body.area(f);
-      body.for_each_edge(f, [&](int e) { feature.vertices.push_back(body.origin(e)); });
-    }
-    make_unique(feature.vertices);
-  }
 
   /// `feature` is measured.
   void add_part(const Task& task, Boundary body, int sign, Feature feature,

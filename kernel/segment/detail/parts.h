@@ -1,0 +1,24 @@
+#pragma once
+
+#include "kernel/segment/detail/carve.h"
+#include "kernel/segment/detail/choice.h"
+#include "kernel/segment/detail/slots.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Of each lump of a choice the last one that is the same convex pocket, moved: what becomes of
+/// the one is known from the other. Itself, if there is none; nothing if that is not known of one.
+std::vector<std::size_t> models_of(const Choice& choice);
+
+/// What a cut that took a part off has changed of the rest.
+Change change_of(const Carved& carved, const std::vector<Cap>& caps);
+
+double area_of(const World& world, const Cap& cap);
+
+/// What a part's own body tells of it: adds to its surface, sets its volume and its vertices.
+void measure(Feature& feature, const Boundary& body);
+
+}  // namespace oriel::detail
