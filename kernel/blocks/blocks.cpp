@@ -38,6 +38,13 @@ double area_below(std::array<Corner, 3> t, double z) {
   return area * (1 - (high - z) * (high - z) / ((high - mid) * (high - low)));
 }
 
+/// Corners of the plan are one as those of the solid are. Of a noisy building, whose planes are
+/// taken as one further apart than by default, they are as far apart as its planes.
+double reach_m(const Tolerances& tolerances) {
+  const bool is_noisy = tolerances.plane_offset_m > Tolerances{}.plane_offset_m;
+  return is_noisy ? std::max(tolerances.weld_m, tolerances.plane_offset_m) : tolerances.weld_m;
+}
+
 class BlockBuilder {
  public:
   BlockBuilder(const Solid& solid, const std::string& name, const BlockOptions& options,
@@ -45,7 +52,7 @@ class BlockBuilder {
       : name_(name),
         options_(options),
         tolerances_(tolerances),
-        view_(solid, options.ground_reach_m, tolerances.weld_m),
+        view_(solid, options.ground_reach_m, reach_m(tolerances)),
         plan_(view_.arrangement()) {}
 
   Checked<Blocks> run() {

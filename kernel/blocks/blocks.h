@@ -43,8 +43,9 @@ struct Blocks {
 /// Blocks over the footprint of `solid`, from its lowest ground to the height that `options` say.
 ///
 /// The footprint is the union of the ground facets, seen from above; its corners are the solid's
-/// corners and the crossings of its edges, put together within weld_m. Nothing is simplified but
-/// what the options say. No value and an error G406 if there is no footprint, or if no closed solid
+/// corners and the crossings of its edges, put together within weld_m, of a noisy building
+/// (plane_offset_m above its default) within plane_offset_m. Nothing is simplified but what the
+/// options say. No value and an error G406 if there is no footprint, or if no closed solid
 /// comes of it (outlines that touch in a point).
 /// `name` is the building's in the message. Source: the levels of detail 1.0 to 1.3 of Biljecki,
 /// Ledoux and Stoter 2016; docs/generalisation.md.

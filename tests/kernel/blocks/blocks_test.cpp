@@ -46,6 +46,18 @@ TEST_SUITE("kernel/blocks") {
     CHECK(volume_m3(made.solid) == doctest::Approx(12 * 8 * 8.1).epsilon(1e-6));
   }
 
+  TEST_CASE("of a noisy building no spike is left that is thinner than its planes are apart") {
+    const Building body =
+        BoxBody().add({0, 0, 0}, {10, 8, 6}).add({4, -1, 0}, {4.003, 0, 6}).build();
+    CHECK(blocks_of(body).solid.facets.size() == 10);
+    Tolerances noisy;
+    noisy.plane_offset_m = 0.004;
+    const auto made = blocks(solid_of(body), body.id, {}, noisy);
+    REQUIRE(made.value);
+    CHECK(made.value->solid.facets.size() == 6);
+    CHECK(volume_m3(made.value->solid) == doctest::Approx(480).epsilon(1e-3));
+  }
+
   TEST_CASE("a flat block stays as it is however it is turned") {
     for (int i = 0; i < 12; ++i) {
       const Building body =
