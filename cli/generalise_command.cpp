@@ -136,10 +136,10 @@ class Generaliser {
   /// is drawn again with each step judged; if that is valid at none either it stays as it came,
   /// levels of detail are set aside.
   void keep_valid(const Document& document, const OnLine& line, Drawn& drawn) const {
-    std::optional<Issue> fault = prove(document, drawn);
+    std::optional<Issue> fault = prove(document, line, drawn);
     if (!fault) return;
     Drawn again = drawn_building(document, drawn.building, line, true);
-    if (!again.all.empty() && !prove(document, again)) {
+    if (!again.all.empty() && !prove(document, line, again)) {
       drawn = std::move(again);
       return;
     }
@@ -151,16 +151,29 @@ class Generaliser {
     fault->severity = Severity::warning;
     fault->sentence += "; it stays as it came";
     drawn.told.issues.push_back(*fault);
-    drawn.all.push_back({outputs_.annotated(document.buildings[drawn.building], line), {}, {}});
+    drawn.all.push_back(untouched(document, document.buildings[drawn.building], line, drawn.told));
+  }
+
+  /// The building without any operation.
+  [[nodiscard]] Redrawn untouched(const Document& document, const Building& building,
+                                  const OnLine& line, Product& told) const {
+    LabelledBuilding labelled = outputs_.annotated(building, line);
+    Generalised whole{*line.solid, {}};
+    mend_unchanged(document, building, line, whole, told);
+    if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
+    Redrawn redrawn = redraw(building, labelled, *line.segmentation, line.description.table,
+                             line.interpretation, std::move(whole), line.tolerances);
+    redrawn.labelled.digits = prove_written(document, building, *redrawn.labelled.geometry).digits;
+    return redrawn;
   }
 
   /// Of each target how fine the file has to be; what is valid at no scale is the fault.
-  static std::optional<Issue> prove(const Document& document, Drawn& drawn) {
+  static std::optional<Issue> prove(const Document& document, const OnLine& line, Drawn& drawn) {
     std::optional<Issue> fault;
     for (Redrawn& redrawn : drawn.all) {
       if (!redrawn.labelled.geometry) continue;
-      WrittenProof proof =
-          prove_redrawn(document, document.buildings[drawn.building], *redrawn.labelled.geometry);
+      WrittenProof proof = prove_redrawn(document, document.buildings[drawn.building], *line.solid,
+                                         *redrawn.labelled.geometry);
       redrawn.labelled.digits = proof.digits;
       if (proof.fault) fault = std::move(proof.fault);
     }
@@ -228,7 +241,7 @@ class Generaliser {
     // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
     if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
       invariants.least_edge_m = least_edge(profile);
-    invariants.judge = judge_as_written(document, building, is_thorough);
+    invariants.judge = judge_as_written(document, building, *line.solid, is_thorough);
     const auto carry_out = [&] {
       return generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
                         arguments_.segment_options(line.tolerances), invariants);

@@ -185,7 +185,8 @@ class SeriesWriter {
       if (level.generalised.removed == one.levels[i - 1].generalised.removed &&
           level.generalised.changed.empty())
         continue;
-      const WrittenProof proof = prove_redrawn(document, *one.building, *labelled.geometry);
+      const WrittenProof proof =
+          prove_redrawn(document, *one.building, *one.line->solid, *labelled.geometry);
       labelled.digits = std::max(labelled.digits, proof.digits);
       if (!proof.fault) continue;
       run_.set_aside(*proof.fault);

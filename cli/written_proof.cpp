@@ -24,22 +24,32 @@ WrittenProof prove_written(const Document& document, const Building& building, c
   }
 }
 
-WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& solid) {
+namespace {
+
+bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
+  return validate(building).empty() || !prove_written(document, building, own).fault;
+}
+
+}  // namespace
+
+WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& own,
+                           const Solid& solid) {
   WrittenProof proof = prove_written(document, building, solid);
   if (!proof.fault) return proof;
-  if (!validate(building).empty()) return {};
+  if (!can_be_valid(document, building, own)) return {};
   const std::string& why = proof.fault->sentence;
   proof.fault->code = "G410";
   proof.fault->sentence = "would not be valid as it is written: " + why.substr(why.find(": ") + 2);
   return proof;
 }
 
-Judge judge_as_written(const Document& document, const Building& building, bool is_thorough) {
-  std::optional<bool> came_valid;
-  return {[&document, &building, came_valid](const Solid& solid) mutable {
+Judge judge_as_written(const Document& document, const Building& building, const Solid& own,
+                       bool is_thorough) {
+  std::optional<bool> may_be;
+  return {[&document, &building, &own, may_be](const Solid& solid) mutable {
             if (!prove_written(document, building, solid).fault) return Fitness::valid;
-            if (!came_valid) came_valid = validate(building).empty();
-            return *came_valid ? Fitness::unfit : Fitness::as_it_came;
+            if (!may_be) may_be = can_be_valid(document, building, own);
+            return *may_be ? Fitness::unfit : Fitness::as_it_came;
           },
           {},
           is_thorough};

@@ -20,11 +20,13 @@ struct WrittenProof {
 WrittenProof prove_written(const Document& document, const Building& building, const Solid& solid);
 
 /// The same of a solid that was redrawn. Its fault is a G410, and none if the building was not
-/// valid as it was read.
-WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& solid);
+/// valid as it was read and its own solid, nothing done to it, would not be either.
+WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& own,
+                           const Solid& solid);
 
-/// A judge of solids to be written in the place of the polygons of `building`; both must outlive
-/// it.
-Judge judge_as_written(const Document& document, const Building& building, bool is_thorough);
+/// A judge of solids to be written in the place of the polygons of `building`, whose solid is
+/// `own`; all must outlive it.
+Judge judge_as_written(const Document& document, const Building& building, const Solid& own,
+                       bool is_thorough);
 
 }  // namespace oriel::cli

@@ -4,6 +4,7 @@
 #include "tests/kernel/segment/complex_checks.h"
 #include "tests/support/changed.h"
 #include "tests/support/houses.h"
+#include "tests/support/near.h"
 #include "tests/support/segmented.h"
 
 #include <algorithm>
@@ -20,8 +21,6 @@ using test::segmented;
 using test::Segmented;
 
 constexpr std::array kBody{CellId{0}};
-
-doctest::Approx nearly(double value) { return doctest::Approx(value).epsilon(1e-9); }
 
 TEST_SUITE("kernel/segment") {
   TEST_CASE("a body without the leaves of a feature has its volume less and closes") {

@@ -5,6 +5,7 @@
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"
 #include "tests/support/houses.h"
+#include "tests/support/near.h"
 
 #include <array>
 #include <numbers>
@@ -17,8 +18,6 @@ namespace {
 using test::check_complex;
 using test::segmented;
 using test::Segmented;
-
-doctest::Approx nearly(double value) { return doctest::Approx(value).epsilon(1e-9); }
 
 constexpr CellId kOutside;
 
