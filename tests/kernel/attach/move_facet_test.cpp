@@ -13,7 +13,7 @@ using namespace oriel::test;
 
 namespace {
 
-constexpr Vec3 kFront{0, -1, 0}, kUp{0, 0, 1};
+constexpr Vec3 kForwards{0, -1, 0}, kUpwards{0, 0, 1};
 
 /// A block of 10 x 8 x 6 m with two windows of 0.2 m in its front.
 Solid with_windows() {
@@ -36,7 +36,7 @@ TEST_SUITE("kernel/attach") {
   TEST_CASE("a wall that moves takes its area times the way with it") {
     const Solid solid = with_windows();
     for (const double out_m : {0.25, -0.125}) {
-      const MovedFacet moved = move_facet(solid, facet_looking(solid, kFront), out_m);
+      const MovedFacet moved = move_facet(solid, facet_looking(solid, kForwards), out_m);
       REQUIRE_MESSAGE(moved.solid, moved.reason);
       CHECK(is_closed(*moved.solid));
       CHECK(volume_m3(*moved.solid) ==
@@ -56,7 +56,7 @@ TEST_SUITE("kernel/attach") {
 
   TEST_CASE("there and back again is where it was") {
     const Solid solid = with_windows();
-    const FacetId front = facet_looking(solid, kFront);
+    const FacetId front = facet_looking(solid, kForwards);
     const MovedFacet there = move_facet(solid, front, 0.3);
     REQUIRE(there.solid);
     const MovedFacet back = move_facet(*there.solid, front, -0.3);
@@ -66,17 +66,17 @@ TEST_SUITE("kernel/attach") {
   }
 
   TEST_CASE("a facet does not move through what lies behind or before it") {
-    CHECK(reason_of(with_windows(), kFront, -0.2) == "an edge of it would vanish");
-    CHECK(reason_of(with_windows(), kFront, -9) == "an edge of it would vanish");
-    CHECK(reason_of(with_windows(), kFront, 0) == "it would move by nothing");
+    CHECK(reason_of(with_windows(), kForwards, -0.2) == "an edge of it would vanish");
+    CHECK(reason_of(with_windows(), kForwards, -9) == "an edge of it would vanish");
+    CHECK(reason_of(with_windows(), kForwards, 0) == "it would move by nothing");
     // The roof of the low part would rise past the eaves of the high one's canopy.
     const Solid under = solid_of(BoxBody()
                                      .add({0, 0, 0}, {10, 8, 3})
                                      .add({0, 6, 3}, {10, 8, 9})
                                      .add({3, 4, 5}, {5, 6, 5.5})
                                      .build());
-    CHECK(reason_of(under, kUp, 2.5) == "something lies in its way");
-    CHECK(move_facet(under, facet_looking(under, kUp), 1).solid);
+    CHECK(reason_of(under, kUpwards, 2.5) == "something lies in its way");
+    CHECK(move_facet(under, facet_looking(under, kUpwards), 1).solid);
   }
 
   TEST_CASE("a corner of four planes cannot follow") {

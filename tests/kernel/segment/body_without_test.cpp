@@ -17,6 +17,7 @@
 namespace oriel {
 namespace {
 
+using test::nearly;
 using test::segmented;
 using test::Segmented;
 

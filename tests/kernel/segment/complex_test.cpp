@@ -16,6 +16,7 @@ namespace oriel {
 namespace {
 
 using test::check_complex;
+using test::nearly;
 using test::segmented;
 using test::Segmented;
 
