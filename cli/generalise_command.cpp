@@ -176,6 +176,7 @@ class Generaliser {
                                          *redrawn.labelled.geometry);
       redrawn.labelled.digits = proof.digits;
       if (proof.fault) fault = std::move(proof.fault);
+      if (proof.excuse) drawn.told.issues.push_back(std::move(*proof.excuse));
     }
     return fault;
   }
@@ -293,7 +294,13 @@ class Generaliser {
                              Generalised& generalised, Product& product) {
     if (!generalised.removed.empty() || !generalised.changed.empty()) return;
     const auto findings = validate(building);
-    if (findings.empty() || prove_written(document, building, *line.solid).fault) return;
+    if (findings.empty()) return;
+    if (prove_written(document, building, *line.solid).fault) {
+      if (building.is_solid)
+        product.issues.push_back(
+            excuse_of(building, fmt::format("{} {}", findings[0].code, findings[0].sentence)));
+      return;
+    }
     generalised.is_drawn_anew = true;
     product.issues.push_back(building_issue(
         Severity::note, "G419", building.id,

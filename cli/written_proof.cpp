@@ -32,14 +32,20 @@ bool can_be_valid(const Document& document, const Building& building, const Soli
 
 }  // namespace
 
+Issue excuse_of(const Building& building, const std::string& why) {
+  return building_issue(Severity::warning, "G413", building.id,
+                        "is not valid as it is written, as it was not when it was read: " + why);
+}
+
 WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& own,
                            const Solid& solid) {
   WrittenProof proof = prove_written(document, building, solid);
   if (!proof.fault) return proof;
-  if (!can_be_valid(document, building, own)) return {};
-  const std::string& why = proof.fault->sentence;
+  std::string why = proof.fault->sentence;
+  why.erase(0, why.find(": ") + 2);
+  if (!can_be_valid(document, building, own)) return {0, {}, excuse_of(building, why)};
   proof.fault->code = "G410";
-  proof.fault->sentence = "would not be valid as it is written: " + why.substr(why.find(": ") + 2);
+  proof.fault->sentence = "would not be valid as it is written: " + why;
   return proof;
 }
 

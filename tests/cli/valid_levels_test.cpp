@@ -93,6 +93,19 @@ std::size_t check_valid(const std::string& data, const Names& files) {
   return judged;
 }
 
+/// A block of 10 x 8 x 6 m with a chimney that is cut out of its top and stands half beyond its
+/// edge: closed, but the ring of the hole crosses the outer one.
+std::string crossing_house() {
+  return R"({"type": "CityJSON", "version": "2.0",
+  "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]},
+  "CityObjects": {"b": {"type": "Building", "geometry": [{"type": "Solid", "lod": "3", "boundaries": [[
+    [[0, 3, 2, 1]], [[0, 1, 5, 4]], [[1, 2, 6, 5]], [[2, 3, 7, 6]], [[3, 0, 4, 7]],
+    [[4, 5, 6, 7], [8, 11, 10, 9]],
+    [[8, 9, 13, 12]], [[9, 10, 14, 13]], [[10, 11, 15, 14]], [[11, 8, 12, 15]], [[12, 13, 14, 15]]]]}]}},
+  "vertices": [[0, 0, 0], [10, 0, 0], [10, 8, 0], [0, 8, 0], [0, 0, 6], [10, 0, 6], [10, 8, 6], [0, 8, 6],
+    [9, 3, 6], [11, 3, 6], [11, 5, 6], [9, 5, 6], [9, 3, 8], [11, 3, 8], [11, 5, 8], [9, 5, 8]]})";
+}
+
 /// Houses of the generator, with noise of 0, 1 and 2 mm in turn.
 Names generated(int count, const Folder& folder) {
   oriel::generator::Options options;
@@ -137,6 +150,17 @@ TEST_SUITE("cli") {
       for (const std::string& name : out.names())
         last.push_back(folder.write("again-" + name, bytes_of(out / name)));
     }
+  }
+
+  TEST_CASE("what cannot be valid is written as it came, with a warning") {
+    const Folder folder;
+    const std::string file = folder.write("b.city.json", crossing_house());
+    CHECK(valid_in({file}).empty());
+    const Outcome made =
+        run({"generalise", file, "--scale", "1:10", "-o", folder / "out.city.json"});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("warning: b: G413") != std::string::npos);
+    CHECK(made.err.find("warning: b: G413") == made.err.rfind("warning: b: G413"));
   }
 
   TEST_CASE("blocks of noisy houses are valid") {
