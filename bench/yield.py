@@ -61,24 +61,16 @@ def distance(p, q):
     return sum((a - b) ** 2 for a, b in zip(p, q)) ** 0.5
 
 
-def off(m, p, q):
-    """How far m lies from the edge p q."""
-    d = [b - a for a, b in zip(p, q)]
-    size = sum(c * c for c in d)
-    t = max(0.0, min(1.0, sum((a - b) * c for a, b, c in zip(m, p, d)) / size)) if size else 0.0
-    return distance(m, [a + t * c for a, c in zip(p, d)])
-
-
 class Edges:
     """The edges of the input; `flat`: as seen from above."""
 
     def __init__(self, facets, flat):
         self.flat = flat
-        self.edges = [(self.seen(p), self.seen(q)) for p, q in edges(facets)]
+        seen = [(self.seen(p), self.seen(q)) for p, q in edges(facets)]
         self.ends = defaultdict(list)  # by boxes of NEAR_M
-        for p in {p for edge in self.edges for p in edge}:
+        for p in {p for edge in seen for p in edge}:
             self.ends[tuple(int(c // NEAR_M) for c in p)].append(p)
-        self.same = {frozenset((self.mm(p), self.mm(q))) for p, q in self.edges}
+        self.same = {frozenset((self.mm(p), self.mm(q))) for p, q in seen}
 
     def seen(self, p):
         return tuple(p[:2]) if self.flat else tuple(p)

@@ -1,5 +1,6 @@
 #include "generalise/fineness.h"
 
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
 
@@ -107,12 +108,7 @@ struct Sheet {
 
 Sheet sheet_of(const Solid& solid, const Facet& facet) {
   const Plane& plane = solid.planes[facet.plane.index()];
-  Sheet sheet{{}, plane.normal, plane.offset_m};
-  for (const Loop& loop : facet.loops) {
-    Outline& outline = sheet.outlines.emplace_back();
-    for (const int v : loop) outline.push_back(solid.vertices[at(v)].point);
-  }
-  return sheet;
+  return {detail::outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m};
 }
 
 Vec3 moved_onto(const Sheet& sheet, Vec3 p) {

@@ -3,6 +3,7 @@
 #include "generalise/detail/polygons_around.h"
 #include "generalise/detail/stays.h"
 #include "generalise/detail/take_out.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/cell_complex.h"

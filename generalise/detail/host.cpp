@@ -2,6 +2,7 @@
 
 #include "kernel/attach/move_facet.h"
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
 
@@ -18,15 +19,6 @@ constexpr Vec3 kUp{0, 0, 1};
 constexpr double kWall = 0.26;
 /// A sill this close to the lower edge of its wall is on it.
 constexpr double kOnEdge_m = 0.002;
-
-std::vector<Outline> outlines_of(const Solid& solid, const Facet& facet) {
-  std::vector<Outline> outlines;
-  for (const Loop& loop : facet.loops) {
-    outlines.emplace_back();
-    for (const int v : loop) outlines.back().push_back(solid.vertices[at(v)].point);
-  }
-  return outlines;
-}
 
 /// Of a facet that lies flat: along the first wall.
 Vec3 along_a_wall(const Solid& solid) {
@@ -69,7 +61,7 @@ std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) 
     const Facet& facet = solid.facets[at(f)];
     const Plane& its = solid.planes[facet.plane.index()];
     if (its.coefficients != plane.coefficients || its.offset != plane.offset) continue;
-    if (!contains(outlines_of(solid, facet), its.normal, point)) continue;
+    if (!contains(outlines_of(solid.vertices, facet.loops), its.normal, point)) continue;
     Host host{{f}, its, {}, {}, its.normal};
     const Vec3 across = cross(kUp, its.normal);
     host.u = length(across) > 0.01 ? normalised(across) : along_a_wall(solid);

@@ -1,6 +1,7 @@
 #include "generalise/detail/polygons_around.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
@@ -16,16 +17,6 @@ std::array<std::int64_t, 3> direction_of(const Plane& plane) {
 }
 
 }  // namespace
-
-std::vector<Outline> outlines_of(const std::vector<Vertex>& vertices,
-                                 const std::vector<Loop>& loops) {
-  std::vector<Outline> outlines;
-  for (const Loop& loop : loops) {
-    outlines.emplace_back();
-    for (const int v : loop) outlines.back().push_back(vertices[at(v)].point);
-  }
-  return outlines;
-}
 
 PolygonsAround::PolygonsAround(const Solid& solid, double weld_m) : solid_(solid), weld_m_(weld_m) {
   for (int f = 0; f < std::ssize(solid.facets); ++f)

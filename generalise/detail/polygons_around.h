@@ -11,10 +11,6 @@
 
 namespace oriel::detail {
 
-/// The points of the loops.
-std::vector<Outline> outlines_of(const std::vector<Vertex>& vertices,
-                                 const std::vector<Loop>& loops);
-
 /// Finds again which input polygons a figure lies in. Refers to the solid, which must outlive it.
 class PolygonsAround {
  public:

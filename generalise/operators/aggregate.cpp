@@ -34,14 +34,10 @@ bool becomes_block(const Step& step) {
 }
 
 detail::Placed aggregate(const Redrawing& task) {
-  if (becomes_block(task.steps[0])) {
-    const auto its_host = task.host();
-    return its_host ? block(task, *its_host)
-                    : detail::Placed{std::nullopt, "its wall is not found any more"};
-  }
-  if (task.steps.size() < 2) return {std::nullopt, "it is the only one of its storey and facade"};
   const auto host = task.host();
   if (!host) return {std::nullopt, "its wall is not found any more"};
+  if (becomes_block(task.steps[0])) return block(task, *host);
+  if (task.steps.size() < 2) return {std::nullopt, "it is the only one of its storey and facade"};
   detail::Extents all = extents_of(*host, task.segmentation, task.feature());
   double area_m2 = 0, volume_m3 = 0, middle = 0;
   for (std::size_t i = 0; i < task.steps.size(); ++i) {

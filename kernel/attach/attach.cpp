@@ -3,6 +3,7 @@
 #include "kernel/attach/detail/clearance.h"
 #include "kernel/attach/detail/convex_body.h"
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
 
@@ -17,8 +18,6 @@ namespace oriel {
 namespace {
 
 constexpr double kLeastClear_m = 0.001;
-/// Parts of facets smaller than this are not met but touched.
-constexpr double kTouch_m2 = 1e-9;
 
 using Segment = std::pair<Vec3, Vec3>;
 
@@ -119,11 +118,7 @@ class Attacher {
   /// The outline lies in the facet and off its edges; where a notch is cut it touches one of them.
   [[nodiscard]] bool is_inside(std::size_t contact) const {
     const Vec3 normal = solid_.planes[facet(contacts_[contact]).plane.index()].normal;
-    std::vector<detail::Outline> outlines;
-    for (const Loop& loop : facet(contacts_[contact]).loops) {
-      outlines.emplace_back();
-      for (const int v : loop) outlines.back().push_back(solid_.vertices[at(v)].point);
-    }
+    const auto outlines = detail::outlines_of(solid_.vertices, facet(contacts_[contact]).loops);
     const Loop& loop = body_.loops[contact];
     bool is_clear = true;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -162,7 +157,8 @@ class Attacher {
       const Facet& other = solid_.facets[at(f)];
       if (is_far(other, box, reach_m)) continue;
       const Vec3 normal = solid_.planes[other.plane.index()].normal;
-      if (detail::area_within(solid_.vertices, other, normal, limits) > kTouch_m2) return true;
+      if (detail::area_within(solid_.vertices, other, normal, limits) > detail::kTouch_m2)
+        return true;
     }
     return false;
   }

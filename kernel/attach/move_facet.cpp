@@ -16,8 +16,6 @@ namespace {
 
 /// Edges of the result are no shorter: what is nearer becomes one vertex when it is read again.
 constexpr double kLeastEdge_m = 0.001;
-/// Parts of facets smaller than this are not met but touched.
-constexpr double kTouchedArea_m2 = 1e-9;
 
 class FacetMover {
  public:
@@ -132,7 +130,7 @@ class FacetMover {
       if (has_point_within) return true;
       const Vec3 normal = solid_.planes[facet.plane.index()].normal;
       if (!is_beside &&
-          detail::area_within(solid_.vertices, facet, normal, limits) > kTouchedArea_m2)
+          detail::area_within(solid_.vertices, facet, normal, limits) > detail::kTouch_m2)
         return true;
     }
     return false;

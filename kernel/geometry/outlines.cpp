@@ -16,4 +16,15 @@ std::vector<Outline> outlines_of(const Building& building, const Polygon& polygo
   return outlines;
 }
 
+std::vector<Outline> outlines_of(std::span<const Vertex> vertices, const std::vector<Loop>& loops) {
+  std::vector<Outline> outlines;
+  outlines.reserve(loops.size());
+  for (const Loop& loop : loops) {
+    Outline& outline = outlines.emplace_back();
+    outline.reserve(loop.size());
+    for (const int v : loop) outline.push_back(vertices[static_cast<std::size_t>(v)].point);
+  }
+  return outlines;
+}
+
 }  // namespace oriel::detail

@@ -2,7 +2,9 @@
 
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
+#include "kernel/model/solid.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -11,5 +13,8 @@ namespace oriel::detail {
 /// (exact::on_grid): the solid's, so that they meet its facets, and so that the format a building
 /// was read from leaves no trace in what is measured on them.
 std::vector<Outline> outlines_of(const Building& building, const Polygon& polygon, double grid_m);
+
+/// The points of loops, as of a facet.
+std::vector<Outline> outlines_of(std::span<const Vertex> vertices, const std::vector<Loop>& loops);
 
 }  // namespace oriel::detail

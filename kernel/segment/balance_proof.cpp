@@ -1,3 +1,4 @@
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/segment/balance.h"
@@ -118,12 +119,8 @@ class Evaluation {
       auto& panes = panes_.emplace_back();
       Box& box = boxes_.emplace_back();
       for (const Facet& facet : cell.facets) {
-        CellPane pane{{}, &segmentation.planes[facet.plane.index()]};
-        for (const Loop& loop : facet.loops) {
-          pane.outlines.emplace_back();
-          for (const int v : loop)
-            pane.outlines.back().push_back(segmentation.vertices[at(v)].point);
-        }
+        CellPane pane{detail::outlines_of(segmentation.vertices, facet.loops),
+                      &segmentation.planes[facet.plane.index()]};
         for (const Vec3 p : pane.outlines[0]) box.grow(p);
         panes.push_back(std::move(pane));
       }

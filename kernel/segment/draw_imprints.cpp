@@ -1,5 +1,6 @@
 #include "kernel/segment/draw_imprints.h"
 
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/facet_splitter.h"
 
@@ -59,11 +60,8 @@ class ImprintDrawer {
     for (const FacetId f : candidates) {
       if (key_of(splitter_.solid().planes[facets()[f.index()].plane.index()]) != key_of(plane))
         continue;
-      std::vector<Outline> outlines;
-      for (const Loop& loop : facets()[f.index()].loops) {
-        outlines.emplace_back();
-        for (const int v : loop) outlines.back().push_back(splitter_.solid().vertices[at(v)].point);
-      }
+      const auto outlines =
+          detail::outlines_of(splitter_.solid().vertices, facets()[f.index()].loops);
       // The middle may lie in the recess that a sash makes: then the outer loop decides.
       if (detail::contains({outlines.data(), 1}, plane.normal, imprint.cap_point) &&
           has_polygon_of(imprint, facets()[f.index()]))

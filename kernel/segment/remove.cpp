@@ -1,5 +1,6 @@
 #include "kernel/segment/remove.h"
 
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/model/issue.h"
 #include "kernel/segment/detail/carve.h"
@@ -104,20 +105,12 @@ class FeatureRemover {
   /// A facet of a cell is part of the solid's boundary that looks to `side`.
   [[nodiscard]] bool is_on_surface(const Facet& facet, Side side) const {
     const Vec3 normal = world_.planes.normal(side);
-    std::vector<detail::Outline> shape;
-    for (const Loop& loop : facet.loops) {
-      shape.emplace_back();
-      for (const int v : loop) shape.back().push_back(segmentation_.vertices[at(v)].point);
-    }
+    const auto shape = detail::outlines_of(segmentation_.vertices, facet.loops);
     const auto point = detail::interior_point(shape, normal);
     return point && std::ranges::any_of(solid_.facets, [&](const Facet& of_solid) {
              if (world_.planes.side_of(of_solid.plane) != side) return false;
-             std::vector<detail::Outline> outlines;
-             for (const Loop& loop : of_solid.loops) {
-               outlines.emplace_back();
-               for (const int v : loop) outlines.back().push_back(solid_.vertices[at(v)].point);
-             }
-             return detail::contains(outlines, normal, *point);
+             return detail::contains(detail::outlines_of(solid_.vertices, of_solid.loops), normal,
+                                     *point);
            });
   }
 

@@ -15,6 +15,9 @@ struct HalfSpaceM {
   double offset_m = 0;
 };
 
+/// Parts of facets smaller than this are not met but touched.
+inline constexpr double kTouch_m2 = 1e-9;
+
 /// The area of the part of a facet that lies behind all `limits`.
 double area_within(std::span<const Vertex> vertices, const Facet& facet, Vec3 normal,
                    const std::vector<HalfSpaceM>& limits);

@@ -1,5 +1,6 @@
 #include "kernel/describe/detail/shape.h"
 
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
@@ -88,12 +89,8 @@ std::vector<Vec3> points_of(const Segmentation& segmentation, const Cell& cell) 
 
 std::vector<std::vector<Vec3>> outlines_of(const Segmentation& segmentation,
                                            const CellFacet& facet) {
-  std::vector<std::vector<Vec3>> outlines;
-  for (const Loop& loop : segmentation.cells[facet.cell.index()].facets[at(facet.facet)].loops) {
-    outlines.emplace_back();
-    for (const int v : loop) outlines.back().push_back(segmentation.vertices[at(v)].point);
-  }
-  return outlines;
+  return outlines_of(segmentation.vertices,
+                     segmentation.cells[facet.cell.index()].facets[at(facet.facet)].loops);
 }
 
 double inclination_deg(Vec3 normal) {

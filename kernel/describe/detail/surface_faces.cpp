@@ -1,6 +1,7 @@
 #include "kernel/describe/detail/surface_faces.h"
 
 #include "kernel/describe/detail/shape.h"
+#include "kernel/geometry/outlines.h"
 
 #include <cmath>
 #include <cstddef>
@@ -75,15 +76,8 @@ std::vector<SurfaceFace> faces_of(const Building& building) {
 std::vector<SurfaceFace> faces_of(const Solid& solid) {
   std::vector<SurfaceFace> faces;
   faces.reserve(solid.facets.size());
-  for (const Facet& facet : solid.facets) {
-    std::vector<Outline> outlines;
-    for (const Loop& loop : facet.loops) {
-      outlines.emplace_back();
-      for (const int v : loop)
-        outlines.back().push_back(solid.vertices[static_cast<std::size_t>(v)].point);
-    }
-    faces.push_back(face_of(std::move(outlines)));
-  }
+  for (const Facet& facet : solid.facets)
+    faces.push_back(face_of(outlines_of(solid.vertices, facet.loops)));
   return faces;
 }
 

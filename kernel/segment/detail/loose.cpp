@@ -162,11 +162,7 @@ class Joiner {
       return std::abs(dot(p, plane.normal) - plane.offset_m) > tolerances_.plane_offset_m;
     };
     if (std::ranges::any_of(polygon.rings[0], is_off)) return false;
-    std::vector<Outline> outlines;
-    for (const Loop& loop : facet.loops) {
-      outlines.emplace_back();
-      for (const int v : loop) outlines.back().push_back(out_.vertices[at(v)].point);
-    }
+    const auto outlines = outlines_of(out_.vertices, facet.loops);
     const auto middle = interior_point(polygon.rings, polygon.normal);
     return middle && contains(outlines, plane.normal, *middle);
   }

@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/shells.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
 
@@ -26,14 +27,8 @@ double volume_of(const Solid& solid, const Shell& shell) {
 /// How often the shell winds around a point: 1 inside an outer shell, 0 outside.
 double winding_number(const Solid& solid, const Shell& shell, Vec3 eye) {
   double sum = 0;
-  for (const FacetId f : shell.facets) {
-    std::vector<Outline> outlines;
-    for (const Loop& loop : solid.facets[f.index()].loops) {
-      outlines.emplace_back();
-      for (const int v : loop) outlines.back().push_back(solid.vertices[at(v)].point);
-    }
-    sum += winding_part(outlines, eye);
-  }
+  for (const FacetId f : shell.facets)
+    sum += winding_part(outlines_of(solid.vertices, solid.facets[f.index()].loops), eye);
   return sum;
 }
 
