@@ -254,7 +254,8 @@ class Generaliser {
                              *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
         generalised = carry_out();
     if (!keep(generalised.issues, product) || !generalised.value) return std::nullopt;
-    mend_unchanged(document, building, line, *generalised.value, product);
+    // Levels of detail are drawn in any case, and judged as they are drawn.
+    if (!targets_.has_lods()) mend_unchanged(document, building, line, *generalised.value, product);
     const std::string target = targets_.has_lods() ? "LoD " + profile->level : targets_.text();
     if (accounts_.has_any())
       product[Part::deeds] += accounts_.text(

@@ -188,6 +188,7 @@ class SeriesWriter {
       const WrittenProof proof =
           prove_redrawn(document, *one.building, *one.line->solid, *labelled.geometry);
       labelled.digits = std::max(labelled.digits, proof.digits);
+      if (proof.excuse) report_.tell(*proof.excuse);
       if (!proof.fault) continue;
       run_.set_aside(*proof.fault);
       return false;
