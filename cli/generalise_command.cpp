@@ -1,16 +1,11 @@
 #include "cli/accounts.h"
+#include "cli/building_drawer.h"
 #include "cli/commands.h"
 #include "cli/labelling.h"
 #include "cli/series.h"
 #include "cli/targets.h"
 #include "cli/work_place.h"
-#include "cli/written_proof.h"
-#include "generalise/fineness.h"
 #include "generalise/generalise.h"
-#include "generalise/to_lod.h"
-#include "interpret/plan.h"
-#include "kernel/compare/hausdorff.h"
-#include "kernel/validate/validate.h"
 
 #include <algorithm>
 #include <map>
@@ -39,10 +34,10 @@ class Generaliser {
   Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules, Run& run)
       : arguments_(arguments),
         targets_(targets),
-        rules_(rules),
         run_(run),
         outputs_(arguments, rules),
-        accounts_(arguments.explain, arguments.metrics) {}
+        accounts_(arguments.explain, arguments.metrics),
+        drawer_(arguments, targets, rules, outputs_, accounts_) {}
 
   ExitCode go() {
     Run::Visitor visitor;
@@ -92,7 +87,7 @@ class Generaliser {
     Product product;
     std::vector<LabelledBuilding> labelled;
     WriteOptions options;
-    std::vector<Drawn> drawn;
+    std::vector<DrawnBuilding> drawn;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       now_at_building(i);
       if (!lines[i].is_done()) continue;
@@ -102,12 +97,13 @@ class Generaliser {
         continue;
       }
       outputs_.make_features(document.buildings[i], lines[i], product);
-      drawn.push_back(timings.measure(
-          Stage::generalise, [&] { return drawn_building(document, i, lines[i], false); }));
+      drawn.push_back(
+          timings.measure(Stage::generalise, [&] { return drawer_.draw(document, i, lines[i]); }));
     }
-    for (Drawn& one : drawn) {
+    for (DrawnBuilding& one : drawn) {
       now_at_building(one.building);
-      timings.measure(Stage::write, [&] { keep_valid(document, lines[one.building], one); });
+      timings.measure(Stage::write,
+                      [&] { drawer_.keep_valid(document, lines[one.building], one); });
       tell(std::move(one.told), product);
       add(std::move(one.all), labelled, options, product);
     }
@@ -116,69 +112,6 @@ class Generaliser {
       outputs_.make_buildings(input, document, std::move(labelled), options, product);
     });
     return product;
-  }
-
-  /// What became of a building of the record; nothing if it was set aside.
-  struct Drawn {
-    std::size_t building = 0;
-    std::vector<Redrawn> all;
-    Product told;  ///< what is to be told of it
-  };
-  Drawn drawn_building(const Document& document, std::size_t building, const OnLine& line,
-                       bool is_thorough) const {
-    Drawn drawn{building, {}, {}};
-    drawn.all =
-        redraw_building(document, document.buildings[building], line, is_thorough, drawn.told);
-    return drawn;
-  }
-
-  /// Says how fine the file has to be for a building to be valid in it. What is valid at no scale
-  /// is drawn again with each step judged; if that is valid at none either it stays as it came,
-  /// levels of detail are set aside.
-  void keep_valid(const Document& document, const OnLine& line, Drawn& drawn) const {
-    std::optional<Issue> fault = prove(document, line, drawn);
-    if (!fault) return;
-    Drawn again = drawn_building(document, drawn.building, line, true);
-    if (!again.all.empty() && !prove(document, line, again)) {
-      drawn = std::move(again);
-      return;
-    }
-    drawn.all.clear();
-    if (targets_.has_lods()) {
-      drawn.told.issues.push_back(*fault);
-      return;
-    }
-    fault->severity = Severity::warning;
-    fault->sentence += "; it stays as it came";
-    drawn.told.issues.push_back(*fault);
-    drawn.all.push_back(untouched(document, document.buildings[drawn.building], line, drawn.told));
-  }
-
-  /// The building without any operation.
-  [[nodiscard]] Redrawn untouched(const Document& document, const Building& building,
-                                  const OnLine& line, Product& told) const {
-    LabelledBuilding labelled = outputs_.annotated(building, line);
-    Generalised whole{*line.solid, {}};
-    mend_unchanged(document, building, line, whole, told);
-    if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
-    Redrawn redrawn = redraw(building, labelled, *line.segmentation, line.description.table,
-                             line.interpretation, std::move(whole), line.tolerances);
-    redrawn.labelled.digits = prove_written(document, building, *redrawn.labelled.geometry).digits;
-    return redrawn;
-  }
-
-  /// Of each target how fine the file has to be; what is valid at no scale is the fault.
-  static std::optional<Issue> prove(const Document& document, const OnLine& line, Drawn& drawn) {
-    std::optional<Issue> fault;
-    for (Redrawn& redrawn : drawn.all) {
-      if (!redrawn.labelled.geometry) continue;
-      WrittenProof proof = prove_redrawn(document, document.buildings[drawn.building], *line.solid,
-                                         *redrawn.labelled.geometry);
-      redrawn.labelled.digits = proof.digits;
-      if (proof.fault) fault = std::move(proof.fault);
-      if (proof.excuse) drawn.told.issues.push_back(std::move(*proof.excuse));
-    }
-    return fault;
   }
 
   static void tell(Product told, Product& product) {
@@ -208,125 +141,12 @@ class Generaliser {
     return std::ranges::find(list, id, &Installation::id) != list.end();
   }
 
-  /// One for each target; none if one of them cannot be had. `is_thorough` as of Judge.
-  std::vector<Redrawn> redraw_building(const Document& document, const Building& building,
-                                       const OnLine& line, bool is_thorough,
-                                       Product& product) const {
-    std::vector<Redrawn> all;
-    const LabelledBuilding labelled = outputs_.annotated(building, line);
-    const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
-    for (std::size_t i = 0; i < count; ++i) {
-      auto redrawn = redraw_for(i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr,
-                                document, building, labelled, line, is_thorough, product);
-      if (!redrawn) return {};
-      all.push_back(std::move(*redrawn));
-    }
-    return all;
-  }
-
-  std::optional<Redrawn> redraw_for(const Profile* profile, const Document& document,
-                                    const Building& building, const LabelledBuilding& labelled,
-                                    const OnLine& line, bool is_thorough, Product& product) const {
-    const auto& [table, graph] = line.description;
-    Plan plan;
-    if (targets_.scale)
-      plan = oriel::plan(rules_, table, graph, line.interpretation, *targets_.scale);
-    if (profile != nullptr)
-      plan = plan_by_profile(std::move(plan), *profile, rules_, *line.segmentation, table,
-                             line.interpretation, targets_.scale);
-    keep(plan.issues, product);
-    Invariants invariants;
-    if (profile != nullptr)
-      invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m,
-                    profile->overhang_pct};
-    // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
-    if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
-      invariants.least_edge_m = least_edge(profile);
-    invariants.judge = judge_as_written(document, building, *line.solid, is_thorough);
-    const auto carry_out = [&] {
-      return generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
-                        arguments_.segment_options(line.tolerances), invariants);
-    };
-    auto generalised = carry_out();
-    if (profile != nullptr && profile->edge_min_m && profile->edge_owner_b_m)
-      while (generalised.value &&
-             add_fine_owners(*generalised.value, *line.segmentation, table, *profile->edge_min_m,
-                             *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
-        generalised = carry_out();
-    if (!keep(generalised.issues, product) || !generalised.value) return std::nullopt;
-    // Levels of detail are drawn in any case, and judged as they are drawn.
-    if (!targets_.has_lods()) mend_unchanged(document, building, line, *generalised.value, product);
-    const std::string target = targets_.has_lods() ? "LoD " + profile->level : targets_.text();
-    if (accounts_.has_any())
-      product[Part::deeds] += accounts_.text(
-          building.id, target, account(plan, *generalised.value, table, line.interpretation));
-    const double least_edge_m = least_edge(profile);
-    // What is kept of it is not known any more once it is redrawn.
-    const Generalised changes{{}, generalised.value->removed, generalised.value->refused};
-    const auto keep_figures = [&](const Redrawn& redrawn) {
-      const auto& solid = redrawn.labelled.geometry;
-      const Solid& after = solid ? *solid : *line.solid;
-      if (profile != nullptr)
-        keep(fineness_issues(building, *line.solid, after, *line.segmentation, table, changes,
-                             {least_edge_m, profile->edge_min_m.has_value()}),
-             product);
-      if (!accounts_.has_metrics()) return;
-      product[Part::figures] +=
-          accounts_.text(building.id, target, least_edge_m, figures_of(*line.solid, least_edge_m),
-                         figures_of(after, least_edge_m), hausdorff_m(*line.solid, after));
-    };
-    const Tolerances& tolerances = line.tolerances;
-    if (!targets_.has_lods()) {
-      Redrawn redrawn = redraw(building, labelled, *line.segmentation, table, line.interpretation,
-                               std::move(*generalised.value), tolerances);
-      keep_figures(redrawn);
-      return redrawn;
-    }
-    auto drawn = to_lod(building, labelled, *line.segmentation, table, line.interpretation,
-                        *profile, std::move(*generalised.value), tolerances);
-    if (!keep(drawn.issues, product)) return std::nullopt;
-    keep_figures(*drawn.value);
-    return std::move(drawn.value);
-  }
-
-  /// What nothing was done to stays as it came, unless it came as no valid solid and its solid is
-  /// valid: then that is drawn.
-  static void mend_unchanged(const Document& document, const Building& building, const OnLine& line,
-                             Generalised& generalised, Product& product) {
-    if (!generalised.removed.empty() || !generalised.changed.empty()) return;
-    const auto findings = validate(building);
-    if (findings.empty()) return;
-    if (prove_written(document, building, *line.solid).fault) {
-      if (building.is_solid)
-        product.issues.push_back(
-            excuse_of(building, fmt::format("{} {}", findings[0].code, findings[0].sentence)));
-      return;
-    }
-    generalised.is_drawn_anew = true;
-    product.issues.push_back(building_issue(
-        Severity::note, "G419", building.id,
-        fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
-  }
-
-  /// The least length that the target shows: the profile's, or its c, else 0.125 mm on the map.
-  [[nodiscard]] double least_edge(const Profile* profile) const {
-    if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
-    const auto sizes = profile != nullptr ? profile->thresholds(targets_.scale) : std::nullopt;
-    return sizes ? sizes->c_m : kGapOnMap_m * targets_.scale.value_or(0);
-  }
-
-  /// False if there is an error: the building is set aside.
-  static bool keep(const std::vector<Issue>& issues, Product& product) {
-    product.issues.insert(product.issues.end(), issues.begin(), issues.end());
-    return !has_errors(issues);
-  }
-
   const Arguments& arguments_;
   const Targets& targets_;
-  const RuleBase& rules_;
   Run& run_;
   LabelOutputs outputs_;
   Accounts accounts_;
+  BuildingDrawer drawer_;
   std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 

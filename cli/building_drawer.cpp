@@ -1,0 +1,208 @@
+#include "cli/building_drawer.h"
+
+#include "cli/written_proof.h"
+#include "generalise/fineness.h"
+#include "generalise/to_lod.h"
+#include "interpret/plan.h"
+#include "kernel/compare/hausdorff.h"
+#include "kernel/validate/validate.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+/// False if there is an error: the building is set aside.
+bool keep(const std::vector<Issue>& issues, Product& told) {
+  told.issues.insert(told.issues.end(), issues.begin(), issues.end());
+  return !has_errors(issues);
+}
+
+/// What nothing was done to stays as it came, unless it came as no valid solid and its solid is
+/// valid: then that is drawn.
+void mend_unchanged(const Document& document, const Building& building, const OnLine& line,
+                    Generalised& generalised, Product& told) {
+  if (!generalised.removed.empty() || !generalised.changed.empty()) return;
+  const auto findings = validate(building);
+  if (findings.empty()) return;
+  if (prove_written(document, building, *line.solid).fault) {
+    if (building.is_solid)
+      told.issues.push_back(
+          excuse_of(building, fmt::format("{} {}", findings[0].code, findings[0].sentence)));
+    return;
+  }
+  generalised.is_drawn_anew = true;
+  told.issues.push_back(building_issue(
+      Severity::note, "G419", building.id,
+      fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
+}
+
+/// Of each target how fine the file has to be; what is valid at no scale is the fault.
+std::optional<Issue> prove(const Document& document, const OnLine& line, DrawnBuilding& drawn) {
+  std::optional<Issue> fault;
+  for (Redrawn& redrawn : drawn.all) {
+    if (!redrawn.labelled.geometry) continue;
+    WrittenProof proof = prove_redrawn(document, document.buildings[drawn.building], *line.solid,
+                                       *redrawn.labelled.geometry);
+    redrawn.labelled.digits = proof.digits;
+    if (proof.fault) fault = std::move(proof.fault);
+    if (proof.excuse) drawn.told.issues.push_back(std::move(*proof.excuse));
+  }
+  return fault;
+}
+
+}  // namespace
+
+DrawnBuilding BuildingDrawer::draw(const Document& document, std::size_t building,
+                                   const OnLine& line, bool is_thorough) const {
+  DrawnBuilding drawn{building, {}, {}};
+  const Building& its = document.buildings[building];
+  const LabelledBuilding labelled = outputs_.annotated(its, line);
+  const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
+    auto redrawn = draw_for(profile, {document, its, line, labelled}, is_thorough, drawn.told);
+    if (!redrawn) {
+      drawn.all.clear();
+      break;
+    }
+    drawn.all.push_back(std::move(*redrawn));
+  }
+  return drawn;
+}
+
+void BuildingDrawer::keep_valid(const Document& document, const OnLine& line,
+                                DrawnBuilding& drawn) const {
+  std::optional<Issue> fault = prove(document, line, drawn);
+  if (!fault) return;
+  DrawnBuilding again = draw(document, drawn.building, line, true);
+  if (!again.all.empty() && !prove(document, line, again)) {
+    drawn = std::move(again);
+    return;
+  }
+  drawn.all.clear();
+  if (targets_.has_lods()) {
+    drawn.told.issues.push_back(*fault);
+    return;
+  }
+  fault->severity = Severity::warning;
+  fault->sentence += "; it stays as it came";
+  drawn.told.issues.push_back(*fault);
+  drawn.all.push_back(untouched(document, document.buildings[drawn.building], line, drawn.told));
+}
+
+/// The building without any operation.
+Redrawn BuildingDrawer::untouched(const Document& document, const Building& building,
+                                  const OnLine& line, Product& told) const {
+  LabelledBuilding labelled = outputs_.annotated(building, line);
+  Generalised whole{*line.solid, {}};
+  mend_unchanged(document, building, line, whole, told);
+  if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
+  Redrawn redrawn = redraw(building, labelled, *line.segmentation, line.description.table,
+                           line.interpretation, std::move(whole), line.tolerances);
+  redrawn.labelled.digits = prove_written(document, building, *redrawn.labelled.geometry).digits;
+  return redrawn;
+}
+
+std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const Subject& of,
+                                                bool is_thorough, Product& told) const {
+  const OnLine& line = of.line;
+  const FeatureTable& table = line.description.table;
+  Plan plan = plan_for(profile, line, told);
+  auto made = carried_out(profile, line, invariants_for(profile, of, is_thorough), plan);
+  if (!keep(made.issues, told) || !made.value) return std::nullopt;
+  // Levels of detail are drawn in any case, and judged as they are drawn.
+  if (!targets_.has_lods()) mend_unchanged(of.document, of.building, line, *made.value, told);
+  if (accounts_.has_any())
+    told[Part::deeds] += accounts_.text(of.building.id, target_text(profile),
+                                        account(plan, *made.value, table, line.interpretation));
+  // What is kept of it is not known any more once it is redrawn.
+  const Generalised changes{{}, made.value->removed, made.value->refused};
+  std::optional<Redrawn> redrawn;
+  if (targets_.has_lods()) {
+    auto level = to_lod(of.building, of.labelled, *line.segmentation, table, line.interpretation,
+                        *profile, std::move(*made.value), line.tolerances);
+    if (!keep(level.issues, told)) return std::nullopt;
+    redrawn = std::move(level.value);
+  } else {
+    redrawn = redraw(of.building, of.labelled, *line.segmentation, table, line.interpretation,
+                     std::move(*made.value), line.tolerances);
+  }
+  keep_figures(profile, of, changes, *redrawn, told);
+  return redrawn;
+}
+
+Plan BuildingDrawer::plan_for(const Profile* profile, const OnLine& line, Product& told) const {
+  const auto& [table, graph] = line.description;
+  Plan asked;
+  if (targets_.scale) asked = plan(rules_, table, graph, line.interpretation, *targets_.scale);
+  if (profile != nullptr)
+    asked = plan_by_profile(std::move(asked), *profile, rules_, *line.segmentation, table,
+                            line.interpretation, targets_.scale);
+  keep(asked.issues, told);
+  return asked;
+}
+
+Invariants BuildingDrawer::invariants_for(const Profile* profile, const Subject& of,
+                                          bool is_thorough) const {
+  Invariants invariants;
+  if (profile != nullptr)
+    invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m,
+                  profile->overhang_pct};
+  // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
+  if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
+    invariants.least_edge_m = least_edge_m(profile);
+  invariants.judge = judge_as_written(of.document, of.building, *of.line.solid, is_thorough);
+  return invariants;
+}
+
+/// With what has too fine edges taken off, if the profile asks for that; its steps are added to the
+/// plan.
+Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile, const OnLine& line,
+                                                 const Invariants& invariants, Plan& plan) const {
+  const FeatureTable& table = line.description.table;
+  const auto carry_out = [&] {
+    return generalise(*line.solid, *line.segmentation, table, line.interpretation, plan,
+                      arguments_.segment_options(line.tolerances), invariants);
+  };
+  auto made = carry_out();
+  if (profile == nullptr || !profile->edge_min_m || !profile->edge_owner_b_m) return made;
+  while (made.value &&
+         add_fine_owners(*made.value, *line.segmentation, table, *profile->edge_min_m,
+                         *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
+    made = carry_out();
+  return made;
+}
+
+void BuildingDrawer::keep_figures(const Profile* profile, const Subject& of,
+                                  const Generalised& changes, const Redrawn& redrawn,
+                                  Product& told) const {
+  const double least_m = least_edge_m(profile);
+  const Solid& before = *of.line.solid;
+  const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
+  if (profile != nullptr)
+    keep(fineness_issues(of.building, before, after, *of.line.segmentation,
+                         of.line.description.table, changes,
+                         {least_m, profile->edge_min_m.has_value()}),
+         told);
+  if (!accounts_.has_metrics()) return;
+  told[Part::figures] +=
+      accounts_.text(of.building.id, target_text(profile), least_m, figures_of(before, least_m),
+                     figures_of(after, least_m), hausdorff_m(before, after));
+}
+
+/// The least length that the target shows: the profile's, or its c, else 0.125 mm on the map.
+double BuildingDrawer::least_edge_m(const Profile* profile) const {
+  if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
+  const auto sizes = profile != nullptr ? profile->thresholds(targets_.scale) : std::nullopt;
+  return sizes ? sizes->c_m : kGapOnMap_m * targets_.scale.value_or(0);
+}
+
+std::string BuildingDrawer::target_text(const Profile* profile) const {
+  return targets_.has_lods() ? "LoD " + profile->level : targets_.text();
+}
+
+}  // namespace oriel::cli
