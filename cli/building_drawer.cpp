@@ -183,11 +183,9 @@ void BuildingDrawer::keep_figures(const Profile* profile, const Subject& of,
   const double least_m = least_edge_m(profile);
   const Solid& before = *of.line.solid;
   const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
-  if (profile != nullptr)
-    keep(fineness_issues(of.building, before, after, *of.line.segmentation,
-                         of.line.description.table, changes,
-                         {least_m, profile->edge_min_m.has_value()}),
-         told);
+  keep(fineness_issues(of.building, before, after, *of.line.segmentation, of.line.description.table,
+                       changes, {least_m, profile != nullptr && profile->edge_min_m.has_value()}),
+       told);
   if (!accounts_.has_metrics()) return;
   told[Part::figures] +=
       accounts_.text(of.building.id, target_text(profile), least_m, figures_of(before, least_m),

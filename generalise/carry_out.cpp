@@ -70,13 +70,14 @@ class Guard {
     return undone_.size() > count;
   }
 
-  /// The edge is where the piece was torn off what stays.
+  /// The edge is where the piece was torn off what stays; of the body it is if the piece covered it
+  /// whole. Its ends may be off by what facets of one plane are.
   [[nodiscard]] bool is_torn(FeatureId piece, const ShortEdge& edge) const {
-    constexpr double kRounded_m = 0.001;
+    const double off_m = options_.tolerances.plane_offset_m;
     const Box& box = segmentation_.features[piece.index()].box;
-    if (!edge.feature.is_valid() || edge.length_m > pieces_.c_m[piece.index()] + kRounded_m ||
-        (!holds(box, edge.from) && !holds(box, edge.to)))
-      return false;
+    const int held = holds(box, edge.from, off_m) + holds(box, edge.to, off_m);
+    if (!edge.feature.is_valid()) return held == 2;
+    if (edge.length_m > pieces_.c_m[piece.index()] + 2 * off_m || held == 0) return false;
     return pieces_.c_m[edge.feature.index()] < invariants_.least_edge_m ||
            carries(edge.feature, piece);
   }

@@ -37,7 +37,8 @@ struct Pieces {
 /// hang in the air (G411). Which one that is, is found by halving: the last of the fewest first
 /// steps that break it. A piece is torn off what it runs on into if a new edge that is too short
 /// arises at it, no longer than the piece is thin, and belongs to something thin that stays or to
-/// what carries the piece: then its step is taken back, if it may stay (G418).
+/// what carries the piece, or if an edge of the body arises within it: then its step is taken back,
+/// if it may stay (G418).
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                      const SegmentOptions& options, const Invariants& invariants = {},
                      const Pieces& pieces = {});

@@ -19,9 +19,6 @@ namespace oriel {
 
 namespace {
 
-/// Vertices that cuts made lie off the box of their feature by rounding only; the grid of a solid
-/// is finer than a hundredth of it.
-constexpr double kOnBox_m = 1e-3;
 /// An edge lies on another one, a facet in front of another one, within the rounding of doubles.
 constexpr double kRounding_m = 1e-6;
 /// The sine of the angle up to which an edge runs along the depth of a recess.
@@ -171,10 +168,9 @@ using Findings = std::map<FeatureId, Finding>;
 
 }  // namespace
 
-bool holds(const Box& box, Vec3 p) {
-  return p.x >= box.min.x - kOnBox_m && p.x <= box.max.x + kOnBox_m &&
-         p.y >= box.min.y - kOnBox_m && p.y <= box.max.y + kOnBox_m &&
-         p.z >= box.min.z - kOnBox_m && p.z <= box.max.z + kOnBox_m;
+bool holds(const Box& box, Vec3 p, double off_m) {
+  return p.x >= box.min.x - off_m && p.x <= box.max.x + off_m && p.y >= box.min.y - off_m &&
+         p.y <= box.max.y + off_m && p.z >= box.min.z - off_m && p.z <= box.max.z + off_m;
 }
 
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,

@@ -23,8 +23,12 @@ struct NarrowGap {
   FeatureId feature;  ///< as of ShortEdge
 };
 
-/// The point is in the box, or no more than a millimetre off it.
-bool holds(const Box& box, Vec3 point);
+/// Vertices that cuts made lie off the box of their feature by rounding only; the grid of a solid
+/// is finer than a hundredth of it.
+inline constexpr double kOnBox_m = 1e-3;
+
+/// The point is in the box, or no more than `off_m` off it.
+bool holds(const Box& box, Vec3 point, double off_m = kOnBox_m);
 
 /// Edges shorter than `least_m`, each once, in the order of facets. Features that are `removed`
 /// (ascending) have none.

@@ -176,4 +176,17 @@ TEST_SUITE("cli") {
     for (const std::string code : {"warning: house: G415", "warning: house f"})
       CHECK_FALSE(noted.says(code + " G415"));
   }
+
+  TEST_CASE("new edges shorter than the map shows are told without a profile, too") {
+    // The hipped roof has a short ridge, of which the chimney hid a part.
+    const auto told = [](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments{"generalise", sample("hip"), "--scale", "1:50000",
+                                         "-o",         "-",           "-v"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return run(arguments);
+    };
+    const Outcome without = told({}), with = told({"--profile", "map"});
+    CHECK(without.says("note: hip: G415 has "));
+    CHECK(with.says("note: hip: G415 has "));
+  }
 }
