@@ -148,13 +148,7 @@ Plan BuildingDrawer::plan_for(const Profile* profile, const OnLine& line, Produc
 
 Invariants BuildingDrawer::invariants_for(const Profile* profile, const Subject& of,
                                           bool is_thorough) const {
-  Invariants invariants;
-  if (profile != nullptr)
-    invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m,
-                  profile->overhang_pct};
-  // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
-  if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
-    invariants.least_edge_m = least_edge_m(profile);
+  Invariants invariants = invariants_of(profile, targets_.scale);
   invariants.judge = judge_as_written(of.document, of.building, *of.line.solid, is_thorough);
   return invariants;
 }
@@ -180,7 +174,7 @@ Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile, const O
 void BuildingDrawer::keep_figures(const Profile* profile, const Subject& of,
                                   const Generalised& changes, const Redrawn& redrawn,
                                   Product& told) const {
-  const double least_m = least_edge_m(profile);
+  const double least_m = least_edge_m(profile, targets_.scale);
   const Solid& before = *of.line.solid;
   const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
   keep(fineness_issues(of.building, before, after, *of.line.segmentation, of.line.description.table,
@@ -190,13 +184,6 @@ void BuildingDrawer::keep_figures(const Profile* profile, const Subject& of,
   told[Part::figures] +=
       accounts_.text(of.building.id, target_text(profile), least_m, figures_of(before, least_m),
                      figures_of(after, least_m), hausdorff_m(before, after));
-}
-
-/// The least length that the target shows: the profile's, or its c, else 0.125 mm on the map.
-double BuildingDrawer::least_edge_m(const Profile* profile) const {
-  if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
-  const auto sizes = profile != nullptr ? profile->thresholds(targets_.scale) : std::nullopt;
-  return sizes ? sizes->c_m : kGapOnMap_m * targets_.scale.value_or(0);
 }
 
 std::string BuildingDrawer::target_text(const Profile* profile) const {

@@ -60,7 +60,6 @@ class BuildingDrawer {
                     const Redrawn& redrawn, Product& told) const;
   [[nodiscard]] Redrawn untouched(const Document& document, const Building& building,
                                   const OnLine& line, Product& told) const;
-  [[nodiscard]] double least_edge_m(const Profile* profile) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;
 
   const LabelArguments& arguments_;

@@ -2,6 +2,7 @@
 
 #include "cli/run.h"
 #include "cli/series_files.h"
+#include "cli/targets.h"
 #include "cli/written_proof.h"
 #include "generalise/scale_series.h"
 #include "generalise/series_levels.h"
@@ -29,8 +30,9 @@ struct Staged {
   const Building* building = nullptr;
   const OnLine* line = nullptr;
   LabelledBuilding labelled;
-  std::vector<SeriesLevel> levels;
-  std::unique_ptr<FiringScales> firing;
+  bool is_judged = false;  ///< each step of its levels is, which takes long
+  std::vector<SeriesLevel> levels{};
+  std::unique_ptr<FiringScales> firing{};
 };
 
 class SeriesWriter {
@@ -86,10 +88,7 @@ class SeriesWriter {
     std::vector<const LabelledBuilding*> solids;
     run_.timings().measure(Stage::generalise, [&] {
       for (std::size_t i = 0; i < lines.size(); ++i)
-        if (lines[i].is_done()) stage(document.buildings[i], lines[i], staged);
-    });
-    run_.timings().measure(Stage::write, [&] {
-      std::erase_if(staged, [&](Staged& one) { return !is_valid(document, one); });
+        if (lines[i].is_done()) stage(document, document.buildings[i], lines[i], staged);
     });
     for (const Staged& one : staged)
       for (const SeriesLevel& level : one.levels) solids.push_back(&level.redrawn.labelled);
@@ -99,7 +98,7 @@ class SeriesWriter {
     std::string log;
     int operations = 0;
     run_.timings().measure(Stage::generalise, [&] {
-      for (const Staged& one : staged) operations += add_building(one, grid, drawn, log);
+      for (const Staged& one : staged) operations += add_building(document, one, grid, drawn, log);
     });
     run_.timings().measure(Stage::write, [&] {
       const auto twin = files_.add(document, drawn, log);
@@ -130,28 +129,33 @@ class SeriesWriter {
     outputs_.take(document, product);
   }
 
-  [[nodiscard]] SeriesInput input_of(const Staged& one) const {
-    SeriesInput input{*one.building,
-                      one.labelled,
-                      *one.line->solid,
-                      *one.line->segmentation,
-                      one.line->description.table,
-                      one.line->interpretation,
-                      arguments_.segment_options(one.line->tolerances),
-                      {}};
-    if (profile_ != nullptr)
-      input.invariants = {profile_->footprint_pct, profile_->volume_pct, profile_->top_m,
-                          profile_->overhang_pct};
-    return input;
+  [[nodiscard]] SeriesInput input_of(const Document& document, const Staged& one) const {
+    return {*one.building,
+            one.labelled,
+            *one.line->solid,
+            *one.line->segmentation,
+            one.line->description.table,
+            one.line->interpretation,
+            arguments_.segment_options(one.line->tolerances),
+            [this, &document, &one](double scale) {
+              Invariants invariants = invariants_of(profile_, scale);
+              if (one.is_judged)
+                invariants.judge =
+                    judge_as_written(document, *one.building, *one.line->solid, true);
+              return invariants;
+            }};
   }
 
-  void stage(const Building& building, const OnLine& line, std::vector<Staged>& staged) {
+  /// Its levels, if they can be written as valid solids; else it is set aside. Where one cannot,
+  /// all are drawn again with every step judged.
+  void stage(const Document& document, const Building& building, const OnLine& line,
+             std::vector<Staged>& staged) {
     if (line.is_open) {
       run_.set_aside(building_issue(Severity::error, "G404", building.id,
                                     "is open: there is no solid to redraw"));
       return;
     }
-    Staged one{&building, &line, outputs_.annotated(building, line), {}, {}};
+    Staged one{&building, &line, outputs_.annotated(building, line)};
     const auto& [table, graph] = line.description;
     const PlanAt plan_at = [&](double scale) {
       Plan asked = plan(rules_, table, graph, line.interpretation, scale);
@@ -160,49 +164,67 @@ class SeriesWriter {
                                 line.interpretation, scale);
       return asked;
     };
-    auto levels = series_levels(input_of(one), scales_, plan_at);
-    bool is_good = levels.value.has_value();
-    for (const Issue& issue : levels.issues) {
-      is_good = is_good && issue.severity != Severity::error;
-      if (issue.severity == Severity::error)
-        run_.set_aside(issue);
-      else
-        report_.tell(issue);
+    auto levels = series_levels(input_of(document, one), scales_, plan_at);
+    LevelsProof proof = prove(document, one, levels);
+    if (proof.fault) {
+      one.is_judged = true;
+      levels = series_levels(input_of(document, one), scales_, plan_at);
+      proof = prove(document, one, levels);
     }
-    if (!is_good) return;
+    std::ranges::move(proof.excuses, std::back_inserter(levels.issues));
+    if (proof.fault) levels.issues.push_back(std::move(*proof.fault));
+    if (!keep(levels.issues)) return;
     one.levels = std::move(*levels.value);
     one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
     staged.push_back(std::move(one));
   }
 
-  /// False if a level is valid at no scale of the file: the building is set aside. Levels say how
-  /// fine the file has to be.
-  bool is_valid(const Document& document, Staged& one) {
-    for (std::size_t i = 1; i < one.levels.size(); ++i) {
-      SeriesLevel& level = one.levels[i];
+  /// False if there is an error: the building is set aside.
+  bool keep(const std::vector<Issue>& issues) {
+    for (const Issue& issue : issues)
+      if (issue.severity == Severity::error)
+        run_.set_aside(issue);
+      else
+        report_.tell(issue);
+    return !has_errors(issues);
+  }
+
+  struct LevelsProof {
+    std::optional<Issue> fault;  ///< of a level that is valid at no scale of the file
+    std::vector<Issue> excuses;
+  };
+
+  /// Says of each level how fine the file has to be.
+  static LevelsProof prove(const Document& document, const Staged& one,
+                           Checked<std::vector<SeriesLevel>>& levels) {
+    LevelsProof out;
+    if (!levels.value) return out;
+    for (std::size_t i = 1; i < levels.value->size(); ++i) {
+      SeriesLevel& level = (*levels.value)[i];
+      const SeriesLevel& before = (*levels.value)[i - 1];
       LabelledBuilding& labelled = level.redrawn.labelled;
-      labelled.digits = one.levels[i - 1].redrawn.labelled.digits;
-      if (level.generalised.removed == one.levels[i - 1].generalised.removed &&
+      labelled.digits = before.redrawn.labelled.digits;
+      if (level.generalised.removed == before.generalised.removed &&
           level.generalised.changed.empty())
         continue;
-      const WrittenProof proof =
+      WrittenProof proof =
           prove_redrawn(document, *one.building, *one.line->solid, *labelled.geometry);
       labelled.digits = std::max(labelled.digits, proof.digits);
-      if (proof.excuse) report_.tell(*proof.excuse);
+      if (proof.excuse) out.excuses.push_back(std::move(*proof.excuse));
       if (!proof.fault) continue;
-      run_.set_aside(*proof.fault);
-      return false;
+      out.fault = std::move(proof.fault);
+      break;
     }
-    return true;
+    return out;
   }
 
   /// Its levels and its lines of the log, or nothing of it. Returns how many operations there are.
-  int add_building(const Staged& one, const WrittenGrid& grid,
+  int add_building(const Document& document, const Staged& one, const WrittenGrid& grid,
                    std::vector<SeriesFiles::Drawn>& drawn, std::string& log) {
     const Frame& frame = one.building->frame;
     ScaleSeries series;
     try {
-      series = scale_series(input_of(one), one.levels, *one.firing,
+      series = scale_series(input_of(document, one), one.levels, *one.firing,
                             [&](Vec3 local_m) { return grid.place(local_m, frame); });
     } catch (const GeometryError& fault) {
       run_.set_aside(building_issue(Severity::error, "E901", one.building->id,

@@ -76,4 +76,21 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
   return targets;
 }
 
+double least_edge_m(const Profile* profile, std::optional<double> scale) {
+  if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
+  const auto sizes = profile != nullptr ? profile->thresholds(scale) : std::nullopt;
+  return sizes ? sizes->c_m : kGapOnMap_m * scale.value_or(0);
+}
+
+Invariants invariants_of(const Profile* profile, std::optional<double> scale) {
+  Invariants invariants;
+  if (profile != nullptr)
+    invariants = {profile->footprint_pct, profile->volume_pct, profile->top_m,
+                  profile->overhang_pct};
+  // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
+  if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
+    invariants.least_edge_m = least_edge_m(profile, scale);
+  return invariants;
+}
+
 }  // namespace oriel::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/report.h"
+#include "generalise/invariants.h"
 #include "interpret/profile.h"
 #include "interpret/rule_base.h"
 
@@ -37,5 +38,11 @@ struct TargetArguments {
 /// scale or level that is none.
 std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBase& rules,
                                   Report& report);
+
+/// The least length that a target shows: the profile's, or its c, else 0.125 mm on the map.
+double least_edge_m(const Profile* profile, std::optional<double> scale);
+
+/// What must not change at a target, without a judge.
+Invariants invariants_of(const Profile* profile, std::optional<double> scale);
 
 }  // namespace oriel::cli

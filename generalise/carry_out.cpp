@@ -26,6 +26,7 @@ class Guard {
         pieces_(pieces),
         before_(measures_of(solid)),
         judge_(invariants.judge) {
+    judge_.settled = invariants.settled;
     judge_.violation_of = [this](const Solid& left) {
       return violation(before_, measures_of(left), invariants_);
     };
@@ -64,6 +65,7 @@ class Guard {
       for (const Step& step : plan_.steps)
         if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
             std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
+            !std::ranges::binary_search(invariants_.settled, step.feature) &&
             is_torn(step.feature, edge))
           undone_.push_back({step.feature, "G418",
                              fmt::format("an edge of {:.2f} m would be left", edge.length_m)});

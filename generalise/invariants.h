@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace oriel {
 
@@ -30,6 +31,8 @@ struct Judge {
   std::function<std::optional<Violation>(const Solid&)> violation_of{};
   /// What is left after cuts is judged also if all of them went well.
   bool is_thorough = false;
+  /// Features that went together before, ascending: they are tried first.
+  std::vector<FeatureId> settled{};
 
   explicit operator bool() const { return static_cast<bool>(fitness_of); }
 };
@@ -45,6 +48,8 @@ struct Invariants {
   std::optional<double> overhang_pct{};
   /// No new edge may be shorter (new_short_edges); 0: it may.
   double least_edge_m = 0;
+  /// Features that may go whatever edges that leaves. Ascending.
+  std::vector<FeatureId> settled{};
   /// If given, what has no cut of its own goes as cells where that leaves what this calls fit
   /// (remove_cells).
   Judge judge{};

@@ -103,7 +103,10 @@ class CellRemover {
     for (const Way way : {Way::in_planes, Way::anew}) {
       Ids rest = more;
       std::erase_if(rest, [&](FeatureId id) { return std::ranges::binary_search(gone_, id); });
-      add(rest, way);
+      const auto others = std::ranges::stable_partition(
+          rest, [&](FeatureId id) { return std::ranges::binary_search(judge_.settled, id); });
+      add({rest.begin(), others.begin()}, way);
+      add({others.begin(), others.end()}, way);
     }
   }
 

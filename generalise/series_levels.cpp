@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace oriel {
@@ -31,7 +32,7 @@ class Levels {
 
   Checked<std::vector<SeriesLevel>> run(const std::vector<double>& scales) {
     Checked<std::vector<SeriesLevel>> out;
-    auto finest = level_of(input_, 0, {}, out.issues);
+    auto finest = level_of(input_, 0, {}, {}, out.issues);
     if (!finest) return out;
     std::vector<SeriesLevel> levels{std::move(*finest)};
     for (const double scale : scales) {
@@ -94,6 +95,12 @@ class Levels {
     return bound;
   }
 
+  [[nodiscard]] Invariants invariants_after(const SeriesLevel& before, double scale) const {
+    Invariants invariants = input_.invariants_at ? input_.invariants_at(scale) : Invariants{};
+    invariants.settled = before.generalised.removed;
+    return invariants;
+  }
+
   std::optional<SeriesLevel> next(const SeriesLevel& before, double scale,
                                   std::vector<Issue>& issues) {
     const Steps old = by_feature(before.steps);
@@ -105,13 +112,29 @@ class Levels {
     }
     while (true) {
       std::vector<Issue> found;
-      auto level = level_of(input_, scale, listed(steps), found);
+      auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
       if (!level || !restore_refused(*level, old, steps)) {
-        if (level && is_setback(before, *level)) return one_by_one(before, steps, scale, issues);
+        if (level && is_setback(before, *level)) return on_top(before, steps, scale, issues);
         std::ranges::move(found, std::back_inserter(issues));
+        if (level && is_nothing_new(before, *level)) return unchanged(before, std::move(*level));
         return level;
       }
     }
+  }
+
+  /// The same steps were carried out.
+  static bool is_nothing_new(const SeriesLevel& before, const SeriesLevel& after) {
+    return std::ranges::equal(before.steps, after.steps, [](const Step& a, const Step& b) {
+      return a.feature == b.feature && is_same(a, b);
+    });
+  }
+
+  /// What was refused may have changed how other features go; then they stay gone as they were.
+  static SeriesLevel unchanged(const SeriesLevel& before, SeriesLevel after) {
+    SeriesLevel same = before;
+    same.scale = after.scale;
+    same.refused = std::move(after.refused);
+    return same;
   }
 
   /// All steps were carried out, or refused, at the level before.
@@ -149,31 +172,38 @@ class Levels {
     return has_lost_a_step || !std::ranges::includes(removed, before.generalised.removed);
   }
 
-  /// The new steps on top of the old ones, task by task; those that would undo something are left.
-  std::optional<SeriesLevel> one_by_one(const SeriesLevel& before, const Steps& wanted_steps,
-                                        double scale, std::vector<Issue>& issues) {
-    std::vector<Issue> dropped;
-    Steps steps = by_feature(before.steps);
+  /// The new steps on top of the old ones; tasks that would undo something, found by halving, are
+  /// left.
+  SeriesLevel on_top(const SeriesLevel& before, const Steps& wanted_steps, double scale,
+                     std::vector<Issue>& issues) {
+    SeriesLevel best = before;
+    best.scale = scale;
+    add_tasks(before, new_tasks(by_feature(before.steps), wanted_steps), best, issues);
+    return best;
+  }
+
+  void add_tasks(const SeriesLevel& before, std::span<const std::vector<Step>> tasks,
+                 SeriesLevel& best, std::vector<Issue>& issues) {
+    if (tasks.empty()) return;
+    Steps more = by_feature(best.steps);
+    for (const std::vector<Step>& task : tasks)
+      for (const Step& step : task) more.insert_or_assign(step.feature, step);
     std::vector<Issue> found;
-    auto best = level_of(input_, scale, before.steps, found);
-    for (const std::vector<Step>& some : new_tasks(steps, wanted_steps)) {
-      Steps more = steps;
-      for (const Step& step : some) more.insert_or_assign(step.feature, step);
-      found.clear();
-      auto level = level_of(input_, scale, listed(more), found);
-      if (level && !is_setback(before, *level)) {
-        steps = by_feature(level->steps);
-        best = std::move(level);
-        std::ranges::move(found, std::back_inserter(issues));
-        continue;
-      }
+    auto level =
+        level_of(input_, best.scale, listed(more), invariants_after(before, best.scale), found);
+    if (level && !is_setback(before, *level)) {
+      best = std::move(*level);
+      std::ranges::move(found, std::back_inserter(issues));
+    } else if (tasks.size() > 1) {
+      add_tasks(before, tasks.first(tasks.size() / 2), best, issues);
+      add_tasks(before, tasks.subspan(tasks.size() / 2), best, issues);
+    } else {
       Issue issue = building_issue(Severity::warning, "G408", input_.table.building(),
                                    "stays as it is: a change that was made at a larger scale would "
                                    "be undone");
-      issue.place.feature = input_.table.id(some[0].feature);
+      issue.place.feature = input_.table.id(tasks[0][0].feature);
       issues.push_back(std::move(issue));
     }
-    return best;
   }
 
   [[nodiscard]] std::vector<std::vector<Step>> new_tasks(const Steps& old,
@@ -198,10 +228,10 @@ class Levels {
 }  // namespace
 
 std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std::vector<Step> steps,
-                                    std::vector<Issue>& issues) {
+                                    const Invariants& invariants, std::vector<Issue>& issues) {
   const Plan plan{scale, std::move(steps), {}};
   auto made = generalise(input.solid, input.segmentation, input.table, input.interpretation, plan,
-                         input.options, input.invariants);
+                         input.options, invariants);
   std::ranges::move(made.issues, std::back_inserter(issues));
   if (!made.value) return std::nullopt;
   SeriesLevel level;

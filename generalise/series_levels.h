@@ -17,7 +17,8 @@ struct SeriesInput {
   const FeatureTable& table;
   const Interpretation& interpretation;
   SegmentOptions options{};
-  Invariants invariants{};
+  /// What must not change at 1 : scale; not given: anything may.
+  std::function<Invariants(double scale)> invariants_at{};
 };
 
 /// What is asked for at 1 : scale.
@@ -49,6 +50,6 @@ Checked<std::vector<SeriesLevel>> series_levels(const SeriesInput& input,
 
 /// What generalise and redraw make of some steps, drawn anew; nothing if nothing closed is left.
 std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std::vector<Step> steps,
-                                    std::vector<Issue>& issues);
+                                    const Invariants& invariants, std::vector<Issue>& issues);
 
 }  // namespace oriel

@@ -204,11 +204,12 @@ class LevelOperations {
     into.is_redrawing = into.is_redrawing || one.is_redrawing;
   }
 
-  /// What the steps make, if `one` is carried out among them and leaves a closed solid.
+  /// What the steps make, if `one` is carried out among them and leaves a closed solid. No
+  /// invariant has to hold between levels.
   [[nodiscard]] std::optional<LevelState> state_of(const std::vector<Step>& steps,
                                                    const Draft& one) const {
     std::vector<Issue> issues;
-    const auto level = level_of(input_, after_.scale, steps, issues);
+    const auto level = level_of(input_, after_.scale, steps, {}, issues);
     if (!level || level->steps.size() != steps.size()) return std::nullopt;
     const auto& removed = level->generalised.removed;
     if (!std::ranges::includes(removed, one.gone)) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "generalise/generalise.h"
 
 #include "generalise/fineness.h"
+#include "generalise/series_levels.h"
 #include "tests/generalise/line.h"
 #include "tests/support/changed.h"
 #include "tests/support/shapes.h"
@@ -201,6 +202,29 @@ TEST_SUITE("generalise") {
       CHECK(plinth.stubs(plinth.generalised(1.25)) == 0);
     }
     CHECK(torn > 0);
+  }
+
+  TEST_CASE("in a series a piece of a plinth stays as well, and what went before stays gone") {
+    const Plinth plinth(block_on_a_plinth());
+    const Line& line = plinth.line;
+    SeriesInput input{line.building(), line.labelled,       line.solid, line.segmentation,
+                      line.table(),    line.interpretation, {},         {}};
+    const PlanAt plan_at = [&](double) { return plinth.plan; };
+    const auto levels_with = [&](std::vector<double> least_edges_m) {
+      input.invariants_at = [least_edges_m](double scale) {
+        Invariants invariants;
+        invariants.least_edge_m = least_edges_m.at(static_cast<std::size_t>(scale) - 1);
+        return invariants;
+      };
+      auto levels = series_levels(input, {1, 2}, plan_at);
+      REQUIRE(levels.value);
+      return std::move(*levels.value);
+    };
+    for (const SeriesLevel& level : levels_with({1.25, 2.5}))
+      CHECK(plinth.stubs(level.generalised) == 0);
+    const auto torn = levels_with({0, 1.25});
+    CHECK_FALSE(torn[1].generalised.removed.empty());
+    CHECK(torn[2].generalised.removed == torn[1].generalised.removed);
   }
 
   TEST_CASE("a solid of which nothing is left stays as it is") {
