@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <type_traits>
@@ -36,6 +37,9 @@ constexpr std::size_t kPipeChunk = 1 << 16;
 
 /// Where a worker is; the parent reads it when the worker is gone.
 volatile std::size_t* building_at_hand = nullptr;
+/// What a worker may be at one building for, unless that is lost already.
+itimerval most_time{};
+const Arrival* arrival_at_hand = nullptr;
 
 [[noreturn]] void give_up(const char* what) {
   throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(errno)));
@@ -93,10 +97,10 @@ bool send(int pipe, const std::string& message) {
   return true;
 }
 
-std::string cause_of(int status) {
-  if (!WIFSIGNALED(status)) return fmt::format("exit code {}", WEXITSTATUS(status));
-  const char* name = ::sigabbrev_np(WTERMSIG(status));
-  return fmt::format("signal {} (SIG{})", WTERMSIG(status), name != nullptr ? name : "?");
+itimerval once_after(double seconds) {
+  const auto whole = static_cast<time_t>(seconds);
+  const auto micros = static_cast<suseconds_t>((seconds - static_cast<double>(whole)) * 1e6);
+  return {{}, {whole, micros}};
 }
 
 bool is_work(const Arrival& arrival) {
@@ -111,7 +115,11 @@ std::size_t bytes_of(const Arrival& arrival) {
 }  // namespace
 
 void now_at_building(std::size_t building) {
-  if (building_at_hand != nullptr) *building_at_hand = building;
+  if (building_at_hand == nullptr) return;
+  *building_at_hand = building;
+  const itimerval none{};
+  const bool is_timed = building != kNoBuilding && !arrival_at_hand->lost.contains(building);
+  ::setitimer(ITIMER_REAL, is_timed ? &most_time : &none, nullptr);
 }
 
 struct Isolation::Place {
@@ -134,7 +142,8 @@ struct Isolation::Batch {
   [[nodiscard]] bool is_running() const { return pipe >= 0; }
 };
 
-Isolation::Isolation(int jobs, Steps steps) : jobs_(jobs), steps_(std::move(steps)) {
+Isolation::Isolation(int jobs, double most_seconds, Steps steps)
+    : jobs_(jobs), most_seconds_(most_seconds), steps_(std::move(steps)) {
   const auto count = static_cast<std::size_t>(jobs_);
   void* shared = ::mmap(nullptr, count * sizeof(Place), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -205,11 +214,13 @@ void Isolation::start(Batch& batch) {
 /// so without the parent's handlers. An exception is a crash as any other.
 void Isolation::be_worker(const Batch& batch, int pipe) const noexcept {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
-  for (const int signal : {SIGPIPE, SIGXCPU, SIGXFSZ}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGALRM, SIGPIPE, SIGXCPU, SIGXFSZ}) std::signal(signal, SIG_DFL);
+  most_time = once_after(most_seconds_);
   building_at_hand = &batch.place->building;
   for (std::size_t i = batch.answered; i < batch.arrivals.size(); ++i) {
     Arrival& arrival = *batch.arrivals[i];
     if (!is_work(arrival)) continue;
+    arrival_at_hand = &arrival;
     steps_.work(arrival);
     if (!send(pipe, message_of(arrival))) break;
     now_at_building(kNoBuilding);
@@ -264,6 +275,15 @@ void Isolation::end(Batch& batch) {
   blame(batch, status);
   batch.received.clear();
   start(batch);
+}
+
+std::string Isolation::cause_of(int status) const {
+  if (!WIFSIGNALED(status)) return fmt::format("exit code {}", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  if (signal == SIGALRM && most_seconds_ > 0)
+    return fmt::format("the clock: it took more than {} s (--most-seconds)", most_seconds_);
+  const char* name = ::sigabbrev_np(signal);
+  return fmt::format("signal {} (SIG{})", signal, name != nullptr ? name : "?");
 }
 
 void Isolation::blame(Batch& batch, int status) {

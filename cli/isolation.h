@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace oriel::cli {
@@ -24,8 +25,9 @@ class Isolation {
     std::function<void(Arrival&)> settle;
   };
 
-  /// Up to `jobs` workers at the same time.
-  Isolation(int jobs, Steps steps);
+  /// Up to `jobs` workers at the same time. A worker that is at one building for longer than
+  /// `most_seconds`, if that is more than 0, ends by SIGALRM.
+  Isolation(int jobs, double most_seconds, Steps steps);
   ~Isolation();
   Isolation(const Isolation&) = delete;
   Isolation& operator=(const Isolation&) = delete;
@@ -47,7 +49,10 @@ class Isolation {
   void settle_front();
   [[noreturn]] void be_worker(const Batch& batch, int pipe) const noexcept;
 
+  [[nodiscard]] std::string cause_of(int status) const;
+
   int jobs_;
+  double most_seconds_;
   Steps steps_;
   std::vector<std::unique_ptr<Batch>> batches_;  ///< in the order of their records
   std::vector<Place*> free_places_;

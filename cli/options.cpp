@@ -215,6 +215,13 @@ void add_isolate_argument(CLI::App& command, LineArguments& a) {
   command.add_flag("--isolate", a.is_isolated,
                    "Work in forked processes: a hard crash (a signal) costs one building, which is "
                    "set aside");
+  command
+      .add_option(
+          "--most-seconds", a.most_seconds,
+          "Set a building aside that takes longer, by the clock, so that another run may do "
+          "otherwise; needs --isolate")
+      ->check(CLI::Range(0.001, 1e6))
+      ->needs(command.get_option("--isolate"));
 }
 
 void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {

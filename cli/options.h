@@ -38,6 +38,8 @@ struct LineArguments {
   int jobs = 1;
   /// Buildings are worked on in forked processes.
   bool is_isolated = false;
+  /// By the clock, for one building in such a process; 0: as long as it takes.
+  double most_seconds = 0;
   Selection selection;
   /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
   std::string status_stem;
@@ -98,7 +100,7 @@ void add_resume_argument(CLI::App& command, LineArguments& arguments);
 /// Adds `--reuse`, for commands whose records are made one by one. Behind add_run_arguments.
 void add_reuse_argument(CLI::App& command, LineArguments& arguments);
 
-/// Adds `--isolate`.
+/// Adds `--isolate` and `--most-seconds`.
 void add_isolate_argument(CLI::App& command, LineArguments& arguments);
 
 /// Adds all of them to a command. `has_many`: it takes more than one input.

@@ -113,7 +113,7 @@ void Run::run_isolated(Intake& intake, const Visitor& visitor) {
     drop_unselected(arrival);
     settle(arrival, visitor);
   };
-  Isolation isolation(arguments_.jobs,
+  Isolation isolation(arguments_.jobs, arguments_.most_seconds,
                       {next, [&](Arrival& arrival) { work_on(arrival, visitor); }, settle_it});
   isolation.run();
 }

@@ -121,6 +121,27 @@ TEST_SUITE("cli") {
     CHECK(nlohmann::json::parse(bytes_of(folder / "s.status.json"))["set_aside"] == 1);
   }
 
+  TEST_CASE("what takes longer than it may costs that building and says that it was the clock") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", houses(6)),
+                      whole = folder / "whole.city.jsonl", out = folder / "out.city.jsonl";
+    const auto label = [&](const std::string& seconds) {
+      return run({"label", input, "-o", out, "--status", folder / "s", "--isolate",
+                  "--most-seconds", seconds});
+    };
+    REQUIRE(run({"label", input, "-o", whole}).exit == 0);
+    CHECK(label("1000").exit == 0);
+    CHECK(bytes_of(out) == bytes_of(whole));
+    // No house is done in a millisecond.
+    const Outcome outcome = label("0.001");
+    CHECK(outcome.exit == 3);
+    CHECK(outcome.says("labelled 0 of 6 buildings"));
+    CHECK(outcome.says("6 set aside (E123 6)"));
+    CHECK(outcome.says("the clock: it took more than 0.001 s (--most-seconds)"));
+    CHECK(lines_of(bytes_of(folder / "s.quarantine.jsonl")).size() == 6);
+    CHECK(run({"label", input, "-o", out, "--most-seconds", "10"}).exit == 2);
+  }
+
   TEST_CASE("a signal ends a command with its workers and leaves no file") {
     const Folder folder;
     const std::string input = folder.write("in.city.jsonl", houses(24));
