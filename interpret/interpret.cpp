@@ -15,15 +15,19 @@ namespace oriel {
 
 namespace {
 
-void fill(Verdict& verdict, const rules::Pack& pack, const rules::Choice& choice) {
-  if (choice.rule < 0) return;
-  const rules::Rule& rule = pack.rules[static_cast<std::size_t>(choice.rule)];
-  verdict.label = rule.name_of_label;
-  verdict.score = choice.score;
-  verdict.margin = choice.margin;
-  verdict.rule = rule.name;
-  if (choice.runner_up < 0) return;
-  verdict.runner_up = pack.rules[static_cast<std::size_t>(choice.runner_up)].name_of_label;
+/// Without a branch on what was decided: what is said for explanations costs no more than to write
+/// it.
+std::vector<Verdict> verdicts_of(const rules::Pack& pack,
+                                 const std::vector<rules::Choice>& choices) {
+  const rules::NamesOfRule* const names = pack.names_of_rules.data() + 1;
+  std::vector<Verdict> verdicts;
+  verdicts.reserve(choices.size());
+  for (const rules::Choice& choice : choices) {
+    const FeatureId feature{static_cast<int>(verdicts.size())};
+    verdicts.push_back({feature, names[choice.rule].label, choice.score, choice.margin,
+                        names[choice.rule].id, names[choice.runner_up].label});
+  }
+  return verdicts;
 }
 
 Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
@@ -61,13 +65,10 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   rules::Labelling labelling(pack, facts);
   const auto choices = labelling.run();
   Interpretation result;
-  result.verdicts.resize(choices.size());
-  for (std::size_t row = 0; row < choices.size(); ++row) {
-    Verdict& verdict = result.verdicts[row];
-    verdict.feature = FeatureId{static_cast<int>(row)};
-    fill(verdict, pack, choices[row]);
-    if (choices[row].is_ambiguous) result.issues.push_back(ambiguity(pack, verdict, table));
-  }
+  result.verdicts = verdicts_of(pack, choices);
+  for (std::size_t row = 0; row < choices.size(); ++row)
+    if (choices[row].is_ambiguous)
+      result.issues.push_back(ambiguity(pack, result.verdicts[row], table));
   if (const auto rows = labelling.unsettled(); !rows.empty())
     result.issues.push_back(unsettled(pack, rows, table));
   result.groups = rules::find_groups(pack, facts, table);

@@ -103,63 +103,6 @@ inline void apply(Op op, std::span<double> x, double y) {
   }
 }
 
-/// Calls `run` with the comparison as a function of two numbers.
-template <class Run>
-void with_comparison(Op op, Run run) {
-  switch (op) {
-    case Op::less:
-      return run([](double p, double q) { return p < q; });
-    case Op::less_equal:
-      return run([](double p, double q) { return p <= q; });
-    case Op::greater:
-      return run([](double p, double q) { return p > q; });
-    case Op::greater_equal:
-      return run([](double p, double q) { return p >= q; });
-    case Op::equal:
-      return run([](double p, double q) { return p == q; });
-    default:
-      return run([](double p, double q) { return static_cast<bool>((p < q) | (p > q)); });
-  }
-}
-
-/// The same comparisons for a block. No comparison holds for NaN, so that what does not hold is
-/// either no or, where one is NaN, unknown.
-inline void compare(Op op, std::span<const double> x, std::span<const double> y,
-                    std::span<Truth> out) {
-  with_comparison(op, [&](auto holds) {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const int is_unknown = static_cast<int>(x[i] != x[i]) | static_cast<int>(y[i] != y[i]);
-      out[i] = static_cast<Truth>(2 * static_cast<int>(holds(x[i], y[i])) + is_unknown);
-    }
-  });
-}
-
-/// The same with one number for all.
-inline void compare(Op op, std::span<const double> x, double y, std::span<Truth> out) {
-  if (std::isnan(y)) {
-    std::ranges::fill(out, Truth::unknown);
-    return;
-  }
-  with_comparison(op, [&](auto holds) {
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] =
-          static_cast<Truth>(2 * static_cast<int>(holds(x[i], y)) + static_cast<int>(x[i] != x[i]));
-  });
-}
-
-/// low <= x <= high.
-inline void compare_range(std::span<const double> x, double low, double high,
-                          std::span<Truth> out) {
-  const bool is_unknown = std::isnan(low) || std::isnan(high);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const int is_inside = static_cast<int>(x[i] >= low) & static_cast<int>(x[i] <= high);
-    out[i] = static_cast<Truth>(2 * is_inside + static_cast<int>(x[i] != x[i]));
-  }
-  if (!is_unknown) return;
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = std::min(compare(Op::greater_equal, x[i], low), compare(Op::less_equal, x[i], high));
-}
-
 /// x ~ y by t: |x - y| <= t max(|x|, |y|).
 inline Truth is_similar(double x, double y, double tolerance) {
   const double allowed = tolerance * std::fmax(std::abs(x), std::abs(y));

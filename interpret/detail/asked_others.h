@@ -15,14 +15,13 @@ class Evaluator::AskedOthers {
  public:
   AskedOthers(Evaluator& evaluator, const Expr& quantifier)
       : links_(evaluator.facts_->relations[oriel::at(quantifier.index)]) {
-    std::uint8_t is_filter_unknown = 0;
+    may_be_unknown_ = !links_.are_all_certain();
     if (quantifier.filter != kNoExpr) {
-      const auto& answers = evaluator.column(quantifier.filter, quantifier.level + 1);
-      filter_ = answers.data();
-      for (const Truth answer : answers)
-        is_filter_unknown |= static_cast<std::uint8_t>(answer == Truth::unknown);
+      const Kept& answers = evaluator.column(quantifier.filter, quantifier.level + 1);
+      filter_ = answers.answers.data();
+      may_be_unknown_ |= answers.has_unknown;
     }
-    may_be_unknown_ = !links_.are_all_certain() || is_filter_unknown != 0;
+    if (may_be_unknown_) seen_.resize(links_.lists->lists(), Seen::nothing);
   }
 
   [[nodiscard]] const Links& links() const { return links_; }
@@ -36,14 +35,14 @@ class Evaluator::AskedOthers {
   [[nodiscard]] bool has_unknown(int row) { return may_be_unknown_ && look_for_unknown(row); }
 
  private:
+  enum class Seen : std::uint8_t { nothing, known, unknown };
+
   bool look_for_unknown(int row) {
-    enum : char { unseen, without, with };
     const auto [begin, end] = links_.range_of(row);
     if (begin == end) return false;
-    const auto list = oriel::at(links_.lists->list_of[oriel::at(row)]);
-    seen_.resize(links_.lists->lists(), unseen);
-    if (seen_[list] == unseen) seen_[list] = looks_unknown(row) ? with : without;
-    return seen_[list] == with;
+    Seen& seen = seen_[oriel::at(links_.lists->list_of[oriel::at(row)])];
+    if (seen == Seen::nothing) seen = looks_unknown(row) ? Seen::unknown : Seen::known;
+    return seen == Seen::unknown;
   }
 
   [[nodiscard]] bool looks_unknown(int row) const {
@@ -60,7 +59,7 @@ class Evaluator::AskedOthers {
   const Truth* filter_ = nullptr;
   bool may_be_unknown_ = false;
   /// By list, what is known of it.
-  std::vector<char> seen_;
+  std::vector<Seen> seen_;
 };
 
 }  // namespace oriel::rules

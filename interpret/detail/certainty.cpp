@@ -1,4 +1,5 @@
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/comparisons.h"
 #include "interpret/detail/evaluator.h"
 #include "interpret/detail/fold.h"
 
@@ -13,10 +14,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Sums and products below it are far from infinite, so that none of their differences is NaN.
 constexpr double kHuge = 1e100;
-
-bool has_unknown(const std::vector<Truth>& truths) {
-  return std::ranges::find(truths, Truth::unknown) != truths.end();
-}
 
 }  // namespace
 
@@ -71,16 +68,13 @@ double Evaluator::most(ExprId id) const {
   }
 }
 
+/// What is measured of buildings is far below it; what is not counts as infinite.
 double Evaluator::most_in(std::size_t column) const {
+  constexpr double kMost = 1e9;
   if (most_in_.empty()) most_in_.resize(facts_->columns.size(), kUnknown);
   double& most = most_in_[column];
   if (!std::isnan(most)) return most;
-  most = 0;
-  for (const double value : facts_->columns[column]) {
-    const double size = std::abs(value);
-    if (!(size <= most)) most = std::isnan(size) ? kInfinity : size;
-  }
-  return most;
+  return most = are_all_within(facts_->columns[column], kMost) ? kMost : kInfinity;
 }
 
 }  // namespace oriel::rules

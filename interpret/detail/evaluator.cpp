@@ -1,6 +1,7 @@
 #include "interpret/detail/evaluator.h"
 
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/comparisons.h"
 #include "interpret/detail/conjunction.h"
 #include "interpret/detail/fold.h"
 
@@ -33,11 +34,6 @@ HostKind kind_of_facet(const Hosts& hosts, double inclination_deg) {
   if (is_in(hosts.wall)) return HostKind::wall;
   if (is_in(hosts.roof)) return HostKind::roof;
   return is_in(hosts.ground) ? HostKind::ground : HostKind::none;
-}
-
-void Evaluator::forget() {
-  for (const ExprId id : kept_) columns_[static_cast<std::size_t>(id)].clear();
-  kept_.clear();
 }
 
 double Evaluator::constant(const Expr& expr, ExprId id) const {

@@ -48,11 +48,10 @@ HostRange range_of(const Hosts& hosts, HostKind kind);
 /// NaN.
 class Evaluator {
  public:
-  Evaluator(const Pack& pack, const Facts& facts)
-      : pack_(&pack), facts_(&facts), columns_(pack.code.size()) {}
+  Evaluator(const Pack& pack, const Facts& facts) : pack_(&pack), facts_(&facts) {}
 
   /// To be called when memberships have changed: forgets what was evaluated for all features.
-  void forget();
+  void forget() { kept_.clear(); }
 
   void numbers(ExprId id, const Frame& frame, std::span<double> out);
   void truths(ExprId id, const Frame& frame, std::span<Truth> out);
@@ -113,7 +112,12 @@ class Evaluator {
   void quantify(ExprId id, const Frame& frame, std::span<Truth> out);
 
   /// The answers of an expression of one level for all features, kept until forget().
-  const std::vector<Truth>& column(ExprId id, int level);
+  struct Kept {
+    ExprId of;
+    std::vector<Truth> answers;
+    bool has_unknown;
+  };
+  const Kept& column(ExprId id, int level);
 
   /// True if it is certain that the expression is unknown for no feature.
   [[nodiscard]] bool is_always_known(ExprId id) const;
@@ -131,8 +135,7 @@ class Evaluator {
 
   const Pack* pack_;
   const Facts* facts_;
-  std::vector<std::vector<Truth>> columns_;
-  std::vector<ExprId> kept_;
+  std::vector<Kept> kept_;
   /// By column, NaN until it is asked for.
   mutable std::vector<double> most_in_;
 };

@@ -1,11 +1,13 @@
 #include "interpret/detail/facts.h"
 
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/comparisons.h"
 #include "interpret/detail/evaluator.h"
 #include "interpret/detail/relations.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -35,29 +37,14 @@ class TextCodes {
   std::unordered_map<std::string_view, double> others_;
 };
 
-/// The texts of a column as numbers: those of the pack by their position, others after them.
-std::vector<double> code_texts(const std::vector<std::string>& texts, TextCodes& codes) {
-  std::vector<double> coded(texts.size(), kUnknown);
-  for (std::size_t row = 0; row < texts.size(); ++row) {
-    const std::string& text = texts[row];
-    if (text.empty()) continue;
-    if (row > 0 && text == texts[row - 1]) {
-      coded[row] = coded[row - 1];
-    } else {
-      coded[row] = codes.of(text);
-    }
-  }
+/// The texts of a column as numbers.
+std::vector<double> code_texts(const WordColumn& texts, TextCodes& codes) {
+  std::vector<double> code_of;
+  for (const std::string& word : texts.words())
+    code_of.push_back(word.empty() ? kUnknown : codes.of(word));
+  std::vector<double> coded(texts.numbers().size());
+  for (std::size_t row = 0; row < coded.size(); ++row) coded[row] = code_of[texts.numbers()[row]];
   return coded;
-}
-
-const std::vector<std::size_t>& columns_of_numbers() {
-  static const std::vector<std::size_t> all = [] {
-    std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < feature_schema().size(); ++i)
-      if (feature_schema()[i].unit != Unit::text) numbers.push_back(i);
-    return numbers;
-  }();
-  return all;
 }
 
 /// Throws std::invalid_argument where the graph is of other features than the table.
@@ -84,7 +71,8 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
   TextCodes codes(pack);
   for (const std::size_t i : pack.reads.texts)
     columns[i] = coded_texts_[i] = code_texts(table.texts(i), codes);
-  for (const std::size_t i : columns_of_numbers()) columns[i] = table.numbers(i);
+  for (const std::size_t i : pack.reads.numbers) columns[i] = table.numbers(i);
+  columns[host_inclination] = table.numbers(host_inclination);
   find_hosts(pack);
   link(pack, graph);
 }

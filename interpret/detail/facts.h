@@ -70,7 +70,7 @@ struct Facts {
   /// 0, 1, … rows - 1: a block of features is a piece of it.
   std::vector<int> row_numbers;
   /// By column of feature_schema(): its numbers, or its texts as numbers of words (Pack::words,
-  /// further numbers for other texts); NaN where missing. Empty for texts that no rule asks for.
+  /// further numbers for other texts); NaN where missing. Empty where no rule asks for it.
   std::vector<std::span<const double>> columns;
   /// By number (Relation); without lists for relations that nothing leads over.
   std::vector<Links> relations;

@@ -3,7 +3,10 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,26 +37,65 @@ class DisjointRows {
   std::vector<int> parents_;
 };
 
-using MemberLists = std::vector<std::vector<FeatureId>>;
+/// An id with its first bytes, by which two are nearly always told apart.
+class ComparedId {
+ public:
+  explicit ComparedId(const std::string& id) : id_(&id), head_(head_of(id)) {}
+  [[nodiscard]] const std::string& text() const { return *id_; }
+  [[nodiscard]] bool operator<(const ComparedId& other) const {
+    return head_ != other.head_ ? head_ < other.head_ : *id_ < *other.id_;
+  }
+
+ private:
+  /// The first eight bytes as a number, so that numbers are in the order of texts.
+  static std::uint64_t head_of(const std::string& id) {
+    constexpr std::size_t kBytes = 8;
+    const std::size_t size = std::min(id.size(), kBytes);
+    std::uint64_t head = 0;
+    for (std::size_t i = 0; i < size; ++i) head = head << 8U | static_cast<unsigned char>(id[i]);
+    return size == 0 ? 0 : head << 8U * (kBytes - size);
+  }
+
+  const std::string* id_;
+  std::uint64_t head_;
+};
+
+/// The members of one group, with the smallest of their ids, which names it.
+struct Component {
+  ComparedId id;
+  std::vector<FeatureId> members;
+};
+
+/// Needs a member.
+Component component_of(std::span<const FeatureId> members, const FeatureTable& table) {
+  ComparedId smallest(table.id(members.front()));
+  for (const FeatureId member : members.subspan(1))
+    smallest = std::min(smallest, ComparedId(table.id(member)));
+  return {smallest, {members.begin(), members.end()}};
+}
 
 /// The members of each class hang together, if they are so many.
-MemberLists components_of_classes(const Links& links, std::size_t least, auto is_member) {
-  MemberLists components;
+std::vector<Component> components_of_classes(const Links& links, std::size_t least, auto is_member,
+                                             const FeatureTable& table) {
+  std::vector<Component> components;
   components.reserve(links.lists->lists());
-  std::vector<FeatureId> members;
   const bool are_certain = links.are_all_certain();
+  std::vector<FeatureId> members(links.lists->others.size());
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
-    members.clear();
-    for (const int row : links.lists->list(l))
-      if (is_member(row) && (are_certain || links.is_certain(row)))
-        members.push_back(FeatureId{row});
-    if (members.size() >= least) components.push_back(members);
+    std::size_t size = 0;
+    for (const int row : links.lists->list(l)) {
+      members[size] = FeatureId{row};
+      size += is_member(row) && (are_certain || links.is_certain(row)) ? 1U : 0U;
+    }
+    if (size >= least) components.push_back(component_of(std::span(members).first(size), table));
   }
   return components;
 }
 
-/// Members that pairs of members lead to hang together.
-MemberLists components_of_pairs(const Facts& facts, const Links& links, auto is_member) {
+/// Members that pairs of members lead to hang together, if they are so many.
+std::vector<Component> components_of_pairs(const Facts& facts, const Links& links,
+                                           std::size_t least, auto is_member,
+                                           const FeatureTable& table) {
   DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
@@ -63,53 +105,33 @@ MemberLists components_of_pairs(const Facts& facts, const Links& links, auto is_
       if (links.is_other(row, link) == Truth::yes && is_member(links.other(link)))
         root = sets.join(root, links.other(link));
   }
-  // The root is the first member.
-  std::vector<int> component_of(facts.rows, -1);
-  MemberLists components;
-  for (const int row : facts.row_numbers) {
-    if (!is_member(row)) continue;
-    int& component = component_of[at(sets.find(row))];
-    if (component < 0) {
-      component = static_cast<int>(components.size());
-      components.emplace_back();
-    }
-    components[at(component)].push_back(FeatureId{row});
-  }
+  std::vector<std::vector<FeatureId>> members_of(facts.rows);  // by root
+  for (const int row : facts.row_numbers)
+    if (is_member(row)) members_of[at(sets.find(row))].push_back(FeatureId{row});
+  std::vector<Component> components;
+  for (const auto& members : members_of)
+    if (members.size() >= least) components.push_back(component_of(members, table));
   return components;
 }
 
-/// The members of every component of one kind.
-MemberLists components_of(const GroupKind& kind, const Facts& facts) {
+std::vector<Component> components_of(const GroupKind& kind, const Facts& facts,
+                                     const FeatureTable& table) {
   const auto& members = facts.membership[at(kind.of)];
   const Links& links = facts.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
   const auto least = std::max<std::size_t>(1, at(kind.at_least));
-  if (links.lists->are_classes) return components_of_classes(links, least, is_member);
-  MemberLists components = components_of_pairs(facts, links, is_member);
-  std::erase_if(components, [&](const auto& rows) { return rows.size() < least; });
-  return components;
+  if (links.lists->are_classes) return components_of_classes(links, least, is_member, table);
+  return components_of_pairs(facts, links, least, is_member, table);
 }
 
-/// The smallest id of the members, which names them.
-const std::string& id_of(const std::vector<FeatureId>& members, const FeatureTable& table) {
-  const std::string* first = &table.id(members.front());
-  for (const FeatureId member : members)
-    if (table.id(member) < *first) first = &table.id(member);
-  return *first;
-}
-
-/// Of one kind, sorted by their ids, and so by what names them.
-void add_groups(const GroupKind& kind, MemberLists components, const FeatureTable& table,
+/// Of one kind, sorted by what names them.
+void add_groups(const GroupKind& kind, std::vector<Component> components,
                 std::vector<Group>& groups) {
-  std::vector<std::pair<const std::string*, std::size_t>> order;
-  order.reserve(components.size());
-  for (std::size_t i = 0; i < components.size(); ++i)
-    order.emplace_back(&id_of(components[i], table), i);
-  std::ranges::sort(order, [](const auto& p, const auto& q) { return *p.first < *q.first; });
-  groups.reserve(groups.size() + order.size());
+  std::ranges::sort(components, [](const auto& p, const auto& q) { return p.id < q.id; });
+  groups.reserve(groups.size() + components.size());
   const std::string prefix = kind.name + ".";
-  for (const auto& [id, i] : order)
-    groups.push_back({prefix + *id, kind.name, std::move(components[i])});
+  for (Component& component : components)
+    groups.push_back({prefix + component.id.text(), kind.name, std::move(component.members)});
 }
 
 }  // namespace
@@ -118,7 +140,7 @@ std::vector<Group> find_groups(const Pack& pack, const Facts& facts, const Featu
   std::vector<Group> groups;
   if (facts.rows == 0) return groups;
   for (const GroupKind& kind : pack.groups)
-    add_groups(kind, components_of(kind, facts), table, groups);
+    add_groups(kind, components_of(kind, facts, table), groups);
   return groups;
 }
 

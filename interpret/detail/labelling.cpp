@@ -27,11 +27,11 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       evaluator_(pack, facts),
       choices_(facts.rows),
       first_candidate_(facts.rows, -1),
+      rows_at_hand_(facts.rows + 1),
       unknown_rows_(pack.classes.size()),
       decided_(facts.rows, kNoClass),
       open_rows_(facts.rows),
       is_class_open_(pack.classes.size() + 1) {
-  candidates_.reserve(2 * facts.rows);
   decided_now_.reserve(facts.rows);
 }
 
@@ -114,14 +114,14 @@ void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
 
 void Labelling::run_decision(const Step& step) {
   evaluator_.forget();
-  candidates_.clear();
   decided_now_.clear();
-  std::ranges::fill(first_candidate_, -1);
+  candidate_count_ = rows_at_hand_count_ = 0;
   for (const int id : step.rules) unknown_rows_[index(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
-  for (std::size_t row = 0; row < facts_->rows; ++row)
-    if (first_candidate_[row] >= 0) decide(row);
+  const auto rows = std::span(rows_at_hand_).first(rows_at_hand_count_);
+  for (const int row : rows) decide(index(row));
   settle_membership(step);
+  for (const int row : rows) first_candidate_[index(row)] = -1;
 }
 
 /// A label is final, but a later stratum may refine it to a subclass.
@@ -146,8 +146,7 @@ void Labelling::collect(int id) {
   TruthBlock truths;
   NumberBlock scores;
   const Rule& judging = rule(id);
-  const ClassId label = judging.label;
-  const auto rows = open_rows(label);
+  const auto rows = open_rows(judging.label);
   for (std::size_t begin = 0; begin < rows.size(); begin += kBlock) {
     Frame frame;
     frame.size = std::min(kBlock, rows.size() - begin);
@@ -155,18 +154,36 @@ void Labelling::collect(int id) {
     frame.is_run = !is_any_decided_;
     Conjunction held(frame, std::span(truths).first(frame.size));
     judge(*pack_, judging, evaluator_, held, scores);
-    if (!held.is_open()) continue;
-    const int* const left = held.frame().rows[0];
-    for (std::size_t i = 0; i < held.truths().size(); ++i) {
-      if (held.truths()[i] == Truth::yes) {
-        int& first = first_candidate_[index(left[i])];
-        candidates_.push_back({id, judging.priority, label, first, scores[i]});
-        first = static_cast<int>(candidates_.size()) - 1;
-      } else if (held.truths()[i] == Truth::unknown) {
-        unknown_rows_[index(label)].push_back(left[i]);
-      }
-    }
+    if (held.is_open()) add_candidates(id, held, scores);
   }
+}
+
+/// Without a branch on whether the rule holds, which nobody could foresee: what does not hold is
+/// overwritten by the next.
+void Labelling::add_candidates(int id, Conjunction& held, std::span<const double> scores) {
+  const auto truths = held.truths();
+  const int* const rows = held.frame().rows[0];
+  std::size_t count = candidate_count_, at_hand = rows_at_hand_count_;
+  if (candidates_.size() < count + truths.size() + 1)
+    candidates_.resize(2 * (count + truths.size()) + 1);
+  const int priority = rule(id).priority;
+  const ClassId label = rule(id).label;
+  bool is_any_unknown = false;
+  for (std::size_t i = 0; i < truths.size(); ++i) {
+    const bool holds = truths[i] == Truth::yes;
+    int& first = first_candidate_[index(rows[i])];
+    candidates_[count] = {id, priority, label, first, scores[i]};
+    rows_at_hand_[at_hand] = rows[i];
+    at_hand += holds && first < 0 ? 1U : 0U;
+    first = holds ? static_cast<int>(count) : first;
+    count += holds ? 1U : 0U;
+    is_any_unknown |= truths[i] == Truth::unknown;
+  }
+  candidate_count_ = count;
+  rows_at_hand_count_ = at_hand;
+  if (!is_any_unknown) return;
+  for (std::size_t i = 0; i < truths.size(); ++i)
+    if (truths[i] == Truth::unknown) unknown_rows_[index(label)].push_back(rows[i]);
 }
 
 /// By what wins: enough score, then priority, then score, then the rule's id.
@@ -181,19 +198,27 @@ bool Labelling::beats(const Candidate& p, const Candidate& q) const {
 
 void Labelling::decide(std::size_t row) {
   const Candidate* best = &candidates_[index(first_candidate_[row])];
-  for (int c = best->next; c >= 0; c = candidates_[index(c)].next)
-    if (beats(candidates_[index(c)], *best)) best = &candidates_[index(c)];
+  const Candidate* second = nullptr;  // the best for another label
+  for (int c = best->next; c >= 0; c = candidates_[index(c)].next) {
+    const Candidate* const next = &candidates_[index(c)];
+    const bool is_better = beats(*next, *best);
+    if (next->label != best->label) {
+      if (is_better)
+        second = best;
+      else if (second == nullptr || beats(*next, *second))
+        second = next;
+    }
+    if (is_better) best = next;
+  }
   if (best->score < pack_->decide.min_score) return;
   Choice& choice = choices_[row];
   choice.rule = best->rule;
   choice.score = best->score;
   double margin = best->score;
-  const Candidate* second = nullptr;
-  for (int c = first_candidate_[row]; c >= 0; c = candidates_[index(c)].next) {
+  for (int c = second == nullptr ? -1 : first_candidate_[row]; c >= 0;
+       c = candidates_[index(c)].next) {
     const Candidate& other = candidates_[index(c)];
-    if (other.label == best->label) continue;
-    if (second == nullptr || beats(other, *second)) second = &other;
-    if (other.priority != best->priority) continue;
+    if (other.label == best->label || other.priority != best->priority) continue;
     margin = std::min(margin, best->score - other.score);
     choice.is_ambiguous = margin < pack_->decide.ambiguous_below;
   }

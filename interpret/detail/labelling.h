@@ -77,6 +77,7 @@ class Labelling {
   bool apply_predicate(const Rule& rule);
   void run_decision(const Step& step);
   void collect(int rule);
+  void add_candidates(int rule, Conjunction& held, std::span<const double> scores);
   [[nodiscard]] bool is_open(ClassId decided, ClassId label) const;
   std::span<const int> open_rows(ClassId label);
   void decide(std::size_t row);
@@ -93,9 +94,13 @@ class Labelling {
   Evaluator evaluator_;
   std::vector<Choice> choices_;
   std::vector<std::vector<Choice>> rounds_;
-  /// Candidates of the decision at hand, and the first of every feature, or -1.
+  /// Candidates of the decision at hand, the first of every feature, or -1, and the features that
+  /// have one; of lists that are longer than that the number that counts.
   std::vector<Candidate> candidates_;
+  std::size_t candidate_count_ = 0;
   std::vector<int> first_candidate_;
+  std::vector<int> rows_at_hand_;
+  std::size_t rows_at_hand_count_ = 0;
   /// By class: the rows for which a rule for it was unknown in the decision at hand.
   std::vector<std::vector<int>> unknown_rows_;
   /// By row: the class that was decided, or -1; and the rows of the decision at hand.

@@ -3,6 +3,7 @@
 #include "interpret/detail/loader.h"
 #include "interpret/detail/reach.h"
 #include "interpret/detail/reads.h"
+#include "interpret/detail/relations.h"
 #include "interpret/detail/section.h"
 #include "interpret/detail/strata.h"
 #include "interpret/detail/yaml_tree.h"
@@ -131,6 +132,14 @@ void find_raised(std::vector<Class>& classes) {
     }
 }
 
+void name_rules(Pack& pack) {
+  pack.names_of_rules.emplace_back();
+  for (Rule& rule : pack.rules) {
+    rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;
+    pack.names_of_rules.push_back({rule.id, rule.name_of_label});
+  }
+}
+
 void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   check_traps(root, findings);
   Section top(root, "a pack", top_keys(), findings);
@@ -148,10 +157,8 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   add_default_emissions(pack);
   pack.reads = find_reads(pack);
   find_raised(pack.classes);
-  for (Rule& rule : pack.rules) {
-    rule.name = rule.id;
-    rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;
-  }
+  for (Relation& relation : pack.relations) relation.sides = sides_of(pack, relation);
+  name_rules(pack);
 }
 
 }  // namespace

@@ -77,14 +77,19 @@ struct ScoreTerm {
 struct Rule {
   std::string id;
   ClassId label = kNoClass;
-  /// The id and the label as verdicts carry them, once the pack is read.
-  Name name;
+  /// The label as verdicts carry it, once the pack is read.
   Name name_of_label;
   int priority = 0;
   std::vector<ExprId> require;
   std::vector<ExprId> unless;
   std::vector<ScoreTerm> score;
   Span span;
+};
+
+/// The id of a rule and its label as verdicts carry them.
+struct NamesOfRule {
+  Name id;
+  Name label;
 };
 
 /// Rules that are run together: those of one strongly connected component of predicates, or all
@@ -126,6 +131,15 @@ struct Decide {
   ExprId min_score_of = kNoExpr;
 };
 
+/// What a relation asks of its pairs.
+struct RelationSides {
+  /// The conditions on self alone, on the other alone, and on both.
+  std::vector<ExprId> of_self, of_other, of_both;
+  /// If they ask both for the same and for equal values, and for nothing else: these values, of
+  /// self.
+  std::optional<std::vector<ExprId>> keys;
+};
+
 /// A relation that the pack declares: the pairs of another one for which a condition holds.
 /// Relations are numbered: those of relation_schema(), then those of the pack in their order.
 struct Relation {
@@ -134,6 +148,8 @@ struct Relation {
   int within = -1;
   /// Over self (level 0) and other (level 1); neither classes nor quantifiers stand in it.
   ExprId where = kNoExpr;
+  /// What `where` says, once the pack is read.
+  RelationSides sides;
   Span span;
 };
 
@@ -173,8 +189,9 @@ struct SurfaceRules;
 /// A pack, checked: every name is looked up and every expression has a type.
 /// What a pack reads of a building.
 struct Reads {
-  /// Columns of texts.
+  /// Columns of texts and of numbers, yes/no included.
   std::vector<std::size_t> texts;
+  std::vector<std::size_t> numbers;
   /// By HostKind: whether it asks that of host facets.
   std::array<bool, 4> host_kinds{};
   /// By number: whether an expression or a group leads over the relation, or one that narrows it.
@@ -196,6 +213,8 @@ struct Pack {
   std::vector<Relation> relations;
   std::vector<GroupKind> groups;
   std::vector<Rule> rules;
+  /// Of the rule i at i + 1, so that the first are those of no rule; once the pack is read.
+  std::vector<NamesOfRule> names_of_rules;
   std::vector<Step> steps;
   Decide decide;
   /// How often the pack is run at most; 0: once, without `iterate:`.

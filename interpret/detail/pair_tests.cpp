@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace oriel::rules {
@@ -25,35 +24,29 @@ Op complement(Op op) {
   return op == Op::greater ? Op::less_equal : Op::less;
 }
 
-/// For bounds that stand in `high`: the closed ranges of the numbers that compare so with them. No
-/// number lies beyond an endless bound.
-void set_ranges(Op op, std::span<double> low, std::span<double> high) {
-  if (op == Op::less || op == Op::less_equal) {
-    std::ranges::fill(low, -kEndless);
-    if (op == Op::less_equal) return;
-    for (std::size_t i = 0; i < low.size(); ++i) {
-      if (high[i] == -kEndless) low[i] = kEndless;
-      high[i] = std::nextafter(high[i], -kEndless);
-    }
-    return;
-  }
-  std::ranges::copy(high, low.begin());
-  if (op == Op::equal) return;
-  std::ranges::fill(high, kEndless);
-  if (op == Op::greater_equal) return;
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    if (low[i] == kEndless) high[i] = -kEndless;
-    low[i] = std::nextafter(low[i], kEndless);
+struct ClosedRange {
+  double low, high;
+};
+
+/// The closed range of the numbers that compare so with a bound. No number lies beyond an endless
+/// bound.
+ClosedRange closed_range(Op op, double bound) {
+  constexpr ClosedRange kNone{kEndless, -kEndless};
+  switch (op) {
+    case Op::less:
+      return bound == -kEndless ? kNone : ClosedRange{-kEndless, std::nextafter(bound, -kEndless)};
+    case Op::less_equal:
+      return {-kEndless, bound};
+    case Op::greater:
+      return bound == kEndless ? kNone : ClosedRange{std::nextafter(bound, kEndless), kEndless};
+    case Op::greater_equal:
+      return {bound, kEndless};
+    default:
+      return {bound, bound};
   }
 }
 
-void mirror(std::span<double> low, std::span<double> high) {
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    const double lowest = -high[i];
-    high[i] = -low[i];
-    low[i] = lowest;
-  }
-}
+ClosedRange reflected(ClosedRange ends) { return {-ends.high, -ends.low}; }
 
 }  // namespace
 
@@ -89,27 +82,26 @@ bool Evaluator::PairTests::read_comparison(Op op, ExprId value, ExprId bound) {
   const auto measure = measure_of(value);
   if (!measure || !is_of_self(bound)) return false;
   if (measure->is_absolute && op != Op::less && op != Op::less_equal) return false;
-  Test& test = add(*measure);
-  const auto high = fill(bound, test.high);
-  const auto low = std::span(test.low).first(high.size());
-  set_ranges(op, low, high);
-  if (measure->is_absolute)
-    for (std::size_t i = 0; i < low.size(); ++i) low[i] = -high[i];
-  if (measure->is_reversed) mirror(low, high);
-  let_pass_missing(low, -kEndless);
-  let_pass_missing(high, kEndless);
+  NumberBlock block;
+  const auto bounds = evaluator_.operand(bound, frame_, block);
+  if (measure->is_absolute && op == Op::less_equal) {
+    add(*measure, [&](std::size_t slot) { return ClosedRange{-bounds[slot], bounds[slot]}; });
+    return true;
+  }
+  add(*measure, [&](std::size_t slot) {
+    const ClosedRange ends = closed_range(op, bounds[slot]);
+    return measure->is_absolute ? ClosedRange{-ends.high, ends.high} : ends;
+  });
   return true;
 }
 
 bool Evaluator::PairTests::read_range(ExprId value, ExprId low, ExprId high) {
   const auto measure = measure_of(value);
   if (!measure || measure->is_absolute || !is_of_self(low) || !is_of_self(high)) return false;
-  Test& test = add(*measure);
-  const auto lows = fill(low, test.low);
-  const auto highs = fill(high, test.high);
-  if (measure->is_reversed) mirror(lows, highs);
-  let_pass_missing(lows, -kEndless);
-  let_pass_missing(highs, kEndless);
+  NumberBlock first, second;
+  const auto lows = evaluator_.operand(low, frame_, first);
+  const auto highs = evaluator_.operand(high, frame_, second);
+  add(*measure, [&](std::size_t slot) { return ClosedRange{lows[slot], highs[slot]}; });
   return true;
 }
 
@@ -145,34 +137,36 @@ bool Evaluator::PairTests::is_of_self(ExprId id) const {
   return (evaluator_.at(id).levels & ~(1U << static_cast<unsigned>(level_))) == 0;
 }
 
-Evaluator::PairTests::Test& Evaluator::PairTests::add(const Measure& measure) {
+/// Adds the test whether a measure lies between the ends for a slot.
+void Evaluator::PairTests::add(const Measure& measure, auto ends_of_slot) {
   Test& test = tests_[size_++];
   test.numbers = measure.numbers;
+  NumberBlock block;
+  std::span<const double> numbers = std::span(block).first(frame_.size);
   if (measure.number_of_self == kNoExpr)
-    std::fill_n(test.number.begin(), frame_.size, 0.0);
+    std::fill_n(block.begin(), frame_.size, 0.0);
   else
-    fill(measure.number_of_self, test.number);
-  return test;
+    numbers = evaluator_.operand(measure.number_of_self, frame_, block);
+  bool is_missing = false;
+  for (std::size_t slot = 0; slot < numbers.size(); ++slot) {
+    const ClosedRange given = ends_of_slot(slot);
+    const ClosedRange ends = measure.is_reversed ? reflected(given) : given;
+    test.of_slot[slot] = {numbers[slot], ends.low, ends.high};
+    is_missing |= std::isunordered(ends.low, ends.high);
+  }
+  if (is_missing) let_pass_missing(test);
 }
 
-std::span<double> Evaluator::PairTests::fill(ExprId id, NumberBlock& block) {
-  const auto numbers = std::span(block).first(frame_.size);
-  evaluator_.numbers(id, frame_, numbers);
-  return numbers;
-}
-
-/// What is compared with a missing bound is unknown, whatever it is: the bound is made endless.
-void Evaluator::PairTests::let_pass_missing(std::span<double> bounds, double endless) {
-  constexpr std::uint64_t kOne = 1;
-  std::uint64_t is_missing = 0;  // as wide as a double, so that many are looked at together
-  for (const double bound : bounds) is_missing |= bound != bound ? kOne : 0;
-  if (is_missing == 0) return;
+/// What is compared with a missing end is unknown, whatever it is: the end is made endless.
+void Evaluator::PairTests::let_pass_missing(Test& test) {
   if (!is_bound_missing_) std::fill_n(best_.begin(), frame_.size, Truth::yes);
   is_bound_missing_ = true;
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (!std::isnan(bounds[i])) continue;
-    bounds[i] = endless;
-    best_[i] = Truth::unknown;
+  for (std::size_t slot = 0; slot < frame_.size; ++slot) {
+    auto& [number, low, high] = test.of_slot[slot];
+    if (!std::isunordered(low, high)) continue;
+    if (std::isnan(low)) low = -kEndless;
+    if (std::isnan(high)) high = kEndless;
+    best_[slot] = Truth::unknown;
   }
 }
 

@@ -24,21 +24,23 @@ class Evaluator::PairTests {
   /// The conditions that are no such tests.
   [[nodiscard]] std::span<const ExprId> left() const { return std::span(left_).first(left_size_); }
 
+  /// What a test asks of one self: whether the other's number less this one lies in low .. high.
+  struct Range {
+    double number, low, high;
+  };
   /// The tests of one self: whether numbers[other] - number lies in low .. high.
   template <std::size_t kSize>
   struct OfSelf {
-    struct Range {
-      const double* numbers;
-      double number, low, high;
-    };
+    std::array<const double*, kSize> numbers;
     std::array<Range, kSize> ranges;
     /// What a pair answers that passes all of them: unknown where a bound is missing.
     Truth best;
 
     [[nodiscard]] Truth answer(int other) const {
       Truth least = best;
-      for (const Range& range : ranges) {
-        const double value = range.numbers[other] - range.number;
+      for (std::size_t i = 0; i < kSize; ++i) {
+        const Range& range = ranges[i];
+        const double value = numbers[i][other] - range.number;
         if ((value >= range.low) & (value <= range.high)) continue;
         if (value == value) return Truth::no;
         least = Truth::unknown;
@@ -52,8 +54,8 @@ class Evaluator::PairTests {
     OfSelf<kSize> all;
     all.best = is_bound_missing_ ? best_[slot] : Truth::yes;
     for (std::size_t i = 0; i < kSize; ++i) {
-      const Test& test = tests_[i];
-      all.ranges[i] = {test.numbers, test.number[slot], test.low[slot], test.high[slot]};
+      all.numbers[i] = tests_[i].numbers;
+      all.ranges[i] = tests_[i].of_slot[slot];
     }
     return all;
   }
@@ -71,7 +73,7 @@ class Evaluator::PairTests {
   };
   struct Test {
     const double* numbers;
-    NumberBlock number, low, high;
+    std::array<Range, kBlock> of_slot;
   };
 
   bool read(ExprId id);
@@ -80,9 +82,8 @@ class Evaluator::PairTests {
   [[nodiscard]] std::optional<Measure> measure_of(ExprId id) const;
   [[nodiscard]] std::optional<Measure> difference_of(const Expr& expr) const;
   [[nodiscard]] bool is_of_self(ExprId id) const;
-  Test& add(const Measure& measure);
-  std::span<double> fill(ExprId id, NumberBlock& block);
-  void let_pass_missing(std::span<double> bounds, double endless);
+  void add(const Measure& measure, auto ends_of);
+  void let_pass_missing(Test& test);
 
   Evaluator& evaluator_;
   const Frame& frame_;

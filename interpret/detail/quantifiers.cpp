@@ -1,5 +1,6 @@
 #include "interpret/detail/arithmetic.h"
 #include "interpret/detail/asked_others.h"
+#include "interpret/detail/comparisons.h"
 #include "interpret/detail/conjunction.h"
 #include "interpret/detail/pair_tests.h"
 #include "interpret/detail/pairs.h"
@@ -51,17 +52,16 @@ std::size_t first_share(Evaluator::Enough enough) {
 
 }  // namespace
 
-const std::vector<Truth>& Evaluator::column(ExprId id, int level) {
-  auto& answers = columns_[static_cast<std::size_t>(id)];
-  if (!answers.empty()) return answers;
+const Evaluator::Kept& Evaluator::column(ExprId id, int level) {
+  const auto kept = std::ranges::find(kept_, id, &Kept::of);
+  if (kept != kept_.end()) return *kept;
   std::vector<Truth> computed(facts_->rows);
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
     const Frame frame = block_of(*facts_, begin, level);
     truths(id, frame, std::span(computed).subspan(begin, frame.size));
   }
-  kept_.push_back(id);
-  answers = std::move(computed);
-  return answers;
+  const bool is_any_unknown = has_unknown(computed);
+  return kept_.emplace_back(Kept{id, std::move(computed), is_any_unknown});
 }
 
 /// Pairs are answered one by one, each at once: for conditions that are tests, all of them.

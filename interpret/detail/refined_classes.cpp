@@ -1,11 +1,12 @@
 #include "interpret/detail/refined_classes.h"
 
+#include "interpret/detail/arithmetic.h"
+#include "interpret/detail/comparisons.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace oriel::rules {
@@ -28,20 +29,22 @@ Column numbers_of(const Pack& pack, const Facts& facts, Evaluator& evaluator, Ex
   return evaluated;
 }
 
-using Member = std::pair<double, int>;
-
-/// Most stand where they belong, as features are found row by row.
-void sort_members(std::vector<Member>& members) {
+/// By value, then by row. Most stand where they belong, as features are found row by row.
+void sort_members(std::span<int> members, Column values) {
   constexpr std::size_t kMany = 64;
+  const auto is_before = [&](int p, int q) {
+    return values[at(p)] < values[at(q)] || (values[at(p)] == values[at(q)] && p < q);
+  };
   if (members.size() > kMany) {
-    std::ranges::sort(members);
+    std::ranges::sort(members, is_before);
     return;
   }
-  for (auto next = members.begin() + 1; next != members.end(); ++next) {
-    const Member member = *next;
-    auto place = next;
-    for (; place != members.begin() && member < place[-1]; --place) *place = place[-1];
-    *place = member;
+  for (std::size_t next = 1; next < members.size(); ++next) {
+    const int member = members[next];
+    std::size_t place = next;
+    for (; place > 0 && is_before(member, members[place - 1]); --place)
+      members[place] = members[place - 1];
+    members[place] = member;
   }
 }
 
@@ -51,32 +54,34 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
   FeatureLinks parts;
   parts.are_classes = true;
   parts.list_of.assign(fits.size(), -1);
-  parts.others.reserve(from.others.size());
+  parts.others.resize(from.others.size());
   parts.starts.reserve(from.others.size() + 1);
-  std::vector<Member> members;
-  members.reserve(from.others.size());
+  std::size_t size = 0;
   for (std::size_t c = 0; c < from.lists(); ++c) {
-    members.clear();
-    bool is_sorted = true;
-    double last = -std::numeric_limits<double>::infinity();
+    const std::size_t begin = size;
     for (const int row : from.list(c)) {
-      if (fits[at(row)] == Truth::no) continue;
-      is_sorted &= last <= values[at(row)];
-      last = values[at(row)];
-      members.emplace_back(last, row);
+      parts.others[size] = row;
+      size += fits[at(row)] != Truth::no ? 1U : 0U;
     }
-    if (members.empty()) continue;
-    if (!is_sorted) sort_members(members);
-    last = members.front().first;
-    for (const auto& [value, row] : members) {
-      if (value != last) parts.starts.push_back(static_cast<int>(parts.others.size()));
-      last = value;
-      parts.list_of[at(row)] = static_cast<int>(parts.lists());
-      parts.others.push_back(row);
+    const auto members = std::span(parts.others).subspan(begin, size - begin);
+    sort_members(members, values);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (i > 0 && values[at(members[i])] != values[at(members[i - 1])])
+        parts.starts.push_back(static_cast<int>(begin + i));
+      parts.list_of[at(members[i])] = static_cast<int>(parts.lists());
     }
-    parts.starts.push_back(static_cast<int>(parts.others.size()));
+    if (!members.empty()) parts.starts.push_back(static_cast<int>(size));
   }
+  parts.others.resize(size);
   return parts;
+}
+
+/// Whether a row that may fit has no value.
+bool is_missing_in(Column values, std::span<const int> rows, const std::vector<Truth>& fits) {
+  bool is_missing = false;
+  for (const int row : rows)
+    is_missing |= (fits[at(row)] != Truth::no) & std::isnan(values[at(row)]);
+  return is_missing;
 }
 
 }  // namespace
@@ -112,18 +117,13 @@ std::optional<Narrowed> refined_classes(const Pack& pack, const Facts& facts, Ev
   std::vector<Column> columns;
   for (std::size_t i = 0; i < keys.size(); ++i)
     columns.push_back(numbers_of(pack, facts, evaluator, keys[i], evaluated[i]));
-  bool has_unknown = false, is_missing = false;
-  for (const int row : from.lists->others) {
-    if (fits[at(row)] == Truth::no) continue;
-    has_unknown |= fits[at(row)] == Truth::unknown;
-    for (const Column& values : columns) is_missing |= std::isnan(values[at(row)]);
-  }
-  if (is_missing) return std::nullopt;
+  for (const Column& values : columns)
+    if (is_missing_in(values, from.lists->others, fits)) return std::nullopt;
   Narrowed result;
   if (columns.empty()) result.lists = parted(*from.lists, fits, std::vector<double>(facts.rows));
   for (const Column& values : columns)
     result.lists = parted(&values == columns.data() ? *from.lists : result.lists, fits, values);
-  if (has_unknown) result.links.certain_rows = std::move(fits);
+  if (has_unknown(fits)) result.links.certain_rows = std::move(fits);
   return result;
 }
 

@@ -15,20 +15,6 @@ namespace {
 /// What levels a condition of a relation reads: bit 0 self, bit 1 other.
 constexpr unsigned kSelf = 1, kOther = 2;
 
-/// The conditions of a relation: on self alone, on the other alone, and on both.
-struct Sides {
-  Sides(const Pack& pack, const Relation& relation) {
-    const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
-    const std::vector<ExprId> whole{relation.where};
-    for (const ExprId id : where.op == Op::all_of ? where.args : whole) {
-      const unsigned levels = pack.code[static_cast<std::size_t>(id)].levels;
-      auto& list = (levels & kOther) == 0 ? of_self : (levels & kSelf) == 0 ? of_other : of_both;
-      list.push_back(id);
-    }
-  }
-  std::vector<ExprId> of_self, of_other, of_both;
-};
-
 /// True if each of `p` stands mirrored in `q`.
 bool are_mirrored(const Pack& pack, const std::vector<ExprId>& p, const std::vector<ExprId>& q) {
   return std::ranges::all_of(p, [&](ExprId id) {
@@ -44,9 +30,7 @@ ExprId compared_in(const Pack& pack, ExprId id) {
   return expr.args[is_first ? 0 : 1];
 }
 
-/// What features of one class must be equal in to stay together; nothing if the conditions ask for
-/// more than that.
-std::optional<std::vector<ExprId>> compared_in(const Pack& pack, const Sides& sides) {
+std::optional<std::vector<ExprId>> compared_in(const Pack& pack, const RelationSides& sides) {
   if (!are_mirrored(pack, sides.of_self, sides.of_other) ||
       !are_mirrored(pack, sides.of_other, sides.of_self))
     return std::nullopt;
@@ -63,7 +47,7 @@ std::optional<std::vector<ExprId>> compared_in(const Pack& pack, const Sides& si
 /// at.
 class Narrowing {
  public:
-  Narrowing(const Facts& facts, Evaluator& evaluator, const Sides& sides)
+  Narrowing(const Facts& facts, Evaluator& evaluator, const RelationSides& sides)
       : facts_(facts), evaluator_(evaluator), sides_(sides) {}
 
   Narrowed run(const Links& from) {
@@ -120,7 +104,7 @@ class Narrowing {
 
   const Facts& facts_;
   Evaluator& evaluator_;
-  const Sides& sides_;
+  const RelationSides& sides_;
   std::vector<int> kept_selves_, kept_others_;
   std::vector<Truth> kept_truths_;
   bool has_unknown_ = false;
@@ -132,12 +116,27 @@ class Narrowing {
 
 }  // namespace
 
+RelationSides sides_of(const Pack& pack, const Relation& relation) {
+  RelationSides sides;
+  const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
+  const std::vector<ExprId> whole{relation.where};
+  for (const ExprId id : where.op == Op::all_of ? where.args : whole) {
+    const unsigned levels = pack.code[static_cast<std::size_t>(id)].levels;
+    auto& list = (levels & kOther) == 0  ? sides.of_self
+                 : (levels & kSelf) == 0 ? sides.of_other
+                                         : sides.of_both;
+    list.push_back(id);
+  }
+  sides.keys = compared_in(pack, sides);
+  return sides;
+}
+
 Narrowed narrowed(const Pack& pack, const Facts& facts, const Relation& relation) {
   const Links& from = facts.relations[static_cast<std::size_t>(relation.within)];
-  const Sides sides(pack, relation);
+  const RelationSides& sides = relation.sides;
   Evaluator evaluator(pack, facts);
-  if (const auto keys = compared_in(pack, sides); keys && from.lists->are_classes) {
-    auto refined = refined_classes(pack, facts, evaluator, from, sides.of_self, *keys);
+  if (sides.keys && from.lists->are_classes) {
+    auto refined = refined_classes(pack, facts, evaluator, from, sides.of_self, *sides.keys);
     if (refined) return std::move(*refined);
   }
   return Narrowing(facts, evaluator, sides).run(from);

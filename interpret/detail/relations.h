@@ -5,6 +5,8 @@
 
 namespace oriel::rules {
 
+RelationSides sides_of(const Pack& pack, const Relation& relation);
+
 /// A relation that the pack declares; `links` is to refer to `lists`.
 struct Narrowed {
   FeatureLinks lists;

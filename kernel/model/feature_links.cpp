@@ -21,7 +21,10 @@ std::span<const int> others_of(const FeatureLinks& links, int row) {
 /// but of it, makes them equal.
 std::optional<std::vector<int>> classes_of(const FeatureLinks& links) {
   const int last = links.others.empty() ? -1 : *std::ranges::max_element(links.others);
-  const int rows = std::max(static_cast<int>(links.list_of.size()), last + 1);
+  // Each is an other of its others.
+  const bool is_one_sided = static_cast<int>(links.list_of.size()) <= last;
+  if (is_one_sided) return std::nullopt;
+  const auto rows = static_cast<int>(links.list_of.size());
   std::vector<int> class_of(at(rows), -1);
   std::vector<std::size_t> others_in;  // by class
   for (int row = 0; row < rows; ++row) {

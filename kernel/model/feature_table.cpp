@@ -23,10 +23,13 @@ std::size_t require_column(std::string_view name, bool is_text) {
 FeatureTable::FeatureTable(std::string building, std::size_t rows)
     : building_(std::move(building)),
       ids_(rows),
-      columns_(feature_schema().size()),
-      missing_(rows, kMissing) {
-  for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (feature_schema()[c].unit == Unit::text) columns_[c].texts.resize(rows);
+      place_of_(feature_schema().size(), 0),
+      numbers_(rows, kMissing) {
+  for (std::size_t c = 0; c < place_of_.size(); ++c) {
+    if (feature_schema()[c].unit != Unit::text) continue;
+    place_of_[c] = static_cast<std::uint32_t>(texts_.size());
+    texts_.emplace_back(rows);
+  }
 }
 
 FeatureId FeatureTable::find(std::string_view id) const {
@@ -45,13 +48,15 @@ std::optional<double> FeatureTable::number(FeatureId row, std::string_view name)
 }
 
 const std::string& FeatureTable::text(FeatureId row, std::string_view name) const {
-  return columns_[require_column(name, true)].texts[row.index()];
+  return texts(require_column(name, true))[row.index()];
 }
 
 void FeatureTable::set(FeatureId row, std::size_t column, double value) {
-  auto& numbers = columns_[column].numbers;
-  if (numbers.empty()) numbers = missing_;
-  numbers[row.index()] = value;
+  if (place_of_[column] == 0) {
+    place_of_[column] = static_cast<std::uint32_t>(numbers_.size() / rows());
+    numbers_.resize(numbers_.size() + rows(), kMissing);
+  }
+  numbers_[place_of_[column] * rows() + row.index()] = value;
 }
 
 void FeatureTable::set(FeatureId row, std::string_view name, double value) {

@@ -1,10 +1,14 @@
 #pragma once
 
 #include "kernel/model/ids.h"
+#include "kernel/model/word_column.h"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace oriel {
@@ -61,14 +65,13 @@ class FeatureTable {
   /// The feature with that id, or an invalid one.
   [[nodiscard]] FeatureId find(std::string_view id) const;
 
-  /// The whole column, NaN where missing; empty for a column of texts.
-  [[nodiscard]] const std::vector<double>& numbers(std::size_t column) const {
-    const Column& c = columns_[column];
-    return c.numbers.empty() && c.texts.empty() ? missing_ : c.numbers;
+  /// The whole column, NaN where missing. Needs a column of numbers. Valid until a value is set.
+  [[nodiscard]] std::span<const double> numbers(std::size_t column) const {
+    return std::span(numbers_).subspan(place_of_[column] * rows(), rows());
   }
-  /// The whole column, "" where missing; empty for a column of numbers.
-  [[nodiscard]] const std::vector<std::string>& texts(std::size_t column) const {
-    return columns_[column].texts;
+  /// The whole column, "" where missing. Needs a column of texts.
+  [[nodiscard]] const WordColumn& texts(std::size_t column) const {
+    return texts_[place_of_[column]];
   }
   [[nodiscard]] std::optional<double> number(FeatureId row, std::size_t column) const;
   [[nodiscard]] std::optional<double> number(FeatureId row, std::string_view name) const;
@@ -80,20 +83,18 @@ class FeatureTable {
   /// The same by the column's position, whose type must fit.
   void set(FeatureId row, std::size_t column, double value);
   void set(FeatureId row, std::size_t column, std::string value) {
-    columns_[column].texts[row.index()] = std::move(value);
+    texts_[place_of_[column]].set(row.index(), std::move(value));
   }
 
  private:
-  struct Column {
-    /// Empty before the first value is set.
-    std::vector<double> numbers;
-    std::vector<std::string> texts;
-  };
   std::string building_;
   std::vector<std::string> ids_;
-  std::vector<Column> columns_;
-  /// What a column of numbers is in which nothing was set.
-  std::vector<double> missing_;
+  /// By column: which of the columns it is that stand in `numbers_` or in `texts_`.
+  std::vector<std::uint32_t> place_of_;
+  /// Columns of numbers one behind the other, so that a building is one piece of memory. The first
+  /// is that of all in which nothing was set.
+  std::vector<double> numbers_;
+  std::vector<WordColumn> texts_;
 };
 
 }  // namespace oriel

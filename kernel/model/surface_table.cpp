@@ -83,7 +83,7 @@ std::optional<std::size_t> surface_column_of(std::string_view name) {
 SurfaceTable::SurfaceTable(std::size_t rows) : rows_(rows), columns_(surface_schema().size()) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (surface_schema()[c].unit == Unit::text)
-      columns_[c].texts.resize(rows);
+      columns_[c].texts = WordColumn(rows);
     else
       columns_[c].numbers.resize(rows, kMissing);
   }
@@ -104,7 +104,7 @@ void SurfaceTable::set(std::size_t row, std::string_view name, double value) {
 }
 
 void SurfaceTable::set(std::size_t row, std::string_view name, std::string value) {
-  columns_[require_column(name, true)].texts[row] = std::move(value);
+  columns_[require_column(name, true)].texts.set(row, std::move(value));
 }
 
 }  // namespace oriel

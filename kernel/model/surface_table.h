@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/feature_table.h"
+#include "kernel/model/word_column.h"
 
 #include <cstddef>
 #include <optional>
@@ -35,9 +36,7 @@ class SurfaceTable {
     return columns_[column].numbers;
   }
   /// The whole column; empty for a column of numbers.
-  [[nodiscard]] const std::vector<std::string>& texts(std::size_t column) const {
-    return columns_[column].texts;
-  }
+  [[nodiscard]] const WordColumn& texts(std::size_t column) const { return columns_[column].texts; }
   /// `name` must stand in the schema with a fitting type.
   [[nodiscard]] std::optional<double> number(std::size_t row, std::string_view name) const;
   [[nodiscard]] const std::string& text(std::size_t row, std::string_view name) const;
@@ -48,13 +47,13 @@ class SurfaceTable {
     columns_[column].numbers[row] = value;
   }
   void set(std::size_t row, std::size_t column, std::string value) {
-    columns_[column].texts[row] = std::move(value);
+    columns_[column].texts.set(row, std::move(value));
   }
 
  private:
   struct Column {
     std::vector<double> numbers;
-    std::vector<std::string> texts;
+    WordColumn texts;
   };
   std::size_t rows_ = 0;
   std::vector<Column> columns_;

@@ -134,8 +134,12 @@ TEST_SUITE("kernel/describe") {
                                "height", "top", "below_ridge", "above_eaves", "edge_gap", "storey",
                                "per_facade", "per_storey", "growth_out", "growth_up"}) {
         CAPTURE(std::string(name));
-        std::vector<double> before = d.table().numbers(column_of(name).value());
-        std::vector<double> after = t.table().numbers(column_of(name).value());
+        const auto numbers_in = [&](const FeatureTable& table) {
+          const auto numbers = table.numbers(column_of(name).value());
+          return std::vector<double>(numbers.begin(), numbers.end());
+        };
+        std::vector<double> before = numbers_in(d.table());
+        std::vector<double> after = numbers_in(t.table());
         for (auto* values : {&before, &after}) {
           for (double& v : *values) v = std::isnan(v) ? -1e6 : v;
           std::ranges::sort(*values);
