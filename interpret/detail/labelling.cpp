@@ -1,5 +1,7 @@
 #include "interpret/detail/labelling.h"
 
+#include "interpret/detail/comparisons.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -30,6 +32,7 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       rows_at_hand_(facts.rows + 1),
       unknown_rows_(pack.classes.size()),
       decided_(facts.rows, kNoClass),
+      label_now_(facts.rows, kNoClass),
       open_rows_(facts.rows),
       is_class_open_(pack.classes.size() + 1) {
   decided_now_.reserve(facts.rows);
@@ -116,12 +119,24 @@ void Labelling::run_decision(const Step& step) {
   evaluator_.forget();
   decided_now_.clear();
   candidate_count_ = rows_at_hand_count_ = 0;
+  are_in_order_ = !step.is_scored && pack_->decide.min_score <= 1;
   for (const int id : step.rules) unknown_rows_[index(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
   const auto rows = std::span(rows_at_hand_).first(rows_at_hand_count_);
-  for (const int row : rows) decide(index(row));
+  for (const int row : rows)
+    if (!are_in_order_) decide(index(row));
+  for (const int row : rows) note_decision(index(row));
   settle_membership(step);
-  for (const int row : rows) first_candidate_[index(row)] = -1;
+  for (const int row : rows) {
+    first_candidate_[index(row)] = -1;
+    label_now_[index(row)] = kNoClass;
+  }
+}
+
+void Labelling::note_decision(std::size_t row) {
+  if (label_now_[row] == kNoClass) return;
+  decided_[row] = label_now_[row];
+  decided_now_.push_back(static_cast<int>(row));
 }
 
 /// A label is final, but a later stratum may refine it to a subclass.
@@ -154,7 +169,11 @@ void Labelling::collect(int id) {
     frame.is_run = !is_any_decided_;
     Conjunction held(frame, std::span(truths).first(frame.size));
     judge(*pack_, judging, evaluator_, held, scores);
-    if (held.is_open()) add_candidates(id, held, scores);
+    if (held.is_open() && are_in_order_)
+      add_winners(id, held);
+    else if (held.is_open())
+      add_candidates(id, held, scores);
+    note_unknown(id, held);
   }
 }
 
@@ -168,7 +187,6 @@ void Labelling::add_candidates(int id, Conjunction& held, std::span<const double
     candidates_.resize(2 * (count + truths.size()) + 1);
   const int priority = rule(id).priority;
   const ClassId label = rule(id).label;
-  bool is_any_unknown = false;
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const bool holds = truths[i] == Truth::yes;
     int& first = first_candidate_[index(rows[i])];
@@ -177,13 +195,51 @@ void Labelling::add_candidates(int id, Conjunction& held, std::span<const double
     at_hand += holds && first < 0 ? 1U : 0U;
     first = holds ? static_cast<int>(count) : first;
     count += holds ? 1U : 0U;
-    is_any_unknown |= truths[i] == Truth::unknown;
   }
   candidate_count_ = count;
   rows_at_hand_count_ = at_hand;
-  if (!is_any_unknown) return;
+}
+
+/// Where no rule has a score, what holds first wins, and what holds first for another label is the
+/// runner-up.
+void Labelling::add_winners(int id, Conjunction& held) {
+  const auto truths = held.truths();
+  const int* const rows = held.frame().rows[0];
+  const ClassId label = rule(id).label;
+  for (std::size_t i = 0; i < truths.size(); ++i) {
+    if (truths[i] != Truth::yes) continue;
+    const std::size_t row = index(rows[i]);
+    if (label_now_[row] == kNoClass) {
+      label_now_[row] = label;
+      rows_at_hand_[rows_at_hand_count_++] = rows[i];
+      win(row, id);
+    } else if (label_now_[row] != label && choices_[row].runner_up < 0) {
+      come_second(row, id);
+    }
+  }
+}
+
+void Labelling::win(std::size_t row, int id) {
+  Choice& choice = choices_[row];
+  choice.rule = id;
+  choice.runner_up = -1;
+  choice.score = choice.margin = 1;
+}
+
+void Labelling::come_second(std::size_t row, int id) {
+  Choice& choice = choices_[row];
+  choice.runner_up = id;
+  if (rule(choice.rule).priority != rule(id).priority) return;
+  choice.margin = 0;
+  choice.is_ambiguous = 0 < pack_->decide.ambiguous_below;
+}
+
+void Labelling::note_unknown(int id, Conjunction& held) {
+  const auto truths = held.truths();
+  if (!held.is_open() || !has_unknown(truths)) return;
   for (std::size_t i = 0; i < truths.size(); ++i)
-    if (truths[i] == Truth::unknown) unknown_rows_[index(label)].push_back(rows[i]);
+    if (truths[i] == Truth::unknown)
+      unknown_rows_[index(rule(id).label)].push_back(held.frame().rows[0][i]);
 }
 
 /// By what wins: enough score, then priority, then score, then the rule's id.
@@ -224,8 +280,7 @@ void Labelling::decide(std::size_t row) {
   }
   choice.margin = margin;
   choice.runner_up = second == nullptr ? -1 : second->rule;
-  decided_[row] = best->label;
-  decided_now_.push_back(static_cast<int>(row));
+  label_now_[row] = best->label;
 }
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.

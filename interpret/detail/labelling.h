@@ -78,9 +78,14 @@ class Labelling {
   void run_decision(const Step& step);
   void collect(int rule);
   void add_candidates(int rule, Conjunction& held, std::span<const double> scores);
+  void add_winners(int rule, Conjunction& held);
+  void win(std::size_t row, int rule);
+  void come_second(std::size_t row, int rule);
   [[nodiscard]] bool is_open(ClassId decided, ClassId label) const;
   std::span<const int> open_rows(ClassId label);
   void decide(std::size_t row);
+  void note_unknown(int rule, Conjunction& held);
+  void note_decision(std::size_t row);
   [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
   void settle_membership(const Step& step);
   void raise_membership(ClassId id, std::size_t row, Truth truth);
@@ -94,6 +99,9 @@ class Labelling {
   Evaluator evaluator_;
   std::vector<Choice> choices_;
   std::vector<std::vector<Choice>> rounds_;
+  /// The rules of the decision at hand come in the order in which they win, so that their
+  /// candidates need not be kept.
+  bool are_in_order_ = false;
   /// Candidates of the decision at hand, the first of every feature, or -1, and the features that
   /// have one; of lists that are longer than that the number that counts.
   std::vector<Candidate> candidates_;
@@ -106,6 +114,8 @@ class Labelling {
   /// By row: the class that was decided, or -1; and the rows of the decision at hand.
   std::vector<ClassId> decided_;
   std::vector<int> decided_now_;
+  /// By row: the class that wins in the decision at hand, or -1.
+  std::vector<ClassId> label_now_;
   bool is_any_decided_ = false;
   /// The rows that the rule at hand is asked of, if not all.
   std::vector<int> open_rows_;

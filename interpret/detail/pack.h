@@ -98,7 +98,9 @@ struct Step {
   bool is_decision = false;
   /// Predicates that need each other run to their least fixpoint.
   bool is_recursive = false;
-  /// Indices into Pack::rules.
+  /// A rule of a decision has a score.
+  bool is_scored = false;
+  /// Indices into Pack::rules; of a decision in the order in which they win where scores are equal.
   std::vector<int> rules;
 };
 

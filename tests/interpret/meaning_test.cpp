@@ -1,6 +1,7 @@
 #include "tests/interpret/support.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include <rapidcheck.h>
@@ -263,6 +264,39 @@ TEST_SUITE("interpret") {
     const Verdict alone = verdict_of(competing("", ", priority: -1"), {{"natural", 1.0}});
     CHECK(alone.margin == 1);
     CHECK(alone.runner_up == "door");
+  }
+
+  TEST_CASE("rules without scores decide as rules that all score one") {
+    const auto pack = [](const char* score) {
+      const auto rule = [&](const char* id, const char* label, const char* where, int priority) {
+        return fmt::format("  - {{id: {}, label: {}, require: '{}', priority: {}{}}}\n", id, label,
+                           where, priority, score);
+      };
+      return load(
+          pack_with("rules:\n" + rule("low", "door", "a > 2 m", 0) +
+                    rule("first", "window", "a > 1 m", 1) + rule("equal", "door", "b > 1 m", 1) +
+                    rule("best", "window", "b > 2 m", 2) + rule("last", "window", "c > 1 m", 0) +
+                    "decide: {min_score: 0.5, ambiguous_below: 0.1}\n"));
+    };
+    Scene scene;
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    for (const double a : {0.5, 1.5, 2.5, missing})
+      for (const double b : {0.5, 1.5, 2.5, missing})
+        for (const double c : {0.5, 1.5})
+          scene.add({{"natural", 1.0}, {"a", a}, {"b", b}, {"c", c}});
+    const auto plain = interpret(pack(""), scene.table(), scene.graph());
+    const auto scored = interpret(pack(", score: [natural]"), scene.table(), scene.graph());
+    REQUIRE(plain.verdicts.size() == 32);
+    for (std::size_t i = 0; i < plain.verdicts.size(); ++i) {
+      CAPTURE(i);
+      CHECK(plain.verdicts[i].rule == scored.verdicts[i].rule);
+      CHECK(plain.verdicts[i].label == scored.verdicts[i].label);
+      CHECK(plain.verdicts[i].score == scored.verdicts[i].score);
+      CHECK(plain.verdicts[i].margin == scored.verdicts[i].margin);
+      CHECK(plain.verdicts[i].runner_up == scored.verdicts[i].runner_up);
+    }
+    CHECK(plain.issues.size() > 2);
+    CHECK(plain.issues.size() == scored.issues.size());
   }
 
   TEST_CASE("macros mean the feature that they are used for") {

@@ -2,8 +2,10 @@
 
 #include "kernel/model/feature_graph.h"
 
+#include <cstdint>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -26,6 +28,32 @@ TEST_SUITE("kernel/model") {
     CHECK(table.number(FeatureId{0}, "height") == 0.0);
     CHECK_FALSE(table.number(FeatureId{1}, "height"));
     CHECK(table.text(FeatureId{1}, "sense").empty());
+  }
+
+  TEST_CASE("a text that stands in many rows is kept once") {
+    FeatureTable table("house", 4);
+    for (const int row : {0, 1, 3}) table.set(FeatureId{row}, "sense", "hole");
+    table.set(FeatureId{1}, "sense", "protrusion");
+    table.set(FeatureId{3}, "sense", "");
+    const WordColumn& senses = table.texts(*column_of("sense"));
+    CHECK(senses.words() == std::vector<std::string>{"", "hole", "protrusion"});
+    CHECK(senses.numbers() == std::vector<std::uint32_t>{1, 2, 0, 0});
+    const FeatureTable copy = table;
+    CHECK(copy.text(FeatureId{0}, "sense") == "hole");
+    CHECK(copy.text(FeatureId{1}, "sense") == "protrusion");
+    CHECK(copy.text(FeatureId{3}, "sense").empty());
+  }
+
+  TEST_CASE("columns of numbers stay apart in whatever order they are set") {
+    FeatureTable table("house", 2);
+    table.set(FeatureId{1}, "volume", 3.0);
+    table.set(FeatureId{0}, "height", 1.0);
+    table.set(FeatureId{0}, "volume", 2.0);
+    CHECK(table.number(FeatureId{0}, "volume") == 2.0);
+    CHECK(table.number(FeatureId{1}, "volume") == 3.0);
+    CHECK(table.number(FeatureId{0}, "height") == 1.0);
+    CHECK_FALSE(table.number(FeatureId{1}, "height"));
+    CHECK_FALSE(table.number(FeatureId{0}, "a"));
   }
 
   TEST_CASE("setting an attribute that the schema does not have is refused") {
