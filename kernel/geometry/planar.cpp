@@ -6,6 +6,8 @@
 #include <numbers>
 #include <tuple>
 
+#include <boost/container/small_vector.hpp>
+
 namespace oriel::detail {
 
 namespace {
@@ -28,12 +30,15 @@ template <class Visit>
 void for_each_edge(std::span<const Outline> outlines, Visit visit) {
   for (const Outline& outline : outlines)
     for (std::size_t i = 0; i < outline.size(); ++i)
-      visit(outline[i], outline[(i + 1) % outline.size()]);
+      visit(outline[i], outline[i + 1 < outline.size() ? i + 1 : 0]);
 }
 
+/// Of most figures all numbers fit without memory of their own.
+using Numbers = boost::container::small_vector<double, 32>;
+
 /// Where the line v = level cuts the outlines, sorted along u.
-std::vector<double> crossings(std::span<const Outline> outlines, const Axes& axes, double level) {
-  std::vector<double> cuts;
+Numbers crossings(std::span<const Outline> outlines, const Axes& axes, double level) {
+  Numbers cuts;
   for_each_edge(outlines, [&](Vec3 p, Vec3 q) {
     if ((p.*axes.v > level) == (q.*axes.v > level)) return;
     const double t = (level - p.*axes.v) / (q.*axes.v - p.*axes.v);
@@ -41,6 +46,43 @@ std::vector<double> crossings(std::span<const Outline> outlines, const Axes& axe
   });
   std::ranges::sort(cuts);
   return cuts;
+}
+
+/// A point in the middle of the longest chord of the figure at a level; nothing if there is none.
+std::optional<Vec3> point_at(std::span<const Outline> outlines, Vec3 normal, const Axes& axes,
+                             double level) {
+  const Numbers cuts = crossings(outlines, axes, level);
+  double longest = kThin_m;
+  std::optional<Vec3> point;
+  for (std::size_t i = 1; i < cuts.size(); i += 2) {
+    if (cuts[i] - cuts[i - 1] <= longest) continue;
+    longest = cuts[i] - cuts[i - 1];
+    point = Vec3{};
+    (*point).*axes.u = (cuts[i] + cuts[i - 1]) / 2;
+    (*point).*axes.v = level;
+  }
+  if (!point) return std::nullopt;
+  const double missing = dot(outlines.front().front(), normal) - dot(*point, normal);
+  (*point).*axes.dropped = missing / (normal.*axes.dropped);
+  return point;
+}
+
+/// From one of some ascending levels to the next, and half of the way.
+double gap_above(const Numbers& levels, std::size_t i) {
+  return i + 1 < levels.size() ? levels[i + 1] - levels[i] : 0;
+}
+double middle_above(const Numbers& levels, std::size_t i) {
+  return (levels[i + 1] + levels[i]) / 2;
+}
+
+/// The levels with a gap above them, the tallest first.
+std::vector<std::size_t> by_falling_gap(const Numbers& levels) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i)
+    if (levels[i + 1] > levels[i]) order.push_back(i);
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::size_t i) { return gap_above(levels, i); });
+  return order;
 }
 
 /// The signed solid angle of a triangle seen from the origin, after Van Oosterom & Strackee 1983.
@@ -67,7 +109,7 @@ void start_at_least(Outline& outline) {
 double perimeter(const Outline& outline) {
   double sum = 0;
   for (std::size_t i = 0; i < outline.size(); ++i)
-    sum += length(outline[(i + 1) % outline.size()] - outline[i]);
+    sum += length(outline[i + 1 < outline.size() ? i + 1 : 0] - outline[i]);
   return sum;
 }
 
@@ -99,36 +141,20 @@ double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
 
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal) {
   const Axes axes = axes_for(normal);
-  std::vector<double> levels;
+  Numbers levels;
   for (const Outline& outline : outlines)
     for (const Vec3 p : outline) levels.push_back(p.*axes.v);
   std::ranges::sort(levels);
-  struct Gap {
-    double height, middle;
-  };
-  std::vector<Gap> gaps;
-  for (std::size_t i = 1; i < levels.size(); ++i)
-    if (levels[i] > levels[i - 1])
-      gaps.push_back({levels[i] - levels[i - 1], (levels[i] + levels[i - 1]) / 2});
-  std::ranges::stable_sort(gaps, std::greater{}, &Gap::height);
   // The middle of the tallest gap between vertices: the line there meets no vertex. Where outlines
   // run over each other there is nothing inside, and the next gap is tried.
-  for (const Gap& gap : gaps) {
-    const std::vector<double> cuts = crossings(outlines, axes, gap.middle);
-    double longest = kThin_m;
-    std::optional<Vec3> point;
-    for (std::size_t i = 1; i < cuts.size(); i += 2) {
-      if (cuts[i] - cuts[i - 1] <= longest) continue;
-      longest = cuts[i] - cuts[i - 1];
-      point = Vec3{};
-      (*point).*axes.u = (cuts[i] + cuts[i - 1]) / 2;
-      (*point).*axes.v = gap.middle;
-    }
-    if (!point) continue;
-    const double missing = dot(outlines.front().front(), normal) - dot(*point, normal);
-    (*point).*axes.dropped = missing / (normal.*axes.dropped);
+  std::size_t tallest = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i] - levels[i - 1] > gap_above(levels, tallest)) tallest = i - 1;
+  if (gap_above(levels, tallest) <= 0) return std::nullopt;
+  if (const auto point = point_at(outlines, normal, axes, middle_above(levels, tallest)))
     return point;
-  }
+  for (const std::size_t i : by_falling_gap(levels))
+    if (const auto point = point_at(outlines, normal, axes, middle_above(levels, i))) return point;
   return std::nullopt;
 }
 

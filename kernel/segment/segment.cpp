@@ -288,6 +288,7 @@ class Segmenter {
     add_part(task, Boundary(world_), sign, std::move(feature), {});
     tasks_.back().copy_of_model = std::move(how);
     detail::Change change{std::move(points), {}, {}, true, true, {}, false};
+    change.rim.reserve(caps[0].loops[0].edges.size());
     for (const detail::CapEdge& edge : caps[0].loops[0].edges)
       change.rim.emplace_back(edge.from, edge.to);
     return change;

@@ -122,6 +122,29 @@ int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> 
   return f;
 }
 
+int Boundary::add_cycle(std::span<const int> origins, int f) {
+  const int first = half_edge_count(), size = static_cast<int>(origins.size());
+  const int l = static_cast<int>(loops_.size());
+  for (int i = 0; i < size; ++i)
+    half_edges_.push_back({origins[index(i)], first + (i + 1 < size ? i + 1 : 0),
+                           first + (i > 0 ? i : size) - 1, -1, l, f});
+  loops_.push_back({first, f, 0});
+  attach(l, f);
+  return l;
+}
+
+double Boundary::perimeter(int l) const {
+  double sum = 0;
+  const int first = loop(l).first;
+  int e = first;
+  do {
+    const int after = next(e);
+    sum += length(at(after) - at(e));
+    e = after;
+  } while (e != first);
+  return sum;
+}
+
 int Boundary::trace(int first) {
   const int l = static_cast<int>(loops_.size());
   loops_.push_back({first, -1, 0});
@@ -147,7 +170,7 @@ void Boundary::attach(int l, int f) {
   record.facet = f;
   record.area = dot(sum, world_->planes.normal(facet(f).side)) / 2;
   // A loop of no width is the outer loop of a sliver: no hole is so thin.
-  record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(outline(l));
+  record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(l);
   facets_[index(f)].loops.push_back(l);
   if (!record.is_hole) ++facets_[index(f)].outer_loops;
   on_side_of(f).area += record.area;
@@ -184,10 +207,13 @@ void Boundary::kill_facet(int f) {
 
 void Boundary::remove(const std::vector<int>& facets) {
   for (const int f : facets) {
-    std::vector<int> edges;
-    for_each_edge(f, [&](int e) { edges.push_back(e); });
+    for (const int l : facet(f).loops)
+      for (int e = loop(l).first; is_alive_edge(e);) {
+        const int after = next(e);
+        kill_edge(e);
+        e = after;
+      }
     kill_facet(f);
-    for (const int e : edges) kill_edge(e);
   }
 }
 

@@ -126,6 +126,8 @@ class Boundary {
   int add_facet(Side side, const Sources& sources = {}, std::vector<CapMark> marks = {});
   /// Room for that many half-edges and facets.
   void reserve(int half_edges, int facets);
+  /// Adds half-edges that begin at these points, one after the other, as a loop of facet `f`.
+  int add_cycle(std::span<const int> origins, int f);
   /// Makes the cycle through `first` a loop of facet `f`.
   int add_loop(int first, int f);
   void add_mark(int f, const CapMark& mark) { facets_[index(f)].marks.push_back(mark); }
@@ -165,6 +167,7 @@ class Boundary {
   };
   [[nodiscard]] const OnSide* on_side(Side side) const;
   [[nodiscard]] OnSide& on_side_of(int f) { return on_side_[index(facets_[index(f)].on_side)]; }
+  [[nodiscard]] double perimeter(int l) const;
   int trace(int first);
   void split_at_corners(int f);
   void kill_edge(int e) {

@@ -53,13 +53,7 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
     for (const FacetId id : shell.facets) {
       const Facet& facet = solid.facets[id.index()];
       const int f = boundary.add_facet(world.planes.side_of(facet.plane), {id.value});
-      for (const Loop& loop : facet.loops) {
-        const int first = boundary.half_edge_count();
-        const int size = static_cast<int>(loop.size());
-        for (const int v : loop) boundary.add_edge(v);
-        for (int i = 0; i < size; ++i) boundary.link(first + i, first + (i + 1 < size ? i + 1 : 0));
-        boundary.add_loop(first, f);
-      }
+      for (const Loop& loop : facet.loops) boundary.add_cycle(loop, f);
     }
   }
   pair_twins(boundary, static_cast<int>(solid.vertices.size()));

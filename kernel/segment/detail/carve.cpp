@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace oriel::detail {
@@ -13,7 +14,7 @@ namespace oriel::detail {
 namespace {
 
 /// A point inside a cap, on its plane; nothing if it has no area.
-std::optional<Vec3> point_inside(const std::vector<Outline>& cap, Side side,
+std::optional<Vec3> point_inside(std::span<const Outline> cap, Side side,
                                  const PlaneTable& planes) {
   const Vec3 normal = planes.normal(side);
   const auto inside = interior_point(cap, normal);
@@ -40,16 +41,20 @@ bool is_hole_of_facet(const Boundary& body, const std::vector<Cap>& caps) {
   return true;
 }
 
-/// Fills the hole around which a cap's rim ran; what lay inside is removed already. `beyond`: one
-/// of its half-edges. Returns the point inside the cap at which the mark was left.
-Vec3 fill_ring(Boundary& body, const Cap& cap, int beyond, FeatureId mark) {
-  std::vector<Outline> shape(1);
-  for (const CapEdge& edge : cap.loops[0].edges)
-    shape[0].push_back(body.world().points.at(edge.from));
+/// The outline of a cap loop as the rest has it.
+void trace_shape(const CapLoop& loop, const PointTable& points, Outline& shape) {
+  shape.clear();
+  for (const CapEdge& edge : loop.edges) shape.push_back(points.at(edge.from));
+}
+
+/// Fills the hole around which a cap's rim ran; what lay inside is removed already. `shape` is the
+/// cap's outline, `beyond` one of the hole's half-edges. Returns the point inside the cap at which
+/// the mark was left.
+Vec3 fill_ring(Boundary& body, const Cap& cap, const Outline& shape, int beyond, FeatureId mark) {
   const PlaneTable& planes = body.world().planes;
-  const auto inside = point_inside(shape, cap.side, planes);
+  const auto inside = point_inside({&shape, 1}, cap.side, planes);
   if (inside) body.add_mark(body.facet_of(beyond), {mark, *inside});
-  body.fill_hole(body.edge(beyond).loop, signed_area(shape[0], planes.normal(cap.side)));
+  body.fill_hole(body.edge(beyond).loop, signed_area(shape, planes.normal(cap.side)));
   return inside.value_or(Vec3{});
 }
 
@@ -75,10 +80,13 @@ class Remover {
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
     body_.remove(facets_);
-    if (is_ring_)
-      cap_point_ = fill_ring(body_, caps_[0], twin_of_rim_[0].second, mark);
-    else
+    if (is_ring_) {
+      Outline shape;
+      trace_shape(caps_[0].loops[0], body_.world().points, shape);
+      cap_point_ = fill_ring(body_, caps_[0], shape, twin_of_rim_[0].second, mark);
+    } else {
       close_rest(mark);
+    }
     return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_, is_ring_};
   }
 
@@ -231,13 +239,24 @@ class Remover {
   bool is_ring_ = false;
 };
 
-/// Points of a cap loop as the lump has it: of a hole as the rest has it, else the other way round.
-Outline outline_on_lump(const CapLoop& loop, const PointTable& points, bool is_hole) {
-  Outline outline;
-  for (const CapEdge& edge : loop.edges)
-    outline.push_back(points.at(is_hole ? edge.from : edge.to));
-  if (!is_hole) std::ranges::reverse(outline);
-  return outline;
+/// The area of a cap as the lump has it: of a hole as the rest has it, else the other way round.
+double area_on_lump(const CapLoop& loop, const PointTable& points, bool is_hole, Vec3 normal,
+                    Outline& room) {
+  room.clear();
+  for (const CapEdge& edge : loop.edges) room.push_back(points.at(is_hole ? edge.from : edge.to));
+  if (!is_hole) std::ranges::reverse(room);
+  return signed_area(room, normal);
+}
+
+/// The corners of a facet of one loop, turned round if it is of air.
+void trace_facet(const Boundary& body, int f, bool is_hole, Outline& corners) {
+  corners.clear();
+  const int first = body.loop(body.facet(f).loops[0]).first;
+  int e = first;
+  do {
+    corners.push_back(is_hole ? body.world().points.at(body.target(e)) : body.at(e));
+    e = is_hole ? body.prev(e) : body.next(e);
+  } while (e != first);
 }
 
 }  // namespace
@@ -246,33 +265,26 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
                    FeatureId mark) {
   const PlaneTable& planes = body.world().planes;
   const PointTable& points = body.world().points;
+  Outline& room = body.world().scratch.outline;
   const int flip = is_hole ? 1 : 0;
   Filled filled;
-  filled.surface =
-      -signed_area(outline_on_lump(cap.loops[0], points, true), planes.normal(cap.side));
-  Outline outline;
-  // Sums as Boundary makes them of a body that is copied facet by facet, turned round if it is air.
+  // Sums as Boundary makes them of a body that is copied facet by facet.
+  filled.surface = -area_on_lump(cap.loops[0], points, true, planes.normal(cap.side), room);
   for (const int f : facets) {
-    outline.clear();
-    const int first = body.loop(body.facet(f).loops[0]).first;
-    int e = first;
-    do {
-      outline.push_back(is_hole ? points.at(body.target(e)) : body.at(e));
-      e = is_hole ? body.prev(e) : body.next(e);
-    } while (e != first);
+    trace_facet(body, f, is_hole, room);
     const Side side = body.facet(f).side ^ flip;
-    const double facet_area = signed_area(outline, planes.normal(side));
+    const double facet_area = signed_area(room, planes.normal(side));
     filled.volume += planes.offset_m(side) * facet_area;
     filled.surface += facet_area;
   }
   const Side inward = cap.side ^ flip ^ 1;
-  const double cap_area =
-      signed_area(outline_on_lump(cap.loops[0], points, is_hole), planes.normal(inward));
+  const double cap_area = area_on_lump(cap.loops[0], points, is_hole, planes.normal(inward), room);
   filled.volume = (filled.volume + planes.offset_m(inward) * cap_area) / 3;
   filled.surface += cap_area;
   const int beyond = body.twin(cap.loops[0].edges[0].rim);
   body.remove(facets);
-  filled.cap_point = fill_ring(body, cap, beyond, mark);
+  trace_shape(cap.loops[0], points, room);
+  filled.cap_point = fill_ring(body, cap, room, beyond, mark);
   return filled;
 }
 

@@ -45,14 +45,15 @@ std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
 
 PlaneId CellWriter::plane_id(Side side) {
   if (const PlaneId id = world_.planes.id_of(side); id.is_valid()) return id;
-  const auto [entry, is_new] =
-      extra_planes_.emplace(side, PlaneId{static_cast<int>(out_.planes.size())});
-  if (is_new) {
+  if (extra_planes_.empty()) extra_planes_.resize(2 * at(world_.planes.size()));
+  PlaneId& id = extra_planes_[at(side)];
+  if (!id.is_valid()) {
+    id = PlaneId{static_cast<int>(out_.planes.size())};
     const Plane& plane = world_.planes.plane(side >> 1);
     out_.planes.push_back((side & 1) != 0 ? exact::opposite(plane) : plane);
     extra_sides_.push_back(side);
   }
-  return entry->second;
+  return id;
 }
 
 Side CellWriter::side_of(PlaneId id) const {
@@ -132,18 +133,20 @@ std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon
   return static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
 }
 
-std::vector<FeatureId> CellWriter::features_around(FeatureId innermost) const {
-  std::vector<FeatureId> around;
+const std::vector<FeatureId>& CellWriter::features_around(FeatureId innermost) {
+  if (innermost == innermost_) return around_;
+  innermost_ = innermost;
+  around_.clear();
   const auto add = [&](FeatureId id) {
-    if (id.is_valid() && std::ranges::find(around, id) == around.end()) around.push_back(id);
+    if (id.is_valid() && std::ranges::find(around_, id) == around_.end()) around_.push_back(id);
   };
   add(innermost);
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const Feature& feature = out_.features[around[i].index()];
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    const Feature& feature = out_.features[around_[i].index()];
     add(feature.parent);
     add(feature.host);
   }
-  return around;
+  return around_;
 }
 
 void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
@@ -180,13 +183,13 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
     for (std::size_t i = 0; i < cell_facets.size(); ++i) give(polygons[i], cell_facets[i]);
   }
   for (Feature& feature : out_.features) {
-    std::ranges::sort(feature.source_polygons);
-    feature.source_polygons.erase(
-        std::unique(feature.source_polygons.begin(), feature.source_polygons.end()),
-        feature.source_polygons.end());
+    auto& polygons = feature.source_polygons;
+    if (!std::ranges::is_sorted(polygons)) std::ranges::sort(polygons);
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
   }
   for (Cell& cell : out_.cells)
-    for (Facet& facet : cell.facets) std::ranges::sort(facet.polygons);
+    for (Facet& facet : cell.facets)
+      if (facet.polygons.size() > 1) std::ranges::sort(facet.polygons);
 }
 
 }  // namespace oriel::detail

@@ -7,7 +7,6 @@
 #include "kernel/segment/detail/few.h"
 
 #include <cstddef>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,8 +44,8 @@ class CellWriter {
     Box box;
   };
   Few<CellFacet, 2>& made_of(int source);
-  /// The features that polygons of a cell of `innermost` are in.
-  [[nodiscard]] std::vector<FeatureId> features_around(FeatureId innermost) const;
+  /// The features that polygons of a cell of `innermost` are in; valid until the next call.
+  const std::vector<FeatureId>& features_around(FeatureId innermost);
   /// To a cell facet, and to the features it is in.
   void give(const std::vector<int>& polygons, const CellFacet& home);
   void attribute_polygons(const Building& building, const Solid& solid);
@@ -56,8 +55,10 @@ class CellWriter {
 
   World& world_;
   Segmentation& out_;
-  std::map<Side, PlaneId> extra_planes_;
-  std::vector<Side> extra_sides_;  ///< in the order of their ids
+  std::vector<PlaneId> extra_planes_;  ///< by side
+  std::vector<Side> extra_sides_;      ///< in the order of their ids
+  FeatureId innermost_;                ///< that was asked for last, and what it is in
+  std::vector<FeatureId> around_;
   /// By facet of the solid, the cell facets made of it.
   std::vector<Few<CellFacet, 2>> made_of_;
 };

@@ -12,9 +12,17 @@ class Copier {
  public:
   Copier(const Subtree& model, const Congruence& how, World& world, CellWriter& cells,
          Segmentation& out)
-      : model_(model), how_(how), world_(world), cells_(cells), out_(out) {}
+      : model_(model),
+        how_(how),
+        world_(world),
+        cells_(cells),
+        out_(out),
+        points_(world.scratch.moved_points),
+        planes_(world.scratch.moved_planes) {}
 
   bool run(NodeId node, FeatureId feature) {
+    fill(points_, world_.points.size(), how_.points);
+    fill(planes_, world_.planes.size(), how_.planes);
     if (!has_own_planes_only()) return false;
     node_ = node;
     feature_ = feature;
@@ -34,10 +42,13 @@ class Copier {
   }
 
  private:
+  static void fill(StampMap& map, int size, const NumberMap& numbers) {
+    map.start(size);
+    for (const auto& [one, other] : numbers) map.set(one, other);
+  }
+
   [[nodiscard]] bool has_own_planes_only() const {
-    const auto is_own = [&](PlaneId id) {
-      return find_in(how_.planes, cells_.side_of(id) >> 1).has_value();
-    };
+    const auto is_own = [&](PlaneId id) { return planes_.find(cells_.side_of(id) >> 1) >= 0; };
     for (int n = model_.first_node; n < model_.last_node; ++n)
       if (!std::ranges::all_of(out_.nodes[at(n)].planes, is_own)) return false;
     for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c)
@@ -59,12 +70,12 @@ class Copier {
   }
   PlaneId moved(PlaneId id) {
     const Side side = cells_.side_of(id);
-    return cells_.plane_id(2 * *find_in(how_.planes, side >> 1) + (side & 1));
+    return cells_.plane_id(2 * planes_.find(side >> 1) + (side & 1));
   }
 
   /// Vertices that cuts of the model have made are made again, once.
   int moved(int point) {
-    if (const auto own = find_in(how_.points, point)) return *own;
+    if (const int own = points_.find(point); own >= 0) return own;
     const auto place = std::ranges::lower_bound(made_, point, {}, &std::pair<int, int>::first);
     if (place != made_.end() && place->first == point) return place->second;
     return made_.insert(place, {point, world_.points.add_moved(point, how_.shift, how_.planes)})
@@ -121,6 +132,7 @@ class Copier {
   World& world_;
   CellWriter& cells_;
   Segmentation& out_;
+  StampMap &points_, &planes_;  ///< as `how` has them
   NodeId node_;
   FeatureId feature_;
   int new_node_ = 0, new_feature_ = 0, new_cell_ = 0;

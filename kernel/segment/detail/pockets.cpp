@@ -23,11 +23,6 @@ Vec3 shift_in_metres(const std::array<std::int64_t, 3>& shift, double grid_m) {
           static_cast<double>(shift[2]) * grid_m};
 }
 
-void make_sorted_map(NumberMap& map) {
-  std::ranges::sort(map);
-  map.erase(std::unique(map.begin(), map.end()), map.end());
-}
-
 }  // namespace
 
 void Pockets::clear() {
@@ -35,18 +30,22 @@ void Pockets::clear() {
   kinds_.clear();
   edges_.clear();
   rims_.clear();
+  order_.pocket = -1;
 }
 
 int Pockets::find(const Section& section, int region) {
   const Region& here = section.regions[at(region)];
-  if (!trace_rim(section, here) || !find_facets(section)) return -1;
+  if (!trace_rim(section, here)) return -1;
   Pocket pocket;
   const Side cap = section.split_side(here);
   for (int k = 0; k < std::ssize(kinds_) && pocket.kind < 0; ++k)
     if (kinds_[at(k)].cap == cap && kinds_[at(k)].direction == section.direction &&
-        is_like(kinds_[at(k)], pocket))
+        is_like(kinds_[at(k)], pocket, section))
       pocket.kind = k;
-  if (pocket.kind < 0) pocket.kind = new_kind(section, here);
+  if (pocket.kind < 0) {
+    if (!find_facets(section)) return -1;
+    pocket.kind = new_kind(section, here);
+  }
   pocket.first_edge = static_cast<int>(edges_.size());
   pocket.first_rim = static_cast<int>(rims_.size());
   edges_.insert(edges_.end(), walk_.begin(), walk_.end());
@@ -62,7 +61,10 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int rank = planes.rank_of(section.plane);
+  StampSet& rim_edges = body_.world().scratch.rim_edges;
+  rim_edges.start(body_.half_edge_count());
   rim_.clear();
+  Box box;
   const int first = section.loops[at(region.loops[0])].first;
   int c = first;
   do {
@@ -73,7 +75,10 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
     const int beyond = body_.twin(e);
     if (!rim_.empty() && body_.next(beyond) != body_.twin(rim_.back())) return false;
     rim_.push_back(e);
+    rim_edges.insert(e);
+    box.grow(body_.at(e));
   } while (c != first);
+  corner_ = box.min;
   const int beyond = body_.twin(rim_.front());
   if (body_.next(beyond) != body_.twin(rim_.back())) return false;
   wall_ = body_.facet_of(beyond);
@@ -87,12 +92,10 @@ bool Pockets::find_facets(const Section& section) {
   StampSet& is_found = body_.world().scratch.facets_of_lump;
   is_found.start(body_.facet_count());
   facets_.clear();
-  sources_.clear();
   is_found.insert(wall_);
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int rank = planes.rank_of(section.plane);
-  Box box;
   const auto meet = [&](int f) {
     if (is_found.insert(f)) facets_.push_back(f);
   };
@@ -100,7 +103,6 @@ bool Pockets::find_facets(const Section& section) {
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     const auto& facet = body_.facet(facets_[i]);
     if (facet.loops.size() != 1 || !facet.marks.empty() || i == kMostPocketFacets) return false;
-    sources_.insert(sources_.end(), facet.sources.begin(), facet.sources.end());
     const int first = body_.loop(facet.loops[0]).first;
     int e = first;
     do {
@@ -108,13 +110,20 @@ bool Pockets::find_facets(const Section& section) {
       const int above = (ranks[at(body_.origin(e))] - rank) * section.direction;
       if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
       if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
-      box.grow(body_.at(e));
       meet(beyond);
       e = body_.next(e);
     } while (e != first);
   }
-  corner_ = box.min;
-  extent_ = box.max - box.min;
+  return has_own_sources();
+}
+
+/// No two of its facets are made of one facet of the solid.
+bool Pockets::has_own_sources() {
+  sources_.clear();
+  for (const int f : facets_) {
+    const auto& sources = body_.facet(f).sources;
+    sources_.insert(sources_.end(), sources.begin(), sources.end());
+  }
   std::ranges::sort(sources_);
   return std::ranges::adjacent_find(sources_) == sources_.end();
 }
@@ -123,51 +132,71 @@ std::span<const int> Pockets::edges_of(const Pocket& pocket) const {
   return std::span(edges_).subspan(at(pocket.first_edge), kinds_[at(pocket.kind)].twins.size());
 }
 
-/// Whether the pocket at hand is of a kind. If so its half-edges are in walk_, in the kind's order.
-bool Pockets::is_like(const Kind& kind, Pocket& pocket) {
-  if (facets_.size() != kind.sizes.size() || std::ssize(rim_) != kind.rim ||
-      !is_same_place(extent_ - kind.extent))
-    return false;
+/// Whether the pocket at hand is of a kind. If so its half-edges are in walk_, in the kind's order,
+/// and all that find_facets() asks for is known to hold: nothing is asked for that the kind has
+/// not.
+bool Pockets::is_like(const Kind& kind, Pocket& pocket, const Section& section) {
+  if (std::ssize(rim_) != kind.rim) return false;
   const double grid_m = body_.world().points.grid_m();
   const Vec3 difference = corner_ - kind.corner;
   pocket.shift = {std::llround(difference.x / grid_m), std::llround(difference.y / grid_m),
                   std::llround(difference.z / grid_m)};
   if (!is_moved(kind.cap, kind.cap, pocket.shift)) return false;
-  const auto edges = edges_of(pockets_[at(kind.first)]);
-  const Vec3 shift = shift_in_metres(pocket.shift, grid_m), from = body_.at(edges[0]) + shift;
+  const Vec3 shift = shift_in_metres(pocket.shift, grid_m);
+  const Vec3 from = body_.at(edges_[at(pockets_[at(kind.first)].first_edge)]) + shift;
   const auto start =
       std::ranges::find_if(rim_, [&](int e) { return is_same_place(body_.at(e) - from); });
-  if (start == rim_.end() || !walk_like(kind, *start)) return false;
-  const auto fits = [&](int i) {
-    return is_same_place(body_.at(walk_[at(i)]) - body_.at(edges[at(i)]) - shift);
-  };
-  return std::ranges::all_of(kind.corners, fits) && are_facets_like(kind, pocket);
+  return start != rim_.end() && walk_like(kind, *start) && are_corners_like(kind, shift, section) &&
+         are_facets_like(kind, pocket) && has_own_sources();
 }
 
 /// Lists the half-edges of the pocket at hand from `start` on as those of the kind are listed.
 /// False if its facets hang together otherwise.
 bool Pockets::walk_like(const Kind& kind, int start) {
+  StampSet& is_found = body_.world().scratch.facets_of_lump;
+  is_found.start(body_.facet_count());
+  is_found.insert(wall_);
   walk_.clear();
+  facets_.clear();
   for (std::size_t f = 0; f < kind.sizes.size(); ++f) {
     const int first = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
-    int e = first;
-    for (int i = 0; i < kind.sizes[f]; ++i) {
-      if (i > 0 && e == first) return false;
-      walk_.push_back(e);
-      e = body_.next(e);
-    }
-    if (e != first) return false;
+    if (!is_found.insert(body_.facet_of(first)) || !walk_facet(first, kind.sizes[f])) return false;
   }
-  for (std::size_t i = 0; i < walk_.size(); ++i) {
-    const int twin = body_.twin(walk_[i]);
-    if (kind.twins[i] < 0 ? body_.facet_of(twin) != wall_ : twin != walk_[at(kind.twins[i])])
+  for (std::size_t i = 0; i < walk_.size(); ++i)
+    if (kind.twins[i] < 0 ? !is_rim(walk_[i]) : body_.twin(walk_[i]) != walk_[at(kind.twins[i])])
       return false;
-  }
   return true;
 }
 
+/// Lists the half-edges of a facet. False if it has not `size` of them in one loop, or has marks.
+bool Pockets::walk_facet(int first, int size) {
+  const int f = body_.facet_of(first);
+  if (body_.facet(f).loops.size() != 1 || !body_.facet(f).marks.empty()) return false;
+  facets_.push_back(f);
+  int e = first;
+  for (int i = 0; i < size; ++i) {
+    if (i > 0 && e == first) return false;
+    walk_.push_back(e);
+    e = body_.next(e);
+  }
+  return e == first;
+}
+
+/// Vertices are those of the kind, moved; and those beside the rim are in front of the section.
+bool Pockets::are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const {
+  const auto& planes = body_.world().planes;
+  const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
+  const int limit = planes.rank_of(section.plane) * section.direction;
+  const auto edges = edges_of(pockets_[at(kind.first)]);
+  return std::ranges::all_of(kind.corners, [&](const Corner& corner) {
+    const int e = walk_[at(corner.edge)];
+    return is_same_place(body_.at(e) - body_.at(edges[at(corner.edge)]) - shift) &&
+           (corner.is_on_rim || ranks[at(body_.origin(e))] * section.direction > limit);
+  });
+}
+
 /// The planes are those of the kind, moved, and the facets are made of as many of the solid's.
-bool Pockets::are_facets_like(const Kind& kind, const Pocket& pocket) const {
+bool Pockets::are_facets_like(const Kind& kind, const Pocket& pocket) {
   const auto edges = edges_of(pockets_[at(kind.first)]);
   std::size_t i = 0;
   return std::ranges::all_of(kind.sizes, [&](int size) {
@@ -197,7 +226,6 @@ int Pockets::new_kind(const Section& section, const Region& region) {
   kind.direction = section.direction;
   kind.first = static_cast<int>(pockets_.size());
   kind.corner = corner_;
-  kind.extent = extent_;
   kind.rim = static_cast<int>(rim_.size());
   StampSet& is_met = body_.world().scratch.facets_of_piece;
   is_met.start(body_.facet_count());
@@ -224,11 +252,13 @@ int Pockets::new_kind(const Section& section, const Region& region) {
     const auto twin = std::ranges::find(walk_, body_.twin(e));
     kind.twins.push_back(twin == walk_.end() ? -1 : static_cast<int>(twin - walk_.begin()));
   }
-  for (int i = 0; i < std::ssize(walk_); ++i)
-    if (std::ranges::none_of(kind.corners, [&](int corner) {
-          return body_.origin(walk_[at(corner)]) == body_.origin(walk_[at(i)]);
+  for (int i = 0; i < std::ssize(walk_); ++i) {
+    const int e = walk_[at(i)];
+    if (std::ranges::none_of(kind.corners, [&](const Corner& corner) {
+          return body_.origin(walk_[at(corner.edge)]) == body_.origin(e);
         }))
-      kind.corners.push_back(i);
+      kind.corners.push_back({i, is_rim(e) || is_rim(body_.prev(e))});
+  }
   kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
   kinds_.push_back(std::move(kind));
   return static_cast<int>(kinds_.size()) - 1;
@@ -263,18 +293,21 @@ Cap Pockets::cap_of(int pocket) const {
 
 std::vector<int> Pockets::points_of(int pocket) const {
   const auto edges = edges_of(pockets_[at(pocket)]);
+  const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   std::vector<int> points;
-  for (const int corner : kinds_[at(pockets_[at(pocket)].kind)].corners)
-    points.push_back(body_.origin(edges[at(corner)]));
+  points.reserve(kind.corners.size());
+  for (const Corner& corner : kind.corners) points.push_back(body_.origin(edges[at(corner.edge)]));
   std::ranges::sort(points);
   return points;
 }
 
 std::vector<int> Pockets::facets_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
+  const Kind& kind = kinds_[at(here.kind)];
   std::vector<int> facets;
+  facets.reserve(kind.sizes.size());
   int i = here.first_edge;
-  for (const int size : kinds_[at(here.kind)].sizes) {
+  for (const int size : kind.sizes) {
     facets.push_back(body_.facet_of(edges_[at(i)]));
     i += size;
   }
@@ -282,30 +315,46 @@ std::vector<int> Pockets::facets_of(int pocket) const {
   return facets;
 }
 
+Pockets::Order Pockets::order_of(int pocket) const {
+  const Pocket& here = pockets_[at(pocket)];
+  const Kind& kind = kinds_[at(here.kind)];
+  const auto edges = edges_of(here);
+  Order order{pocket, {}, {}, {}};
+  for (const Corner& corner : kind.corners)
+    order.points.emplace_back(body_.origin(edges[at(corner.edge)]), corner.edge);
+  order.planes.emplace_back(kind.cap >> 1, -1);
+  int first = 0;
+  for (const int size : kind.sizes) {
+    const auto& facet = body_.facet(body_.facet_of(edges[at(first)]));
+    order.planes.emplace_back(facet.side >> 1, first);
+    for (int i = 0; i < std::ssize(facet.sources); ++i)
+      order.sources.push_back({facet.sources[at(i)], first, i});
+    first += size;
+  }
+  std::ranges::sort(order.points);
+  std::ranges::sort(order.planes);
+  std::ranges::sort(order.sources);
+  const auto again = std::ranges::unique(order.planes, {}, &std::pair<int, int>::first);
+  order.planes.erase(again.begin(), again.end());
+  return order;
+}
+
 Congruence Pockets::congruence(int model, int other) const {
+  if (order_.pocket != model) order_ = order_of(model);
   const Pocket &one = pockets_[at(model)], &two = pockets_[at(other)];
-  const Kind& kind = kinds_[at(one.kind)];
   Congruence how;
   for (std::size_t i = 0; i < 3; ++i) how.shift[i] = two.shift[i] - one.shift[i];
   how.shift_m = shift_in_metres(how.shift, body_.world().points.grid_m());
-  const auto edges = edges_of(one), others = edges_of(two);
-  how.points.reserve(kind.corners.size());
-  how.planes.reserve(kind.sizes.size() + 1);
-  for (const int i : kind.corners)
-    how.points.emplace_back(body_.origin(edges[at(i)]), body_.origin(others[at(i)]));
-  how.planes.emplace_back(kind.cap >> 1, kind.cap >> 1);
-  std::size_t first = 0;
-  for (const int size : kind.sizes) {
-    const auto &facet = body_.facet(body_.facet_of(edges[first])),
-               &same = body_.facet(body_.facet_of(others[first]));
-    how.planes.emplace_back(facet.side >> 1, same.side >> 1);
-    for (std::size_t i = 0; i < facet.sources.size(); ++i)
-      how.sources.emplace_back(facet.sources[i], same.sources[i]);
-    first += at(size);
-  }
-  make_sorted_map(how.points);
-  make_sorted_map(how.planes);
-  make_sorted_map(how.sources);
+  const auto others = edges_of(two);
+  how.points.reserve(order_.points.size());
+  how.planes.reserve(order_.planes.size());
+  how.sources.reserve(order_.sources.size());
+  for (const auto& [point, e] : order_.points)
+    how.points.emplace_back(point, body_.origin(others[at(e)]));
+  for (const auto& [plane, e] : order_.planes)
+    how.planes.emplace_back(plane, e < 0 ? plane : body_.side_of_edge(others[at(e)]) >> 1);
+  for (const auto& [source, e, i] : order_.sources)
+    how.sources.emplace_back(source, body_.facet(body_.facet_of(others[at(e)])).sources[at(i)]);
   return how;
 }
 

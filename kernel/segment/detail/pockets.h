@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
@@ -51,44 +52,61 @@ class Pockets {
     int first_edge = 0, first_rim = 0;       ///< in edges_, rims_
     std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
   };
+  /// A vertex, as a half-edge that begins there.
+  struct Corner {
+    int edge;
+    bool is_on_rim;
+  };
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
   /// listed facet by facet, in the order in which these are met.
   struct Kind {
     Side cap = -1;
     int direction = 0;
     bool is_convex = false;
-    int first = -1;  ///< the first pocket
-    Vec3 corner, extent;
+    int first = -1;            ///< the first pocket
+    Vec3 corner;               ///< the lowest of the box of its rim
     std::vector<int> sizes;    ///< of the facets, in half-edges
     std::vector<int> entries;  ///< of each facet but the first: the half-edge over which it is met
     std::vector<int> twins;    ///< by half-edge; -1: of the rim
-    std::vector<int> corners;  ///< half-edges that begin at a vertex, one for each
-    int rim = 0;               ///< how many
+    std::vector<Corner> corners;  ///< one for each vertex
+    int rim = 0;                  ///< how many
+  };
+  /// The vertices, planes and sources of a pocket in the order in which maps from it list them.
+  struct Order {
+    int pocket = -1;
+    std::vector<std::pair<int, int>> points;  ///< with a half-edge that begins there
+    std::vector<std::pair<int, int>> planes;  ///< with a half-edge of a facet; -1: the cap's
+    std::vector<std::array<int, 3>> sources;  ///< with a half-edge of their facet, and their place
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   bool trace_rim(const Section& section, const Region& region);
   bool find_facets(const Section& section);
-  [[nodiscard]] bool is_rim(int e) const { return std::ranges::find(rim_, e) != rim_.end(); }
-  [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket);
+  [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
+  [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket, const Section& section);
   bool walk_like(const Kind& kind, int start);
-  [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket) const;
+  bool walk_facet(int first, int size);
+  [[nodiscard]] bool are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const;
+  [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket);
+  [[nodiscard]] bool has_own_sources();
   [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
   int new_kind(const Section& section, const Region& region);
   [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
                                       bool is_hole) const;
   [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;
+  [[nodiscard]] Order order_of(int pocket) const;
 
   const Boundary& body_;
   int ground_plane_;
   std::vector<Pocket> pockets_;
   std::vector<Kind> kinds_;
   std::vector<int> edges_, rims_;  ///< of the pockets
+  mutable Order order_;            ///< of the model that was asked for last
 
   // The pocket at hand.
   std::vector<int> rim_, facets_, sources_, walk_;
   int wall_ = -1;
-  Vec3 corner_, extent_;
+  Vec3 corner_;
 };
 
 }  // namespace oriel::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace oriel::detail {
 
@@ -31,13 +32,14 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
       planes_(planes),
       points_(solid.vertices.size()),
       ranks_(index(planes.class_count())) {
-  for (const Facet& facet : solid.facets)
+  for (const Facet& facet : solid.facets) {
+    const int plane = planes.side_of(facet.plane) >> 1;
     for (const Loop& loop : facet.loops)
-      for (const int v : loop) points_[index(v)].planes.push_back(planes.side_of(facet.plane) >> 1);
+      for (const int v : loop) add_plane(points_[index(v)], plane);
+  }
+  places_.reserve(points_.size());
   for (std::size_t v = 0; v < points_.size(); ++v) {
     Point& point = points_[v];
-    std::ranges::sort(point.planes);
-    point.planes.erase(std::unique(point.planes.begin(), point.planes.end()), point.planes.end());
     const Vec3 at = solid.vertices[v].point;
     if (solid.vertices[v].is_meeting && point.planes.size() >= 3)
       if (const auto where =
@@ -51,15 +53,23 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
   solid_points_ = size();
 }
 
+/// Planes of a point are sorted, each once.
+void PointTable::add_plane(Point& point, int plane) const {
+  auto place = point.planes.end();
+  while (place != point.planes.begin() && *(place - 1) >= plane) --place;
+  if (place == point.planes.end() || *place != plane) point.planes.insert(place, plane);
+}
+
 void PointTable::place(Point& point, const exact::Rational& where) const {
-  point.grid = exact::as_grid_point(where);
+  const auto grid = exact::as_grid_point(where);
   point.rational = where;
-  point.at = point.grid ? exact::to_metres(*point.grid, grid_m_) : exact::to_metres(where, grid_m_);
+  point.at = grid ? exact::to_metres(*grid, grid_m_) : exact::to_metres(where, grid_m_);
 }
 
 int PointTable::exact_side(const Point& point, int plane) const {
-  return point.grid ? exact::side(planes_.plane(plane), *point.grid)
-                    : exact::side(planes_.plane(plane), point.rational);
+  const auto grid = exact::as_grid_point(point.rational);
+  return grid ? exact::side(planes_.plane(plane), *grid)
+              : exact::side(planes_.plane(plane), point.rational);
 }
 
 int PointTable::own_rank(const Point& point, int k) const {
@@ -89,8 +99,28 @@ int PointTable::compute_rank(int p, int k) {
 
 std::span<const int> PointTable::ranks(int k) {
   auto& ranks = ranks_[index(k)];
+  if (std::ssize(ranks) == size()) return ranks;
+  if (ranks.empty()) rank_by_incidence(k);
   for (int p = static_cast<int>(ranks.size()); p < size(); ++p) ranks.push_back(compute_rank(p, k));
   return ranks;
+}
+
+/// Ranks of the solid's vertices: those that lie on planes of the class by these, which most do.
+void PointTable::rank_by_incidence(int k) {
+  constexpr int kUnknown = -1;
+  auto& ranks = ranks_[index(k)];
+  ranks.assign(index(solid_points_), kUnknown);
+  for (const int plane : std::views::reverse(planes_.normal_class(k).planes))
+    for (const int p : incidence().on(plane)) ranks[index(p)] = planes_.rank_of(plane);
+  for (int p = 0; p < solid_points_; ++p)
+    if (ranks[index(p)] == kUnknown) ranks[index(p)] = own_rank(points_[index(p)], k);
+}
+
+const Incidence& PointTable::incidence() {
+  if (!incidence_.is_made())
+    incidence_.make(solid_points_, planes_.size(),
+                    [&](int p) -> const Few<int, 4>& { return points_[index(p)].planes; });
+  return incidence_;
 }
 
 int PointTable::side(int point, int plane) {
@@ -207,25 +237,15 @@ bool PointTable::lies_on_too(int p, const Few<int, 4>& planes) {
   return true;
 }
 
+/// The solid's own vertices are found by any three of their planes; the first vertex counts.
 std::optional<int> PointTable::known_meeting(const std::array<int, 3>& planes) {
   if (const auto met = meetings_.find(planes); met != meetings_.end()) return met->second;
-  if (!has_own_meetings_) remember_meetings();
-  const auto own = std::ranges::lower_bound(own_meetings_, planes, {}, &Meeting::first);
-  if (own == own_meetings_.end() || own->first != planes) return std::nullopt;
-  return own->second;
-}
-
-/// The solid's own vertices are found by any three of their planes; the first vertex counts.
-void PointTable::remember_meetings() {
-  has_own_meetings_ = true;
-  for (int p = 0; p < solid_points_; ++p) {
-    const auto& planes = points_[index(p)].planes;
-    for (std::size_t i = 0; i < planes.size(); ++i)
-      for (std::size_t j = i + 1; j < planes.size(); ++j)
-        for (std::size_t k = j + 1; k < planes.size(); ++k)
-          own_meetings_.push_back({{planes[i], planes[j], planes[k]}, p});
-  }
-  std::ranges::sort(own_meetings_);
+  auto fewest = incidence().on(planes[0]);
+  for (const int plane : planes)
+    if (const auto points = incidence().on(plane); points.size() < fewest.size()) fewest = points;
+  const auto own = std::ranges::find_if(
+      fewest, [&](int p) { return std::ranges::includes(points_[index(p)].planes, planes); });
+  return own == fewest.end() ? std::nullopt : std::optional(*own);
 }
 
 }  // namespace oriel::detail

@@ -3,6 +3,7 @@
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/detail/few.h"
+#include "kernel/segment/detail/incidence.h"
 #include "kernel/segment/detail/number_map.h"
 #include "kernel/segment/detail/planes.h"
 
@@ -74,14 +75,15 @@ class PointTable {
     Vec3 at;
     Few<int, 4> planes;  ///< sorted
     bool is_by_decree = false;
-    std::optional<exact::GridPoint> grid;
     exact::Rational rational{0, 0, 0, 0};  ///< w = 0: not placed yet
     int low = -1, high = -1;               ///< the ends of the edge it was made on
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   using Cell = std::array<std::int64_t, 3>;
   [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
-  void remember_meetings();
+  const Incidence& incidence();
+  void add_plane(Point& point, int plane) const;
+  void rank_by_incidence(int k);
   [[nodiscard]] Cell cell_of(Vec3 p) const;
   std::optional<int> met_near(const Point& point);
   bool lies_on_too(int p, const Few<int, 4>& planes);
@@ -97,12 +99,9 @@ class PointTable {
   std::vector<Point> points_;
   std::vector<Vec3> places_;  ///< by point, close together
   std::vector<std::vector<int>> ranks_;
-  using Meeting = std::pair<std::array<int, 3>, int>;
-  /// The solid's vertices by three of their planes, sorted; made when it is asked for.
-  std::vector<Meeting> own_meetings_;
-  bool has_own_meetings_ = false;
+  Incidence incidence_;  ///< of the solid's vertices; made when it is asked for
   int solid_points_ = 0;
-  std::map<std::array<int, 3>, int> meetings_;  ///< the same of points that meet() has made
+  std::map<std::array<int, 3>, int> meetings_;  ///< points that meet() has made, by three planes
   std::vector<std::array<int, 3>> met_;         ///< their keys, in order
   std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
 };

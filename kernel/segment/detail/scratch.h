@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/geometry/planar.h"
+
 #include <cstddef>
 #include <iterator>
 #include <vector>
@@ -25,6 +27,30 @@ class StampSet {
 
  private:
   std::vector<int> stamps_;
+  int last_ = 0;
+};
+
+/// A number for each of some numbers, emptied in no time likewise.
+class StampMap {
+ public:
+  void start(int size) {
+    if (std::ssize(entries_) < size) entries_.resize(static_cast<std::size_t>(size));
+    ++last_;
+  }
+  void set(int i, int number) { entries_[static_cast<std::size_t>(i)] = {last_, number}; }
+  /// -1 if there is none, as for what is out of range.
+  [[nodiscard]] int find(int i) const {
+    if (i < 0 || i >= std::ssize(entries_)) return -1;
+    const Entry& entry = entries_[static_cast<std::size_t>(i)];
+    return entry.stamp == last_ ? entry.number : -1;
+  }
+
+ private:
+  struct Entry {
+    int stamp = 0;
+    int number = -1;
+  };
+  std::vector<Entry> entries_;
   int last_ = 0;
 };
 
@@ -69,10 +95,17 @@ struct Scratch {
   std::vector<int> last_chord_in;     ///< by facet
   std::vector<int> crossing_of_edge;  ///< by half-edge
 
+  // Pockets.
+  StampSet rim_edges;
+
   // Cuts.
   StampSet facets_of_lump, facets_of_piece;
   std::vector<int> copy_of;  ///< by half-edge
   StampSet copied_edges;
+  Outline outline;
+
+  // Copies of parts.
+  StampMap moved_points, moved_planes;
 };
 
 }  // namespace oriel::detail

@@ -109,41 +109,73 @@ void Slots::count_tests(const Slot& slot) {
 
 void Slots::changed(const std::vector<Change>& changes) {
   edges_.update();
-  std::vector<Box> parts(changes.size());
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    changes[i].has_covered ? chains_.forget() : chains_.expect(changes[i].new_edges);
-    for (const int p : changes[i].part.empty() ? changes[i].points : changes[i].part)
-      parts[i].grow(world_.points.at(p));
+  std::vector<Seen> all;
+  all.reserve(changes.size());
+  for (const Change& change : changes) {
+    change.has_covered ? chains_.forget() : chains_.expect(change.new_edges);
+    all.push_back(look_at(change));
   }
-  for (const Class& c : classes_) apply(c, changes, parts);
+  for (const Class& c : classes_) apply(c, all);
   margins_.take_out_spent([&](std::size_t number) { make_stale(number); });
+}
+
+Slots::Seen Slots::look_at(const Change& change) const {
+  const auto is_exact = [&](int p) { return world_.points.is_meeting(p); };
+  Seen seen{&change, {}, change.is_ring && std::ranges::all_of(change.points, is_exact)};
+  for (const int p : change.part.empty() ? change.points : change.part)
+    seen.part.grow(world_.points.at(p));
+  return seen;
 }
 
 /// Of equal windows those of a row, or of a column, mean the same to one class: they are looked at
 /// together.
-void Slots::apply(const Class& c, const std::vector<Change>& changes,
-                  const std::vector<Box>& parts) {
+void Slots::apply(const Class& c, std::span<const Seen> changes) {
   const Vec3 normal = world_.planes.normal_class(c.number).normal;
+  const auto rank = world_.points.ranks(c.number);
   for (std::size_t i = 0; i < changes.size();) {
-    Run run{reach_of(c, changes[i]), most_area(parts[i], normal)};
+    Run run{reach_of(rank, changes[i]), most_area(changes[i].part, normal)};
     const std::size_t first = i;
     for (++i; i < changes.size() && run.reach.is_plain(); ++i) {
-      if (reach_of(c, changes[i]) != run.reach) break;
-      run.area += most_area(parts[i], normal);
+      if (!mean_the_same(rank, changes[first], changes[i]) &&
+          reach_of(rank, changes[i]) != run.reach)
+        break;
+      run.area += most_area(changes[i].part, normal);
     }
-    touch_all(c, changes[first], run);
+    touch_all(c, *changes[first].change, run);
   }
 }
 
-Slots::Reach Slots::reach_of(const Class& c, const Change& change) {
+/// Two changes have the same reach for certain: all their points, one by one, have the same ranks.
+bool Slots::mean_the_same(std::span<const int> rank, const Seen& p, const Seen& q) {
+  const Change &one = *p.change, &two = *q.change;
+  if (p.is_exact_ring != q.is_exact_ring || one.is_natural != two.is_natural) return false;
+  if (!one.part.empty() || !two.part.empty()) return false;
+  const auto is_same = [&](int i, int j) { return rank[at(i)] == rank[at(j)]; };
+  return std::ranges::equal(one.points, two.points, is_same) &&
+         std::ranges::equal(one.rim, two.rim, [&](const auto& e, const auto& f) {
+           return is_same(e.first, f.first) && is_same(e.second, f.second);
+         });
+}
+
+Slots::Reach Slots::reach_of(std::span<const int> rank, const Seen& seen) const {
   constexpr int kMost = std::numeric_limits<int>::max();
-  const auto rank = world_.points.ranks(c.number);
-  const auto is_exact = [&](int p) { return world_.points.is_meeting(p); };
-  const bool is_ring = change.is_ring && std::ranges::all_of(change.points, is_exact);
-  Reach reach{kMost, -1, kMost, -1, kMost, -1, -1, change.is_natural, is_ring, !change.rim.empty(),
+  const Change& change = *seen.change;
+  Reach reach{kMost,
+              -1,
+              kMost,
+              -1,
+              kMost,
+              -1,
+              -1,
+              change.is_natural,
+              seen.is_exact_ring,
+              !change.rim.empty(),
               {}};
+  int last = -1;
   for (const int p : change.points) {
     const int here = rank[at(p)];
+    if (here == last) continue;
+    last = here;
     reach.low = std::min(reach.low, here);
     reach.high = std::max(reach.high, here);
     if ((here & 1) != 0 && std::ranges::find(reach.hits, here) == reach.hits.end())

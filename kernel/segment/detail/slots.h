@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -114,8 +115,16 @@ class Slots {
   void refresh(std::size_t number);
   bool prune(std::size_t number);
   [[nodiscard]] bool judge(std::size_t number, const Section& section);
-  void apply(const Class& c, const std::vector<Change>& changes, const std::vector<Box>& parts);
-  [[nodiscard]] Reach reach_of(const Class& c, const Change& change);
+  /// A change as all classes see it.
+  struct Seen {
+    const Change* change;
+    Box part;
+    bool is_exact_ring;  ///< and all its points are meetings
+  };
+  [[nodiscard]] Seen look_at(const Change& change) const;
+  void apply(const Class& c, std::span<const Seen> changes);
+  [[nodiscard]] Reach reach_of(std::span<const int> rank, const Seen& seen) const;
+  [[nodiscard]] static bool mean_the_same(std::span<const int> rank, const Seen& p, const Seen& q);
   void touch_all(const Class& c, const Change& change, const Run& run);
   void touch_along(const Class& c, const Change& change, const Run& run);
   void touch_plane(std::size_t entry, const Change& change, const Run& run);
