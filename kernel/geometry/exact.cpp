@@ -85,6 +85,25 @@ std::array<std::int64_t, 3> as_normal(const std::array<Int, 3>& vector) {
   return normal;
 }
 
+/// The meeting of three planes across the three axes, as most of a building's are: its coordinates
+/// are their offsets. Nothing for other planes.
+std::optional<Rational> meet_along_axes(const Plane& p, const Plane& q, const Plane& r) {
+  std::array<Int128, 3> at{};
+  unsigned found = 0;
+  for (const Plane* plane : {&p, &q, &r}) {
+    const auto& [x, y, z] = plane->coefficients;
+    if ((x != 0) + (y != 0) + (z != 0) != 1) return std::nullopt;
+    const std::size_t axis = x != 0 ? 0 : y != 0 ? 1 : 2;
+    const std::int64_t sign = x + y + z;
+    if (sign != 1 && sign != -1) return std::nullopt;
+    at[axis] = sign * Int128{plane->offset};
+    found |= 1U << axis;
+  }
+  constexpr unsigned kAll = 7;
+  if (found != kAll) return std::nullopt;
+  return Rational{at[0], at[1], at[2], 1};
+}
+
 }  // namespace
 
 GridPoint round_to_grid(Vec3 point, double grid_m) {
@@ -147,6 +166,7 @@ Plane opposite(const Plane& plane) {
 }
 
 std::optional<Rational> meet(const Plane& p, const Plane& q, const Plane& r) {
+  if (const auto corner = meet_along_axes(p, q, r)) return corner;
   // A minor is below 2^57 and so is its offset's product below 2^120.
   const auto minor = [](const Plane& s, const Plane& t, std::size_t i, std::size_t j) {
     return s.coefficients[i] * t.coefficients[j] - s.coefficients[j] * t.coefficients[i];
@@ -170,8 +190,8 @@ std::optional<Rational> meet(const Plane& p, const Plane& q, const Plane& r) {
 
 std::optional<GridPoint> as_grid_point(const Rational& point) {
   const Int128 limit = point.w * kMaxCoordinate;
-  if (absolute(point.x) > limit || absolute(point.y) > limit || absolute(point.z) > limit)
-    return std::nullopt;
+  const auto fits = [limit](Int128 c) { return c >= -limit && c <= limit; };
+  if (!fits(point.x) || !fits(point.y) || !fits(point.z)) return std::nullopt;
   if (point.w == 1)
     return GridPoint{static_cast<std::int64_t>(point.x), static_cast<std::int64_t>(point.y),
                      static_cast<std::int64_t>(point.z)};

@@ -32,6 +32,14 @@ bool Boundary::has_facets_on(Side side) const {
   return on != nullptr && on->living > 0;
 }
 
+std::vector<Side> Boundary::sides() const {
+  std::vector<Side> sides;
+  sides.reserve(number_of_side_.size());
+  for (const auto& [side, number] : number_of_side_)
+    if (on_side_[index(number)].living > 0) sides.push_back(side);
+  return sides;
+}
+
 std::vector<int> Boundary::facets_on(Side side) const {
   std::vector<int> living;
   if (const OnSide* on = on_side(side))

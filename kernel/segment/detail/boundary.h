@@ -89,6 +89,8 @@ class Boundary {
   /// The area of all facets of a side.
   [[nodiscard]] double area_on(Side side) const;
   [[nodiscard]] bool has_facets_on(Side side) const;
+  /// The sides that have facets, ascending.
+  [[nodiscard]] std::vector<Side> sides() const;
   /// The living facets of a side, ascending.
   [[nodiscard]] std::vector<int> facets_on(Side side) const;
   [[nodiscard]] std::vector<int> living_facets() const;

@@ -152,10 +152,13 @@ const std::vector<FeatureId>& CellWriter::features_around(FeatureId innermost) {
 void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
   if (polygons.empty()) return;
   const auto add_to = [&](std::vector<int>& all) {
+    constexpr std::size_t kFew = 8;  // a window has no more
+    if (all.empty() && polygons.size() < kFew) all.reserve(kFew);
     all.insert(all.end(), polygons.begin(), polygons.end());
   };
   Cell& cell = out_.cells[home.cell.index()];
-  add_to(cell.facets[at(home.facet)].polygons);
+  auto& here = cell.facets[at(home.facet)].polygons;
+  here.insert(here.end(), polygons.begin(), polygons.end());
   for (const FeatureId id : features_around(cell.feature))
     add_to(out_.features[id.index()].source_polygons);
 }

@@ -4,19 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace oriel::detail {
 
 namespace {
 
-/// A loop with what is needed to find the loops inside it.
-struct LoopShape {
+/// A loop by its size; of equal ones the first edge tells.
+struct LoopSize {
+  double size;
+  int edge;
   int loop;
-  double area;
-  Box box;
-  Outline points;  ///< filled in when asked for
 };
 
 bool is_within(const Box& inner, const Box& outer) {
@@ -29,18 +27,21 @@ class LoopNester {
   LoopNester(Section& section, Vec3 axis) : section_(section), axis_(axis) {}
 
   void run() {
-    find_shapes();
-    std::array<std::vector<int>, 2> larger;  // around air, around material
-    for (int i = 0; i < std::ssize(shapes_); ++i) {
-      const LoopShape& shape = shapes_[at(i)];
-      add_region(shape.loop);
-      const bool is_material = shape.area > 0;
-      const int parent = parent_of(shape, larger[is_material ? 0 : 1]);
+    sort_loops();
+    find_boxes();
+    outlines_.resize(section_.loops.size());
+    std::array<std::vector<int>, 2> larger;  // regions around air, around material
+    section_.regions.reserve(order_.size());
+    for (int i = 0; i < std::ssize(order_); ++i) {
+      const int l = order_[at(i)].loop;
+      add_region(l);
+      const bool is_material = section_.loops[at(l)].area > 0;
+      const int parent = parent_of(l, larger[is_material ? 0 : 1]);
       larger[is_material ? 1 : 0].push_back(i);
       if (parent < 0) continue;
       Region& around = section_.regions[at(parent)];
-      around.loops.push_back(shape.loop);
-      around.area -= std::abs(shape.area);
+      around.loops.push_back(l);
+      around.area -= order_[at(i)].size;
     }
   }
 
@@ -51,23 +52,28 @@ class LoopNester {
 
  private:
   /// The largest first.
-  void find_shapes() {
-    shapes_.reserve(section_.loops.size());
+  void sort_loops() {
+    order_.reserve(section_.loops.size());
     for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      shapes_.push_back({l, section_.loops[at(l)].area, {}, {}});
-      for_each_crossing(section_, l, [&](const Crossing& c) { shapes_.back().box.grow(c.at); });
+      const SectionLoop& loop = section_.loops[at(l)];
+      order_.push_back({std::abs(loop.area), section_.crossings[at(loop.first)].edge, l});
     }
-    std::ranges::sort(shapes_, std::greater{}, [&](const LoopShape& s) {
-      return std::pair(std::abs(s.area),
-                       -section_.crossings[at(section_.loops[at(s.loop)].first)].edge);
+    std::ranges::sort(order_, [](const LoopSize& p, const LoopSize& q) {
+      return p.size != q.size ? p.size > q.size : p.edge < q.edge;
     });
   }
 
-  /// The smallest of the larger loops of the other kind that is around `inner`, or -1.
-  int parent_of(const LoopShape& inner, const std::vector<int>& others) {
+  void find_boxes() {
+    boxes_.resize(section_.loops.size());
+    for (const Crossing& c : section_.crossings) boxes_[at(c.loop)].grow(c.at);
+  }
+
+  /// Of the smallest of the larger loops of the other kind that is around loop `l` the region; or
+  /// -1.
+  int parent_of(int l, const std::vector<int>& others) {
     for (std::size_t j = others.size(); j-- > 0;) {
-      LoopShape& outer = shapes_[at(others[j])];
-      if (is_within(inner.box, outer.box) && is_inside(inner, outer)) return others[j];
+      const int outer = order_[at(others[j])].loop;
+      if (is_within(boxes_[at(l)], boxes_[at(outer)]) && is_inside(l, outer)) return others[j];
     }
     return -1;
   }
@@ -75,24 +81,26 @@ class LoopNester {
   /// Loops do not cross, so one point tells; the middle of the figure may lie in a loop further in,
   /// so it is asked from points of the loop itself until one is clear of the outer loop's own
   /// points.
-  bool is_inside(const LoopShape& inner, LoopShape& outer) const {
-    if (outer.points.empty()) outer.points = outline_of(section_, outer.loop);
-    const int first = section_.loops[at(inner.loop)].first;
+  bool is_inside(int inner, int outer) {
+    Outline& shape = outlines_[at(outer)];
+    if (shape.empty()) shape = outline_of(section_, outer);
+    const int first = section_.loops[at(inner)].first;
     int c = first;
     do {
       const Vec3 p = section_.crossings[at(c)].at;
-      if (std::ranges::find(outer.points, p) == outer.points.end())
-        return contains({&outer.points, 1}, axis_, p);
+      if (std::ranges::find(shape, p) == shape.end()) return contains({&shape, 1}, axis_, p);
       c = section_.crossings[at(c)].next;
     } while (c != first);
-    const Outline points = outline_of(section_, inner.loop);
+    const Outline points = outline_of(section_, inner);
     const auto middle = interior_point({&points, 1}, axis_);
-    return middle && contains({&outer.points, 1}, axis_, *middle);
+    return middle && contains({&shape, 1}, axis_, *middle);
   }
 
   Section& section_;
   Vec3 axis_;
-  std::vector<LoopShape> shapes_;
+  std::vector<LoopSize> order_;    ///< the loop of each region
+  std::vector<Box> boxes_;         ///< by loop
+  std::vector<Outline> outlines_;  ///< by loop, filled in when asked for
 };
 
 }  // namespace

@@ -77,6 +77,7 @@ int PointTable::own_rank(const Point& point, int k) const {
     if (planes_.class_of(plane) == k) return planes_.rank_of(plane);
   const auto& c = planes_.normal_class(k);
   const double along = dot(c.normal, point.at);
+  if (along + kCertain_m < c.offsets_m.front()) return 0;
   auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
   for (; i < std::ssize(c.offsets_m) &&
          c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;

@@ -54,12 +54,13 @@ class StampMap {
   int last_ = 0;
 };
 
-/// The ends of chords of a section in one facet.
+/// The ends of chords of a section in one facet. An end is twice its crossing, and one more if the
+/// chord begins there: the facet's own half-edge leads down.
 struct Chords {
   int stamp = 0;
-  int ends = 0;              ///< how many
-  int begin = -1, end = -1;  ///< of the first two: crossings where a chord begins and ends
-  int number = -1;           ///< among facets with several chords
+  int ends = 0;                 ///< how many
+  int first = -1, second = -1;  ///< ends
+  int number = -1;              ///< among facets with more ends
 };
 
 /// A crossing as one of its two facets sees it.
@@ -82,6 +83,14 @@ struct Scratch {
     if (std::ssize(chords) < facets) chords.resize(static_cast<std::size_t>(facets));
     ++last_chords;
     facets_with_several.clear();
+  }
+  /// An empty list for the ends in one more facet with several chords.
+  std::vector<ChordEnd>& add_chord_ends(int facet) {
+    facets_with_several.push_back(facet);
+    if (chord_ends.size() < facets_with_several.size()) chord_ends.emplace_back();
+    auto& ends = chord_ends[facets_with_several.size() - 1];
+    ends.clear();
+    return ends;
   }
   Chords& chords_in(int facet) {
     Chords& here = chords[static_cast<std::size_t>(facet)];

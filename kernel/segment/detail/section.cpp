@@ -90,51 +90,41 @@ class Sectioner {
   /// material above it to its left, from a half-edge that leads down to one that leads up.
   bool link_chords() {
     scratch_.start_chords(body_.facet_count());
-    std::size_t several = 0;
     for (int c = 0; c < std::ssize(section_.crossings); ++c) {
       const int e = section_.crossings[at(c)].edge;
-      several += link_end(body_.facet_of(e), c, true) ? 1 : 0;
-      several += link_end(body_.facet_of(body_.twin(e)), c, false) ? 1 : 0;
+      add_end(body_.facet_of(e), 2 * c + 1);
+      add_end(body_.facet_of(body_.twin(e)), 2 * c);
     }
-    return several == 0 ? are_all_linked() : link_several(several);
-  }
-
-  /// Links the two ends of a facet that has no more, as most have. True if the facet is found to
-  /// have several chords: then they wait for link_several.
-  bool link_end(int facet, int c, bool leads_down) {
-    Chords& here = scratch_.chords_in(facet);
-    ++here.ends;
-    if (here.ends > 2) {
-      if (here.ends > 3) return false;
-      here.number = static_cast<int>(scratch_.facets_with_several.size());
-      scratch_.facets_with_several.push_back(facet);
-      return true;
-    }
-    (leads_down ? here.begin : here.end) = c;
-    if (here.begin >= 0 && here.end >= 0) section_.crossings[at(here.begin)].next = here.end;
-    return false;
-  }
-
-  [[nodiscard]] bool are_all_linked() const {
+    for (std::size_t i = 0; i < scratch_.facets_with_several.size(); ++i)
+      if (!link_in_facet(scratch_.facets_with_several[i], scratch_.chord_ends[i])) return false;
     return std::ranges::all_of(section_.crossings, [](const Crossing& c) { return c.next >= 0; });
   }
 
-  bool link_several(std::size_t several) {
-    auto& lists = scratch_.chord_ends;
-    if (lists.size() < several) lists.resize(several);
-    for (std::size_t i = 0; i < several; ++i) lists[i].clear();
-    const auto add = [&](int facet, int c, bool leads_down) {
-      if (const int number = scratch_.chords_in(facet).number; number >= 0)
-        lists[at(number)].push_back({0, c, leads_down});
-    };
-    for (int c = 0; c < std::ssize(section_.crossings); ++c) {
-      const int e = section_.crossings[at(c)].edge;
-      add(body_.facet_of(e), c, true);
-      add(body_.facet_of(body_.twin(e)), c, false);
+  /// Links the two ends of a facet that has no more, as most have. If there are more they are
+  /// listed, to be linked in the order in which they lie along the line.
+  void add_end(int facet, int end) {
+    Chords& here = scratch_.chords_in(facet);
+    ++here.ends;
+    if (here.ends == 1) {
+      here.first = end;
+    } else if (here.ends == 2) {
+      here.second = end;
+      if (((here.first ^ end) & 1) != 0) link(here.first, end);
+    } else {
+      if (here.ends == 3) {
+        here.number = static_cast<int>(scratch_.facets_with_several.size());
+        auto& ends = scratch_.add_chord_ends(facet);
+        ends.push_back({0, here.first >> 1, (here.first & 1) != 0});
+        ends.push_back({0, here.second >> 1, (here.second & 1) != 0});
+      }
+      scratch_.chord_ends[at(here.number)].push_back({0, end >> 1, (end & 1) != 0});
     }
-    for (std::size_t i = 0; i < several; ++i)
-      if (!link_in_facet(scratch_.facets_with_several[i], lists[i])) return false;
-    return are_all_linked();
+  }
+
+  /// Makes one chord of two ends of which one begins it.
+  void link(int one, int other) {
+    const int begin = (one & 1) != 0 ? one : other, end = (one & 1) != 0 ? other : one;
+    section_.crossings[at(begin >> 1)].next = end >> 1;
   }
 
   /// Sorts the ends along the line; where edges leave one point of the plane, by where they are

@@ -22,11 +22,11 @@ double most_area(const Box& box, Vec3 normal) {
   return least;
 }
 
+/// Ascending.
 std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& own_planes) {
   std::vector<int> planes;
-  for (const int f : body.living_facets()) planes.push_back(body.facet(f).side >> 1);
-  std::ranges::sort(planes);
-  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  for (const Side side : body.sides())
+    if (planes.empty() || planes.back() != side >> 1) planes.push_back(side >> 1);
   std::erase_if(
       planes, [&](int plane) { return std::ranges::find(own_planes, plane) != own_planes.end(); });
   return planes;
