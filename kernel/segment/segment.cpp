@@ -163,6 +163,7 @@ class Segmenter {
       feature.sense = Sense::cavity;
       feature.value = feature.quality = 0;
       measure(feature, cavity);
+      feature.vertices = points_of(cavity);
       add_part(task, std::move(cavity), -task.sign, std::move(feature), {});
     }
     parent_of_rest_ = task.node;
@@ -210,6 +211,7 @@ class Segmenter {
 
     const std::size_t first_part = tasks_.size();
     std::vector<detail::Change> changes;
+    changes.reserve(choice.lumps.size() + choice.patches.size());
     is_body_changed_ = false;
     const std::vector<std::size_t> models = models_of(choice);
     for (std::size_t i = 0; i < choice.lumps.size(); ++i) {
@@ -253,7 +255,8 @@ class Segmenter {
                                Measures measures, std::vector<int> touched) {
     const bool is_natural = choice.is_natural && touched.empty();
     auto carved = take_off(task.body, caps, choice.is_hole, next_feature(), std::move(touched));
-    detail::Change change = change_of(carved, caps);
+    std::vector<int> points = points_of(carved.lump);
+    detail::Change change = change_of(carved, caps, points);
     change.is_natural = is_natural;
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
     std::ranges::stable_sort(caps, std::greater{},
@@ -263,6 +266,7 @@ class Segmenter {
     feature.cap_point = carved.cap_point;
     for (const detail::Cap& cap : caps) feature.surface_m2 -= area_of(world_, cap);
     measure(feature, carved.lump);
+    feature.vertices = std::move(points);
     std::vector<int> own_planes;
     if (!choice.is_hole && choice.sides.size() > 1)
       for (const Side side : choice.sides) own_planes.push_back(side >> 1);
@@ -274,7 +278,8 @@ class Segmenter {
   /// Takes off a pocket that needs no body of its own: it gets a copy of what becomes of `model`.
   detail::Change take_off_copy(Task& task, const Choice& choice, const detail::Lump& lump,
                                const detail::Lump& model) {
-    const std::vector<detail::Cap> caps{choice.pockets->cap_of(lump.pocket)};
+    std::vector<detail::Cap> caps;
+    caps.push_back(choice.pockets->cap_of(lump.pocket));
     auto how = choice.pockets->congruence(model.pocket, lump.pocket);
     std::vector<int> points = choice.pockets->points_of(lump.pocket);
     const auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),

@@ -130,15 +130,18 @@ int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> 
   return f;
 }
 
-int Boundary::add_cycle(std::span<const int> origins, int f) {
-  const int first = half_edge_count(), size = static_cast<int>(origins.size());
+int Boundary::add_cycle(std::span<const int> origins, int f, bool is_backward) {
+  const int first = half_edge_count(), last = first + static_cast<int>(origins.size()) - 1;
   const int l = static_cast<int>(loops_.size());
-  for (int i = 0; i < size; ++i)
-    half_edges_.push_back({origins[index(i)], first + (i + 1 < size ? i + 1 : 0),
-                           first + (i > 0 ? i : size) - 1, -1, l, f});
+  int e = first;
+  for (const int origin : origins) {
+    const int up = e < last ? e + 1 : first, down = e > first ? e - 1 : last;
+    half_edges_.push_back({origin, is_backward ? down : up, is_backward ? up : down, -1, l, f});
+    ++e;
+  }
   loops_.push_back({first, f, 0});
   attach(l, f);
-  return l;
+  return first;
 }
 
 double Boundary::perimeter(int l) const {

@@ -128,8 +128,9 @@ class Boundary {
   int add_facet(Side side, const Sources& sources = {}, std::vector<CapMark> marks = {});
   /// Room for that many half-edges and facets.
   void reserve(int half_edges, int facets);
-  /// Adds half-edges that begin at these points, one after the other, as a loop of facet `f`.
-  int add_cycle(std::span<const int> origins, int f);
+  /// Adds half-edges that begin at these points as a loop of facet `f`: each leads to the next, or,
+  /// `is_backward`, to the one before. Returns the first half-edge.
+  int add_cycle(std::span<const int> origins, int f, bool is_backward = false);
   /// Makes the cycle through `first` a loop of facet `f`.
   int add_loop(int first, int f);
   void add_mark(int f, const CapMark& mark) { facets_[index(f)].marks.push_back(mark); }

@@ -21,6 +21,15 @@ bool may_overlap(const Box& p, const Box& q, Vec3 normal) {
          (z == most || (p.min.z < q.max.z && q.min.z < p.max.z));
 }
 
+std::vector<const Polygon*> polygons_by_source(const Building& building) {
+  std::vector<const Polygon*> polygons(building.polygons.size());
+  for (const Polygon& polygon : building.polygons) {
+    if (std::ssize(polygons) <= polygon.source) polygons.resize(at(polygon.source) + 1);
+    polygons[at(polygon.source)] = &polygon;
+  }
+  return polygons;
+}
+
 /// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
 /// most of it lies.
 std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
@@ -166,17 +175,13 @@ void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
 /// Every input polygon goes to the cell facet that holds most of it, and to the features that facet
 /// is in: those of its cell, what those lie in, and what hosts them.
 void CellWriter::attribute_polygons(const Building& building, const Solid& solid) {
-  std::vector<const Polygon*> polygon_of_source;
-  for (const Polygon& polygon : building.polygons) {
-    if (std::ssize(polygon_of_source) <= polygon.source)
-      polygon_of_source.resize(at(polygon.source) + 1);
-    polygon_of_source[at(polygon.source)] = &polygon;
-  }
+  std::vector<const Polygon*> polygon_of_source;  // made when it is asked for
   for (std::size_t source = 0; source < made_of_.size(); ++source) {
     const std::span<const CellFacet> cell_facets{made_of_[source].data(), made_of_[source].size()};
     const Facet& facet = solid.facets[source];
     if (cell_facets.size() == 1) give(facet.polygons, cell_facets[0]);
     if (cell_facets.size() <= 1) continue;
+    if (polygon_of_source.empty()) polygon_of_source = polygons_by_source(building);
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     const std::vector<Shape> shapes = shapes_of(cell_facets);
     std::vector<std::vector<int>> polygons(cell_facets.size());

@@ -20,17 +20,17 @@ void FacetCopier::add(int f) {
   const int copy =
       to_.add_facet(is_turned_ ? facet.side ^ 1 : facet.side, facet.sources, facet.marks);
   for (const int l : facet.loops) {
+    origins_.clear();
+    int one = to_.half_edge_count();
     const int first = from_.loop(l).first;
-    int e = first, last = -1;
+    int e = first;
     do {
-      const int one = to_.add_edge(is_turned_ ? from_.target(e) : from_.origin(e));
-      if (last >= 0) link(last, one);
+      origins_.push_back(is_turned_ ? from_.target(e) : from_.origin(e));
       scratch_.copied_edges.insert(e);
-      scratch_.copy_of[at(e)] = last = one;
+      scratch_.copy_of[at(e)] = one++;
       e = from_.next(e);
     } while (e != first);
-    link(last, copy_of(first));
-    to_.add_loop(copy_of(first), copy);
+    to_.add_cycle(origins_, copy, is_turned_);
   }
 }
 

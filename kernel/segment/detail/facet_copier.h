@@ -20,13 +20,13 @@ class FacetCopier {
 
  private:
   void add(int f);
-  void link(int e, int after) { is_turned_ ? to_.link(after, e) : to_.link(e, after); }
   void pair_twins(int f);
 
   const Boundary& from_;
   Boundary to_;
   Scratch& scratch_;
   bool is_turned_;
+  std::vector<int> origins_;  ///< of the loop at hand
 };
 
 }  // namespace oriel::detail

@@ -81,8 +81,8 @@ void NaturalChains::add_step(const Class& c, std::span<const int> ranks, int e) 
   const auto entry = entry_of(c, plane);
   if (!entry) return;
   const int direction = direction_of(e, rank, ranks);
-  const Vec3 normal = world_.planes.normal_class(c.number).normal;
-  if (direction == 0 || hangs_below(e, direction * normal)) return;
+  if (direction == 0) return;
+  if (hangs_below(e, direction * world_.planes.normal_class(c.number).normal)) return;
   const std::size_t slot = 2 * *entry + (direction > 0 ? 0 : 1);
   steps_.push_back({slot, body_.origin(e), body_.target(e)});
 }
@@ -119,7 +119,7 @@ bool NaturalChains::hangs_below(int e, Vec3 up) const {
   const Vec3 along = world_.points.at(to) - world_.points.at(from);
   const double inward = dot(cross(world_.planes.normal(body_.side_of_edge(e)), along), up);
   constexpr double kFlat = 1e-9;  // tolerance of doubles
-  return inward < -kFlat * length(along);
+  return inward < 0 && inward < -kFlat * length(along);
 }
 
 bool NaturalChains::is_free(int point) const {

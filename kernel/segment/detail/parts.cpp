@@ -4,14 +4,21 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 namespace oriel::detail {
 
 namespace {
 
-void sort_uniquely(std::vector<int>& points) {
-  std::ranges::sort(points);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+/// The points, sorted, each once.
+template <class Points>
+std::vector<int> sorted_uniquely(Points&& points, World& world) {
+  std::vector<int> sorted;
+  world.scratch.met_points.start(world.points.size());
+  for (const int p : points)
+    if (world.scratch.met_points.insert(p)) sorted.push_back(p);
+  std::ranges::sort(sorted);
+  return sorted;
 }
 
 }  // namespace
@@ -33,14 +40,23 @@ std::vector<std::size_t> models_of(const Choice& choice) {
   return models;
 }
 
-Change change_of(const Carved& carved, const std::vector<Cap>& caps) {
-  Change change{carved.touched, {}, {}, false, carved.is_ring, {}, false};
-  const Boundary& part = carved.lump;
-  for (int e = 0; e < part.half_edge_count(); ++e)
-    if (part.is_alive_edge(e)) change.part.push_back(part.origin(e));
-  sort_uniquely(change.points);
-  sort_uniquely(change.part);
-  if (change.part == change.points) change.part.clear();
+std::vector<int> points_of(const Boundary& body) {
+  const auto edges = std::views::iota(0, body.half_edge_count());
+  const auto is_alive = [&](int e) { return body.is_alive_edge(e); };
+  const auto origin = [&](int e) { return body.origin(e); };
+  return sorted_uniquely(edges | std::views::filter(is_alive) | std::views::transform(origin),
+                         body.world());
+}
+
+Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::vector<int>& part) {
+  Change change{sorted_uniquely(carved.touched, carved.lump.world()),
+                {},
+                {},
+                false,
+                carved.is_ring,
+                {},
+                false};
+  if (part != change.points) change.part = part;
   const bool is_simple =
       caps.size() == 1 && caps[0].loops.size() == 1 && caps[0].covered.empty() && !caps[0].is_taken;
   if (is_simple)
@@ -65,11 +81,8 @@ double area_of(const World& world, const Cap& cap) {
 
 void measure(Feature& feature, const Boundary& body) {
   feature.volume_m3 = body.volume();
-  for (const int f : body.living_facets()) {
-    feature.surface_m2 += body.area(f);
-    body.for_each_edge(f, [&](int e) { feature.vertices.push_back(body.origin(e)); });
-  }
-  sort_uniquely(feature.vertices);
+  for (int f = 0; f < body.facet_count(); ++f)
+    if (body.is_alive(f)) feature.surface_m2 += body.area(f);
 }
 
 }  // namespace oriel::detail

@@ -13,12 +13,15 @@ namespace oriel::detail {
 /// the one is known from the other. Itself, if there is none; nothing if that is not known of one.
 std::vector<std::size_t> models_of(const Choice& choice);
 
-/// What a cut that took a part off has changed of the rest.
-Change change_of(const Carved& carved, const std::vector<Cap>& caps);
+/// The vertices of a body, sorted.
+std::vector<int> points_of(const Boundary& body);
+
+/// What a cut that took a part off has changed of the rest. `part`: the vertices of the part.
+Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::vector<int>& part);
 
 double area_of(const World& world, const Cap& cap);
 
-/// What a part's own body tells of it: adds to its surface, sets its volume and its vertices.
+/// What a part's own body tells of it: adds to its surface, and sets its volume.
 void measure(Feature& feature, const Boundary& body);
 
 }  // namespace oriel::detail

@@ -3,6 +3,7 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <optional>
 #include <set>
@@ -28,8 +29,9 @@ class PatchFinder {
     for (int n = 0; n < std::ssize(grown_); ++n) {
       const Component alone = component_of({n});
       offer(alone);
-      for (const auto& sides : fewer_sides(alone))
-        if (const auto parts = widen(n, sides)) offer(component_of(*parts));
+      for_fewer_sides(alone, [&](const std::vector<Side>& sides) {
+        if (widen(n, sides)) offer(component_of(widened_));
+      });
     }
     return std::move(patches_);
   }
@@ -126,27 +128,28 @@ class PatchFinder {
     return component;
   }
 
-  /// The sets of two or more of a component's split planes that leave one out at least.
-  [[nodiscard]] std::vector<std::vector<Side>> fewer_sides(const Component& component) const {
-    std::vector<Side> sides = component.sides;
+  /// Visits the sets of two or more of a component's split planes that leave one out at least.
+  template <class Visit>
+  void for_fewer_sides(const Component& component, const Visit& visit) const {
+    std::vector<Side> sides = component.sides, set;
     std::erase(sides, component.ground);
     constexpr std::size_t kMost = 6;  // 2^6 sets: a component with more planes is no single feature
-    std::vector<std::vector<Side>> sets;
-    if (sides.size() < 3 || sides.size() > kMost) return sets;
+    if (sides.size() < 3 || sides.size() > kMost) return;
     for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask) {
-      std::vector<Side> set;
+      if (std::popcount(mask) < 2 || std::popcount(mask) > options_.max_order) continue;
+      set.clear();
       for (std::size_t i = 0; i < sides.size(); ++i)
         if ((mask >> i & 1U) != 0) set.push_back(sides[i]);
-      if (set.size() >= 2 && std::ssize(set) <= options_.max_order) sets.push_back(std::move(set));
+      visit(set);
     }
-    return sets;
   }
 
-  /// A group with all that lies beyond its rim but for the given planes: a chimney's shaft with its
-  /// head. Nothing if that runs into one of those planes itself, or has more than half of the
-  /// body's surface: then the rest is the part.
-  [[nodiscard]] std::optional<std::vector<int>> widen(int start, const std::vector<Side>& limits) {
-    std::vector<int> groups{start};
+  /// Makes widened_ a group with all that lies beyond its rim but for the given planes: a chimney's
+  /// shaft with its head. False if that runs into one of those planes itself, or has more than half
+  /// of the body's surface: then the rest is the part.
+  bool widen(int start, const std::vector<Side>& limits) {
+    std::vector<int>& groups = widened_;
+    groups.assign(1, start);
     group_stamps_[at(start)] = ++last_stamp_;
     double area = 0;
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -154,7 +157,7 @@ class PatchFinder {
       area += group.area;
       work_ += std::ssize(group.beyond);
       const auto is_in_group = [&](Side s) { return std::ranges::binary_search(group.sides, s); };
-      if (2 * area > surface_ || std::ranges::any_of(limits, is_in_group)) return std::nullopt;
+      if (2 * area > surface_ || std::ranges::any_of(limits, is_in_group)) return false;
       for (const auto& [side, other] : group.beyond) {
         if (group_stamps_[at(other)] == last_stamp_ || std::ranges::binary_search(limits, side))
           continue;
@@ -162,8 +165,7 @@ class PatchFinder {
         groups.push_back(other);
       }
     }
-    if (groups.size() == 1) return std::nullopt;
-    return groups;
+    return groups.size() > 1;
   }
 
   void offer(const Component& component) {
@@ -200,6 +202,7 @@ class PatchFinder {
   double surface_ = 0;             ///< of the body
   std::vector<int> group_stamps_;  ///< the last widening that has met a group
   int last_stamp_ = 0;
+  std::vector<int> widened_;  ///< groups
   std::set<std::vector<int>> seen_;
   std::vector<Patch> patches_;
 };

@@ -156,30 +156,36 @@ bool Pockets::walk_like(const Kind& kind, int start) {
   StampSet& is_found = body_.world().scratch.facets_of_lump;
   is_found.start(body_.facet_count());
   is_found.insert(wall_);
-  walk_.clear();
+  walk_.resize(kind.twins.size());
   facets_.clear();
+  std::size_t first = 0;
   for (std::size_t f = 0; f < kind.sizes.size(); ++f) {
-    const int first = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
-    if (!is_found.insert(body_.facet_of(first)) || !walk_facet(first, kind.sizes[f])) return false;
+    const int e = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
+    if (!is_found.insert(body_.facet_of(e))) return false;
+    const auto room = std::span(walk_).subspan(first, at(kind.sizes[f]));
+    if (!walk_facet(e, room)) return false;
+    first += room.size();
   }
-  for (std::size_t i = 0; i < walk_.size(); ++i)
-    if (kind.twins[i] < 0 ? !is_rim(walk_[i]) : body_.twin(walk_[i]) != walk_[at(kind.twins[i])])
-      return false;
+  for (std::size_t i = 0; i < walk_.size(); ++i) {
+    const int twin = kind.twins[i];
+    if (twin < 0 ? !is_rim(walk_[i]) : body_.twin(walk_[i]) != walk_[at(twin)]) return false;
+  }
   return true;
 }
 
-/// Lists the half-edges of a facet. False if it has not `size` of them in one loop, or has marks.
-bool Pockets::walk_facet(int first, int size) {
+/// Lists the half-edges of a facet. False if they are more or fewer than there is room for, or the
+/// facet has more loops or marks.
+bool Pockets::walk_facet(int first, std::span<int> walk) {
   const int f = body_.facet_of(first);
   if (body_.facet(f).loops.size() != 1 || !body_.facet(f).marks.empty()) return false;
   facets_.push_back(f);
   int e = first;
-  for (int i = 0; i < size; ++i) {
-    if (i > 0 && e == first) return false;
-    walk_.push_back(e);
+  for (int& step : walk) {
+    step = e;
     e = body_.next(e);
+    if (e == first) return &step == &walk.back();
   }
-  return e == first;
+  return false;
 }
 
 /// Vertices are those of the kind, moved; and those beside the rim are in front of the section.

@@ -85,7 +85,7 @@ class Pockets {
   [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
   [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket, const Section& section);
   bool walk_like(const Kind& kind, int start);
-  bool walk_facet(int first, int size);
+  bool walk_facet(int first, std::span<int> walk);
   [[nodiscard]] bool are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const;
   [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket);
   [[nodiscard]] bool has_own_sources();

@@ -41,14 +41,17 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
   for (std::size_t v = 0; v < points_.size(); ++v) {
     Point& point = points_[v];
     const Vec3 at = solid.vertices[v].point;
+    std::optional<exact::Rational> where;
     if (solid.vertices[v].is_meeting && point.planes.size() >= 3)
-      if (const auto where =
-              exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
-                          planes.plane(point.planes[2])))
-        place(point, *where);
-    point.is_by_decree = length(point.at - at) > kOnSegment_m || point.rational.w == 0;
-    if (point.is_by_decree) place(point, exact::round_finely(at, grid_m_));
-    places_.push_back(point.at);
+      where = exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
+                          planes.plane(point.planes[2]));
+    places_.push_back(where ? place_at(*where).at : Vec3{});
+    point.is_by_decree = !where || length(places_[v] - at) > kOnSegment_m;
+    if (!point.is_by_decree) continue;
+    const Place place = place_at(exact::round_finely(at, grid_m_));
+    places_[v] = place.at;
+    point.stored = static_cast<int>(exact_.size());
+    exact_.push_back(place.where);
   }
   solid_points_ = size();
 }
@@ -60,29 +63,39 @@ void PointTable::add_plane(Point& point, int plane) const {
   if (place == point.planes.end() || *place != plane) point.planes.insert(place, plane);
 }
 
-void PointTable::place(Point& point, const exact::Rational& where) const {
+PointTable::Place PointTable::place_at(const exact::Rational& where) const {
   const auto grid = exact::as_grid_point(where);
-  point.rational = where;
-  point.at = grid ? exact::to_metres(*grid, grid_m_) : exact::to_metres(where, grid_m_);
+  return {where, grid ? exact::to_metres(*grid, grid_m_) : exact::to_metres(where, grid_m_)};
 }
 
-int PointTable::exact_side(const Point& point, int plane) const {
-  const auto grid = exact::as_grid_point(point.rational);
-  return grid ? exact::side(planes_.plane(plane), *grid)
-              : exact::side(planes_.plane(plane), point.rational);
+exact::Rational PointTable::exact_at(int p) const {
+  const Point& point = points_[index(p)];
+  if (point.stored >= 0) return exact_[index(point.stored)];
+  const auto plane = [&](std::size_t i) { return planes_.plane(point.planes[i]); };
+  return *exact::meet(plane(0), plane(1), plane(2));
 }
 
-int PointTable::own_rank(const Point& point, int k) const {
-  for (const int plane : point.planes)
+int PointTable::exact_side(const exact::Rational& point, int plane) const {
+  const auto grid = exact::as_grid_point(point);
+  return grid ? exact::side(planes_.plane(plane), *grid) : exact::side(planes_.plane(plane), point);
+}
+
+int PointTable::own_rank(int p, int k) const {
+  for (const int plane : points_[index(p)].planes)
     if (planes_.class_of(plane) == k) return planes_.rank_of(plane);
-  const auto& c = planes_.normal_class(k);
-  const double along = dot(c.normal, point.at);
+  return rank_beside(p, planes_.normal_class(k));
+}
+
+/// The rank of a point that is not known to lie on a plane of the class.
+int PointTable::rank_beside(int p, const PlaneTable::Class& c) const {
+  const double along = dot(c.normal, at(p));
   if (along + kCertain_m < c.offsets_m.front()) return 0;
+  if (along - kCertain_m > c.offsets_m.back()) return 2 * static_cast<int>(c.offsets_m.size());
   auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
   for (; i < std::ssize(c.offsets_m) &&
          c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;
        ++i) {
-    const int side = exact_side(point, c.planes[static_cast<std::size_t>(i)]);
+    const int side = exact_side(exact_at(p), c.planes[static_cast<std::size_t>(i)]);
     if (side == 0) return 2 * static_cast<int>(i) + 1;
     if (side < 0) break;
   }
@@ -91,7 +104,7 @@ int PointTable::own_rank(const Point& point, int k) const {
 
 int PointTable::compute_rank(int p, int k) {
   const Point& point = points_[index(p)];
-  const int own = own_rank(point, k);
+  const int own = own_rank(p, k);
   if (point.low < 0) return own;
   const auto [least, most] =
       std::minmax(ranks_[index(k)][index(point.low)], ranks_[index(k)][index(point.high)]);
@@ -111,10 +124,11 @@ void PointTable::rank_by_incidence(int k) {
   constexpr int kUnknown = -1;
   auto& ranks = ranks_[index(k)];
   ranks.assign(index(solid_points_), kUnknown);
-  for (const int plane : std::views::reverse(planes_.normal_class(k).planes))
+  const auto& c = planes_.normal_class(k);
+  for (const int plane : std::views::reverse(c.planes))
     for (const int p : incidence().on(plane)) ranks[index(p)] = planes_.rank_of(plane);
   for (int p = 0; p < solid_points_; ++p)
-    if (ranks[index(p)] == kUnknown) ranks[index(p)] = own_rank(points_[index(p)], k);
+    if (ranks[index(p)] == kUnknown) ranks[index(p)] = rank_beside(p, c);
 }
 
 const Incidence& PointTable::incidence() {
@@ -138,16 +152,17 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
   const Vec3 from = at(low), along = at(high) - from;
   const Plane& cut = planes_.plane(plane);
   const auto where = exact::meet(planes_.plane(f), planes_.plane(g), cut);
-  if (where) place(point, *where);
-  if (!where || !is_on_segment(point.at, from, along)) {
+  Place place;
+  if (where) place = place_at(*where);
+  if (!where || !is_on_segment(place.at, from, along)) {
     // A vertex by decree lies beside the line on which its planes meet. The edge is the segment
     // between its ends, and the point must lie on that, or cutting the edge would change the areas
     // of its facets.
     const double t = (cut.offset_m - dot(cut.normal, from)) / dot(cut.normal, along);
     point.is_by_decree = true;
-    place(point, exact::round_finely(from + std::clamp(t, 0.0, 1.0) * along, grid_m_));
+    place = place_at(exact::round_finely(from + std::clamp(t, 0.0, 1.0) * along, grid_m_));
   }
-  add(std::move(point));
+  add(std::move(point), place);
   return size() - 1;
 }
 
@@ -159,17 +174,18 @@ int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
   for (const int plane : model.planes)
     if (const auto moved = find_in(planes, plane)) point.planes.push_back(*moved);
   std::ranges::sort(point.planes);
-  exact::Rational where = model.rational;
+  exact::Rational where = exact_at(p);
   where.x += shift[0] * where.w;
   where.y += shift[1] * where.w;
   where.z += shift[2] * where.w;
-  place(point, where);
-  add(std::move(point));
+  add(std::move(point), place_at(where));
   return size() - 1;
 }
 
-void PointTable::add(Point point) {
-  places_.push_back(point.at);
+void PointTable::add(Point point, const Place& place) {
+  point.stored = static_cast<int>(exact_.size());
+  exact_.push_back(place.where);
+  places_.push_back(place.at);
   points_.push_back(std::move(point));
 }
 
@@ -181,13 +197,13 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   if (!where) return std::nullopt;
   Point point;
   point.planes.assign(key.begin(), key.end());
-  place(point, *where);
+  const Place place = place_at(*where);
   met_.push_back(key);
   int& met = meetings_[key];
-  if (const auto near = met_near(point)) return met = *near;
+  if (const auto near = met_near(point, place.at)) return met = *near;
   met = size();
-  met_in_[cell_of(point.at)].push_back(met);
-  add(std::move(point));
+  met_in_[cell_of(place.at)].push_back(met);
+  add(std::move(point), place);
   return met;
 }
 
@@ -198,6 +214,7 @@ void PointTable::forget_since(Mark mark) {
     if (cell != met_in_.end() && !cell->second.empty() && cell->second.back() == p)
       cell->second.pop_back();
   }
+  if (size() > mark.points) exact_.resize(index(points_[index(mark.points)].stored));
   points_.resize(index(mark.points));
   places_.resize(index(mark.points));
   for (auto& ranks : ranks_)
@@ -211,14 +228,14 @@ PointTable::Cell PointTable::cell_of(Vec3 p) const {
 
 /// A point that was met so near by that it is the same one: more than three planes meet there. It
 /// lies on the new planes by decree.
-std::optional<int> PointTable::met_near(const Point& point) {
-  const Cell middle = cell_of(point.at);
+std::optional<int> PointTable::met_near(const Point& point, Vec3 where) {
+  const Cell middle = cell_of(where);
   for (int i = 0; i < 27; ++i) {
     const auto found =
         met_in_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
     if (found == met_in_.end()) continue;
     for (const int p : found->second)
-      if (length(at(p) - point.at) <= near_m_ && lies_on_too(p, point.planes)) return p;
+      if (length(at(p) - where) <= near_m_ && lies_on_too(p, point.planes)) return p;
   }
   return std::nullopt;
 }

@@ -72,11 +72,15 @@ class PointTable {
 
  private:
   struct Point {
-    Vec3 at;
     Few<int, 4> planes;  ///< sorted
     bool is_by_decree = false;
-    exact::Rational rational{0, 0, 0, 0};  ///< w = 0: not placed yet
-    int low = -1, high = -1;               ///< the ends of the edge it was made on
+    int low = -1, high = -1;  ///< the ends of the edge it was made on
+    int stored = -1;          ///< in exact_; -1: it is where its first three planes meet
+  };
+  /// Where a point is, exactly and in metres.
+  struct Place {
+    exact::Rational where;
+    Vec3 at;
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   using Cell = std::array<std::int64_t, 3>;
@@ -85,19 +89,22 @@ class PointTable {
   void add_plane(Point& point, int plane) const;
   void rank_by_incidence(int k);
   [[nodiscard]] Cell cell_of(Vec3 p) const;
-  std::optional<int> met_near(const Point& point);
+  std::optional<int> met_near(const Point& point, Vec3 where);
   bool lies_on_too(int p, const Few<int, 4>& planes);
-  void add(Point point);
-  void place(Point& point, const exact::Rational& where) const;
-  [[nodiscard]] int exact_side(const Point& point, int plane) const;
+  void add(Point point, const Place& place);
+  [[nodiscard]] Place place_at(const exact::Rational& where) const;
+  [[nodiscard]] exact::Rational exact_at(int p) const;
+  [[nodiscard]] int exact_side(const exact::Rational& point, int plane) const;
   int compute_rank(int point, int k);
-  int own_rank(const Point& point, int k) const;
+  [[nodiscard]] int own_rank(int p, int k) const;
+  [[nodiscard]] int rank_beside(int p, const PlaneTable::Class& c) const;
 
   double grid_m_;
   double near_m_;  ///< points that were met closer than this are one
   const PlaneTable& planes_;
   std::vector<Point> points_;
   std::vector<Vec3> places_;  ///< by point, close together
+  std::vector<exact::Rational> exact_;
   std::vector<std::vector<int>> ranks_;
   Incidence incidence_;  ///< of the solid's vertices; made when it is asked for
   int solid_points_ = 0;

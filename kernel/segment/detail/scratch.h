@@ -112,6 +112,7 @@ struct Scratch {
   std::vector<int> copy_of;  ///< by half-edge
   StampSet copied_edges;
   Outline outline;
+  StampSet met_points;
 
   // Copies of parts.
   StampMap moved_points, moved_planes;
