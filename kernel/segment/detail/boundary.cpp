@@ -117,16 +117,26 @@ void Boundary::reserve(int half_edges, int facets) {
 }
 
 int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> marks) {
+  return add_facet_on(number_side(side), side, sources, std::move(marks));
+}
+
+int Boundary::number_side(Side side) {
+  const auto place =
+      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
+  if (place != number_of_side_.end() && place->first == side) return place->second;
+  const int number = static_cast<int>(on_side_.size());
+  number_of_side_.insert(place, {side, number});
+  on_side_.emplace_back();
+  return number;
+}
+
+int Boundary::add_facet_on(int number, Side side, const Sources& sources,
+                           std::vector<CapMark> marks) {
   const int f = facet_count();
-  auto place = std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
-  if (place == number_of_side_.end() || place->first != side) {
-    place = number_of_side_.insert(place, {side, static_cast<int>(on_side_.size())});
-    on_side_.emplace_back();
-  }
-  OnSide& on = on_side_[index(place->second)];
+  OnSide& on = on_side_[index(number)];
   on.facets.push_back(f);
   ++on.living;
-  facets_.push_back({side, {}, sources, std::move(marks), place->second, 0});
+  facets_.push_back({side, {}, sources, std::move(marks), number, 0});
   return f;
 }
 

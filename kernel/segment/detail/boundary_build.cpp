@@ -48,11 +48,15 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
   constexpr int kRoom = 8;  // one for so many
   const auto with_room = [](std::size_t size) { return static_cast<int>(size + size / kRoom); };
   boundary.reserve(with_room(4 * solid.vertices.size()), with_room(solid.facets.size()));
+  std::vector<int> numbers(2 * static_cast<std::size_t>(world.planes.size()), -1);  // by side
   for (const Shell& shell : solid.shells) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {
       const Facet& facet = solid.facets[id.index()];
-      const int f = boundary.add_facet(world.planes.side_of(facet.plane), {id.value});
+      const Side side = world.planes.side_of(facet.plane);
+      int& number = numbers[static_cast<std::size_t>(side)];
+      if (number < 0) number = boundary.number_side(side);
+      const int f = boundary.add_facet_on(number, side, {id.value}, {});
       for (const Loop& loop : facet.loops) boundary.add_cycle(loop, f);
     }
   }

@@ -100,25 +100,28 @@ class Sectioner {
     return std::ranges::all_of(section_.crossings, [](const Crossing& c) { return c.next >= 0; });
   }
 
-  /// Links the two ends of a facet that has no more, as most have. If there are more they are
-  /// listed, to be linked in the order in which they lie along the line.
+  /// Links the two ends of a facet that has no more, as most have.
   void add_end(int facet, int end) {
     Chords& here = scratch_.chords_in(facet);
-    ++here.ends;
-    if (here.ends == 1) {
+    if (here.ends++ == 0) {
       here.first = end;
     } else if (here.ends == 2) {
       here.second = end;
       if (((here.first ^ end) & 1) != 0) link(here.first, end);
     } else {
-      if (here.ends == 3) {
-        here.number = static_cast<int>(scratch_.facets_with_several.size());
-        auto& ends = scratch_.add_chord_ends(facet);
-        ends.push_back({0, here.first >> 1, (here.first & 1) != 0});
-        ends.push_back({0, here.second >> 1, (here.second & 1) != 0});
-      }
-      scratch_.chord_ends[at(here.number)].push_back({0, end >> 1, (end & 1) != 0});
+      list_end(facet, here, end);
     }
+  }
+
+  /// Of more ends all are listed, to be linked in the order in which they lie along the line.
+  [[gnu::noinline]] void list_end(int facet, Chords& here, int end) {
+    if (here.number < 0) {
+      here.number = static_cast<int>(scratch_.facets_with_several.size());
+      auto& ends = scratch_.add_chord_ends(facet);
+      ends.push_back({0, here.first >> 1, (here.first & 1) != 0});
+      ends.push_back({0, here.second >> 1, (here.second & 1) != 0});
+    }
+    scratch_.chord_ends[at(here.number)].push_back({0, end >> 1, (end & 1) != 0});
   }
 
   /// Makes one chord of two ends of which one begins it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace oriel::detail {
@@ -127,21 +128,59 @@ Slots::Seen Slots::look_at(const Change& change) const {
   return seen;
 }
 
+void Slots::apply(const Class& c, std::span<const Seen> changes) {
+  find_runs(c, changes);
+  const auto is_plain = [](const Run& run) { return run.reach.is_plain(); };
+  if (std::ranges::all_of(runs_, is_plain)) merge_runs();
+  for (const Run& run : runs_)
+    if (!run.is_merged) touch_all(c, run);
+}
+
 /// Of equal windows those of a row, or of a column, mean the same to one class: they are looked at
 /// together.
-void Slots::apply(const Class& c, std::span<const Seen> changes) {
+void Slots::find_runs(const Class& c, std::span<const Seen> changes) {
   const Vec3 normal = world_.planes.normal_class(c.number).normal;
   const auto rank = world_.points.ranks(c.number);
+  std::size_t used = 0;
+  Reach other;
   for (std::size_t i = 0; i < changes.size();) {
-    Run run{reach_of(rank, changes[i]), most_area(changes[i].part, normal)};
-    const std::size_t first = i;
+    const Seen& first = changes[i];
+    if (used == room_.size()) room_.emplace_back();
+    Run& run = room_[used++];
+    run.change = first.change;
+    run.is_merged = false;
+    run.area = most_area(first.part, normal);
+    find_reach(rank, first, run.reach);
     for (++i; i < changes.size() && run.reach.is_plain(); ++i) {
-      if (!mean_the_same(rank, changes[first], changes[i]) &&
-          reach_of(rank, changes[i]) != run.reach)
-        break;
+      if (!mean_the_same(rank, first, changes[i])) {
+        find_reach(rank, changes[i], other);
+        if (other != run.reach) break;
+      }
       run.area += most_area(changes[i].part, normal);
     }
-    touch_all(c, *changes[first].change, run);
+  }
+  runs_ = std::span(room_).first(used);
+}
+
+/// Also of those that do not follow each other, as the windows of a column do not where they are
+/// taken row by row. What plain rings mean does not depend on their order.
+void Slots::merge_runs() {
+  if (runs_.size() < 2) return;
+  std::vector<Run*> order;
+  order.reserve(runs_.size());
+  for (Run& run : runs_) order.push_back(&run);
+  std::ranges::stable_sort(order, {}, [](const Run* run) {
+    const Reach& r = run->reach;
+    return std::tuple(r.low, r.high, r.rim_low, r.rim_high, r.rim_start);
+  });
+  Run* last = nullptr;
+  for (Run* run : order) {
+    if (last == nullptr || run->reach != last->reach) {
+      last = run;
+      continue;
+    }
+    last->area += run->area;
+    run->is_merged = true;
   }
 }
 
@@ -157,20 +196,15 @@ bool Slots::mean_the_same(std::span<const int> rank, const Seen& p, const Seen& 
          });
 }
 
-Slots::Reach Slots::reach_of(std::span<const int> rank, const Seen& seen) const {
+void Slots::find_reach(std::span<const int> rank, const Seen& seen, Reach& reach) {
   constexpr int kMost = std::numeric_limits<int>::max();
   const Change& change = *seen.change;
-  Reach reach{kMost,
-              -1,
-              kMost,
-              -1,
-              kMost,
-              -1,
-              -1,
-              change.is_natural,
-              seen.is_exact_ring,
-              !change.rim.empty(),
-              {}};
+  reach.low = reach.rim_low = kMost;
+  reach.high = reach.rim_high = reach.rim_start = -1;
+  reach.is_natural = change.is_natural;
+  reach.is_ring = seen.is_exact_ring;
+  reach.is_rim_convex = !change.rim.empty();
+  reach.hits.clear();
   int last = -1;
   for (const int p : change.points) {
     const int here = rank[at(p)];
@@ -202,31 +236,29 @@ Slots::Reach Slots::reach_of(std::span<const int> rank, const Seen& seen) const 
   if (first_way != last_way) ++turns;
   reach.is_rim_convex &= turns <= 2;
   if (!change.rim.empty()) reach.rim_start = rank[at(change.rim[0].first)];
-  return reach;
 }
 
 /// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
-void Slots::touch_all(const Class& c, const Change& change, const Run& run) {
+void Slots::touch_all(const Class& c, const Run& run) {
   if (!run.reach.is_plain())
     for (Slot& slot : slots_) slot.is_clear = false;
-  if (run.reach.is_rim_convex) return touch_along(c, change, run);
+  if (run.reach.is_rim_convex) return touch_along(c, run);
   for (std::size_t i = c.from(run.reach.low); i < c.from(run.reach.high + 1); ++i)
-    touch_plane(i, change, run);
+    touch_plane(i, run);
 }
 
 /// Looks at the planes that points of the change lie on, at those that the part is met by and its
 /// rim is not, and at sections that are kept. All others are idle, and stay so with less margin
 /// where the rim meets them, or are of no use, and stay so until they get facets.
-void Slots::touch_along(const Class& c, const Change& change, const Run& run) {
+void Slots::touch_along(const Class& c, const Run& run) {
   const Reach& reach = run.reach;
   std::size_t first = c.from(reach.low), last = c.from(reach.high + 1);
   if (first == last) return;
   for (auto i = lively_.lower_bound(2 * first); i != lively_.end() && *i < 2 * last;)
-    touch(*i++, change, run);
+    touch(*i++, run);
   const auto touch_unhit = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i)
-      if (!std::ranges::binary_search(reach.hits, c.ranks[i - c.first]))
-        touch_plane(i, change, run);
+      if (!std::ranges::binary_search(reach.hits, c.ranks[i - c.first])) touch_plane(i, run);
   };
   first = c.from(reach.part_low + 1);
   last = c.from(reach.part_high);
@@ -240,20 +272,20 @@ void Slots::touch_along(const Class& c, const Change& change, const Run& run) {
       margins_.take_off(2 * first, 2 * hit, run.area);
       first = is_plane ? hit + 1 : hit;
     }
-    if (is_plane) touch_plane(hit, change, run);
+    if (is_plane) touch_plane(hit, run);
   }
   margins_.take_off(2 * first, 2 * rim_last, run.area);
   touch_unhit(std::max(first, rim_last), last);
 }
 
-void Slots::touch_plane(std::size_t entry, const Change& change, const Run& run) {
-  touch(2 * entry, change, run);
-  touch(2 * entry + 1, change, run);
+void Slots::touch_plane(std::size_t entry, const Run& run) {
+  touch(2 * entry, run);
+  touch(2 * entry + 1, run);
 }
 
-void Slots::touch(std::size_t number, const Change& change, const Run& run) {
+void Slots::touch(std::size_t number, const Run& run) {
   Slot& slot = slots_[number];
-  if (slot.is_stale || (slot.is_idle && stays_idle(number, change, run))) return;
+  if (slot.is_stale || (slot.is_idle && stays_idle(number, run))) return;
   if (slot.is_idle || !loses_loops_only(slot, run.reach)) return make_stale(number);
   if (!slot.is_to_prune) to_do_.push_back(number);
   slot.is_to_prune = true;
@@ -282,7 +314,8 @@ bool Slots::loses_loops_only(const Slot& slot, const Reach& reach) const {
 /// plane and the part either is not met by it, or meets it in one piece that its cap closes with
 /// one chord: then one stretch of one loop is replaced by that chord. No loop is made, none becomes
 /// natural, and areas change by no more than that of the piece.
-bool Slots::stays_idle(std::size_t number, const Change& change, const Run& run) {
+bool Slots::stays_idle(std::size_t number, const Run& run) {
+  const Change& change = *run.change;
   if (change.rim.empty()) return false;
   const Reach& reach = run.reach;
   const Slot& slot = slots_[number];

@@ -100,11 +100,13 @@ class Slots {
     [[nodiscard]] bool is_plain() const { return is_natural && is_ring && is_rim_convex; }
     friend bool operator==(const Reach&, const Reach&) = default;
   };
-  /// Changes one after the other that mean the same to a class. No plane of it cuts a larger area
-  /// out of all their parts.
+  /// Changes that mean the same to a class. No plane of it cuts a larger area out of all their
+  /// parts.
   struct Run {
+    const Change* change = nullptr;  ///< the first of them
     Reach reach;
-    double area;
+    double area = 0;
+    bool is_merged = false;  ///< into another one
   };
   void find_natural();
   void put_off();
@@ -123,14 +125,16 @@ class Slots {
   };
   [[nodiscard]] Seen look_at(const Change& change) const;
   void apply(const Class& c, std::span<const Seen> changes);
-  [[nodiscard]] Reach reach_of(std::span<const int> rank, const Seen& seen) const;
+  void find_runs(const Class& c, std::span<const Seen> changes);
+  void merge_runs();
+  static void find_reach(std::span<const int> rank, const Seen& seen, Reach& reach);
   [[nodiscard]] static bool mean_the_same(std::span<const int> rank, const Seen& p, const Seen& q);
-  void touch_all(const Class& c, const Change& change, const Run& run);
-  void touch_along(const Class& c, const Change& change, const Run& run);
-  void touch_plane(std::size_t entry, const Change& change, const Run& run);
-  void touch(std::size_t number, const Change& change, const Run& run);
+  void touch_all(const Class& c, const Run& run);
+  void touch_along(const Class& c, const Run& run);
+  void touch_plane(std::size_t entry, const Run& run);
+  void touch(std::size_t number, const Run& run);
   void make_stale(std::size_t number);
-  bool stays_idle(std::size_t number, const Change& change, const Run& run);
+  bool stays_idle(std::size_t number, const Run& run);
   bool stays_idle_beside(std::size_t number, const Run& run);
   [[nodiscard]] bool loses_loops_only(const Slot& slot, const Reach& reach) const;
 
@@ -150,6 +154,8 @@ class Slots {
   NaturalChains chains_;
   std::set<std::size_t> promising_;  ///< slots with something to cut
   Section fresh_;                    ///< room for the section at hand
+  std::vector<Run> room_;            ///< for runs of the class at hand
+  std::span<Run> runs_;              ///< those in use
 };
 
 }  // namespace oriel::detail
