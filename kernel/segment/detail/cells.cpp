@@ -21,7 +21,7 @@ bool may_overlap(const Box& p, const Box& q, Vec3 normal) {
          (z == most || (p.min.z < q.max.z && q.min.z < p.max.z));
 }
 
-std::vector<const Polygon*> polygons_by_source(const Building& building) {
+std::vector<const Polygon*> polygon_of_each_source(const Building& building) {
   std::vector<const Polygon*> polygons(building.polygons.size());
   for (const Polygon& polygon : building.polygons) {
     if (std::ssize(polygons) <= polygon.source) polygons.resize(at(polygon.source) + 1);
@@ -181,7 +181,7 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
     const Facet& facet = solid.facets[source];
     if (cell_facets.size() == 1) give(facet.polygons, cell_facets[0]);
     if (cell_facets.size() <= 1) continue;
-    if (polygon_of_source.empty()) polygon_of_source = polygons_by_source(building);
+    if (polygon_of_source.empty()) polygon_of_source = polygon_of_each_source(building);
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     const std::vector<Shape> shapes = shapes_of(cell_facets);
     std::vector<std::vector<int>> polygons(cell_facets.size());
