@@ -1,5 +1,6 @@
 #include "cli/building_drawer.h"
 
+#include "cli/mended_line.h"
 #include "cli/written_proof.h"
 #include "generalise/fineness.h"
 #include "generalise/to_lod.h"
@@ -7,6 +8,7 @@
 #include "kernel/compare/hausdorff.h"
 #include "kernel/validate/validate.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,6 +58,10 @@ std::optional<Issue> prove(const Document& document, const OnLine& line, DrawnBu
 
 }  // namespace
 
+bool DrawnBuilding::is_excused() const {
+  return std::ranges::find(told.issues, "G413", &Issue::code) != told.issues.end();
+}
+
 DrawnBuilding BuildingDrawer::draw(const Document& document, std::size_t building,
                                    const OnLine& line, bool is_thorough) const {
   DrawnBuilding drawn{building, {}, {}};
@@ -92,6 +98,18 @@ void BuildingDrawer::keep_valid(const Document& document, const OnLine& line,
   fault->sentence += "; it stays as it came";
   drawn.told.issues.push_back(*fault);
   drawn.all.push_back(untouched(document, document.buildings[drawn.building], line, drawn.told));
+}
+
+std::optional<OnLine> BuildingDrawer::mend(const Document& document, const OnLine& line,
+                                           DrawnBuilding& drawn, Timings& timings) const {
+  auto mended =
+      mended_line(arguments_, &rules_, document, document.buildings[drawn.building], line, timings);
+  if (!mended) return mended;
+  drawn =
+      timings.measure(Stage::generalise, [&] { return draw(document, drawn.building, *mended); });
+  timings.measure(Stage::write, [&] { keep_valid(document, *mended, drawn); });
+  drawn.told.issues.insert(drawn.told.issues.begin(), mended->issues.back());
+  return mended;
 }
 
 /// The building without any operation.

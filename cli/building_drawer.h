@@ -17,6 +17,9 @@ struct DrawnBuilding {
   std::size_t building = 0;
   std::vector<Redrawn> all;  ///< one for each target
   Product told;              ///< what is to be told of it
+
+  /// Something is not valid as it is written, as it was not when it was read (G413).
+  [[nodiscard]] bool is_excused() const;
 };
 
 /// Draws buildings for the targets of `generalise`, so that they are valid as they are written.
@@ -39,6 +42,11 @@ class BuildingDrawer {
   /// is drawn again with each step judged; if that is valid at none either it stays as it came,
   /// levels of detail are set aside (G410).
   void keep_valid(const Document& document, const OnLine& line, DrawnBuilding& drawn) const;
+
+  /// Draws a building that is excused again, from its mended_line(), which is returned; nothing is
+  /// done if there is none.
+  std::optional<OnLine> mend(const Document& document, const OnLine& line, DrawnBuilding& drawn,
+                             Timings& timings) const;
 
  private:
   /// What a building is drawn of.

@@ -96,14 +96,16 @@ class Generaliser {
                                                 "is open: there is no solid to redraw"));
         continue;
       }
-      outputs_.make_features(document.buildings[i], lines[i], product);
       drawn.push_back(
           timings.measure(Stage::generalise, [&] { return drawer_.draw(document, i, lines[i]); }));
     }
     for (DrawnBuilding& one : drawn) {
       now_at_building(one.building);
-      timings.measure(Stage::write,
-                      [&] { drawer_.keep_valid(document, lines[one.building], one); });
+      const OnLine& line = lines[one.building];
+      timings.measure(Stage::write, [&] { drawer_.keep_valid(document, line, one); });
+      std::optional<OnLine> mended;
+      if (one.is_excused()) mended = drawer_.mend(document, line, one, timings);
+      outputs_.make_features(document.buildings[one.building], mended ? *mended : line, product);
       tell(std::move(one.told), product);
       add(std::move(one.all), labelled, options, product);
     }

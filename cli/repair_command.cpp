@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/destination.h"
+#include "cli/mended_line.h"
 #include "cli/options.h"
 #include "cli/run.h"
 #include "cli/written_proof.h"
@@ -112,7 +113,15 @@ class Repairer {
   void prove(const Document& document, const Building& building, OnLine& line,
              std::vector<LabelledBuilding>& solids) {
     if (!line.solid) return;
-    const WrittenProof proof = prove_written(document, building, *line.solid);
+    WrittenProof proof = prove_written(document, building, *line.solid);
+    if (proof.fault && arguments_.crossings == "cut") {
+      if (auto mended =
+              mended_solid(arguments_, document, building, arguments_.tolerances, run_.timings())) {
+        line.solid = std::move(mended->line.solid);
+        line.repair = std::move(mended->line.repair);
+        proof = {mended->digits, {}, {}};
+      }
+    }
     if (proof.fault) {
       line.solid.reset();
       line.issues.push_back(*proof.fault);

@@ -1,4 +1,4 @@
-#include "cli/line_surfaces.h"
+#include "cli/mended_line.h"
 #include "cli/run.h"
 #include "cli/work_place.h"
 #include "kernel/model/sha256.h"
@@ -13,11 +13,6 @@
 namespace oriel::cli {
 
 namespace {
-
-Building without_hints(Building building) {
-  for (Polygon& polygon : building.polygons) polygon.hint.clear();
-  return building;
-}
 
 Issue noise_note(const Building& building, const Tolerances& fitted) {
   return building_issue(
@@ -34,14 +29,10 @@ OnLine Run::on_line(const Building& building, Timings& timings) const {
   if (arguments_.ends_at_reading) return {};
   if (arguments_.ends_at_solid)
     return run_to_solid(building, arguments_.tolerances, repair, timings);
-  const SegmentOptions options = arguments_.segment_options(arguments_.tolerances_for(building));
-  OnLine line = arguments_.ignores_semantics
-                    ? run_line(without_hints(building), options, repair, rules_, timings)
-                    : run_line(building, options, repair, rules_, timings);
-  line.tolerances = options.tolerances;
-  if (line.tolerances.plane_offset_m != arguments_.tolerances.plane_offset_m)
-    line.issues.push_back(noise_note(building, line.tolerances));
-  if (rules_ != nullptr) describe_line_surfaces(building, options.tolerances, timings, line);
+  const Tolerances fitted = arguments_.tolerances_for(building);
+  OnLine line = run_whole_line(arguments_, rules_, building, fitted, repair, timings);
+  if (fitted.plane_offset_m != arguments_.tolerances.plane_offset_m)
+    line.issues.push_back(noise_note(building, fitted));
   return line;
 }
 

@@ -24,7 +24,9 @@ enum class Crossings {
   /// They stay whole: what leaks there stays open.
   leave,
   /// They are cut along the lines in which they meet, where the building is open without that.
-  cut
+  cut,
+  /// So is what is closed, and it becomes the boundary of its inside.
+  cut_closed
 };
 
 /// How much of a building that is no solid may be changed.

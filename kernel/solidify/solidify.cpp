@@ -3,6 +3,7 @@
 #include "kernel/solidify/detail/disjoint_sets.h"
 #include "kernel/solidify/detail/facets.h"
 #include "kernel/solidify/detail/mend/mend.h"
+#include "kernel/solidify/detail/mend/uncross.h"
 #include "kernel/solidify/detail/plane_clusters.h"
 #include "kernel/solidify/detail/shell_mesh.h"
 #include "kernel/solidify/detail/shells.h"
@@ -145,8 +146,25 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
   return shells;
 }
 
-Shells closed_shells(const Building& building, const Tolerances& tolerances,
-                     const RepairOptions& repair, Solidified& out) {
+/// Makes of closed shells the boundary of their inside. They stay as they are if what is cut does
+/// not close.
+void uncross_shells(const Building& building, const Tolerances& tolerances, Shells& shells,
+                    Solidified& out) {
+  auto uncrossed = detail::uncross(shells.soup, tolerances);
+  if (!uncrossed) return;
+  // Which shell a piece is of is seen only now.
+  for (detail::SoupPolygon& polygon : uncrossed->soup.polygons) polygon.shell = -1;
+  Shells whole{std::move(uncrossed->soup), {}};
+  std::vector<Issue> issues;
+  whole.mesh = detail::build_shell_mesh(whole.soup, building.id, issues);
+  if (has_errors(issues) || !is_closed(whole.mesh)) return;
+  shells = std::move(whole);
+  out.report.was_needed = true;
+  out.report.cut += uncrossed->cut;
+}
+
+Shells shells_of(const Building& building, const Tolerances& tolerances,
+                 const RepairOptions& repair, Solidified& out) {
   Shells shells{detail::weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
     out.issues.push_back(error(building, "E301",
@@ -159,6 +177,14 @@ Shells closed_shells(const Building& building, const Tolerances& tolerances,
   if (has_errors(issues) || !is_closed(shells.mesh))
     return mended_shells(building, tolerances, repair, std::move(issues), out);
   out.issues.insert(out.issues.end(), issues.begin(), issues.end());
+  return shells;
+}
+
+Shells closed_shells(const Building& building, const Tolerances& tolerances,
+                     const RepairOptions& repair, Solidified& out) {
+  Shells shells = shells_of(building, tolerances, repair, out);
+  if (repair.crossings == Crossings::cut_closed && !has_errors(out.issues))
+    uncross_shells(building, tolerances, shells, out);
   return shells;
 }
 

@@ -5,6 +5,7 @@
 #include "kernel/solidify/detail/mend/box_tree.h"
 #include "kernel/solidify/detail/mend/chords.h"
 #include "kernel/solidify/detail/mend/faces.h"
+#include "kernel/solidify/detail/mend/signed_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +20,13 @@ namespace {
 class Subdivision {
  public:
   Subdivision(const Soup& soup, const PolygonShape& shape, int polygon,
-              const std::vector<Edge>& chords, GrowingPoints& points, double weld)
+              const std::vector<Edge>& chords, GrowingPoints& points, double weld, RingKind kind)
       : shape_(shape),
         polygon_(polygon),
         rings_(rings_of(soup, polygon)),
         points_(points),
-        weld_(weld) {
+        weld_(weld),
+        kind_(kind) {
     for (const auto& ring : rings_)
       for (std::size_t i = 0; i < ring.size(); ++i)
         edges_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
@@ -57,7 +59,8 @@ class Subdivision {
     for (; e < edges_.size(); ++e)
       for (const Edge& piece : pieces_of(e)) {
         const Edge edge = std::minmax(piece.first, piece.second);
-        if (!rim.contains(edge) && lies_within(edge)) inside.insert(edge);
+        const bool is_wanted = kind_ == RingKind::crossing || lies_within(edge);
+        if (!rim.contains(edge) && is_wanted) inside.insert(edge);
       }
     cut.edges.assign(inside.begin(), inside.end());
     return cut;
@@ -153,6 +156,7 @@ class Subdivision {
   std::vector<std::vector<int>> rings_;
   GrowingPoints& points_;
   double weld_;
+  RingKind kind_;
   std::vector<Edge> edges_;  ///< of the rings as they run, then the chords
   std::size_t ring_edges_ = 0;
   std::vector<std::vector<int>> on_;  ///< by edge the points between its ends
@@ -161,14 +165,14 @@ class Subdivision {
 
 }  // namespace
 
-SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld) {
+SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, RingKind rings) {
   const std::vector<PolygonShape> shapes = shapes_of(soup);
   GrowingPoints points(soup.points, weld);
   const auto chords = find_chords(soup, shapes, reach, points);
   std::vector<std::optional<CutPolygon>> cuts(soup.polygons.size());
   for (int p = 0; p < soup.polygon_count(); ++p) {
-    Subdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld);
-    if (subdivision.has_chords()) cuts[at(p)] = subdivision.run();
+    Subdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings);
+    if (rings == RingKind::crossing || subdivision.has_chords()) cuts[at(p)] = subdivision.run();
   }
   Soup grown = soup;
   grown.points = points.take();
@@ -182,7 +186,8 @@ SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double wel
     double rim = 0;
     for (const Outline& outline : outlines_of(grown, p)) rim += perimeter(outline);
     const double slack = kSameArea * shapes[at(p)].area + weld * rim;
-    out.cut += add_faces(grown, shapes[at(p)], *cuts[at(p)], slack, builder);
+    const auto add = rings == RingKind::crossing ? add_signed_faces : add_faces;
+    out.cut += add(grown, shapes[at(p)], *cuts[at(p)], slack, builder);
   }
   out.soup = builder.finish();
   return out;

@@ -8,4 +8,8 @@ namespace oriel::detail {
 /// equal polygons the first in the soup's order is no duplicate.
 std::vector<char> find_duplicates(const Soup& soup);
 
+/// For each polygon 1 if another one of the same body has the same rings the other way round: they
+/// go in pairs, what is left of equal polygons runs one way.
+std::vector<char> find_opposites(const Soup& soup);
+
 }  // namespace oriel::detail

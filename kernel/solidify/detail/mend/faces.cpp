@@ -7,24 +7,19 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 namespace oriel::detail {
 
 namespace {
 
-using Loops = std::vector<std::vector<int>>;
-
-/// Walks the faces that rings and edges make: every ring edge once, every other edge both ways.
+/// Walks the faces that half-edges make, the same way round every time.
 class FaceWalk {
  public:
-  FaceWalk(const Soup& soup, Vec3 normal, const CutPolygon& cut) : soup_(soup), normal_(normal) {
-    for (const auto& ring : cut.rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) add(ring[i], ring[(i + 1) % ring.size()]);
-    for (const auto& [low, high] : cut.edges) {
-      add(low, high);
-      add(high, low);
-    }
+  FaceWalk(const Soup& soup, Vec3 normal, const std::vector<Edge>& half_edges)
+      : soup_(soup), normal_(normal), half_edges_(half_edges) {
+    for (const auto& [from, to] : half_edges) ways_[from].push_back(to);
   }
 
   [[nodiscard]] Loops loops() const {
@@ -42,10 +37,6 @@ class FaceWalk {
   }
 
  private:
-  void add(int from, int to) {
-    ways_[from].push_back(to);
-    half_edges_.emplace_back(from, to);
-  }
   [[nodiscard]] Vec3 place(int point) const { return exact::to_metres(soup_.points[at(point)], 1); }
 
   /// Of the ways on from the end of an edge the first clockwise from where it came from.
@@ -66,14 +57,37 @@ class FaceWalk {
 
   const Soup& soup_;
   Vec3 normal_;
+  const std::vector<Edge>& half_edges_;
   std::map<int, std::vector<int>> ways_;  ///< by point where they lead
-  std::vector<Edge> half_edges_;
 };
 
-/// For every loop that runs clockwise the smallest face that it is a hole of, -1 for the others.
-std::vector<int> faces_around(const Loops& loops, const std::vector<Outline>& outlines,
-                              const std::vector<double>& areas, Vec3 normal) {
-  std::vector<int> face_of(loops.size(), -1);
+/// Every ring edge once, every other edge both ways.
+std::vector<Edge> half_edges_of(const CutPolygon& cut) {
+  std::vector<Edge> half_edges;
+  for (const auto& ring : cut.rings)
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      half_edges.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
+  for (const auto& [low, high] : cut.edges) {
+    half_edges.emplace_back(low, high);
+    half_edges.emplace_back(high, low);
+  }
+  return half_edges;
+}
+
+}  // namespace
+
+Faces::Faces(const Soup& soup, Vec3 normal, const std::vector<Edge>& half_edges)
+    : loops(FaceWalk(soup, normal, half_edges).loops()) {
+  for (const auto& loop : loops) {
+    outlines.emplace_back();
+    for (const int v : loop) outlines.back().push_back(exact::to_metres(soup.points[at(v)], 1));
+    areas.push_back(signed_area(outlines.back(), normal));
+  }
+  find_faces_around(normal);
+}
+
+void Faces::find_faces_around(Vec3 normal) {
+  face_of.assign(loops.size(), -1);
   std::vector<Box> boxes(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (const Vec3 p : outlines[i]) boxes[i].grow(p);
@@ -88,10 +102,14 @@ std::vector<int> faces_around(const Loops& loops, const std::vector<Outline>& ou
         face_of[j] = static_cast<int>(i);
     }
   }
-  return face_of;
 }
 
-}  // namespace
+std::vector<std::size_t> Faces::rings_of(std::size_t face) const {
+  std::vector<std::size_t> rings{face};
+  for (std::size_t j = 0; j < loops.size(); ++j)
+    if (face_of[j] == static_cast<int>(face)) rings.push_back(j);
+  return rings;
+}
 
 std::vector<std::vector<int>> rings_of(const Soup& soup, int polygon) {
   std::vector<std::vector<int>> rings;
@@ -114,29 +132,18 @@ std::vector<Outline> outlines_of(const Soup& soup, int polygon) {
 
 bool add_faces(const Soup& soup, const PolygonShape& shape, const CutPolygon& cut, double slack,
                SoupBuilder& builder) {
-  const Loops loops = FaceWalk(soup, shape.unit, cut).loops();
-  std::vector<Outline> outlines;
-  std::vector<double> areas;
-  double sum = 0;
-  for (const auto& loop : loops) {
-    outlines.emplace_back();
-    for (const int v : loop) outlines.back().push_back(exact::to_metres(soup.points[at(v)], 1));
-    areas.push_back(signed_area(outlines.back(), shape.unit));
-    sum += areas.back();
-  }
-  const auto faces = std::ranges::count_if(areas, [](double area) { return area > 0; });
+  const Faces found(soup, shape.unit, half_edges_of(cut));
+  const double sum = std::accumulate(found.areas.begin(), found.areas.end(), 0.0);
+  const auto faces = std::ranges::count_if(found.areas, [](double area) { return area > 0; });
   builder.begin_polygon(soup.polygons[at(cut.polygon)]);
   if (faces <= 1 || std::abs(sum - shape.area) > slack) {
     for (const auto& ring : cut.rings) builder.add_ring(ring);
     return false;
   }
-  const std::vector<int> face_of = faces_around(loops, outlines, areas, shape.unit);
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (areas[i] <= 0) continue;
+  for (std::size_t i = 0; i < found.loops.size(); ++i) {
+    if (found.areas[i] <= 0) continue;
     builder.begin_polygon(soup.polygons[at(cut.polygon)]);
-    builder.add_ring(loops[i]);
-    for (std::size_t j = 0; j < loops.size(); ++j)
-      if (face_of[j] == static_cast<int>(i)) builder.add_ring(loops[j]);
+    for (const std::size_t j : found.rings_of(i)) builder.add_ring(found.loops[j]);
   }
   return true;
 }

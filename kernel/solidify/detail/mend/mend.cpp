@@ -104,7 +104,7 @@ Stage close(Soup soup, const Tolerances& tolerances, const RepairOptions& option
             RepairReport& report) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
   Stage stage = close_holes(Stage(soup), tolerances, area_m2);
-  if (stage.is_open() && options.crossings == Crossings::cut) {
+  if (stage.is_open() && options.crossings != Crossings::leave) {
     soup = without_crossings(soup, tolerances, report);
     stage = close_holes(Stage(soup), tolerances, area_m2);
   }

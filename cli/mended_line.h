@@ -1,0 +1,33 @@
+#pragma once
+
+#include "cli/line.h"
+#include "cli/options.h"
+#include "kernel/io/document.h"
+
+#include <optional>
+
+namespace oriel::cli {
+
+/// A building down the whole line as the arguments say, with its surfaces where there are rules.
+OnLine run_whole_line(const LineArguments& arguments, const RuleBase* rules,
+                      const Building& building, const Tolerances& tolerances,
+                      const RepairOptions& repair, Timings& timings);
+
+/// The solid of a building that is not valid as it was read and whose own solid would not be valid
+/// as it is written: its surface runs through itself, say. It becomes the boundary of its inside
+/// (Crossings::cut_closed), with the coarser tolerances the finer ones do not help: up to five
+/// times those given. Nothing if none makes it valid.
+struct MendedSolid {
+  OnLine line;     ///< as far as the solid; `tolerances` are those it was made with
+  int digits = 0;  ///< LabelledBuilding::digits that it takes
+};
+std::optional<MendedSolid> mended_solid(const LineArguments& arguments, const Document& document,
+                                        const Building& building, const Tolerances& tolerances,
+                                        Timings& timings);
+
+/// The building on the whole line with its mended_solid(), and a warning G417 that says so.
+std::optional<OnLine> mended_line(const LineArguments& arguments, const RuleBase* rules,
+                                  const Document& document, const Building& building,
+                                  const OnLine& line, Timings& timings);
+
+}  // namespace oriel::cli
