@@ -6,6 +6,9 @@
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
 #include "kernel/compare/hausdorff.h"
+#include "kernel/io/as_written.h"
+#include "kernel/model/detail/index.h"
+#include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 
 #include <algorithm>
@@ -40,6 +43,35 @@ void mend_unchanged(const Document& document, const Building& building, const On
   told.issues.push_back(building_issue(
       Severity::note, "G419", building.id,
       fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
+}
+
+/// Facets are parted so often; what is folded then is judged as it is.
+constexpr int kPartings = 4;
+
+/// Parts facets that are folded as they are written; their parts are what they were. False if there
+/// are none, or if something else is wrong, too.
+bool part_redrawn(const Document& document, std::size_t building, LabelledBuilding& labelled) {
+  if (!labelled.geometry) return false;
+  const Building written = as_written(document, document.buildings[building], *labelled.geometry,
+                                      spare_digits(document));
+  auto parted = part_folded(*labelled.geometry, written, validate(written));
+  if (!parted) return false;
+  const std::size_t before = labelled.geometry->facets.size();
+  labelled.geometry = std::move(parted->solid);
+  for (std::size_t f = before; f < parted->whole_of.size(); ++f) {
+    const int whole = parted->whole_of[f];
+    if (!labelled.surface_of_polygon.empty())
+      labelled.surface_of_polygon.push_back(labelled.surface_of_polygon[at(whole)]);
+    for (Installation& installation : labelled.installations) {
+      const auto found = std::ranges::find(installation.polygons, whole);
+      if (found == installation.polygons.end()) continue;
+      const int surface =
+          installation.surfaces[at(static_cast<int>(found - installation.polygons.begin()))];
+      installation.polygons.push_back(static_cast<int>(f));
+      installation.surfaces.push_back(surface);
+    }
+  }
+  return true;
 }
 
 /// Of each target how fine the file has to be; what is valid at no scale is the fault.
@@ -89,14 +121,19 @@ void BuildingDrawer::keep_valid(const Document& document, const OnLine& line,
     drawn = std::move(again);
     return;
   }
+  give_up(document, line, std::move(*fault), drawn);
+}
+
+void BuildingDrawer::give_up(const Document& document, const OnLine& line, Issue fault,
+                             DrawnBuilding& drawn) const {
   drawn.all.clear();
   if (targets_.has_lods()) {
-    drawn.told.issues.push_back(*fault);
+    drawn.told.issues.push_back(fault);
     return;
   }
-  fault->severity = Severity::warning;
-  fault->sentence += "; it stays as it came";
-  drawn.told.issues.push_back(*fault);
+  fault.severity = Severity::warning;
+  fault.sentence += "; it stays as it came";
+  drawn.told.issues.push_back(fault);
   drawn.all.push_back(untouched(document, document.buildings[drawn.building], line, drawn.told));
 }
 
@@ -107,7 +144,16 @@ std::optional<OnLine> BuildingDrawer::mend(const Document& document, const OnLin
   if (!mended) return mended;
   drawn =
       timings.measure(Stage::generalise, [&] { return draw(document, drawn.building, *mended); });
-  timings.measure(Stage::write, [&] { keep_valid(document, *mended, drawn); });
+  timings.measure(Stage::write, [&] {
+    for (Redrawn& redrawn : drawn.all)
+      for (int i = 0; i < kPartings && part_redrawn(document, drawn.building, redrawn.labelled);
+           ++i) {
+      }
+    // To judge each step of what is so intricate takes minutes: only where nothing else is left.
+    if (targets_.has_lods()) return keep_valid(document, *mended, drawn);
+    if (auto fault = prove(document, *mended, drawn))
+      give_up(document, *mended, std::move(*fault), drawn);
+  });
   drawn.told.issues.insert(drawn.told.issues.begin(), mended->issues.back());
   return mended;
 }

@@ -66,6 +66,8 @@ class BuildingDrawer {
                                                  const Invariants& invariants, Plan& plan) const;
   void keep_figures(const Profile* profile, const Subject& of, const Generalised& changes,
                     const Redrawn& redrawn, Product& told) const;
+  void give_up(const Document& document, const OnLine& line, Issue fault,
+               DrawnBuilding& drawn) const;
   [[nodiscard]] Redrawn untouched(const Document& document, const Building& building,
                                   const OnLine& line, Product& told) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;

@@ -68,9 +68,15 @@ OnLine run_to_solid(const Building& building, const Tolerances& tolerances,
 
 OnLine run_line(const Building& building, const SegmentOptions& options,
                 const RepairOptions& repair, const RuleBase* rules, Timings& timings) {
-  OnLine out;
+  return run_from_solid(run_to_solid(building, options.tolerances, repair, timings), building,
+                        options, rules, timings);
+}
+
+OnLine run_from_solid(OnLine out, const Building& building, const SegmentOptions& options,
+                      const RuleBase* rules, Timings& timings) {
+  const auto is_ours = [](const Issue& issue) { return issue.code == "E901"; };
+  if (std::ranges::any_of(out.issues, is_ours)) return out;
   try {
-    make_solid(building, options.tolerances, repair, timings, out);
     if (!out.solid) {
       out.solid = timings.measure(Stage::solidify,
                                   [&] { return opened(building, out.issues, options.tolerances); });

@@ -46,6 +46,10 @@ struct OnLine {
 OnLine run_line(const Building& building, const SegmentOptions& options,
                 const RepairOptions& repair, const RuleBase* rules, Timings& timings);
 
+/// The rest of it, for a building that has come to its solid, or to none.
+OnLine run_from_solid(OnLine line, const Building& building, const SegmentOptions& options,
+                      const RuleBase* rules, Timings& timings);
+
 /// The first step of it only.
 OnLine run_to_solid(const Building& building, const Tolerances& tolerances,
                     const RepairOptions& repair, Timings& timings);

@@ -2,6 +2,8 @@
 
 #include "cli/line_surfaces.h"
 #include "cli/written_proof.h"
+#include "kernel/io/as_written.h"
+#include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 
 #include <array>
@@ -13,42 +15,60 @@ namespace oriel::cli {
 
 namespace {
 
-/// By how much tolerances are made coarser where what crosses is cut: fewer, larger pieces come of
-/// surfaces that run through each other at a hair's breadth. At the defaults up to 10 mm, as where
-/// they are fitted to noise.
-constexpr std::array kCoarser{1.0, 2.5, 5.0};
+/// Tolerances with which what crosses is cut, as multiples of those given. Planes that are finer
+/// keep surfaces apart that come near each other, coarser ones make one of them: at the defaults up
+/// to 10 mm, as where they are fitted to noise.
+struct Times {
+  double plane_offset, weld;
+};
+constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
+
+/// Facets are parted so often; what is folded then is given up.
+constexpr int kPartings = 4;
 
 Building hintless(Building building) {
   for (Polygon& polygon : building.polygons) polygon.hint.clear();
   return building;
 }
 
-RepairOptions cutting_closed(const LineArguments& arguments) {
-  RepairOptions repair = arguments.repair_options();
-  repair.crossings = Crossings::cut_closed;
-  return repair;
+/// True if the solid is valid as it is written, once its folded facets are parted.
+bool make_valid(const Document& document, const Building& building, MendedSolid& mended) {
+  for (int i = 0; i < kPartings; ++i) {
+    const WrittenProof proof = prove_written(document, building, *mended.line.solid);
+    mended.digits = proof.digits;
+    if (!proof.fault) return true;
+    const Building written = as_written(document, building, *mended.line.solid, proof.digits);
+    auto parted = part_folded(*mended.line.solid, written, validate(written));
+    if (!parted) return false;
+    mended.line.solid = std::move(parted->solid);
+  }
+  return !prove_written(document, building, *mended.line.solid).fault;
 }
 
-Issue mended_warning(const Building& building, const MendedSolid& mended) {
+Issue mended_warning(const Building& building, const OnLine& line) {
   const auto findings = validate(building);
+  const std::string why = findings.empty() ? "" : findings[0].code + " " + findings[0].sentence;
   return building_issue(
       Severity::warning, "G417", building.id,
-      fmt::format("runs through itself ({} {}); it is redrawn as the boundary of its inside: {} "
-                  "polygons were cut, within {:g} mm",
-                  findings.empty() ? "E318" : findings[0].code,
-                  findings.empty() ? "" : findings[0].sentence, mended.line.repair.cut,
-                  1e3 * mended.line.tolerances.plane_offset_m));
+      fmt::format("was not valid as it was read ({}) and would not be as it is written: it is "
+                  "redrawn from the boundary of its inside, with {} polygons cut",
+                  why, line.repair.cut));
 }
 
 }  // namespace
 
 OnLine run_whole_line(const LineArguments& arguments, const RuleBase* rules,
-                      const Building& building, const Tolerances& tolerances,
-                      const RepairOptions& repair, Timings& timings) {
+                      const Building& building, const Tolerances& tolerances, Timings& timings) {
+  return whole_line_from(run_to_solid(building, tolerances, arguments.repair_options(), timings),
+                         arguments, rules, building, tolerances, timings);
+}
+
+OnLine whole_line_from(OnLine solid, const LineArguments& arguments, const RuleBase* rules,
+                       const Building& building, const Tolerances& tolerances, Timings& timings) {
   const SegmentOptions options = arguments.segment_options(tolerances);
   OnLine line = arguments.ignores_semantics
-                    ? run_line(hintless(building), options, repair, rules, timings)
-                    : run_line(building, options, repair, rules, timings);
+                    ? run_from_solid(std::move(solid), hintless(building), options, rules, timings)
+                    : run_from_solid(std::move(solid), building, options, rules, timings);
   line.tolerances = tolerances;
   if (rules != nullptr) describe_line_surfaces(building, tolerances, timings, line);
   return line;
@@ -57,16 +77,15 @@ OnLine run_whole_line(const LineArguments& arguments, const RuleBase* rules,
 std::optional<MendedSolid> mended_solid(const LineArguments& arguments, const Document& document,
                                         const Building& building, const Tolerances& tolerances,
                                         Timings& timings) {
-  for (const double times : kCoarser) {
-    Tolerances coarser = tolerances;
-    coarser.plane_offset_m *= times;
-    coarser.weld_m *= times;
-    OnLine line = run_to_solid(building, coarser, cutting_closed(arguments), timings);
-    if (!line.solid) continue;
-    const WrittenProof proof = prove_written(document, building, *line.solid);
-    if (proof.fault) continue;
-    line.tolerances = coarser;
-    return MendedSolid{std::move(line), proof.digits};
+  RepairOptions repair = arguments.repair_options();
+  repair.crossings = Crossings::cut_closed;
+  for (const Times& times : kTimes) {
+    Tolerances tried = tolerances;
+    tried.plane_offset_m *= times.plane_offset;
+    tried.weld_m *= times.weld;
+    MendedSolid mended{run_to_solid(building, tried, repair, timings), 0};
+    mended.line.tolerances = tried;
+    if (mended.line.solid && make_valid(document, building, mended)) return mended;
   }
   return std::nullopt;
 }
@@ -74,12 +93,13 @@ std::optional<MendedSolid> mended_solid(const LineArguments& arguments, const Do
 std::optional<OnLine> mended_line(const LineArguments& arguments, const RuleBase* rules,
                                   const Document& document, const Building& building,
                                   const OnLine& line, Timings& timings) {
-  const auto mended = mended_solid(arguments, document, building, line.tolerances, timings);
+  auto mended = mended_solid(arguments, document, building, line.tolerances, timings);
   if (!mended) return std::nullopt;
-  OnLine whole = run_whole_line(arguments, rules, building, mended->line.tolerances,
-                                cutting_closed(arguments), timings);
+  const Tolerances tolerances = mended->line.tolerances;
+  OnLine whole =
+      whole_line_from(std::move(mended->line), arguments, rules, building, tolerances, timings);
   if (!whole.is_done() || whole.is_open) return std::nullopt;
-  whole.issues.push_back(mended_warning(building, *mended));
+  whole.issues.push_back(mended_warning(building, whole));
   return whole;
 }
 

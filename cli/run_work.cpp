@@ -25,12 +25,11 @@ Issue noise_note(const Building& building, const Tolerances& fitted) {
 }  // namespace
 
 OnLine Run::on_line(const Building& building, Timings& timings) const {
-  const RepairOptions repair = arguments_.repair_options();
   if (arguments_.ends_at_reading) return {};
   if (arguments_.ends_at_solid)
-    return run_to_solid(building, arguments_.tolerances, repair, timings);
+    return run_to_solid(building, arguments_.tolerances, arguments_.repair_options(), timings);
   const Tolerances fitted = arguments_.tolerances_for(building);
-  OnLine line = run_whole_line(arguments_, rules_, building, fitted, repair, timings);
+  OnLine line = run_whole_line(arguments_, rules_, building, fitted, timings);
   if (fitted.plane_offset_m != arguments_.tolerances.plane_offset_m)
     line.issues.push_back(noise_note(building, fitted));
   return line;

@@ -140,6 +140,10 @@ void arrange_shells(Solid& solid, const std::vector<int>& component,
   std::ranges::stable_sort(shells, {},
                            [](const Shell& s) { return std::pair(s.lump, s.is_cavity); });
   solid.shells = std::move(shells);
+  arrange_planes_and_loops(solid);
+}
+
+void arrange_planes_and_loops(Solid& solid) {
   renumber_planes(solid);
   order_loops(solid);
 }

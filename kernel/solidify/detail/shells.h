@@ -25,4 +25,7 @@ void arrange_shells(Solid& solid, const std::vector<int>& component,
                     const std::vector<ComponentHint>& hints, const std::string& building,
                     std::vector<Issue>& issues);
 
+/// Drops planes without a facet and sorts the others and the loops, as a Solid has them.
+void arrange_planes_and_loops(Solid& solid);
+
 }  // namespace oriel::detail
