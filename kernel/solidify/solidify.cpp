@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -146,21 +148,21 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
   return shells;
 }
 
-/// Makes of closed shells the boundary of their inside. They stay as they are if what is cut does
+/// The boundary of the inside of closed surfaces; nothing if they are none, or if what is cut does
 /// not close.
-void uncross_shells(const Building& building, const Tolerances& tolerances, Shells& shells,
-                    Solidified& out) {
-  auto uncrossed = detail::uncross(shells.soup, tolerances);
-  if (!uncrossed) return;
+std::optional<Shells> uncrossed_shells(const Building& building, const Tolerances& tolerances,
+                                       const Soup& soup, Solidified& out) {
+  auto uncrossed = detail::uncross(soup, tolerances);
+  if (!uncrossed) return std::nullopt;
   // Which shell a piece is of is seen only now.
   for (detail::SoupPolygon& polygon : uncrossed->soup.polygons) polygon.shell = -1;
   Shells whole{std::move(uncrossed->soup), {}};
   std::vector<Issue> issues;
   whole.mesh = detail::build_shell_mesh(whole.soup, building.id, issues);
-  if (has_errors(issues) || !is_closed(whole.mesh)) return;
-  shells = std::move(whole);
+  if (has_errors(issues) || !is_closed(whole.mesh)) return std::nullopt;
   out.report.was_needed = true;
   out.report.cut += uncrossed->cut;
+  return whole;
 }
 
 Shells shells_of(const Building& building, const Tolerances& tolerances,
@@ -182,10 +184,19 @@ Shells shells_of(const Building& building, const Tolerances& tolerances,
 
 Shells closed_shells(const Building& building, const Tolerances& tolerances,
                      const RepairOptions& repair, Solidified& out) {
+  const bool cuts_closed = repair.crossings == Crossings::cut_closed;
+  if (cuts_closed) {
+    std::vector<Issue> issues;
+    const Soup soup = detail::weld(building, tolerances, issues);
+    if (auto whole = uncrossed_shells(building, tolerances, soup, out)) {
+      out.issues.insert(out.issues.end(), issues.begin(), issues.end());
+      return std::move(*whole);
+    }
+  }
   Shells shells = shells_of(building, tolerances, repair, out);
-  if (repair.crossings == Crossings::cut_closed && !has_errors(out.issues))
-    uncross_shells(building, tolerances, shells, out);
-  return shells;
+  if (!cuts_closed || has_errors(out.issues)) return shells;
+  auto whole = uncrossed_shells(building, tolerances, shells.soup, out);
+  return whole ? std::move(*whole) : std::move(shells);
 }
 
 /// What the input says of every component: of its last facet, of the facet's first polygon.

@@ -149,6 +149,14 @@ TEST_SUITE("kernel/solidify") {
     CHECK(volume_m3(uncrossed(wall)) == doctest::Approx(16 - 4).epsilon(1e-9));
   }
 
+  TEST_CASE("a block in a block that shares faces with it is gone, and so is one inside out") {
+    const Block large{{1, 0, 0}, {3, 2, 1}}, corner{{1, 0, 0}, {2, 1, 1}};
+    CHECK(volume_m3(uncrossed(in_one_shell({large, corner}))) == doctest::Approx(4).epsilon(1e-9));
+    Building inside_out = in_one_shell({large, {{2, 1, 0}, {4, 3, 2}}});
+    for (Polygon& polygon : inside_out.polygons) std::ranges::reverse(polygon.rings[0]);
+    CHECK(volume_m3(uncrossed(inside_out)) == doctest::Approx(4 + 8 - 1).epsilon(1e-9));
+  }
+
   TEST_CASE("what does not run through itself is the same solid when it is cut") {
     const Building body = test::BoxBody()
                               .add({0, 0, 0}, {6, 4, 3})

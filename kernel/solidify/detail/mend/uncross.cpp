@@ -1,6 +1,7 @@
 #include "kernel/solidify/detail/mend/uncross.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/solidify/detail/edge_groups.h"
 #include "kernel/solidify/detail/mend/cells.h"
 #include "kernel/solidify/detail/mend/crossings.h"
 #include "kernel/solidify/detail/mend/duplicates.h"
@@ -9,6 +10,8 @@
 #include "kernel/solidify/detail/mend/windings.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 
+#include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -21,6 +24,35 @@ Soup without_opposites(const Soup& soup) {
   SoupBuilder builder(soup);
   for (int p = 0; p < soup.polygon_count(); ++p)
     if (!is_opposite[at(p)]) builder.add_polygon(soup, p);
+  return builder.finish();
+}
+
+/// As many polygons run one way along every edge as the other way.
+bool is_closed(const Soup& soup) {
+  if (soup.polygons.empty()) return false;
+  const ShellMesh mesh = linked_rings(soup);
+  bool is_closed = true;
+  EdgeGroups(soup, mesh).for_each([&](EdgeGroup group) {
+    const auto runs_up = [&](int h) {
+      return soup.corners[at(h)] < soup.corners[at(mesh.next[at(h)])];
+    };
+    is_closed &= 2 * std::ranges::count_if(group, runs_up) == std::ssize(group);
+  });
+  return is_closed;
+}
+
+/// The soup with the polygons of every body turned round that encloses less than nothing.
+Soup outward(const Soup& soup) {
+  const std::vector<PolygonShape> shapes = shapes_of(soup);
+  std::map<int, double> volume;  // by body
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    const Vec3 corner = exact::to_metres(soup.points[at(soup.corners_of(p).front())], 1) -
+                        exact::to_metres(soup.points[0], 1);
+    volume[soup.polygons[at(p)].body] += shapes[at(p)].area * dot(shapes[at(p)].unit, corner);
+  }
+  SoupBuilder builder(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    builder.add_polygon(soup, p, volume.at(soup.polygons[at(p)].body) < 0);
   return builder.finish();
 }
 
@@ -39,17 +71,20 @@ std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double w
   for (int p = 0; p < pieces.polygon_count(); ++p)
     if ((*windings)[at(p)] == 0) builder.add_polygon(pieces, p);
   out.soup = builder.finish();
+  if (out.soup.polygons.empty()) return std::nullopt;
   return out;
 }
 
 }  // namespace
 
 std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances) {
+  if (!is_closed(soup)) return std::nullopt;
+  const Soup facing = outward(soup);
   const double reach = tolerances.plane_offset_m / soup.grid_m;
   const double weld = tolerances.weld_m / soup.grid_m;
   for (const auto& [on_plane, together] :
        {std::pair{reach, weld}, {reach / 10, weld}, {reach / 100, weld / 10}})
-    if (auto uncrossed = uncross_within(soup, on_plane, together)) return uncrossed;
+    if (auto uncrossed = uncross_within(facing, on_plane, together)) return uncrossed;
   return std::nullopt;
 }
 

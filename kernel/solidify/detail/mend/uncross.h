@@ -22,9 +22,10 @@ struct Uncrossed {
 /// 2. vertices on edges are put into them (t_vertices.h), equal pieces that look opposite ways go;
 /// 3. the cells between the pieces are found (cells.h), and how often the surface winds round each;
 /// 4. a piece stays if it has the outside (0 or less) in front and the inside behind it.
-/// Polygons must be oriented alike along every edge, and outward of what they enclose. Tried
-/// with points within plane_offset_m of a plane counting as on it, then with a tenth and a
-/// hundredth of that; nothing if the pieces close with none.
+/// As many polygons must run one way along every edge as the other way, else there is nothing; a
+/// body that is inside out as a whole is turned round. Tried with points within plane_offset_m of a
+/// plane counting as on it, then with a tenth and a hundredth of that; nothing if the pieces close
+/// with none.
 std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances);
 
 }  // namespace oriel::detail
