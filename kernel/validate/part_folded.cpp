@@ -141,11 +141,13 @@ class Parter {
     settle(*as_written);
     solid_.facets[facet].loops = in_vertices(*as_written, std::move(loops));
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (!is_main[t]) add_triangle(facet, whole, *as_written, triangles[t]);
+      if (!is_main[t]) triangles_.push_back({facet, in_vertices(*as_written, triangles[t])});
     return true;
   }
 
   PartedSolid take() {
+    for (const FacetTriangle& triangle : triangles_)
+      if (!has_twin(triangle)) add(triangle);
     detail::arrange_planes_and_loops(solid_);
     return {std::move(solid_), std::move(whole_of_)};
   }
@@ -162,19 +164,39 @@ class Parter {
     }
   }
 
+  /// A triangle of a facet, in vertices of the solid.
+  struct FacetTriangle {
+    std::size_t facet = 0;
+    Triangle corners{};
+  };
+
+  static Triangle in_vertices(const WrittenFacet& facet, Triangle triangle) {
+    for (int& corner : triangle) corner = facet.vertices[at(corner)];
+    return triangle;
+  }
+
   static std::vector<Loop> in_vertices(const WrittenFacet& facet, std::vector<Loop> loops) {
     for (Loop& loop : loops)
       for (int& corner : loop) corner = facet.vertices[at(corner)];
     return loops;
   }
 
-  void add_triangle(std::size_t facet, const Facet& whole, const WrittenFacet& as_written,
-                    const Triangle& triangle) {
-    Facet part{whole.plane, in_vertices(as_written, {Loop(triangle.begin(), triangle.end())}),
-               whole.polygons};
+  /// Its neighbour has the same triangle the other way round: there is nothing between them.
+  [[nodiscard]] bool has_twin(const FacetTriangle& triangle) const {
+    const auto& [a, b, c] = triangle.corners;
+    return std::ranges::any_of(triangles_, [&](const FacetTriangle& other) {
+      const Triangle& o = other.corners;
+      return o == Triangle{a, c, b} || o == Triangle{c, b, a} || o == Triangle{b, a, c};
+    });
+  }
+
+  void add(const FacetTriangle& triangle) {
+    const auto& [facet, vertices] = triangle;
+    const Facet& whole = solid_.facets[facet];
+    Facet part{whole.plane, {Loop(vertices.begin(), vertices.end())}, whole.polygons};
     std::array<exact::GridPoint, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = exact::round_to_grid(solid_.vertices[at(part.loops[0][i])].point, solid_.grid_m);
+      corners[i] = exact::round_to_grid(solid_.vertices[at(vertices[i])].point, solid_.grid_m);
     exact::Vector128 across;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -195,6 +217,7 @@ class Parter {
   Solid solid_;
   std::map<std::size_t, std::size_t> shell_of_;  ///< by facet
   std::vector<int> whole_of_;
+  std::vector<FacetTriangle> triangles_;  ///< parted from their facets
 };
 
 }  // namespace
