@@ -50,7 +50,7 @@ constexpr int kPartings = 4;
 
 /// Parts facets that are folded as they are written; their parts are what they were. False if there
 /// are none, or if something else is wrong, too.
-bool part_redrawn(const Document& document, std::size_t building, LabelledBuilding& labelled) {
+bool part_once(const Document& document, std::size_t building, LabelledBuilding& labelled) {
   if (!labelled.geometry) return false;
   const Building written = as_written(document, document.buildings[building], *labelled.geometry,
                                       spare_digits(document));
@@ -72,6 +72,14 @@ bool part_redrawn(const Document& document, std::size_t building, LabelledBuildi
     }
   }
   return true;
+}
+
+void part_redrawn(const Document& document, DrawnBuilding& drawn) {
+  for (Redrawn& redrawn : drawn.all) {
+    int partings = 0;
+    while (partings < kPartings && part_once(document, drawn.building, redrawn.labelled))
+      ++partings;
+  }
 }
 
 /// Of each target how fine the file has to be; what is valid at no scale is the fault.
@@ -145,10 +153,7 @@ std::optional<OnLine> BuildingDrawer::mend(const Document& document, const OnLin
   drawn =
       timings.measure(Stage::generalise, [&] { return draw(document, drawn.building, *mended); });
   timings.measure(Stage::write, [&] {
-    for (Redrawn& redrawn : drawn.all)
-      for (int i = 0; i < kPartings && part_redrawn(document, drawn.building, redrawn.labelled);
-           ++i) {
-      }
+    part_redrawn(document, drawn);
     // To judge each step of what is so intricate takes minutes: only where nothing else is left.
     if (targets_.has_lods()) return keep_valid(document, *mended, drawn);
     if (auto fault = prove(document, *mended, drawn))

@@ -162,6 +162,10 @@ std::optional<Shells> uncrossed_shells(const Building& building, const Tolerance
   if (has_errors(issues) || !is_closed(whole.mesh)) return std::nullopt;
   out.report.was_needed = true;
   out.report.cut += uncrossed->cut;
+  std::vector<int>& inner = out.report.inner;
+  inner.insert(inner.end(), uncrossed->left_out.begin(), uncrossed->left_out.end());
+  std::ranges::sort(inner);
+  out.report.inner_area_m2 += uncrossed->left_out_m2;
   return whole;
 }
 

@@ -11,7 +11,9 @@
 #include "kernel/solidify/detail/polygon_shape.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -63,13 +65,22 @@ std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double w
   const std::vector<PolygonShape> shapes = shapes_of(pieces);
   const PolygonCells cells = find_cells(pieces, shapes);
   const auto windings = find_windings(pieces, cells);
-
   if (!windings) return std::nullopt;
   Uncrossed out;
   out.cut = cut;
   SoupBuilder builder(pieces);
-  for (int p = 0; p < pieces.polygon_count(); ++p)
-    if ((*windings)[at(p)] == 0) builder.add_polygon(pieces, p);
+  std::set<int> kept, all;
+  for (const SoupPolygon& polygon : soup.polygons) all.insert(polygon.source);
+  for (int p = 0; p < pieces.polygon_count(); ++p) {
+    if ((*windings)[at(p)] != 0) continue;
+    builder.add_polygon(pieces, p);
+    kept.insert(pieces.polygons[at(p)].source);
+  }
+  std::ranges::set_difference(all, kept, std::back_inserter(out.left_out));
+  const std::vector<PolygonShape> whole = shapes_of(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    if (!kept.contains(soup.polygons[at(p)].source))
+      out.left_out_m2 += whole[at(p)].area * soup.grid_m * soup.grid_m;
   out.soup = builder.finish();
   if (out.soup.polygons.empty()) return std::nullopt;
   return out;

@@ -4,6 +4,7 @@
 #include "kernel/solidify/detail/soup.h"
 
 #include <optional>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -13,6 +14,9 @@ struct Uncrossed {
   Soup soup;
   /// Polygons that were cut, or are a boundary only in parts.
   int cut = 0;
+  /// Polygons (their sources) of which nothing bounds the inside, sorted.
+  std::vector<int> left_out;
+  double left_out_m2 = 0;
 };
 
 /// Makes the boundary of what the closed surfaces of a soup enclose, body by body: of the points
