@@ -45,6 +45,10 @@ void mend_unchanged(const Document& document, const Building& building, const On
       fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
 }
 
+/// A mended solid of more facets is drawn without its steps being judged: with all that lies within
+/// millimetres of each other in it, that takes minutes and helps little.
+constexpr std::size_t kIntricateFacets = 1000;
+
 /// Facets are parted so often; what is folded then is judged as it is.
 constexpr int kPartings = 4;
 
@@ -103,14 +107,14 @@ bool DrawnBuilding::is_excused() const {
 }
 
 DrawnBuilding BuildingDrawer::draw(const Document& document, std::size_t building,
-                                   const OnLine& line, bool is_thorough) const {
+                                   const OnLine& line, Judging judging) const {
   DrawnBuilding drawn{building, {}, {}};
   const Building& its = document.buildings[building];
   const LabelledBuilding labelled = outputs_.annotated(its, line);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count; ++i) {
     const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
-    auto redrawn = draw_for(profile, {document, its, line, labelled}, is_thorough, drawn.told);
+    auto redrawn = draw_for(profile, {document, its, line, labelled}, judging, drawn.told);
     if (!redrawn) {
       drawn.all.clear();
       break;
@@ -124,7 +128,7 @@ void BuildingDrawer::keep_valid(const Document& document, const OnLine& line,
                                 DrawnBuilding& drawn) const {
   std::optional<Issue> fault = prove(document, line, drawn);
   if (!fault) return;
-  DrawnBuilding again = draw(document, drawn.building, line, true);
+  DrawnBuilding again = draw(document, drawn.building, line, Judging::thorough);
   if (!again.all.empty() && !prove(document, line, again)) {
     drawn = std::move(again);
     return;
@@ -150,12 +154,13 @@ std::optional<OnLine> BuildingDrawer::mend(const Document& document, const OnLin
   auto mended =
       mended_line(arguments_, &rules_, document, document.buildings[drawn.building], line, timings);
   if (!mended) return mended;
-  drawn =
-      timings.measure(Stage::generalise, [&] { return draw(document, drawn.building, *mended); });
+  const bool is_intricate = mended->solid->facets.size() > kIntricateFacets;
+  drawn = timings.measure(Stage::generalise, [&] {
+    return draw(document, drawn.building, *mended, is_intricate ? Judging::none : Judging::refused);
+  });
   timings.measure(Stage::write, [&] {
     part_redrawn(document, drawn);
-    // To judge each step of what is so intricate takes minutes: only where nothing else is left.
-    if (targets_.has_lods()) return keep_valid(document, *mended, drawn);
+    if (!is_intricate) return keep_valid(document, *mended, drawn);
     if (auto fault = prove(document, *mended, drawn))
       give_up(document, *mended, std::move(*fault), drawn);
   });
@@ -177,11 +182,11 @@ Redrawn BuildingDrawer::untouched(const Document& document, const Building& buil
 }
 
 std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const Subject& of,
-                                                bool is_thorough, Product& told) const {
+                                                Judging judging, Product& told) const {
   const OnLine& line = of.line;
   const FeatureTable& table = line.description.table;
   Plan plan = plan_for(profile, line, told);
-  auto made = carried_out(profile, line, invariants_for(profile, of, is_thorough), plan);
+  auto made = carried_out(profile, line, invariants_for(profile, of, judging), plan);
   if (!keep(made.issues, told) || !made.value) return std::nullopt;
   // Levels of detail are drawn in any case, and judged as they are drawn.
   if (!targets_.has_lods()) mend_unchanged(of.document, of.building, line, *made.value, told);
@@ -216,9 +221,11 @@ Plan BuildingDrawer::plan_for(const Profile* profile, const OnLine& line, Produc
 }
 
 Invariants BuildingDrawer::invariants_for(const Profile* profile, const Subject& of,
-                                          bool is_thorough) const {
+                                          Judging judging) const {
   Invariants invariants = invariants_of(profile, targets_.scale);
-  invariants.judge = judge_as_written(of.document, of.building, *of.line.solid, is_thorough);
+  if (judging != Judging::none)
+    invariants.judge =
+        judge_as_written(of.document, of.building, *of.line.solid, judging == Judging::thorough);
   return invariants;
 }
 

@@ -12,6 +12,13 @@
 
 namespace oriel::cli {
 
+/// How what is cut is judged on the way, by how it would be written.
+enum class Judging {
+  none,      ///< not at all: it would take too long
+  refused,   ///< where features do not come off, what is left instead
+  thorough,  ///< every step (Judge::is_thorough)
+};
+
 /// What became of a building of a record; nothing is in `all` if it was set aside.
 struct DrawnBuilding {
   std::size_t building = 0;
@@ -34,9 +41,9 @@ class BuildingDrawer {
         outputs_(outputs),
         accounts_(accounts) {}
 
-  /// A building of the document, which is a solid. `is_thorough` as of Judge.
+  /// A building of the document, which is a solid.
   [[nodiscard]] DrawnBuilding draw(const Document& document, std::size_t building,
-                                   const OnLine& line, bool is_thorough = false) const;
+                                   const OnLine& line, Judging judging = Judging::refused) const;
 
   /// Says how fine the file has to be for a building to be valid in it. What is valid at no scale
   /// is drawn again with each step judged; if that is valid at none either it stays as it came,
@@ -58,10 +65,10 @@ class BuildingDrawer {
   };
 
   [[nodiscard]] std::optional<Redrawn> draw_for(const Profile* profile, const Subject& of,
-                                                bool is_thorough, Product& told) const;
+                                                Judging judging, Product& told) const;
   [[nodiscard]] Plan plan_for(const Profile* profile, const OnLine& line, Product& told) const;
   [[nodiscard]] Invariants invariants_for(const Profile* profile, const Subject& of,
-                                          bool is_thorough) const;
+                                          Judging judging) const;
   [[nodiscard]] Checked<Generalised> carried_out(const Profile* profile, const OnLine& line,
                                                  const Invariants& invariants, Plan& plan) const;
   void keep_figures(const Profile* profile, const Subject& of, const Generalised& changes,

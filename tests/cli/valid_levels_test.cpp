@@ -75,6 +75,7 @@ std::size_t check_valid(const std::string& data, const Names& files) {
     const Outcome made = run(joined(joined({"generalise"}, files),
                                     {target[0], level, "-j", "2", "-o", folder.path() / ""}));
     REQUIRE((made.exit == 0 || made.exit == 3));
+    CHECK(made.err.find("G413") == std::string::npos);
     const Said said = said_in(made.err);
     Names written;
     for (const std::string& name : folder.names()) written.push_back(folder / name);
