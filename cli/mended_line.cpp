@@ -24,7 +24,7 @@ struct Times {
 constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
 
 /// Facets are parted so often; what is folded then is given up.
-constexpr int kPartings = 4;
+constexpr int kSolidPartings = 4;
 
 Building hintless(Building building) {
   for (Polygon& polygon : building.polygons) polygon.hint.clear();
@@ -33,7 +33,7 @@ Building hintless(Building building) {
 
 /// True if the solid is valid as it is written, once its folded facets are parted.
 bool make_valid(const Document& document, const Building& building, MendedSolid& mended) {
-  for (int i = 0; i < kPartings; ++i) {
+  for (int i = 0; i < kSolidPartings; ++i) {
     const WrittenProof proof = prove_written(document, building, *mended.line.solid);
     mended.digits = proof.digits;
     if (!proof.fault) return true;

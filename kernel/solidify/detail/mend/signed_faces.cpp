@@ -101,7 +101,7 @@ class FaceWindings {
 };
 
 /// One face that the rings go round once.
-bool is_simple(const Faces& faces, const Numbers& windings) {
+bool is_one_face(const Faces& faces, const Numbers& windings) {
   int count = 0;
   for (std::size_t i = 0; i < windings.size(); ++i)
     if (faces.areas[i] > 0 && windings[i] != 0) {
@@ -122,7 +122,7 @@ bool add_signed_faces(const Soup& soup, const PolygonShape& shape, const CutPoly
   for (std::size_t i = 0; windings && i < faces.loops.size(); ++i)
     sum += (*windings)[i] * faces.areas[i];
   const SoupPolygon& said = soup.polygons[at(cut.polygon)];
-  if (!windings || std::abs(sum - shape.area) > slack || is_simple(faces, *windings)) {
+  if (!windings || std::abs(sum - shape.area) > slack || is_one_face(faces, *windings)) {
     builder.begin_polygon(said);
     for (const auto& ring : cut.rings) builder.add_ring(ring);
     return false;

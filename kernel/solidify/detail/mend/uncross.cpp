@@ -30,17 +30,17 @@ Soup without_opposites(const Soup& soup) {
 }
 
 /// As many polygons run one way along every edge as the other way.
-bool is_closed(const Soup& soup) {
+bool is_cycle(const Soup& soup) {
   if (soup.polygons.empty()) return false;
   const ShellMesh mesh = linked_rings(soup);
-  bool is_closed = true;
+  bool all_paired = true;
   EdgeGroups(soup, mesh).for_each([&](EdgeGroup group) {
     const auto runs_up = [&](int h) {
       return soup.corners[at(h)] < soup.corners[at(mesh.next[at(h)])];
     };
-    is_closed &= 2 * std::ranges::count_if(group, runs_up) == std::ssize(group);
+    all_paired &= 2 * std::ranges::count_if(group, runs_up) == std::ssize(group);
   });
-  return is_closed;
+  return all_paired;
 }
 
 /// The soup with the polygons of every body turned round that encloses less than nothing.
@@ -89,7 +89,7 @@ std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double w
 }  // namespace
 
 std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances) {
-  if (!is_closed(soup)) return std::nullopt;
+  if (!is_cycle(soup)) return std::nullopt;
   const Soup facing = outward(soup);
   const double reach = tolerances.plane_offset_m / soup.grid_m;
   const double weld = tolerances.weld_m / soup.grid_m;
