@@ -47,11 +47,13 @@ bool make_valid(const Document& document, const Building& building, MendedSolid&
 
 Issue mended_warning(const Building& building, const OnLine& line) {
   const auto findings = validate(building);
-  const std::string why = findings.empty() ? "" : findings[0].code + " " + findings[0].sentence;
+  const std::string why = findings.empty() ? "its surface"
+                                           : fmt::format("was not valid as it was read ({} {}) and",
+                                                         findings[0].code, findings[0].sentence);
   return building_issue(
       Severity::warning, "G417", building.id,
-      fmt::format("was not valid as it was read ({}) and would not be as it is written: it is "
-                  "redrawn from the boundary of its inside, with {} polygons cut",
+      fmt::format("{} would not be valid as it is written: it is redrawn from the boundary of its "
+                  "inside, with {} polygons cut",
                   why, line.repair.cut));
 }
 

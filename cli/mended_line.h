@@ -16,11 +16,10 @@ OnLine run_whole_line(const LineArguments& arguments, const RuleBase* rules,
 OnLine whole_line_from(OnLine solid, const LineArguments& arguments, const RuleBase* rules,
                        const Building& building, const Tolerances& tolerances, Timings& timings);
 
-/// The solid of a building that is not valid as it was read and whose own solid would not be valid
-/// as it is written: its surface runs through itself, say. It becomes the boundary of its inside
-/// (Crossings::cut_closed), and facets that are folded in the file are parted (part_folded), with
-/// the tolerances given, or finer or up to five times coarser ones if they do not help. Nothing if
-/// none makes it valid.
+/// The solid of a building whose own solid would not be valid as it is written: its surface runs
+/// through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), and facets
+/// that are folded in the file are parted (part_folded), with the tolerances given, or finer or up
+/// to five times coarser ones if they do not help. Nothing if none makes it valid.
 struct MendedSolid {
   OnLine line;     ///< as far as the solid; `tolerances` are those it was made with
   int digits = 0;  ///< LabelledBuilding::digits that it takes

@@ -1,5 +1,6 @@
 #include "cli/series.h"
 
+#include "cli/mended_line.h"
 #include "cli/run.h"
 #include "cli/series_files.h"
 #include "cli/targets.h"
@@ -33,6 +34,13 @@ struct Staged {
   bool is_judged = false;  ///< each step of its levels is, which takes long
   std::vector<SeriesLevel> levels{};
   std::unique_ptr<FiringScales> firing{};
+  std::vector<Issue> issues{};             ///< of its levels
+  std::unique_ptr<const OnLine> mended{};  ///< what `line` is, if the building was mended
+
+  /// All levels are valid solids in the file.
+  [[nodiscard]] bool is_valid() const {
+    return !has_errors(issues) && std::ranges::find(issues, "G413", &Issue::code) == issues.end();
+  }
 };
 
 class SeriesWriter {
@@ -146,8 +154,8 @@ class SeriesWriter {
             }};
   }
 
-  /// Its levels, if they can be written as valid solids; else it is set aside. Where one cannot,
-  /// all are drawn again with every step judged.
+  /// Its levels, if they can be written as valid solids; else it is set aside. What would not be
+  /// valid because it came so is mended where that helps.
   void stage(const Document& document, const Building& building, const OnLine& line,
              std::vector<Staged>& staged) {
     if (line.is_open) {
@@ -155,28 +163,54 @@ class SeriesWriter {
                                     "is open: there is no solid to redraw"));
       return;
     }
+    Staged one = with_levels(document, building, line);
+    if (has_errors(one.issues)) judge(document, one);
+    if (!one.is_valid()) mend(document, one);
+    if (!keep(one.issues)) return;
+    staged.push_back(std::move(one));
+  }
+
+  [[nodiscard]] Staged with_levels(const Document& document, const Building& building,
+                                   const OnLine& line) const {
     Staged one{&building, &line, outputs_.annotated(building, line)};
-    const auto& [table, graph] = line.description;
+    draw_levels(document, one);
+    return one;
+  }
+
+  /// Draws them again with every step judged.
+  void judge(const Document& document, Staged& one) const {
+    one.is_judged = true;
+    draw_levels(document, one);
+  }
+
+  /// Draws them from the mended solid, if they are valid then.
+  void mend(const Document& document, Staged& one) const {
+    auto mended =
+        mended_line(arguments_, &rules_, document, *one.building, *one.line, run_.timings());
+    if (!mended) return;
+    auto line = std::make_unique<const OnLine>(std::move(*mended));
+    Staged anew = with_levels(document, *one.building, *line);
+    if (!anew.is_valid()) return;
+    anew.issues.insert(anew.issues.begin(), line->issues.back());
+    anew.mended = std::move(line);
+    one = std::move(anew);
+  }
+
+  void draw_levels(const Document& document, Staged& one) const {
+    const auto& [table, graph] = one.line->description;
     const PlanAt plan_at = [&](double scale) {
-      Plan asked = plan(rules_, table, graph, line.interpretation, scale);
+      Plan asked = plan(rules_, table, graph, one.line->interpretation, scale);
       if (profile_ != nullptr)
-        asked = plan_by_profile(std::move(asked), *profile_, rules_, *line.segmentation, table,
-                                line.interpretation, scale);
+        asked = plan_by_profile(std::move(asked), *profile_, rules_, *one.line->segmentation, table,
+                                one.line->interpretation, scale);
       return asked;
     };
     auto levels = series_levels(input_of(document, one), scales_, plan_at);
-    LevelsProof proof = prove(document, one, levels);
-    if (proof.fault) {
-      one.is_judged = true;
-      levels = series_levels(input_of(document, one), scales_, plan_at);
-      proof = prove(document, one, levels);
-    }
-    std::ranges::move(proof.excuses, std::back_inserter(levels.issues));
-    if (proof.fault) levels.issues.push_back(std::move(*proof.fault));
-    if (!keep(levels.issues)) return;
+    one.issues = std::move(levels.issues);
+    if (!levels.value) return;
     one.levels = std::move(*levels.value);
+    prove(document, one);
     one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
-    staged.push_back(std::move(one));
   }
 
   /// False if there is an error: the building is set aside.
@@ -189,33 +223,23 @@ class SeriesWriter {
     return !has_errors(issues);
   }
 
-  struct LevelsProof {
-    std::optional<Issue> fault;  ///< of a level that is valid at no scale of the file
-    std::vector<Issue> excuses;
-  };
-
-  /// Says of each level how fine the file has to be.
-  static LevelsProof prove(const Document& document, const Staged& one,
-                           Checked<std::vector<SeriesLevel>>& levels) {
-    LevelsProof out;
-    if (!levels.value) return out;
-    for (std::size_t i = 1; i < levels.value->size(); ++i) {
-      SeriesLevel& level = (*levels.value)[i];
-      const SeriesLevel& before = (*levels.value)[i - 1];
+  /// Says of each level how fine the file has to be; what is valid at no scale of the file is an
+  /// error.
+  static void prove(const Document& document, Staged& one) {
+    for (std::size_t i = 1; i < one.levels.size() && !has_errors(one.issues); ++i) {
+      SeriesLevel& level = one.levels[i];
+      const SeriesLevel& before = one.levels[i - 1];
       LabelledBuilding& labelled = level.redrawn.labelled;
       labelled.digits = before.redrawn.labelled.digits;
-      if (level.generalised.removed == before.generalised.removed &&
-          level.generalised.changed.empty())
-        continue;
+      const bool is_same = level.generalised.removed == before.generalised.removed &&
+                           level.generalised.changed.empty();
+      if (is_same && i > 1) continue;
       WrittenProof proof =
           prove_redrawn(document, *one.building, *one.line->solid, *labelled.geometry);
       labelled.digits = std::max(labelled.digits, proof.digits);
-      if (proof.excuse) out.excuses.push_back(std::move(*proof.excuse));
-      if (!proof.fault) continue;
-      out.fault = std::move(proof.fault);
-      break;
+      if (proof.excuse) one.issues.push_back(std::move(*proof.excuse));
+      if (proof.fault) one.issues.push_back(std::move(*proof.fault));
     }
-    return out;
   }
 
   /// Its levels and its lines of the log, or nothing of it. Returns how many operations there are.

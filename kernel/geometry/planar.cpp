@@ -34,11 +34,11 @@ void for_each_edge(std::span<const Outline> outlines, Visit visit) {
 }
 
 /// Of most figures all numbers fit without memory of their own.
-using Numbers = boost::container::small_vector<double, 32>;
+using FewNumbers = boost::container::small_vector<double, 32>;
 
 /// Where the line v = level cuts the outlines, sorted along u.
-Numbers crossings(std::span<const Outline> outlines, const Axes& axes, double level) {
-  Numbers cuts;
+FewNumbers crossings(std::span<const Outline> outlines, const Axes& axes, double level) {
+  FewNumbers cuts;
   for_each_edge(outlines, [&](Vec3 p, Vec3 q) {
     if ((p.*axes.v > level) == (q.*axes.v > level)) return;
     const double t = (level - p.*axes.v) / (q.*axes.v - p.*axes.v);
@@ -51,7 +51,7 @@ Numbers crossings(std::span<const Outline> outlines, const Axes& axes, double le
 /// A point in the middle of the longest chord of the figure at a level; nothing if there is none.
 std::optional<Vec3> point_at(std::span<const Outline> outlines, Vec3 normal, const Axes& axes,
                              double level) {
-  const Numbers cuts = crossings(outlines, axes, level);
+  const FewNumbers cuts = crossings(outlines, axes, level);
   double longest = kThin_m;
   std::optional<Vec3> point;
   for (std::size_t i = 1; i < cuts.size(); i += 2) {
@@ -68,15 +68,15 @@ std::optional<Vec3> point_at(std::span<const Outline> outlines, Vec3 normal, con
 }
 
 /// From one of some ascending levels to the next, and half of the way.
-double gap_above(const Numbers& levels, std::size_t i) {
+double gap_above(const FewNumbers& levels, std::size_t i) {
   return i + 1 < levels.size() ? levels[i + 1] - levels[i] : 0;
 }
-double middle_above(const Numbers& levels, std::size_t i) {
+double middle_above(const FewNumbers& levels, std::size_t i) {
   return (levels[i + 1] + levels[i]) / 2;
 }
 
 /// The levels with a gap above them, the tallest first.
-std::vector<std::size_t> by_falling_gap(const Numbers& levels) {
+std::vector<std::size_t> by_falling_gap(const FewNumbers& levels) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i + 1 < levels.size(); ++i)
     if (levels[i + 1] > levels[i]) order.push_back(i);
@@ -141,7 +141,7 @@ double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
 
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal) {
   const Axes axes = axes_for(normal);
-  Numbers levels;
+  FewNumbers levels;
   for (const Outline& outline : outlines)
     for (const Vec3 p : outline) levels.push_back(p.*axes.v);
   std::ranges::sort(levels);

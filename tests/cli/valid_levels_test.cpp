@@ -174,6 +174,19 @@ TEST_SUITE("cli") {
     CHECK(again.err.find("G417") == std::string::npos);
   }
 
+  TEST_CASE("levels of a series are drawn from the boundary of its inside, too, changed or not") {
+    const Folder folder;
+    const std::string file = folder.write("b.city.json", crossing_house());
+    const Outcome made =
+        run({"generalise", file, "--series", "1:10,1:2500", "-o", folder / "series"});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("warning: b: G417") != std::string::npos);
+    CHECK(made.err.find("G413") == std::string::npos);
+    const Names levels{folder / "series.1-10.city.json", folder / "series.1-2500.city.json"};
+    CHECK(valid_in({levels[0]}).size() == 1);
+    CHECK(valid_in({levels[1]}).size() == 1);
+  }
+
   TEST_CASE("repair makes a solid of what runs through itself unless crossings are left") {
     const Folder folder;
     const std::string file = folder.write("b.city.json", crossing_house());
