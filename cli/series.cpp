@@ -154,8 +154,8 @@ class SeriesWriter {
             }};
   }
 
-  /// Its levels, if they can be written as valid solids; else it is set aside. What would not be
-  /// valid because it came so is mended where that helps.
+  /// Its levels; set aside if one cannot be written as a valid solid, unless it came as none
+  /// (G413). First its steps are judged, then it is mended, where either helps.
   void stage(const Document& document, const Building& building, const OnLine& line,
              std::vector<Staged>& staged) {
     if (line.is_open) {
@@ -185,8 +185,8 @@ class SeriesWriter {
 
   /// Draws them from the mended solid, if they are valid then.
   void mend(const Document& document, Staged& one) const {
-    auto mended =
-        mended_line(arguments_, &rules_, document, *one.building, *one.line, run_.timings());
+    Timings within;  // of stages that are measured already, as generalising
+    auto mended = mended_line(arguments_, &rules_, document, *one.building, *one.line, within);
     if (!mended) return;
     auto line = std::make_unique<const OnLine>(std::move(*mended));
     Staged anew = with_levels(document, *one.building, *line);
