@@ -135,10 +135,14 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
   Shells shells;
   if (mended.is_open) {
     // Without open edges it is not a hole that keeps it from being a solid.
-    if (out.report.open_edges.empty())
+    if (!out.report.open_edges.empty())
+      out.issues.push_back(not_closed(building, out.report.open_edges));
+    else if (has_errors(why))
       out.issues.insert(out.issues.end(), why.begin(), why.end());
     else
-      out.issues.push_back(not_closed(building, out.report.open_edges));
+      out.issues.push_back(error(building, "E302",
+                                 "no open edges, but the same space is in front of most polygons "
+                                 "and behind them: they enclose nothing (val3dity 302)"));
     return shells;
   }
   shells.soup = std::move(mended.soup);

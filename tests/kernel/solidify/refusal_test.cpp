@@ -135,6 +135,23 @@ TEST_SUITE("kernel/solidify") {
     CHECK(has(outcome, "E304"));
     CHECK(has(outcome, "E301"));
   }
+
+  TEST_CASE("a one-sided surface with vertices in the edges of neighbours is refused") {
+    // Three squares through the middle of an octahedron and every other of its faces: each edge has
+    // two polygons, but no two sides are apart. The vertices that the faces have in the middle of
+    // their edges keep neighbours apart until they are put into them.
+    using Points = std::vector<Vec3>;
+    const Vec3 e{3, 0, 0}, w{-3, 0, 0}, n{0, 3, 0}, s{0, -3, 0}, t{0, 0, 3}, b{0, 0, -3};
+    std::vector<Points> polygons{{e, n, w, s}, {e, t, w, b}, {n, t, s, b}};
+    for (const Points& face : {Points{e, n, t}, {w, s, t}, {w, n, b}, {e, s, b}}) {
+      Points& with_middles = polygons.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        with_middles.push_back(face[i]);
+        with_middles.push_back(0.5 * (face[i] + face[(i + 1) % 3]));
+      }
+    }
+    CHECK(has(error_of(test::building_of(polygons)), "E302 no open edges"));
+  }
 }
 
 }  // namespace
