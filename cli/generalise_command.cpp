@@ -235,11 +235,13 @@ void add_generalise(CLI::App& app, Action& action) {
   target
       ->add_option("--to-lod", arguments->target.lods,
                    "Levels of detail to make, such as 2.0,1.2; they share a file")
+      ->allow_extra_args(false)
       ->delimiter(',');
   target
       ->add_option("--series", arguments->series,
                    "Scales such as 1:500,1:2000: a file for each, NAME.1-2000.city.json, and the "
                    "log of all operations, NAME.oplog.jsonl; -o is NAME")
+      ->allow_extra_args(false)
       ->delimiter(',');
   target->add_option("--at", arguments->at,
                      "The level at this scale, of the series --from NAME, without any input");

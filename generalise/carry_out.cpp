@@ -1,6 +1,7 @@
 #include "generalise/carry_out.h"
 
 #include "generalise/detail/steps.h"
+#include "generalise/detail/tasks.h"
 #include "generalise/fineness.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ class Guard {
     while (true) {
       CarriedOut out = first(plan_.steps.size());
       const auto broken = violation(before_, measures_of(out.solid), invariants_);
-      if (!broken && !undo_torn(out)) return with_undone(std::move(out));
+      if (!broken && !undo_fine(out) && !undo_torn(out)) return with_undone(std::move(out));
       if (!broken) continue;
       if (undone_.size() == plan_.steps.size()) return with_undone(std::move(out));
       undone_.push_back(culprit(*broken));
@@ -48,12 +49,35 @@ class Guard {
     return std::ranges::find(undone_, id, &CarriedOut::Refused::feature) != undone_.end();
   }
 
+  [[nodiscard]] bool is_settled(FeatureId id) const {
+    return std::ranges::binary_search(invariants_.settled, id);
+  }
+
   /// What the first steps make, without those that were undone.
   [[nodiscard]] CarriedOut first(std::size_t count) const {
     Plan some{plan_.scale, {}, {}};
     for (std::size_t i = 0; i < count; ++i)
       if (!is_undone(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
     return carry_out_steps(solid_, segmentation_, some, options_, judge_);
+  }
+
+  /// Takes back what draws an edge that is too short; false if nothing does.
+  bool undo_fine(const CarriedOut& out) {
+    if (invariants_.least_edge_m <= 0 || out.changed.empty()) return false;
+    const std::size_t count = undone_.size();
+    for (const ShortEdge& edge : short_edges_of_drawn(solid_, out.solid, segmentation_, out.changed,
+                                                      out.removed, invariants_.least_edge_m))
+      if (!is_undone(edge.feature) && !is_settled(edge.feature))
+        undo_task(edge.feature, fmt::format("an edge of {:.2f} m would be drawn", edge.length_m));
+    return undone_.size() > count;
+  }
+
+  /// With all that is drawn together with the feature.
+  void undo_task(FeatureId id, const std::string& reason) {
+    for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_))
+      if (std::ranges::find(task.steps, id, &Step::feature) != task.steps.end())
+        for (const Step& step : task.steps)
+          if (!is_undone(step.feature)) undone_.push_back({step.feature, "G403", reason});
   }
 
   /// Takes back what tears a piece off; false if nothing does.
@@ -65,8 +89,7 @@ class Guard {
       for (const Step& step : plan_.steps)
         if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
             std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
-            !std::ranges::binary_search(invariants_.settled, step.feature) &&
-            is_torn(step.feature, edge))
+            !is_settled(step.feature) && is_torn(step.feature, edge))
           undone_.push_back({step.feature, "G418",
                              fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
     return undone_.size() > count;

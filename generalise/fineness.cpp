@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -41,23 +42,25 @@ FeatureId smallest_around(const Segmentation& segmentation, const std::vector<Fe
   return best;
 }
 
-template <class Visit>
-void for_each_edge_once(const Solid& solid, const Visit& visit) {
-  for (const Facet& facet : solid.facets)
-    for (const Loop& loop : facet.loops)
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const int p = loop[i], q = loop[(i + 1) % loop.size()];
-        if (p < q) visit(solid.vertices[at(p)].point, solid.vertices[at(q)].point);
-      }
+/// Adds those edges of a facet that are shorter than asked for; `is_wanted` of two vertices.
+template <class IsWanted>
+void add_edges_below(const Solid& solid, const Facet& facet, double least_m, FeatureId owner,
+                     const IsWanted& is_wanted, std::vector<ShortEdge>& edges) {
+  for (const Loop& loop : facet.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int v = loop[i], w = loop[(i + 1) % loop.size()];
+      const Vec3 p = solid.vertices[at(v)].point, q = solid.vertices[at(w)].point;
+      const double length_m = length(q - p);
+      if (length_m < least_m - kRounding_m && is_wanted(v, w))
+        edges.push_back({p, q, length_m, owner});
+    }
 }
 
-/// Edges shorter than asked for, their owners not known yet.
+/// Edges shorter than asked for, each once, their owners not known yet.
 std::vector<ShortEdge> edges_below(const Solid& solid, double least_m) {
   std::vector<ShortEdge> edges;
-  for_each_edge_once(solid, [&](Vec3 p, Vec3 q) {
-    const double length_m = length(q - p);
-    if (length_m < least_m - kRounding_m) edges.push_back({p, q, length_m, {}});
-  });
+  for (const Facet& facet : solid.facets)
+    add_edges_below(solid, facet, least_m, {}, std::less{}, edges);
   return edges;
 }
 
@@ -94,6 +97,31 @@ bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
   if (feature.sense != Sense::hole || feature.planes.empty()) return false;
   const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
   return length(cross(normalised(edge.to - edge.from), normal)) < kAlong;
+}
+
+/// By input polygon the feature that an operator drew, or an invalid one if it only went with that.
+std::map<int, FeatureId> drawn_polygons(const Segmentation& segmentation,
+                                        const std::vector<FeatureId>& changed,
+                                        const std::vector<FeatureId>& removed) {
+  std::map<int, FeatureId> drawn;
+  for (const FeatureId id : changed)
+    for (const int polygon : segmentation.features[id.index()].source_polygons)
+      drawn.try_emplace(polygon, id);
+  for (const FeatureId id : removed)
+    for (const int polygon : segmentation.features[id.index()].source_polygons)
+      drawn.try_emplace(polygon);
+  return drawn;
+}
+
+/// The feature that the facet was drawn for; invalid if it was not.
+FeatureId drawn_owner(const Facet& facet, const std::map<int, FeatureId>& drawn) {
+  FeatureId owner;
+  for (const int polygon : facet.polygons) {
+    const auto found = drawn.find(polygon);
+    if (found == drawn.end()) return {};
+    if (!owner.is_valid()) owner = found->second;
+  }
+  return owner;
 }
 
 /// A facet of the solid as outlines.
@@ -190,6 +218,24 @@ std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
       edges, [&](const ShortEdge& edge) { return corners.has(edge.from) && corners.has(edge.to); });
   find_owners(edges, segmentation, removed);
   std::erase_if(edges, [&](const ShortEdge& edge) { return is_depth(edge, segmentation); });
+  return edges;
+}
+
+std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
+                                            const Segmentation& segmentation,
+                                            const std::vector<FeatureId>& changed,
+                                            const std::vector<FeatureId>& removed, double least_m) {
+  std::vector<ShortEdge> edges;
+  const auto drawn = drawn_polygons(segmentation, changed, removed);
+  for (const Facet& facet : after.facets)
+    if (const FeatureId owner = drawn_owner(facet, drawn); owner.is_valid())
+      add_edges_below(
+          after, facet, least_m, owner, [](int, int) { return true; }, edges);
+  if (edges.empty()) return edges;
+  const Corners corners(before);
+  std::erase_if(edges, [&](const ShortEdge& edge) {
+    return is_depth(edge, segmentation) || (corners.has(edge.from) && corners.has(edge.to));
+  });
   return edges;
 }
 

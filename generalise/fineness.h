@@ -42,6 +42,14 @@ std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
                                        const Segmentation& segmentation,
                                        const std::vector<FeatureId>& removed, double least_m);
 
+/// Those of parts that an operator drew: new edges of facets whose input polygons are all of
+/// features that are `changed` or `removed` (both ascending), one of a changed one at least, the
+/// owner. Without those along the depth of a recess.
+std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
+                                            const Segmentation& segmentation,
+                                            const std::vector<FeatureId>& changed,
+                                            const std::vector<FeatureId>& removed, double least_m);
+
 /// Gaps narrower than `least_m` between parallel facets that overlap, seen along their normal.
 std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m);

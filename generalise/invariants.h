@@ -46,7 +46,8 @@ struct Invariants {
   /// How much of the footprint, in percent, may hang in the air that did not. If given, the box of
   /// the building must not grow either, by more than a centimetre.
   std::optional<double> overhang_pct{};
-  /// No new edge may be shorter (new_short_edges); 0: it may.
+  /// No edge that is drawn may be shorter (short_edges_of_drawn), and none that tells of a piece
+  /// torn off (new_short_edges); 0: it may.
   double least_edge_m = 0;
   /// Features that may go whatever edges that leaves. Ascending.
   std::vector<FeatureId> settled{};

@@ -1,3 +1,4 @@
+#include "generalise/fineness.h"
 #include "interpret/interpret.h"
 #include "interpret/plan.h"
 #include "tests/generalise/line.h"
@@ -19,18 +20,38 @@ const RuleBase& cartographic() {
   return pack;
 }
 
-/// How many features have become what by which operator at 1 : scale.
-std::map<std::string, int> changed_by(const Line& line, double scale) {
+/// What the pack makes of a building at 1 : scale.
+struct Redraft {
+  Plan plan;
+  Generalised generalised;
+};
+
+Redraft redraft(const Line& line, double scale, double least_edge_m = 0) {
   const auto& [table, graph] = line.description;
   const Interpretation labels = interpret(cartographic(), table, graph);
-  const Plan asked = plan(cartographic(), table, graph, labels, scale);
-  const auto out = generalise(line.solid, line.segmentation, table, labels, asked);
+  Plan asked = plan(cartographic(), table, graph, labels, scale);
+  Invariants invariants;
+  invariants.least_edge_m = least_edge_m;
+  auto out = generalise(line.solid, line.segmentation, table, labels, asked, {}, invariants);
   REQUIRE(out.value);
   CHECK(is_closed(out.value->solid));
+  return {std::move(asked), std::move(*out.value)};
+}
+
+/// How many features have become what by which operator at 1 : scale.
+std::map<std::string, int> changed_by(const Line& line, double scale) {
+  const Redraft made = redraft(line, scale);
   std::map<std::string, int> counts;
-  for (const Step& step : asked.steps)
-    if (std::ranges::binary_search(out.value->changed, step.feature)) ++counts[step.operation];
+  for (const Step& step : made.plan.steps)
+    if (std::ranges::binary_search(made.generalised.changed, step.feature))
+      ++counts[step.operation];
   return counts;
+}
+
+std::size_t short_edges_drawn(const Line& line, const Generalised& made, double least_m) {
+  return short_edges_of_drawn(line.solid, made.solid, line.segmentation, made.changed, made.removed,
+                              least_m)
+      .size();
 }
 
 }  // namespace
@@ -59,5 +80,42 @@ TEST_SUITE("generalise") {
     auto counts = changed_by(line_of(body.build()), 2000);
     CHECK(counts["aggregate"] == 1);
     CHECK(counts["typify"] == 0);
+  }
+
+  TEST_CASE("what operators draw has no edge shorter than asked for, or stays as it was") {
+    std::size_t drawn = 0, refused = 0;
+    for (const auto& [name, scale] :
+         std::map<std::string, double>{{"block", 2000}, {"l-house", 2500}, {"row", 4000}}) {
+      const Line line = line_of_sample(name);
+      const Redraft any = redraft(line, scale);
+      for (const double least_m : {0.4, 0.8, 1.2, 1.6}) {
+        CAPTURE(name);
+        CAPTURE(least_m);
+        drawn += short_edges_drawn(line, any.generalised, least_m);
+        const Redraft fine = redraft(line, scale, least_m);
+        CHECK(short_edges_drawn(line, fine.generalised, least_m) == 0);
+        for (const auto& [feature, code, reason] : fine.generalised.refused) {
+          if (!reason.ends_with("would be drawn")) continue;
+          ++refused;
+          CHECK(code == "G403");
+          CHECK_FALSE(std::ranges::binary_search(fine.generalised.changed, feature));
+          CHECK_FALSE(std::ranges::binary_search(fine.generalised.removed, feature));
+        }
+      }
+    }
+    CHECK(drawn > 0);
+    CHECK(refused > 0);
+  }
+
+  TEST_CASE("members of a strip that is too low stay together") {
+    BoxBody body;
+    body.add({0, 0, 0}, {12, 8, 6});
+    for (const double x : {2.0, 4.0, 6.0}) body.remove({x, 0, 3.5}, {x + 1, 0.2, 4.7});
+    const Line line = line_of(body.build());
+    CHECK(redraft(line, 2000).generalised.changed.size() == 1);
+    const Generalised made = redraft(line, 2000, 1.3).generalised;
+    CHECK(made.changed.empty());
+    CHECK(made.removed.empty());
+    CHECK(made.refused.size() == 3);
   }
 }
