@@ -78,7 +78,8 @@ bool turn_patch(const Neighbours& neighbours, int start, std::vector<char>& turn
 EdgeGroups::EdgeGroups(const Soup& soup, const ShellMesh& mesh)
     : soup_(&soup),
       mesh_(&mesh),
-      has_bodies_(soup.polygons.front().body != soup.polygons.back().body),
+      has_bodies_(!soup.polygons.empty() &&
+                  soup.polygons.front().body != soup.polygons.back().body),
       // Of one edge they ascend, and polygons are sorted by body: the bodies come one by one.
       half_edges_(sort_edges(soup.corners.size(), soup.points.size(),
                              [this](int h) { return ends_of(h); })) {}

@@ -16,13 +16,14 @@ using EdgeGroup = std::span<const int>;
 /// The half-edges of a soup grouped by body and undirected edge.
 class EdgeGroups {
  public:
-  /// Needs the mesh's `next` and `polygon_of`, and a soup that has polygons.
+  /// Needs the mesh's `next` and `polygon_of`.
   EdgeGroups(const Soup& soup, const ShellMesh& mesh);
 
   /// Visits every group, sorted by their points, then by body.
   template <class Visit>
   void for_each(Visit visit) const {
     const EdgeGroup all = half_edges_;
+    if (all.empty()) return;
     EdgeEnds ends = ends_of(all[0]), following = ends;
     for (std::size_t start = 0; start < all.size(); ends = following) {
       std::size_t end = start + 1;

@@ -70,6 +70,7 @@ double PolygonShape::uncertainty_rad(double offset) const {
 }
 
 std::vector<PolygonShape> shapes_of(const Soup& soup) {
+  if (soup.polygons.empty()) return {};
   GridPoint low = soup.points.front(), high = low;
   for (const GridPoint& p : soup.points)
     for (std::size_t i = 0; i < 3; ++i) {

@@ -171,6 +171,19 @@ TEST_SUITE("kernel/solidify") {
     CHECK(solidify(body, {}, kCutClosed).report.cut == 0);
   }
 
+  TEST_CASE("sheets of which both sides are given enclose nothing, however they are cut") {
+    const Points square{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+    const Points across{{1, 1, -1}, {1, 3, -1}, {1, 3, 1}, {1, 1, 1}};
+    std::vector<Points> polygons;
+    for (const Points& sheet : {square, across}) {
+      polygons.push_back(sheet);
+      polygons.emplace_back(sheet.rbegin(), sheet.rend());
+    }
+    const Solidified out = solidify(test::building_of(polygons), {}, kCutClosed);
+    CHECK_FALSE(out.value);
+    CHECK(has_errors(out.issues));
+  }
+
   TEST_CASE("turning and shuffling what runs through itself change nothing") {
     for (const Building& building :
          {in_one_shell({{{0, 0, 0}, {4, 4, 4}}, {{2, 1, 1}, {6, 3, 3}}, {{1, 1, 3}, {3, 3, 7}}}),

@@ -31,9 +31,8 @@ Soup without_opposites(const Soup& soup) {
 
 /// As many polygons run one way along every edge as the other way.
 bool is_cycle(const Soup& soup) {
-  if (soup.polygons.empty()) return false;
   const ShellMesh mesh = linked_rings(soup);
-  bool all_paired = true;
+  bool all_paired = !soup.polygons.empty();
   EdgeGroups(soup, mesh).for_each([&](EdgeGroup group) {
     const auto runs_up = [&](int h) {
       return soup.corners[at(h)] < soup.corners[at(mesh.next[at(h)])];
@@ -62,6 +61,7 @@ std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double w
   auto [parted, cut] = cut_at_crossings(soup, reach, weld, RingKind::crossing);
   auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
   const Soup pieces = without_opposites(joined);
+  if (pieces.polygons.empty()) return std::nullopt;
   const std::vector<PolygonShape> shapes = shapes_of(pieces);
   const PolygonCells cells = find_cells(pieces, shapes);
   const auto windings = find_windings(pieces, cells);
