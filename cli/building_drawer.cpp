@@ -100,11 +100,15 @@ std::optional<Issue> prove(const Document& document, const OnLine& line, DrawnBu
   return fault;
 }
 
+bool tells(const Product& told, const char* code) {
+  return std::ranges::find(told.issues, code, &Issue::code) != told.issues.end();
+}
+
 }  // namespace
 
-bool DrawnBuilding::is_excused() const {
-  return std::ranges::find(told.issues, "G413", &Issue::code) != told.issues.end();
-}
+bool DrawnBuilding::is_excused() const { return tells(told, "G413"); }
+
+bool DrawnBuilding::is_given_up() const { return tells(told, "G410"); }
 
 DrawnBuilding BuildingDrawer::draw(const Document& document, std::size_t building,
                                    const OnLine& line, Judging judging) const {
@@ -155,15 +159,17 @@ std::optional<OnLine> BuildingDrawer::mend(const Document& document, const OnLin
       mended_line(arguments_, &rules_, document, document.buildings[drawn.building], line, timings);
   if (!mended) return mended;
   const bool is_intricate = mended->solid->facets.size() > kIntricateFacets;
-  drawn = timings.measure(Stage::generalise, [&] {
+  DrawnBuilding again = timings.measure(Stage::generalise, [&] {
     return draw(document, drawn.building, *mended, is_intricate ? Judging::none : Judging::refused);
   });
   timings.measure(Stage::write, [&] {
-    part_redrawn(document, drawn);
-    if (!is_intricate) return keep_valid(document, *mended, drawn);
-    if (auto fault = prove(document, *mended, drawn))
-      give_up(document, *mended, std::move(*fault), drawn);
+    part_redrawn(document, again);
+    if (!is_intricate) return keep_valid(document, *mended, again);
+    if (auto fault = prove(document, *mended, again))
+      give_up(document, *mended, std::move(*fault), again);
   });
+  if (drawn.is_given_up() && again.is_given_up()) return std::nullopt;
+  drawn = std::move(again);
   drawn.told.issues.insert(drawn.told.issues.begin(), mended->issues.back());
   return mended;
 }

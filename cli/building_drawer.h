@@ -27,6 +27,8 @@ struct DrawnBuilding {
 
   /// Something is not valid as it is written, as it was not when it was read (G413).
   [[nodiscard]] bool is_excused() const;
+  /// What was drawn is valid at no scale of the file (G410).
+  [[nodiscard]] bool is_given_up() const;
 };
 
 /// Draws buildings for the targets of `generalise`, so that they are valid as they are written.
@@ -50,8 +52,8 @@ class BuildingDrawer {
   /// levels of detail are set aside (G410).
   void keep_valid(const Document& document, const OnLine& line, DrawnBuilding& drawn) const;
 
-  /// Draws a building that is excused again, from its mended_line(), which is returned; nothing is
-  /// done if there is none.
+  /// Draws a building that is excused or given up again, from its mended_line(), which is returned;
+  /// nothing is done if there is none, or if what was given up is so again.
   std::optional<OnLine> mend(const Document& document, const OnLine& line, DrawnBuilding& drawn,
                              Timings& timings) const;
 

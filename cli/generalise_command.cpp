@@ -104,7 +104,8 @@ class Generaliser {
       const OnLine& line = lines[one.building];
       timings.measure(Stage::write, [&] { drawer_.keep_valid(document, line, one); });
       std::optional<OnLine> mended;
-      if (one.is_excused()) mended = drawer_.mend(document, line, one, timings);
+      if (one.is_excused() || one.is_given_up())
+        mended = drawer_.mend(document, line, one, timings);
       outputs_.make_features(document.buildings[one.building], mended ? *mended : line, product);
       tell(std::move(one.told), product);
       add(std::move(one.all), labelled, options, product);

@@ -235,6 +235,19 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("shared data: a building whose cuts meet is drawn from the boundary of its inside") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string out = folder / "out.city.jsonl";
+    const Outcome made =
+        run({"generalise", shared / "data/3dbag/tile_5910.city.jsonl", "--lod", "2.2", "--id",
+             "NL.IMBAG.Pand.0503100000030889-0", "--scale", "1:500", "-o", out});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("G417") != std::string::npos);
+    CHECK(made.err.find("G410") == std::string::npos);
+    CHECK(valid_in({out}, {"--lod", "2.2"}).size() == 1);
+  }
+
   TEST_CASE("a valid block of what came invalid is not called invalid") {
     const Folder folder;
     const std::string file = folder.write("b.city.json", crossing_house());
