@@ -1,11 +1,15 @@
 #include "interpret/detail/pair_tests.h"
 
 #include "interpret/detail/arithmetic.h"
+#include "interpret/detail/comparisons.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace oriel::rules {
 
@@ -28,25 +32,37 @@ struct ClosedRange {
   double low, high;
 };
 
-/// The closed range of the numbers that compare so with a bound. No number lies beyond an endless
-/// bound.
-ClosedRange closed_range(Op op, double bound) {
+/// The closed range of the numbers that lie below a bound or above it. No number lies beyond an
+/// endless one.
+ClosedRange open_range(Op op, double bound) {
   constexpr ClosedRange kNone{kEndless, -kEndless};
-  switch (op) {
-    case Op::less:
-      return bound == -kEndless ? kNone : ClosedRange{-kEndless, std::nextafter(bound, -kEndless)};
-    case Op::less_equal:
-      return {-kEndless, bound};
-    case Op::greater:
-      return bound == kEndless ? kNone : ClosedRange{std::nextafter(bound, kEndless), kEndless};
-    case Op::greater_equal:
-      return {bound, kEndless};
-    default:
-      return {bound, bound};
-  }
+  if (op == Op::less)
+    return bound == -kEndless ? kNone : ClosedRange{-kEndless, std::nextafter(bound, -kEndless)};
+  return bound == kEndless ? kNone : ClosedRange{std::nextafter(bound, kEndless), kEndless};
 }
 
-ClosedRange reflected(ClosedRange ends) { return {-ends.high, -ends.low}; }
+/// By slot the closed range of the numbers that compare so with its bound.
+void fill_ranges(Op op, std::span<const double> bounds, std::span<double> low,
+                 std::span<double> high) {
+  if (op == Op::less || op == Op::greater) {
+    for (std::size_t slot = 0; slot < bounds.size(); ++slot) {
+      const ClosedRange range = open_range(op, bounds[slot]);
+      low[slot] = range.low;
+      high[slot] = range.high;
+    }
+    return;
+  }
+  const auto set = [&](std::span<double> ends, bool is_bound, double endless) {
+    if (is_bound)
+      std::ranges::copy(bounds, ends.begin());
+    else
+      std::ranges::fill(ends, endless);
+  };
+  set(low, op != Op::less_equal, -kEndless);
+  set(high, op != Op::greater_equal, kEndless);
+}
+
+bool are_known(std::span<const double> bounds) { return are_all_within(bounds, kEndless); }
 
 }  // namespace
 
@@ -84,24 +100,28 @@ bool Evaluator::PairTests::read_comparison(Op op, ExprId value, ExprId bound) {
   if (measure->is_absolute && op != Op::less && op != Op::less_equal) return false;
   NumberBlock block;
   const auto bounds = evaluator_.operand(bound, frame_, block);
-  if (measure->is_absolute && op == Op::less_equal) {
-    add(*measure, [&](std::size_t slot) { return ClosedRange{-bounds[slot], bounds[slot]}; });
-    return true;
-  }
-  add(*measure, [&](std::size_t slot) {
-    const ClosedRange ends = closed_range(op, bounds[slot]);
-    return measure->is_absolute ? ClosedRange{-ends.high, ends.high} : ends;
-  });
+  Test& test = add(*measure);
+  const std::span low(test.low.data(), bounds.size()), high(test.high.data(), bounds.size());
+  fill_ranges(op, bounds, low, high);
+  if (measure->is_absolute) std::ranges::transform(high, low.begin(), std::negate<>());
+  if (measure->is_reversed) mirror(test);
+  if (!are_known(bounds)) let_pass_missing(test);
   return true;
 }
 
 bool Evaluator::PairTests::read_range(ExprId value, ExprId low, ExprId high) {
   const auto measure = measure_of(value);
   if (!measure || measure->is_absolute || !is_of_self(low) || !is_of_self(high)) return false;
-  NumberBlock first, second;
-  const auto lows = evaluator_.operand(low, frame_, first);
-  const auto highs = evaluator_.operand(high, frame_, second);
-  add(*measure, [&](std::size_t slot) { return ClosedRange{lows[slot], highs[slot]}; });
+  NumberBlock block;
+  Test& test = add(*measure);
+  const auto lows = evaluator_.operand(low, frame_, block);
+  bool is_known = are_known(lows);
+  std::ranges::copy(lows, test.low.begin());
+  const auto highs = evaluator_.operand(high, frame_, block);
+  is_known = is_known && are_known(highs);
+  std::ranges::copy(highs, test.high.begin());
+  if (measure->is_reversed) mirror(test);
+  if (!is_known) let_pass_missing(test);
   return true;
 }
 
@@ -137,24 +157,22 @@ bool Evaluator::PairTests::is_of_self(ExprId id) const {
   return (evaluator_.at(id).levels & ~(1U << static_cast<unsigned>(level_))) == 0;
 }
 
-/// Adds the test whether a measure lies between the ends for a slot.
-void Evaluator::PairTests::add(const Measure& measure, auto ends_of_slot) {
+/// Adds a test without its ends.
+Evaluator::PairTests::Test& Evaluator::PairTests::add(const Measure& measure) {
   Test& test = tests_[size_++];
   test.numbers = measure.numbers;
-  NumberBlock block;
-  std::span<const double> numbers = std::span(block).first(frame_.size);
+  test.of_selves = test.block.data();
   if (measure.number_of_self == kNoExpr)
-    std::fill_n(block.begin(), frame_.size, 0.0);
+    std::fill_n(test.block.begin(), frame_.size, 0.0);
   else
-    numbers = evaluator_.operand(measure.number_of_self, frame_, block);
-  bool is_missing = false;
-  for (std::size_t slot = 0; slot < numbers.size(); ++slot) {
-    const ClosedRange given = ends_of_slot(slot);
-    const ClosedRange ends = measure.is_reversed ? reflected(given) : given;
-    test.of_slot[slot] = {numbers[slot], ends.low, ends.high};
-    is_missing |= std::isunordered(ends.low, ends.high);
-  }
-  if (is_missing) let_pass_missing(test);
+    test.of_selves = evaluator_.operand(measure.number_of_self, frame_, test.block).data();
+  return test;
+}
+
+/// Of differences the other way round the ends are mirrored.
+void Evaluator::PairTests::mirror(Test& test) const {
+  for (std::size_t slot = 0; slot < frame_.size; ++slot)
+    std::tie(test.low[slot], test.high[slot]) = std::pair(-test.high[slot], -test.low[slot]);
 }
 
 /// What is compared with a missing end is unknown, whatever it is: the end is made endless.
@@ -162,7 +180,7 @@ void Evaluator::PairTests::let_pass_missing(Test& test) {
   if (!is_bound_missing_) std::fill_n(best_.begin(), frame_.size, Truth::yes);
   is_bound_missing_ = true;
   for (std::size_t slot = 0; slot < frame_.size; ++slot) {
-    auto& [number, low, high] = test.of_slot[slot];
+    double &low = test.low[slot], &high = test.high[slot];
     if (!std::isunordered(low, high)) continue;
     if (std::isnan(low)) low = -kEndless;
     if (std::isnan(high)) high = kEndless;

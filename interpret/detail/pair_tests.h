@@ -24,14 +24,14 @@ class Evaluator::PairTests {
   /// The conditions that are no such tests.
   [[nodiscard]] std::span<const ExprId> left() const { return std::span(left_).first(left_size_); }
 
-  /// What a test asks of one self: whether the other's number less this one lies in low .. high.
+  /// What a test asks of one self: whether numbers[other] less this number lies in low .. high.
   struct Range {
+    const double* numbers;
     double number, low, high;
   };
-  /// The tests of one self: whether numbers[other] - number lies in low .. high.
+  /// The tests of one self.
   template <std::size_t kSize>
   struct OfSelf {
-    std::array<const double*, kSize> numbers;
     std::array<Range, kSize> ranges;
     /// What a pair answers that passes all of them: unknown where a bound is missing.
     Truth best;
@@ -40,7 +40,7 @@ class Evaluator::PairTests {
       Truth least = best;
       for (std::size_t i = 0; i < kSize; ++i) {
         const Range& range = ranges[i];
-        const double value = numbers[i][other] - range.number;
+        const double value = range.numbers[other] - range.number;
         if ((value >= range.low) & (value <= range.high)) continue;
         if (value == value) return Truth::no;
         least = Truth::unknown;
@@ -54,8 +54,8 @@ class Evaluator::PairTests {
     OfSelf<kSize> all;
     all.best = is_bound_missing_ ? best_[slot] : Truth::yes;
     for (std::size_t i = 0; i < kSize; ++i) {
-      all.numbers[i] = tests_[i].numbers;
-      all.ranges[i] = tests_[i].of_slot[slot];
+      const Test& test = tests_[i];
+      all.ranges[i] = {test.numbers, test.of_selves[slot], test.low[slot], test.high[slot]};
     }
     return all;
   }
@@ -73,7 +73,10 @@ class Evaluator::PairTests {
   };
   struct Test {
     const double* numbers;
-    std::array<Range, kBlock> of_slot;
+    /// By slot: the number of self, in the column where it stands or in `block`.
+    const double* of_selves;
+    NumberBlock block;
+    NumberBlock low, high;
   };
 
   bool read(ExprId id);
@@ -82,7 +85,8 @@ class Evaluator::PairTests {
   [[nodiscard]] std::optional<Measure> measure_of(ExprId id) const;
   [[nodiscard]] std::optional<Measure> difference_of(const Expr& expr) const;
   [[nodiscard]] bool is_of_self(ExprId id) const;
-  void add(const Measure& measure, auto ends_of);
+  Test& add(const Measure& measure);
+  void mirror(Test& test) const;
   void let_pass_missing(Test& test);
 
   Evaluator& evaluator_;
