@@ -20,12 +20,13 @@ namespace {
 std::vector<Verdict> verdicts_of(const rules::Pack& pack,
                                  const std::vector<rules::Choice>& choices) {
   const rules::NamesOfRule* const names = pack.names_of_rules.data() + 1;
-  std::vector<Verdict> verdicts;
-  verdicts.reserve(choices.size());
-  for (const rules::Choice& choice : choices) {
-    const FeatureId feature{static_cast<int>(verdicts.size())};
-    verdicts.push_back({feature, names[choice.rule].label, choice.score, choice.margin,
-                        names[choice.rule].id, names[choice.runner_up].label});
+  std::vector<Verdict> verdicts(choices.size());
+  for (std::size_t row = 0; row < choices.size(); ++row) {
+    const rules::Choice& choice = choices[row];
+    const rules::NamesOfRule& rule = names[choice.rule];
+    verdicts[row] = {
+        FeatureId{static_cast<int>(row)}, rule.label, choice.score, choice.margin, rule.id,
+        names[choice.runner_up].label};
   }
   return verdicts;
 }

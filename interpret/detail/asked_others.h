@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/detail/comparisons.h"
 #include "interpret/detail/evaluator.h"
 #include "kernel/model/detail/index.h"
 
@@ -17,9 +18,7 @@ class Evaluator::AskedOthers {
       : links_(evaluator.facts_->relations[oriel::at(quantifier.index)]) {
     may_be_unknown_ = !links_.are_all_certain();
     if (quantifier.filter != kNoExpr) {
-      const Kept& answers = evaluator.column(quantifier.filter, quantifier.level + 1);
-      filter_ = answers.answers.data();
-      may_be_unknown_ |= answers.has_unknown;
+      filter_ = look_up(evaluator, quantifier.filter, quantifier.level + 1);
     }
     if (may_be_unknown_) seen_.resize(links_.lists->lists(), Seen::nothing);
   }
@@ -36,6 +35,17 @@ class Evaluator::AskedOthers {
 
  private:
   enum class Seen : std::uint8_t { nothing, known, unknown };
+
+  /// The answers of all features, where they stand already.
+  const Truth* look_up(Evaluator& evaluator, ExprId filter, int level) {
+    if (const auto* known = evaluator.known_column(evaluator.at(filter))) {
+      may_be_unknown_ = may_be_unknown_ || rules::has_unknown(*known);
+      return known->data();
+    }
+    const Kept& answers = evaluator.column(filter, level);
+    may_be_unknown_ = may_be_unknown_ || answers.has_unknown;
+    return answers.answers.data();
+  }
 
   bool look_for_unknown(int row) {
     const auto [begin, end] = links_.range_of(row);

@@ -1,6 +1,7 @@
 #include "interpret/detail/conjunction.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace oriel::rules {
@@ -14,6 +15,25 @@ std::size_t count_open(std::span<const Truth> truths) {
   for (const Truth truth : truths)
     open = static_cast<std::uint16_t>(open + static_cast<std::uint16_t>(truth != Truth::no));
   return open;
+}
+
+/// Writes down which are open; returns how many. Most are not, and those are passed over eight at a
+/// time.
+std::size_t find_open(std::span<const Truth> truths, std::array<std::uint16_t, kBlock>& open) {
+  static_assert(static_cast<int>(Truth::no) == 0);
+  constexpr std::size_t kTogether = sizeof(std::uint64_t);
+  std::size_t size = 0;
+  for (std::size_t begin = 0; begin < truths.size(); begin += kTogether) {
+    const std::size_t end = std::min(begin + kTogether, truths.size());
+    std::uint64_t eight = 1;
+    if (end == begin + kTogether) std::memcpy(&eight, &truths[begin], kTogether);
+    if (eight == 0) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      open[size] = static_cast<std::uint16_t>(i);
+      size += truths[i] != Truth::no ? 1U : 0U;
+    }
+  }
+  return size;
 }
 
 }  // namespace
@@ -58,12 +78,8 @@ void Conjunction::ask_turned(Evaluator& evaluator, ExprId id, As as) {
 }
 
 void Conjunction::move_together() {
-  std::size_t size = 0;
   std::array<std::uint16_t, kBlock> kept;
-  for (std::size_t i = 0; i < truths_.size(); ++i) {
-    kept[size] = static_cast<std::uint16_t>(i);
-    size += truths_[i] != Truth::no ? 1U : 0U;
-  }
+  const std::size_t size = find_open(truths_, kept);
   for (std::size_t k = 0; k < size; ++k) {
     slots_[k] = is_moved_ ? slots_[kept[k]] : kept[k];
     moved_[k] = truths_[kept[k]];

@@ -60,42 +60,52 @@ class ComparedId {
   std::uint64_t head_;
 };
 
-/// The members of one group, with the smallest of their ids, which names it.
+/// The members of one group among those of all, with the smallest of their ids, which names it.
 struct Component {
   ComparedId id;
-  std::vector<FeatureId> members;
+  std::size_t first, size;
 };
 
-/// Needs a member.
-Component component_of(std::span<const FeatureId> members, const FeatureTable& table) {
-  ComparedId smallest(table.id(members.front()));
-  for (const FeatureId member : members.subspan(1))
-    smallest = std::min(smallest, ComparedId(table.id(member)));
-  return {smallest, {members.begin(), members.end()}};
-}
+/// What hangs together of one kind.
+struct Components {
+  std::vector<FeatureId> members;
+  std::vector<Component> list;
+
+  /// Members from `first` on are one. Needs a member.
+  void add(std::size_t first, const FeatureTable& table) {
+    ComparedId smallest(table.id(members[first]));
+    for (std::size_t i = first + 1; i < members.size(); ++i)
+      smallest = std::min(smallest, ComparedId(table.id(members[i])));
+    list.push_back({smallest, first, members.size() - first});
+  }
+  [[nodiscard]] std::span<const FeatureId> members_of(const Component& component) const {
+    return std::span(members).subspan(component.first, component.size);
+  }
+};
 
 /// The members of each class hang together, if they are so many.
-std::vector<Component> components_of_classes(const Links& links, std::size_t least, auto is_member,
-                                             const FeatureTable& table) {
-  std::vector<Component> components;
-  components.reserve(links.lists->lists());
+Components components_of_classes(const Links& links, std::size_t least, auto is_member,
+                                 const FeatureTable& table) {
+  Components components;
+  components.members.reserve(links.lists->others.size());
+  components.list.reserve(links.lists->lists());
   const bool are_certain = links.are_all_certain();
-  std::vector<FeatureId> members(links.lists->others.size());
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
-    std::size_t size = 0;
-    for (const int row : links.lists->list(l)) {
-      members[size] = FeatureId{row};
-      size += is_member(row) && (are_certain || links.is_certain(row)) ? 1U : 0U;
-    }
-    if (size >= least) components.push_back(component_of(std::span(members).first(size), table));
+    const std::size_t first = components.members.size();
+    for (const int row : links.lists->list(l))
+      if (is_member(row) && (are_certain || links.is_certain(row)))
+        components.members.push_back(FeatureId{row});
+    if (components.members.size() - first >= least)
+      components.add(first, table);
+    else
+      components.members.resize(first);
   }
   return components;
 }
 
 /// Members that pairs of members lead to hang together, if they are so many.
-std::vector<Component> components_of_pairs(const Facts& facts, const Links& links,
-                                           std::size_t least, auto is_member,
-                                           const FeatureTable& table) {
+Components components_of_pairs(const Facts& facts, const Links& links, std::size_t least,
+                               auto is_member, const FeatureTable& table) {
   DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
@@ -108,14 +118,17 @@ std::vector<Component> components_of_pairs(const Facts& facts, const Links& link
   std::vector<std::vector<FeatureId>> members_of(facts.rows);  // by root
   for (const int row : facts.row_numbers)
     if (is_member(row)) members_of[at(sets.find(row))].push_back(FeatureId{row});
-  std::vector<Component> components;
-  for (const auto& members : members_of)
-    if (members.size() >= least) components.push_back(component_of(members, table));
+  Components components;
+  for (const auto& members : members_of) {
+    if (members.size() < least) continue;
+    const std::size_t first = components.members.size();
+    components.members.insert(components.members.end(), members.begin(), members.end());
+    components.add(first, table);
+  }
   return components;
 }
 
-std::vector<Component> components_of(const GroupKind& kind, const Facts& facts,
-                                     const FeatureTable& table) {
+Components components_of(const GroupKind& kind, const Facts& facts, const FeatureTable& table) {
   const auto& members = facts.membership[at(kind.of)];
   const Links& links = facts.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
@@ -125,13 +138,14 @@ std::vector<Component> components_of(const GroupKind& kind, const Facts& facts,
 }
 
 /// Of one kind, sorted by what names them.
-void add_groups(const GroupKind& kind, std::vector<Component> components,
-                std::vector<Group>& groups) {
-  std::ranges::sort(components, [](const auto& p, const auto& q) { return p.id < q.id; });
-  groups.reserve(groups.size() + components.size());
+void add_groups(const GroupKind& kind, Components components, std::vector<Group>& groups) {
+  std::ranges::sort(components.list, [](const auto& p, const auto& q) { return p.id < q.id; });
+  groups.reserve(groups.size() + components.list.size());
   const std::string prefix = kind.name + ".";
-  for (Component& component : components)
-    groups.push_back({prefix + component.id.text(), kind.name, std::move(component.members)});
+  for (const Component& component : components.list) {
+    const auto members = components.members_of(component);
+    groups.push_back({prefix + component.id.text(), kind.name, {members.begin(), members.end()}});
+  }
 }
 
 }  // namespace

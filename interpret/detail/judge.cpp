@@ -85,7 +85,7 @@ void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, Conjunction
     if (held.is_open()) held.ask(evaluator, id);
   for (const ExprId id : rule.unless)
     if (held.is_open()) held.ask(evaluator, id, Conjunction::As::veto);
-  if (!held.is_open()) return;
+  if (!held.is_open() || scores.empty()) return;
   if (rule.score.empty())
     std::fill_n(scores.begin(), held.truths().size(), 1.0);
   else

@@ -34,9 +34,7 @@ Labelling::Labelling(const Pack& pack, Facts& facts)
       decided_(facts.rows, kNoClass),
       label_now_(facts.rows, kNoClass),
       open_rows_(facts.rows),
-      is_class_open_(pack.classes.size() + 1) {
-  decided_now_.reserve(facts.rows);
-}
+      is_class_open_(pack.classes.size() + 1) {}
 
 std::vector<Choice> Labelling::run() {
   if (pack_->rounds == 0) {
@@ -94,12 +92,11 @@ void Labelling::run_predicates(const Step& step) {
 bool Labelling::apply_predicate(const Rule& rule) {
   evaluator_.forget();
   bool has_changed = false;
-  NumberBlock scores;
   std::vector<Truth> truths(facts_->rows);
   for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
     const Frame frame = block_of(*facts_, begin);
     Conjunction held(frame, std::span(truths).subspan(begin, frame.size));
-    judge(*pack_, rule, evaluator_, held, scores);
+    judge(*pack_, rule, evaluator_, held, {});
     held.finish();
   }
   for (const ClassId at : pack_->classes[index(rule.label)].raised)
@@ -117,7 +114,6 @@ void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
 
 void Labelling::run_decision(const Step& step) {
   evaluator_.forget();
-  decided_now_.clear();
   candidate_count_ = rows_at_hand_count_ = 0;
   are_in_order_ = !step.is_scored && pack_->decide.min_score <= 1;
   for (const int id : step.rules) unknown_rows_[index(rule(id).label)].clear();
@@ -126,17 +122,16 @@ void Labelling::run_decision(const Step& step) {
   for (const int row : rows)
     if (!are_in_order_) decide(index(row));
   for (const int row : rows) note_decision(index(row));
-  settle_membership(step);
-  for (const int row : rows) {
-    first_candidate_[index(row)] = -1;
-    label_now_[index(row)] = kNoClass;
-  }
+  settle_unknown(step);
 }
 
 void Labelling::note_decision(std::size_t row) {
-  if (label_now_[row] == kNoClass) return;
-  decided_[row] = label_now_[row];
-  decided_now_.push_back(static_cast<int>(row));
+  first_candidate_[row] = -1;
+  const ClassId label = std::exchange(label_now_[row], kNoClass);
+  if (label == kNoClass) return;
+  decided_[row] = label;
+  is_any_decided_ = true;
+  raise_membership(label, row, Truth::yes);
 }
 
 /// A label is final, but a later stratum may refine it to a subclass.
@@ -168,7 +163,7 @@ void Labelling::collect(int id) {
     frame.rows[0] = rows.data() + begin;
     frame.is_run = !is_any_decided_;
     Conjunction held(frame, std::span(truths).first(frame.size));
-    judge(*pack_, judging, evaluator_, held, scores);
+    judge(*pack_, judging, evaluator_, held, are_in_order_ ? std::span<double>() : scores);
     if (held.is_open() && are_in_order_)
       add_winners(id, held);
     else if (held.is_open())
@@ -284,9 +279,7 @@ void Labelling::decide(std::size_t row) {
 }
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.
-void Labelling::settle_membership(const Step& step) {
-  is_any_decided_ = is_any_decided_ || !decided_now_.empty();
-  for (const int row : decided_now_) raise_membership(decided_[index(row)], index(row), Truth::yes);
+void Labelling::settle_unknown(const Step& step) {
   for (const int id : step.rules) {
     const ClassId label = rule(id).label;
     for (const int row : unknown_rows_[index(label)])

@@ -24,7 +24,8 @@ void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, const Frame
            Judgement& judgement);
 
 /// The same for those of whom `held` asks: leaves in it what the rule says of the slots that are
-/// left, and by those slots the scores. Not finished.
+/// left, and by those slots the scores. Not finished. Without `scores` nothing is scored, so that
+/// the rule must not have any.
 void judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, Conjunction& held,
            std::span<double> scores);
 
@@ -86,8 +87,8 @@ class Labelling {
   void decide(std::size_t row);
   void note_unknown(int rule, Conjunction& held);
   void note_decision(std::size_t row);
+  void settle_unknown(const Step& step);
   [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
-  void settle_membership(const Step& step);
   void raise_membership(ClassId id, std::size_t row, Truth truth);
 
   [[nodiscard]] const Rule& rule(int id) const {
@@ -111,9 +112,8 @@ class Labelling {
   std::size_t rows_at_hand_count_ = 0;
   /// By class: the rows for which a rule for it was unknown in the decision at hand.
   std::vector<std::vector<int>> unknown_rows_;
-  /// By row: the class that was decided, or -1; and the rows of the decision at hand.
+  /// By row: the class that was decided, or -1.
   std::vector<ClassId> decided_;
-  std::vector<int> decided_now_;
   /// By row: the class that wins in the decision at hand, or -1.
   std::vector<ClassId> label_now_;
   bool is_any_decided_ = false;

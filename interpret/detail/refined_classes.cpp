@@ -29,22 +29,26 @@ Column numbers_of(const Pack& pack, const Facts& facts, Evaluator& evaluator, Ex
   return evaluated;
 }
 
-/// By value, then by row. Most stand where they belong, as features are found row by row.
-void sort_members(std::span<int> members, Column values) {
+/// By value; rows of one value, which ascend, stay in their order. Leaves the values in `keys`.
+/// Most stand where they belong, as features are found row by row.
+void sort_members(std::span<int> members, Column values, std::span<double> keys) {
   constexpr std::size_t kMany = 64;
-  const auto is_before = [&](int p, int q) {
-    return values[at(p)] < values[at(q)] || (values[at(p)] == values[at(q)] && p < q);
-  };
+  const auto value_of = [&](int row) { return values[at(row)]; };
   if (members.size() > kMany) {
-    std::ranges::sort(members, is_before);
+    std::ranges::stable_sort(members, {}, value_of);
+    std::ranges::transform(members, keys.begin(), value_of);
     return;
   }
-  for (std::size_t next = 1; next < members.size(); ++next) {
+  for (std::size_t next = 0; next < members.size(); ++next) {
     const int member = members[next];
+    const double key = value_of(member);
     std::size_t place = next;
-    for (; place > 0 && is_before(member, members[place - 1]); --place)
+    for (; place > 0 && key < keys[place - 1]; --place) {
       members[place] = members[place - 1];
+      keys[place] = keys[place - 1];
+    }
     members[place] = member;
+    keys[place] = key;
   }
 }
 
@@ -56,6 +60,7 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
   parts.list_of.assign(fits.size(), -1);
   parts.others.resize(from.others.size());
   parts.starts.reserve(from.others.size() + 1);
+  std::vector<double> keys(from.others.size());
   std::size_t size = 0;
   for (std::size_t c = 0; c < from.lists(); ++c) {
     const std::size_t begin = size;
@@ -64,10 +69,9 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
       size += fits[at(row)] != Truth::no ? 1U : 0U;
     }
     const auto members = std::span(parts.others).subspan(begin, size - begin);
-    sort_members(members, values);
+    sort_members(members, values, keys);
     for (std::size_t i = 0; i < members.size(); ++i) {
-      if (i > 0 && values[at(members[i])] != values[at(members[i - 1])])
-        parts.starts.push_back(static_cast<int>(begin + i));
+      if (i > 0 && keys[i] != keys[i - 1]) parts.starts.push_back(static_cast<int>(begin + i));
       parts.list_of[at(members[i])] = static_cast<int>(parts.lists());
     }
     if (!members.empty()) parts.starts.push_back(static_cast<int>(size));

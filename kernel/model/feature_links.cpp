@@ -1,9 +1,9 @@
 #include "kernel/model/feature_links.h"
 
-#include "kernel/model/detail/counting_sort.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace oriel {
@@ -49,16 +49,22 @@ FeatureLinks links_of_classes(std::span<const int> class_of_row) {
   FeatureLinks links;
   links.are_classes = true;
   links.list_of.assign(class_of_row.begin(), class_of_row.end());
-  if (class_of_row.empty()) return links;
-  // What is of no class comes last, and is cut off.
-  const int none = std::max(-1, *std::ranges::max_element(class_of_row)) + 1;
-  std::ranges::replace_if(
-      links.list_of, [](int c) { return c < 0; }, none);
-  const auto lists = static_cast<std::size_t>(none);
-  const detail::Buckets buckets = detail::sort_into_buckets(links.list_of, lists + 1);
-  std::ranges::replace(links.list_of, none, -1);
-  links.starts.assign(buckets.first.begin(), buckets.first.end() - 1);
-  links.others.assign(buckets.items.begin(), buckets.items.begin() + links.starts.back());
+  int last = -1;
+  for (int& list : links.list_of) {
+    list = std::max(list, -1);
+    last = std::max(last, list);
+  }
+  std::vector<int>& starts = links.starts;
+  starts.assign(at(last + 2), 0);
+  for (const int list : links.list_of) ++starts[at(list + 1)];
+  starts[0] = 0;  // rows of no list
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  links.others.resize(at(starts.back()));
+  std::vector<int> next = starts;
+  for (std::size_t row = 0; row < links.list_of.size(); ++row) {
+    const int list = links.list_of[row];
+    if (list >= 0) links.others[at(next[at(list)]++)] = static_cast<int>(row);
+  }
   return links;
 }
 
