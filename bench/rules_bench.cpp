@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -46,22 +47,38 @@ std::uint8_t code_of(std::string_view label) {
   throw std::runtime_error("the peers have no label " + std::string(label));
 }
 
+/// Calls `run` with some buildings at a time, of which features are related before.
+void for_each_batch(const std::vector<bench::FacadeBuilding>& buildings, auto run) {
+  constexpr std::size_t kTogether = 7;  // about a block of the rule engine
+  std::array<FeatureGraph, kTogether> graphs;
+  std::array<FeaturesOfBuilding, kTogether> batch;
+  for (std::size_t begin = 0; begin < buildings.size(); begin += kTogether) {
+    const std::size_t size = std::min(kTogether, buildings.size() - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      graphs[i] = relate(buildings[begin + i]);
+      batch[i] = {&buildings[begin + i].table, &graphs[i]};
+    }
+    run(std::span<const FeaturesOfBuilding>(batch).first(size));
+  }
+}
+
 std::vector<Labelled> label(const RuleBase& rules,
                             const std::vector<bench::FacadeBuilding>& buildings) {
   std::vector<Labelled> all;
   Name last;
   std::uint8_t code = 0;
-  for (const bench::FacadeBuilding& building : buildings) {
-    const Interpretation said = interpret(rules, building.table, relate(building));
-    const std::size_t first = all.size();
-    for (const Verdict& verdict : said.verdicts) {
-      if (verdict.label != last) code = code_of(verdict.label);
-      last = verdict.label;
-      all.push_back({code, false});
+  for_each_batch(buildings, [&](std::span<const FeaturesOfBuilding> batch) {
+    for (const Interpretation& said : interpret(rules, batch)) {
+      const std::size_t first = all.size();
+      for (const Verdict& verdict : said.verdicts) {
+        if (verdict.label != last) code = code_of(verdict.label);
+        last = verdict.label;
+        all.push_back({code, false});
+      }
+      for (const Group& row : said.groups)
+        for (const FeatureId member : row.members) all[first + member.index()].is_in_row = true;
     }
-    for (const Group& row : said.groups)
-      for (const FeatureId member : row.members) all[first + member.index()].is_in_row = true;
-  }
+  });
   return all;
 }
 
@@ -120,18 +137,22 @@ struct BareVerdict {
   Name label;
 };
 
-std::size_t label_barely(const rules::Pack& pack, const FeatureTable& table,
-                         const FeatureGraph& graph) {
-  rules::Facts facts(pack, table, graph);
+std::size_t label_barely(const rules::Pack& pack, std::span<const FeaturesOfBuilding> batch) {
+  rules::Facts facts(pack, batch);
   rules::Labelling labelling(pack, facts);
   const auto choices = labelling.run();
-  std::vector<BareVerdict> verdicts(choices.size());
-  for (std::size_t row = 0; row < choices.size(); ++row) {
-    verdicts[row].feature = FeatureId{static_cast<int>(row)};
-    if (choices[row].rule >= 0)
-      verdicts[row].label = pack.rules[at(choices[row].rule)].name_of_label;
+  const auto groups = rules::find_groups(pack, facts, batch);
+  std::vector<std::vector<BareVerdict>> verdicts(batch.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    verdicts[i].resize(batch[i].table->rows());
+    for (std::size_t row = 0; row < verdicts[i].size(); ++row, ++next) {
+      verdicts[i][row].feature = FeatureId{static_cast<int>(row)};
+      if (choices[next].rule >= 0)
+        verdicts[i][row].label = pack.rules[at(choices[next].rule)].name_of_label;
+    }
   }
-  return verdicts.size() + rules::find_groups(pack, facts, table).size();
+  return next + groups.size();
 }
 
 /// The reason of every feature that has a label, in one line, as label --explain writes it.
@@ -160,12 +181,13 @@ int measure_explain(const std::string& features, const std::string& pack, std::s
   std::size_t rows = 0, written = 0;
   for (std::size_t run = 0; run < runs; ++run) {
     bare.push_back(bench::cpu_ms_of(1, [&] {
-      for (const auto& b : buildings) label_barely(rules.value->pack(), b.table, relate(b));
+      for_each_batch(buildings, [&](auto batch) { label_barely(rules.value->pack(), batch); });
     }));
     off.push_back(bench::cpu_ms_of(1, [&] {
       rows = 0;
-      for (const auto& b : buildings)
-        rows += interpret(*rules.value, b.table, relate(b)).verdicts.size();
+      for_each_batch(buildings, [&](auto batch) {
+        for (const auto& said : interpret(*rules.value, batch)) rows += said.verdicts.size();
+      });
     }));
     ratios.push_back(off.back() / bare.back());
     if (run >= kMostOn) continue;

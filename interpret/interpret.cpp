@@ -17,8 +17,7 @@ namespace {
 
 /// Without a branch on what was decided: what is said for explanations costs no more than to write
 /// it.
-std::vector<Verdict> verdicts_of(const rules::Pack& pack,
-                                 const std::vector<rules::Choice>& choices) {
+std::vector<Verdict> verdicts_of(const rules::Pack& pack, std::span<const rules::Choice> choices) {
   const rules::NamesOfRule* const names = pack.names_of_rules.data() + 1;
   std::vector<Verdict> verdicts(choices.size());
   for (std::size_t row = 0; row < choices.size(); ++row) {
@@ -57,23 +56,64 @@ Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const Fea
   return building_issue(Severity::warning, "R261", table.building(), std::move(sentence));
 }
 
+/// The buildings of `facts`.
+void interpret_all(const rules::Pack& pack, rules::Facts& facts,
+                   std::span<const FeaturesOfBuilding> buildings,
+                   std::span<Interpretation> results) {
+  rules::Labelling labelling(pack, facts);
+  const auto all_choices = labelling.run();
+  auto groups = rules::find_groups(pack, facts, buildings);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < buildings.size(); ++i) {
+    const FeatureTable& table = *buildings[i].table;
+    const auto choices = std::span(all_choices).subspan(first, table.rows());
+    first += table.rows();
+    results[i].verdicts = verdicts_of(pack, choices);
+    for (std::size_t row = 0; row < choices.size(); ++row)
+      if (choices[row].is_ambiguous)
+        results[i].issues.push_back(ambiguity(pack, results[i].verdicts[row], table));
+    results[i].groups = std::move(groups[i]);
+  }
+  // Packs that are run in rounds go building by building.
+  if (const auto rows = labelling.unsettled(); !rows.empty())
+    results[0].issues.push_back(unsettled(pack, rows, *buildings[0].table));
+}
+
+/// So many of the first as fill a block together. Each building decides how many rounds it takes.
+std::size_t size_of_batch(const rules::Pack& pack, std::span<const FeaturesOfBuilding> buildings) {
+  std::size_t size = 1, rows = buildings[0].table->rows();
+  if (pack.rounds > 0) return size;
+  while (size < buildings.size() && rows + buildings[size].table->rows() <= rules::kBlock)
+    rows += buildings[size++].table->rows();
+  return size;
+}
+
 }  // namespace
 
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph) {
-  const rules::Pack& pack = base.pack();
-  rules::Facts facts(pack, table, graph);
-  rules::Labelling labelling(pack, facts);
-  const auto choices = labelling.run();
+  const FeaturesOfBuilding building{&table, &graph};
+  rules::Facts facts(base.pack(), table, graph);
   Interpretation result;
-  result.verdicts = verdicts_of(pack, choices);
-  for (std::size_t row = 0; row < choices.size(); ++row)
-    if (choices[row].is_ambiguous)
-      result.issues.push_back(ambiguity(pack, result.verdicts[row], table));
-  if (const auto rows = labelling.unsettled(); !rows.empty())
-    result.issues.push_back(unsettled(pack, rows, table));
-  result.groups = rules::find_groups(pack, facts, table);
+  interpret_all(base.pack(), facts, std::span(&building, 1), std::span(&result, 1));
   return result;
+}
+
+std::vector<Interpretation> interpret(const RuleBase& base,
+                                      std::span<const FeaturesOfBuilding> buildings) {
+  std::vector<Interpretation> results(buildings.size());
+  for (std::size_t begin = 0; begin < buildings.size();) {
+    const std::size_t size = size_of_batch(base.pack(), buildings.subspan(begin));
+    const auto batch = buildings.subspan(begin, size);
+    if (size == 1) {
+      results[begin] = interpret(base, *batch[0].table, *batch[0].graph);
+    } else {
+      rules::Facts facts(base.pack(), batch);
+      interpret_all(base.pack(), facts, batch, std::span(results).subspan(begin, size));
+    }
+    begin += size;
+  }
+  return results;
 }
 
 }  // namespace oriel

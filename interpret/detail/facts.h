@@ -2,6 +2,7 @@
 
 #include "interpret/detail/expr.h"
 #include "interpret/detail/pack.h"
+#include "interpret/interpret.h"
 #include "kernel/model/feature_graph.h"
 #include "kernel/model/feature_table.h"
 #include "kernel/model/surface_table.h"
@@ -57,10 +58,13 @@ struct Links {
   [[nodiscard]] Truth of_row(int row) const { return certain_rows[static_cast<std::size_t>(row)]; }
 };
 
-/// One building, laid out for evaluation: everything a pack asks for by name is found once, before
-/// the first rule is run. Refers to the table and the graph, which must outlive it.
+/// One building or more, laid out for evaluation: everything a pack asks for by name is found once,
+/// before the first rule is run. Refers to the tables and graphs, which must outlive it.
 struct Facts {
   Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+  /// Several buildings, the features of one behind those of the other; nothing relates two. What is
+  /// asked for is copied.
+  Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings);
   /// The same for surfaces, of which neither relations nor classes are known.
   Facts(const Pack& pack, const SurfaceTable& table);
   Facts(const Facts&) = delete;
@@ -87,12 +91,17 @@ struct Facts {
   double scale = 0;
 
  private:
+  /// Room for so many features.
+  Facts(const Pack& pack, std::size_t features);
   void find_hosts(const Pack& pack);
-  void link(const Pack& pack, const FeatureGraph& graph);
+  void link(const Pack& pack, auto lists_of_relation);
 
   /// The lists of the relations that the pack declares.
   std::vector<FeatureLinks> narrowed_;
   std::vector<std::vector<double>> coded_texts_;
+  /// What was copied of several buildings: numbers by column, and lists by relation.
+  std::vector<std::vector<double>> joined_numbers_;
+  std::vector<FeatureLinks> joined_lists_;
 };
 
 }  // namespace oriel::rules

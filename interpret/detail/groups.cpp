@@ -60,33 +60,67 @@ class ComparedId {
   std::uint64_t head_;
 };
 
+/// Of which building a row is. Rows are looked for in ascending order.
+class OwnerOfRow {
+ public:
+  explicit OwnerOfRow(std::span<const FeaturesOfBuilding> buildings)
+      : buildings_(buildings), end_(static_cast<int>(buildings.front().table->rows())) {}
+
+  void find(int row) {
+    while (row >= end_) {
+      begin_ = end_;
+      end_ += static_cast<int>(buildings_[++number_].table->rows());
+    }
+  }
+  [[nodiscard]] std::size_t number() const { return number_; }
+  [[nodiscard]] const FeatureTable& table() const { return *buildings_[number_].table; }
+  /// A row as the building counts it.
+  [[nodiscard]] FeatureId own(FeatureId row) const { return FeatureId{row.value - begin_}; }
+
+ private:
+  std::span<const FeaturesOfBuilding> buildings_;
+  std::size_t number_ = 0;
+  int begin_ = 0;
+  int end_;
+};
+
 /// The members of one group among those of all, with the smallest of their ids, which names it.
 struct Component {
+  std::size_t building;
   ComparedId id;
   std::size_t first, size;
 };
 
-/// What hangs together of one kind.
-struct Components {
+/// What hangs together of one kind, building by building.
+class Components {
+ public:
+  explicit Components(std::span<const FeaturesOfBuilding> buildings) : owner_(buildings) {}
+
   std::vector<FeatureId> members;
   std::vector<Component> list;
 
   /// Members from `first` on are one. Needs a member.
-  void add(std::size_t first, const FeatureTable& table) {
+  void add(std::size_t first) {
+    owner_.find(members[first].value);
+    for (std::size_t i = first; i < members.size(); ++i) members[i] = owner_.own(members[i]);
+    const FeatureTable& table = owner_.table();
     ComparedId smallest(table.id(members[first]));
     for (std::size_t i = first + 1; i < members.size(); ++i)
       smallest = std::min(smallest, ComparedId(table.id(members[i])));
-    list.push_back({smallest, first, members.size() - first});
+    list.push_back({owner_.number(), smallest, first, members.size() - first});
   }
   [[nodiscard]] std::span<const FeatureId> members_of(const Component& component) const {
     return std::span(members).subspan(component.first, component.size);
   }
+
+ private:
+  OwnerOfRow owner_;
 };
 
 /// The members of each class hang together, if they are so many.
 Components components_of_classes(const Links& links, std::size_t least, auto is_member,
-                                 const FeatureTable& table) {
-  Components components;
+                                 std::span<const FeaturesOfBuilding> buildings) {
+  Components components(buildings);
   components.members.reserve(links.lists->others.size());
   components.list.reserve(links.lists->lists());
   const bool are_certain = links.are_all_certain();
@@ -96,7 +130,7 @@ Components components_of_classes(const Links& links, std::size_t least, auto is_
       if (is_member(row) && (are_certain || links.is_certain(row)))
         components.members.push_back(FeatureId{row});
     if (components.members.size() - first >= least)
-      components.add(first, table);
+      components.add(first);
     else
       components.members.resize(first);
   }
@@ -105,7 +139,7 @@ Components components_of_classes(const Links& links, std::size_t least, auto is_
 
 /// Members that pairs of members lead to hang together, if they are so many.
 Components components_of_pairs(const Facts& facts, const Links& links, std::size_t least,
-                               auto is_member, const FeatureTable& table) {
+                               auto is_member, std::span<const FeaturesOfBuilding> buildings) {
   DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
@@ -118,43 +152,54 @@ Components components_of_pairs(const Facts& facts, const Links& links, std::size
   std::vector<std::vector<FeatureId>> members_of(facts.rows);  // by root
   for (const int row : facts.row_numbers)
     if (is_member(row)) members_of[at(sets.find(row))].push_back(FeatureId{row});
-  Components components;
+  Components components(buildings);
   for (const auto& members : members_of) {
     if (members.size() < least) continue;
     const std::size_t first = components.members.size();
     components.members.insert(components.members.end(), members.begin(), members.end());
-    components.add(first, table);
+    components.add(first);
   }
   return components;
 }
 
-Components components_of(const GroupKind& kind, const Facts& facts, const FeatureTable& table) {
+Components components_of(const GroupKind& kind, const Facts& facts,
+                         std::span<const FeaturesOfBuilding> buildings) {
   const auto& members = facts.membership[at(kind.of)];
   const Links& links = facts.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
   const auto least = std::max<std::size_t>(1, at(kind.at_least));
-  if (links.lists->are_classes) return components_of_classes(links, least, is_member, table);
-  return components_of_pairs(facts, links, least, is_member, table);
+  if (links.lists->are_classes) return components_of_classes(links, least, is_member, buildings);
+  return components_of_pairs(facts, links, least, is_member, buildings);
 }
 
-/// Of one kind, sorted by what names them.
-void add_groups(const GroupKind& kind, Components components, std::vector<Group>& groups) {
-  std::ranges::sort(components.list, [](const auto& p, const auto& q) { return p.id < q.id; });
-  groups.reserve(groups.size() + components.list.size());
+/// Of one building and one kind, sorted by what names them.
+void add_groups(const GroupKind& kind, const Components& all, std::span<Component> components,
+                std::vector<Group>& groups) {
+  std::ranges::sort(components, [](const auto& p, const auto& q) { return p.id < q.id; });
+  groups.reserve(groups.size() + components.size());
   const std::string prefix = kind.name + ".";
-  for (const Component& component : components.list) {
-    const auto members = components.members_of(component);
+  for (const Component& component : components) {
+    const auto members = all.members_of(component);
     groups.push_back({prefix + component.id.text(), kind.name, {members.begin(), members.end()}});
   }
 }
 
 }  // namespace
 
-std::vector<Group> find_groups(const Pack& pack, const Facts& facts, const FeatureTable& table) {
-  std::vector<Group> groups;
+std::vector<std::vector<Group>> find_groups(const Pack& pack, const Facts& facts,
+                                            std::span<const FeaturesOfBuilding> buildings) {
+  std::vector<std::vector<Group>> groups(buildings.size());
   if (facts.rows == 0) return groups;
-  for (const GroupKind& kind : pack.groups)
-    add_groups(kind, components_of(kind, facts, table), groups);
+  for (const GroupKind& kind : pack.groups) {
+    Components all = components_of(kind, facts, buildings);
+    for (auto begin = all.list.begin(); begin != all.list.end();) {
+      const std::size_t building = begin->building;
+      const auto end = std::find_if(begin, all.list.end(),
+                                    [&](const Component& c) { return c.building != building; });
+      add_groups(kind, all, {begin, end}, groups[building]);
+      begin = end;
+    }
+  }
   return groups;
 }
 
