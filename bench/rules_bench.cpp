@@ -49,7 +49,7 @@ std::uint8_t code_of(std::string_view label) {
 
 /// Calls `run` with some buildings at a time, of which features are related before.
 void for_each_batch(const std::vector<bench::FacadeBuilding>& buildings, auto run) {
-  constexpr std::size_t kTogether = 7;  // about a block of the rule engine
+  constexpr std::size_t kTogether = 64;
   std::array<FeatureGraph, kTogether> graphs;
   std::array<FeaturesOfBuilding, kTogether> batch;
   for (std::size_t begin = 0; begin < buildings.size(); begin += kTogether) {
