@@ -47,18 +47,22 @@ std::uint8_t code_of(std::string_view label) {
   throw std::runtime_error("the peers have no label " + std::string(label));
 }
 
-/// Calls `run` with some buildings at a time, of which features are related before.
+/// Calls `run` with as many buildings at a time as fill a block of the rule engine, of which
+/// features are related before.
 void for_each_batch(const std::vector<bench::FacadeBuilding>& buildings, auto run) {
-  constexpr std::size_t kTogether = 64;
-  std::array<FeatureGraph, kTogether> graphs;
-  std::array<FeaturesOfBuilding, kTogether> batch;
-  for (std::size_t begin = 0; begin < buildings.size(); begin += kTogether) {
-    const std::size_t size = std::min(kTogether, buildings.size() - begin);
-    for (std::size_t i = 0; i < size; ++i) {
-      graphs[i] = relate(buildings[begin + i]);
-      batch[i] = {&buildings[begin + i].table, &graphs[i]};
+  std::vector<FeatureGraph> graphs;
+  std::vector<FeaturesOfBuilding> batch;
+  for (std::size_t begin = 0; begin < buildings.size(); begin += batch.size()) {
+    graphs.clear();
+    batch.clear();
+    for (std::size_t i = begin, rows = 0; i < buildings.size(); ++i) {
+      rows += buildings[i].table.rows();
+      if (rows > rules::kBlock && i > begin) break;
+      graphs.push_back(relate(buildings[i]));
+      batch.push_back({&buildings[i].table, nullptr});
     }
-    run(std::span<const FeaturesOfBuilding>(batch).first(size));
+    for (std::size_t i = 0; i < batch.size(); ++i) batch[i].graph = &graphs[i];
+    run(std::span<const FeaturesOfBuilding>(batch));
   }
 }
 

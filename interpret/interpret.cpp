@@ -42,6 +42,13 @@ Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTa
   return issue;
 }
 
+void add_ambiguities(const rules::Pack& pack, std::span<const rules::Choice> choices,
+                     const FeatureTable& table, Interpretation& said) {
+  for (std::size_t row = 0; row < choices.size(); ++row)
+    if (choices[row].is_ambiguous)
+      said.issues.push_back(ambiguity(pack, said.verdicts[row], table));
+}
+
 /// Ids are sorted, so that the sentence does not depend on the order of features.
 Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const FeatureTable& table) {
   constexpr std::size_t kShown = 5;
@@ -69,9 +76,7 @@ void interpret_all(const rules::Pack& pack, rules::Facts& facts,
     const auto choices = std::span(all_choices).subspan(first, table.rows());
     first += table.rows();
     results[i].verdicts = verdicts_of(pack, choices);
-    for (std::size_t row = 0; row < choices.size(); ++row)
-      if (choices[row].is_ambiguous)
-        results[i].issues.push_back(ambiguity(pack, results[i].verdicts[row], table));
+    if (pack.decide.ambiguous_below > 0) add_ambiguities(pack, choices, table, results[i]);
     results[i].groups = std::move(groups[i]);
   }
   // Packs that are run in rounds go building by building.
