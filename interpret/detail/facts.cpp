@@ -57,7 +57,7 @@ void check_rows(const FeatureLinks& links, const std::string& relation, std::siz
                                 " leads to features that the table does not have");
 }
 
-std::size_t rows_of(std::span<const FeaturesOfBuilding> buildings) {
+std::size_t rows_of_all(std::span<const FeaturesOfBuilding> buildings) {
   std::size_t rows = 0;
   for (const FeaturesOfBuilding& building : buildings) rows += building.table->rows();
   return rows;
@@ -135,7 +135,7 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
 }
 
 Facts::Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings)
-    : Facts(pack, rows_of(buildings)) {
+    : Facts(pack, rows_of_all(buildings)) {
   if (rows == 0) return;
   TextCodes codes(pack);
   for (const std::size_t i : pack.reads.texts) {

@@ -85,19 +85,19 @@ class OwnerOfRow {
 };
 
 /// The members of one group among those of all, with the smallest of their ids, which names it.
-struct Component {
+struct Cluster {
   std::size_t building;
   ComparedId id;
   std::size_t first, size;
 };
 
 /// What hangs together of one kind, building by building.
-class Components {
+class Clusters {
  public:
-  explicit Components(std::span<const FeaturesOfBuilding> buildings) : owner_(buildings) {}
+  explicit Clusters(std::span<const FeaturesOfBuilding> buildings) : owner_(buildings) {}
 
   std::vector<FeatureId> members;
-  std::vector<Component> list;
+  std::vector<Cluster> list;
 
   /// Members from `first` on are one. Needs a member.
   void add(std::size_t first) {
@@ -109,8 +109,8 @@ class Components {
       smallest = std::min(smallest, ComparedId(table.id(members[i])));
     list.push_back({owner_.number(), smallest, first, members.size() - first});
   }
-  [[nodiscard]] std::span<const FeatureId> members_of(const Component& component) const {
-    return std::span(members).subspan(component.first, component.size);
+  [[nodiscard]] std::span<const FeatureId> members_of(const Cluster& cluster) const {
+    return std::span(members).subspan(cluster.first, cluster.size);
   }
 
  private:
@@ -118,28 +118,28 @@ class Components {
 };
 
 /// The members of each class hang together, if they are so many.
-Components components_of_classes(const Links& links, std::size_t least, auto is_member,
-                                 std::span<const FeaturesOfBuilding> buildings) {
-  Components components(buildings);
-  components.members.reserve(links.lists->others.size());
-  components.list.reserve(links.lists->lists());
+Clusters clusters_of_classes(const Links& links, std::size_t least, auto is_member,
+                             std::span<const FeaturesOfBuilding> buildings) {
+  Clusters clusters(buildings);
+  clusters.members.reserve(links.lists->others.size());
+  clusters.list.reserve(links.lists->lists());
   const bool are_certain = links.are_all_certain();
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
-    const std::size_t first = components.members.size();
+    const std::size_t first = clusters.members.size();
     for (const int row : links.lists->list(l))
       if (is_member(row) && (are_certain || links.is_certain(row)))
-        components.members.push_back(FeatureId{row});
-    if (components.members.size() - first >= least)
-      components.add(first);
+        clusters.members.push_back(FeatureId{row});
+    if (clusters.members.size() - first >= least)
+      clusters.add(first);
     else
-      components.members.resize(first);
+      clusters.members.resize(first);
   }
-  return components;
+  return clusters;
 }
 
 /// Members that pairs of members lead to hang together, if they are so many.
-Components components_of_pairs(const Facts& facts, const Links& links, std::size_t least,
-                               auto is_member, std::span<const FeaturesOfBuilding> buildings) {
+Clusters clusters_of_pairs(const Facts& facts, const Links& links, std::size_t least,
+                           auto is_member, std::span<const FeaturesOfBuilding> buildings) {
   DisjointRows sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
@@ -152,35 +152,35 @@ Components components_of_pairs(const Facts& facts, const Links& links, std::size
   std::vector<std::vector<FeatureId>> members_of(facts.rows);  // by root
   for (const int row : facts.row_numbers)
     if (is_member(row)) members_of[at(sets.find(row))].push_back(FeatureId{row});
-  Components components(buildings);
+  Clusters clusters(buildings);
   for (const auto& members : members_of) {
     if (members.size() < least) continue;
-    const std::size_t first = components.members.size();
-    components.members.insert(components.members.end(), members.begin(), members.end());
-    components.add(first);
+    const std::size_t first = clusters.members.size();
+    clusters.members.insert(clusters.members.end(), members.begin(), members.end());
+    clusters.add(first);
   }
-  return components;
+  return clusters;
 }
 
-Components components_of(const GroupKind& kind, const Facts& facts,
-                         std::span<const FeaturesOfBuilding> buildings) {
+Clusters clusters_of(const GroupKind& kind, const Facts& facts,
+                     std::span<const FeaturesOfBuilding> buildings) {
   const auto& members = facts.membership[at(kind.of)];
   const Links& links = facts.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
   const auto least = std::max<std::size_t>(1, at(kind.at_least));
-  if (links.lists->are_classes) return components_of_classes(links, least, is_member, buildings);
-  return components_of_pairs(facts, links, least, is_member, buildings);
+  if (links.lists->are_classes) return clusters_of_classes(links, least, is_member, buildings);
+  return clusters_of_pairs(facts, links, least, is_member, buildings);
 }
 
 /// Of one building and one kind, sorted by what names them.
-void add_groups(const GroupKind& kind, const Components& all, std::span<Component> components,
+void add_groups(const GroupKind& kind, const Clusters& all, std::span<Cluster> clusters,
                 std::vector<Group>& groups) {
-  std::ranges::sort(components, [](const auto& p, const auto& q) { return p.id < q.id; });
-  groups.reserve(groups.size() + components.size());
+  std::ranges::sort(clusters, [](const auto& p, const auto& q) { return p.id < q.id; });
+  groups.reserve(groups.size() + clusters.size());
   const std::string prefix = kind.name + ".";
-  for (const Component& component : components) {
-    const auto members = all.members_of(component);
-    groups.push_back({prefix + component.id.text(), kind.name, {members.begin(), members.end()}});
+  for (const Cluster& cluster : clusters) {
+    const auto members = all.members_of(cluster);
+    groups.push_back({prefix + cluster.id.text(), kind.name, {members.begin(), members.end()}});
   }
 }
 
@@ -191,11 +191,11 @@ std::vector<std::vector<Group>> find_groups(const Pack& pack, const Facts& facts
   std::vector<std::vector<Group>> groups(buildings.size());
   if (facts.rows == 0) return groups;
   for (const GroupKind& kind : pack.groups) {
-    Components all = components_of(kind, facts, buildings);
+    Clusters all = clusters_of(kind, facts, buildings);
     for (auto begin = all.list.begin(); begin != all.list.end();) {
       const std::size_t building = begin->building;
       const auto end = std::find_if(begin, all.list.end(),
-                                    [&](const Component& c) { return c.building != building; });
+                                    [&](const Cluster& c) { return c.building != building; });
       add_groups(kind, all, {begin, end}, groups[building]);
       begin = end;
     }

@@ -10,7 +10,7 @@ using namespace oriel::test;
 
 namespace {
 
-constexpr const char* kPack =
+constexpr const char* kBatchPack =
     "relations:\n"
     "  same_row: {within: same facade, where: host is wall and other.host is wall and storey = "
     "other.storey}\n"
@@ -33,12 +33,12 @@ constexpr const char* kPack =
     "  row: {of: window, by: same_row, at_least: 2}\n"
     "  heap: {of: opening, by: near, at_least: 2}\n";
 
-struct Building {
+struct MadeBuilding {
   FeatureTable table;
   FeatureGraph graph;
 };
 
-Building random_building(std::mt19937& random, int features) {
+MadeBuilding random_building(std::mt19937& random, int features) {
   const auto below = [&](int bound) {
     return static_cast<int>(random() % static_cast<unsigned>(bound));
   };
@@ -56,13 +56,13 @@ Building random_building(std::mt19937& random, int features) {
     for (int j = std::max(0, i - 4); j < i; ++j)
       if (below(3) == 0) scene.relate_both("beside", FeatureId{i}, FeatureId{j});
   }
-  Building building{scene.table(), scene.graph()};
+  MadeBuilding building{scene.table(), scene.graph()};
   if (below(4) > 0) building.graph.set_classes("same_facade", facades);
   return building;
 }
 
 /// All that was said of a building.
-std::string printed(const Interpretation& said) {
+std::string all_said_in(const Interpretation& said) {
   std::string text;
   for (const Verdict& v : said.verdicts)
     text += fmt::format("{} {} {} {} {} {}\n", v.feature.value, v.label, v.score, v.margin, v.rule,
@@ -76,9 +76,10 @@ std::string printed(const Interpretation& said) {
   return text;
 }
 
-std::vector<FeaturesOfBuilding> views_of(const std::vector<Building>& buildings) {
+std::vector<FeaturesOfBuilding> views_of(const std::vector<MadeBuilding>& buildings) {
   std::vector<FeaturesOfBuilding> views;
-  for (const Building& building : buildings) views.push_back({&building.table, &building.graph});
+  for (const MadeBuilding& building : buildings)
+    views.push_back({&building.table, &building.graph});
   return views;
 }
 
@@ -87,13 +88,13 @@ struct Said {
   std::size_t groups = 0, issues = 0, labels = 0;
 };
 
-Said check_alike(const RuleBase& base, const std::vector<Building>& buildings) {
+Said check_alike(const RuleBase& base, const std::vector<MadeBuilding>& buildings) {
   Said said;
   const auto together = interpret(base, views_of(buildings));
   REQUIRE(together.size() == buildings.size());
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     const Interpretation alone = interpret(base, buildings[i].table, buildings[i].graph);
-    CHECK(printed(together[i]) == printed(alone));
+    CHECK(all_said_in(together[i]) == all_said_in(alone));
     said.groups += alone.groups.empty() ? 0 : 1;
     said.issues += alone.issues.empty() ? 0 : 1;
     for (const Verdict& verdict : alone.verdicts) said.labels += verdict.label.empty() ? 0 : 1;
@@ -106,10 +107,10 @@ Said check_alike(const RuleBase& base, const std::vector<Building>& buildings) {
 TEST_SUITE("interpret") {
   TEST_CASE("buildings that are interpreted together get what each gets alone") {
     std::mt19937 random(3);
-    const RuleBase base = load(pack_with(kPack));
+    const RuleBase base = load(pack_with(kBatchPack));
     Said said;
     for (int run = 0; run < 40; ++run) {
-      std::vector<Building> buildings;
+      std::vector<MadeBuilding> buildings;
       const int count = 1 + static_cast<int>(random() % 60);
       for (int i = 0; i < count; ++i)
         buildings.push_back(random_building(random, static_cast<int>(random() % 30)));
@@ -139,20 +140,21 @@ TEST_SUITE("interpret") {
                        "    score: [a: {rise: 0 m .. 2 m}, count(beside where is door): {rise: 0 "
                        ".. 1, weight: 2}]\n"
                        "iterate: {rounds: 3}\n"));
-    std::vector<Building> buildings;
+    std::vector<MadeBuilding> buildings;
     for (int i = 0; i < 50; ++i) buildings.push_back(random_building(random, i % 12));
     CHECK(check_alike(base, buildings).issues > 0);
   }
 
   TEST_CASE("no building is interpreted as nothing") {
-    CHECK(interpret(load(pack_with(kPack)), std::vector<FeaturesOfBuilding>()).empty());
+    CHECK(interpret(load(pack_with(kBatchPack)), std::vector<FeaturesOfBuilding>()).empty());
   }
 
   TEST_CASE("a graph of other features than its table is refused among other buildings too") {
     std::mt19937 random(5);
-    std::vector<Building> buildings;
+    std::vector<MadeBuilding> buildings;
     for (int i = 0; i < 3; ++i) buildings.push_back(random_building(random, 5));
     buildings[1].graph.set("beside", {{FeatureId{0}, FeatureId{7}}});
-    CHECK_THROWS_AS(interpret(load(pack_with(kPack)), views_of(buildings)), std::invalid_argument);
+    CHECK_THROWS_AS(interpret(load(pack_with(kBatchPack)), views_of(buildings)),
+                    std::invalid_argument);
   }
 }
