@@ -1,6 +1,6 @@
 #include "interpret/detail/yaml_tree.h"
 
-#include "interpret/detail/usual_yaml.h"
+#include "interpret/detail/libyaml_events.h"
 
 #include <algorithm>
 #include <exception>
@@ -205,7 +205,7 @@ std::optional<YamlNode> read_quickly(Span where, const Source& source) {
   Findings none(source);
   TreeBuilder builder(where, none);
   try {
-    if (!read_usual_yaml(source.text_of(where), builder) || !none.issues().empty())
+    if (!read_by_libyaml(source.text_of(where), builder) || !none.issues().empty())
       return std::nullopt;
   } catch (const Stop&) {
     return std::nullopt;
