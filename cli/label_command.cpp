@@ -129,6 +129,7 @@ ExitCode work(Arguments& arguments) {
   if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
     arguments.out = "-";
   if (arguments.is_repaired) arguments.crossings = "cut";
+  arguments.only_names_surfaces = true;
   if (arguments.is_json) throw CLI::ValidationError("--json", "goes with --existing audit only");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);

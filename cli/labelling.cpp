@@ -65,6 +65,7 @@ LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine&
   AnnotateOptions options;
   options.codelist = arguments_.codelist;
   options.has_reasons = arguments_.has_reasons;
+  options.surfaces = line.named_surfaces;
   options.attributes.emplace_back("oriel_config_sha256", sha256(arguments_.configuration()));
   return cli::annotated(building, line, rules_, options);
 }

@@ -2,6 +2,7 @@
 
 #include "cli/timings.h"
 #include "interpret/rule_base.h"
+#include "interpret/surfaces.h"
 #include "kernel/describe/describe.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/model/building.h"
@@ -30,6 +31,8 @@ struct OnLine {
   Interpretation interpretation;  ///< empty without rules
   /// With rules, also of a building that was set aside; no rows if that failed.
   SurfaceTable surfaces;
+  /// What they are, where nothing else was asked of them; then `surfaces` is not complete.
+  std::vector<SurfaceVerdict> named_surfaces;
   std::vector<Issue> issues;
 
   /// It was not selected: nothing was done.

@@ -1,26 +1,65 @@
 #include "cli/line_surfaces.h"
 
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace oriel::cli {
 
-void describe_line_surfaces(const Building& building, const Tolerances& tolerances,
-                            Timings& timings, OnLine& line) {
+namespace {
+
+SurfaceContext context_of(const OnLine& line) {
   SurfaceContext context;
   if (line.solid && !line.is_open) context.solid = &*line.solid;
   if (line.segmentation) {
     context.segmentation = &*line.segmentation;
     context.features = &line.description.table;
   }
+  return context;
+}
+
+/// Runs `describe`; what it throws is a fault of ours in this building.
+template <class Describe>
+void measured_describe(const Building& building, Timings& timings, OnLine& line,
+                       Describe describe) {
   try {
-    line.surfaces = timings.measure(
-        Stage::describe, [&] { return describe_surfaces(building, tolerances, context); });
+    timings.measure(Stage::describe, describe);
   } catch (const std::exception& fault) {
     line.issues.push_back(building_issue(Severity::error, "E901", building.id,
                                          fmt::format("a fault of oriel's own: {}", fault.what())));
   }
+}
+
+}  // namespace
+
+void describe_line_surfaces(const Building& building, const Tolerances& tolerances,
+                            Timings& timings, OnLine& line) {
+  measured_describe(building, timings, line, [&] {
+    line.surfaces = describe_surfaces(building, tolerances, context_of(line));
+  });
+}
+
+void name_line_surfaces(const Building& building, const Tolerances& tolerances,
+                        const RuleBase& rules, Timings& timings, OnLine& line) {
+  static const Segmentation none;
+  const Segmentation& segmentation = line.segmentation ? *line.segmentation : none;
+  measured_describe(building, timings, line, [&] {
+    SurfaceSurvey survey(building, tolerances, context_of(line));
+    SurfaceTable& table = survey.table();
+    table = with_parts(std::move(table), building, segmentation, line.interpretation, rules);
+    const auto rows = rows_to_name(building, segmentation, line.interpretation, rules);
+    std::size_t measured = 0;
+    line.named_surfaces = interpret_surfaces(rules, table, rows, [&](std::span<const int> unnamed) {
+      if (measured == kSurfaceMeasures.size()) return false;
+      survey.measure(kSurfaceMeasures.at(measured++), unnamed);
+      return true;
+    });
+    line.surfaces = std::move(table);
+  });
 }
 
 }  // namespace oriel::cli

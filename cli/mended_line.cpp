@@ -72,7 +72,10 @@ OnLine whole_line_from(OnLine solid, const LineArguments& arguments, const RuleB
                     ? run_from_solid(std::move(solid), hintless(building), options, rules, timings)
                     : run_from_solid(std::move(solid), building, options, rules, timings);
   line.tolerances = tolerances;
-  if (rules != nullptr) describe_line_surfaces(building, tolerances, timings, line);
+  if (rules != nullptr && arguments.only_names_surfaces)
+    name_line_surfaces(building, tolerances, *rules, timings, line);
+  else if (rules != nullptr)
+    describe_line_surfaces(building, tolerances, timings, line);
   return line;
 }
 

@@ -55,6 +55,8 @@ struct LineArguments {
   bool ends_at_reading = false;
   /// What is asked for is the solid: buildings are not segmented.
   bool ends_at_solid = false;
+  /// What is asked of surfaces is what they are, not their attributes.
+  bool only_names_surfaces = false;
 
   [[nodiscard]] ReadOptions read_options() const;
   /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.

@@ -1,8 +1,8 @@
 #include "interpret/annotate.h"
 
-#include "interpret/detail/names.h"
 #include "interpret/detail/pack.h"
 #include "interpret/detail/polygon_shape.h"
+#include "interpret/detail/role.h"
 #include "interpret/explain.h"
 #include "interpret/surfaces.h"
 #include "kernel/model/polygon_owners.h"
@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -21,30 +22,9 @@ namespace oriel {
 namespace {
 
 using rules::Emission;
+using rules::Role;
 
 std::size_t index(int id) { return static_cast<std::size_t>(id); }
-
-/// What a feature is written as.
-struct Role {
-  const Emission* emission = nullptr;
-  /// The class that has the emission: the label or what it is a kind of.
-  std::string label;
-  std::string subclass;
-
-  [[nodiscard]] bool is_installation() const {
-    return emission != nullptr && emission->type == "BuildingInstallation";
-  }
-  [[nodiscard]] bool is_opening() const { return emission != nullptr && !is_installation(); }
-};
-
-Role role_of(const rules::Pack& pack, const std::string& label) {
-  for (rules::ClassId id = rules::index_of(pack.classes, label); id != rules::kNoClass;
-       id = pack.classes[index(id)].parent) {
-    const rules::Class& c = pack.classes[index(id)];
-    if (c.emission) return {&*c.emission, c.name, c.name == label ? "" : label};
-  }
-  return {};
-}
 
 /// Four digits are enough to compare and keep the files short.
 double rounded(double score) { return std::round(score * 1e4) / 1e4; }
@@ -79,13 +59,19 @@ class Annotator {
   void find_roles();
   void find_polygons();
   void find_owners();
+  /// By row; reasons if they are asked for.
+  struct NamedSurfaces {
+    std::vector<SurfaceVerdict> verdicts;
+    std::vector<std::string> reasons;
+  };
+  [[nodiscard]] NamedSurfaces named_surfaces() const;
   void add_surfaces();
   void add_parents();
   void add_installations();
   void add_attributes();
 
   /// Features that list a polygon, the smallest first.
-  [[nodiscard]] const std::vector<int>& features_of(const Polygon& polygon) const {
+  [[nodiscard]] std::span<const int> features_of(const Polygon& polygon) const {
     return owners_[index(polygon.source)];
   }
   /// The smallest feature that lists the polygon and has a role, or -1.
@@ -109,7 +95,7 @@ class Annotator {
   std::vector<std::vector<std::string>> groups_;
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
-  std::vector<std::vector<int>> owners_;
+  PolygonOwners owners_;
   /// The surface of every opening that has one.
   std::map<int, int> opening_surfaces_;
   LabelledBuilding result_;
@@ -130,7 +116,7 @@ LabelledBuilding Annotator::run() {
 void Annotator::find_roles() {
   roles_.resize(segmentation_.features.size());
   for (const Verdict& verdict : interpretation_.verdicts)
-    roles_[verdict.feature.index()] = role_of(base_.pack(), verdict.label);
+    roles_[verdict.feature.index()] = rules::role_of(base_.pack(), verdict.label);
   groups_ = groups_by_feature(interpretation_);
 }
 
@@ -149,13 +135,22 @@ int Annotator::find_labelled(const Polygon& polygon) const {
   return -1;
 }
 
+Annotator::NamedSurfaces Annotator::named_surfaces() const {
+  NamedSurfaces named{options_.surfaces, {}};
+  SurfaceTable with;
+  const SurfaceTable* table = &surfaces_;
+  if (named.verdicts.empty()) {
+    with = with_parts(surfaces_, building_, segmentation_, interpretation_, base_);
+    table = &with;
+    named.verdicts = interpret_surfaces(base_, with);
+  }
+  if (options_.has_reasons) named.reasons = surface_reasons(base_, *table, named.verdicts);
+  return named;
+}
+
 void Annotator::add_surfaces() {
-  const SurfaceTable table =
-      with_parts(surfaces_, building_, segmentation_, interpretation_, base_);
-  const auto verdicts = interpret_surfaces(base_, table);
-  std::vector<std::string> reasons;
-  if (options_.has_reasons) reasons = surface_reasons(base_, table, verdicts);
-  result_.surface_of_polygon.assign(owners_.size(), -1);
+  auto [verdicts, reasons] = named_surfaces();
+  result_.surface_of_polygon.assign(owners_.polygons(), -1);
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
     const auto next = static_cast<int>(result_.surfaces.size());
@@ -163,7 +158,7 @@ void Annotator::add_surfaces() {
     const int feature = find_labelled(polygon);
     if (feature < 0 || !roles_[index(feature)].is_opening()) {
       surface = next;
-      result_.surfaces.push_back({verdicts[row].type, -1, {}});
+      result_.surfaces.push_back({std::move(verdicts[row].type), -1, {}});
       if (options_.has_reasons)
         result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons[row]));
       continue;

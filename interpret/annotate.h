@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/rule_base.h"
+#include "interpret/surfaces.h"
 #include "kernel/model/building.h"
 #include "kernel/model/feature_graph.h"
 #include "kernel/model/feature_table.h"
@@ -10,6 +11,7 @@
 #include "kernel/model/surface_table.h"
 
 #include <string>
+#include <vector>
 
 namespace oriel {
 
@@ -23,6 +25,8 @@ struct AnnotateOptions {
   /// Every surface and installation gets its reason in one line, oriel_why: reason() of its
   /// feature, or that of surface_reasons().
   bool has_reasons = false;
+  /// What interpret_surfaces says of the rows_to_name(), if it is known already; else empty.
+  std::vector<SurfaceVerdict> surfaces{};
 };
 
 /// What is to be written about a building whose features were labelled (docs/formats.md).

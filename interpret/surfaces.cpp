@@ -3,10 +3,12 @@
 #include "interpret/detail/evaluator.h"
 #include "interpret/detail/facts.h"
 #include "interpret/detail/names.h"
+#include "interpret/detail/role.h"
 #include "interpret/detail/surface_rules.h"
 #include "kernel/model/polygon_owners.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -33,6 +35,12 @@ const std::string* top_of(const Pack& pack, const std::string& label) {
   return nullptr;
 }
 
+std::size_t polygon_numbers(const Building& building) {
+  int count = 0;
+  for (const Polygon& polygon : building.polygons) count = std::max(count, polygon.source + 1);
+  return static_cast<std::size_t>(count);
+}
+
 std::string top_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
   if (const std::string* top = top_of(pack, table.text(row, "part"))) return *top;
   const auto host = table.number(row, "host_inclination");
@@ -55,30 +63,81 @@ std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::si
   }
 }
 
-/// For each row the first rule that holds, or -1.
-std::vector<int> deciding_rules(const SurfaceRules& surfaces, const SurfaceTable& table) {
-  const rules::Facts facts(surfaces.pack, table);
-  rules::Evaluator evaluator(surfaces.pack, facts);
-  std::vector<int> deciding(table.rows(), -1);
+/// For each of the rows, in their order, the first rule that holds, or -1.
+class Decider {
+ public:
+  Decider(const SurfaceRules& surfaces, const SurfaceTable& table)
+      : surfaces_(surfaces), facts_(surfaces.pack, table), evaluator_(surfaces.pack, facts_) {}
+
+  [[nodiscard]] std::vector<int> decide(std::span<const int> rows);
+  /// Those of the rows of decide() for which a value that is missing may matter.
+  [[nodiscard]] const std::vector<int>& undecided() const { return undecided_; }
+
+ private:
+  void decide_block(std::span<const int> rows, std::span<int> deciding);
+
+  const SurfaceRules& surfaces_;
+  rules::Facts facts_;
+  rules::Evaluator evaluator_;
+  std::vector<int> undecided_;
+};
+
+std::vector<int> Decider::decide(std::span<const int> rows) {
+  undecided_.clear();
+  std::vector<int> deciding(rows.size(), -1);
+  for (std::size_t begin = 0; begin < rows.size(); begin += kBlock) {
+    const std::size_t size = std::min(kBlock, rows.size() - begin);
+    decide_block(rows.subspan(begin, size), std::span(deciding).subspan(begin, size));
+  }
+  return deciding;
+}
+
+void Decider::decide_block(std::span<const int> rows, std::span<int> deciding) {
   std::array<Truth, kBlock> open, holds, answer;
-  for (std::size_t begin = 0; begin < table.rows(); begin += kBlock) {
-    Frame frame;
-    frame.size = std::min(kBlock, table.rows() - begin);
-    frame.rows[0] = facts.row_numbers.data() + begin;
-    std::fill_n(open.begin(), frame.size, Truth::yes);
-    for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
-      holds = open;
-      frame.needed = holds.data();
-      for (const rules::ExprId id : surfaces.rules[r].when) {
-        evaluator.truths(id, frame, std::span(answer).first(frame.size));
-        for (std::size_t i = 0; i < frame.size; ++i) holds[i] = std::min(holds[i], answer[i]);
-      }
-      for (std::size_t i = 0; i < frame.size; ++i) {
-        if (open[i] != Truth::yes || holds[i] != Truth::yes) continue;
-        deciding[begin + i] = static_cast<int>(r);
-        open[i] = Truth::no;
-      }
+  std::array<bool, kBlock> is_doubtful;
+  Frame frame;
+  frame.size = rows.size();
+  frame.rows[0] = rows.data();
+  std::fill_n(open.begin(), frame.size, Truth::yes);
+  std::fill_n(is_doubtful.begin(), frame.size, false);
+  for (std::size_t r = 0; r < surfaces_.rules.size(); ++r) {
+    holds = open;
+    frame.needed = holds.data();
+    for (const rules::ExprId id : surfaces_.rules[r].when) {
+      evaluator_.truths(id, frame, std::span(answer).first(frame.size));
+      for (std::size_t i = 0; i < frame.size; ++i) holds[i] = std::min(holds[i], answer[i]);
     }
+    for (std::size_t i = 0; i < frame.size; ++i) {
+      if (open[i] != Truth::yes) continue;
+      if (holds[i] == Truth::unknown) is_doubtful[i] = true;
+      if (holds[i] != Truth::yes) continue;
+      deciding[i] = static_cast<int>(r);
+      open[i] = Truth::no;
+    }
+  }
+  for (std::size_t i = 0; i < frame.size; ++i)
+    if (is_doubtful[i]) undecided_.push_back(rows[i]);
+}
+
+std::vector<int> all_rows(const SurfaceTable& table) {
+  std::vector<int> rows(table.rows());
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+/// By row; of rows that are not asked for -1. The order of the three-valued logic sees to it that
+/// what is decided while values are missing stays so when they are filled in.
+std::vector<int> decide_with_more(const SurfaceRules& surfaces, const SurfaceTable& table,
+                                  std::span<const int> rows, const MoreAttributes& more) {
+  Decider decider(surfaces, table);
+  std::vector<int> deciding(table.rows(), -1);
+  std::vector<int> open(rows.begin(), rows.end());
+  while (!open.empty()) {
+    const auto found = decider.decide(open);
+    for (std::size_t i = 0; i < open.size(); ++i)
+      deciding[static_cast<std::size_t>(open[i])] = found[i];
+    open = decider.undecided();
+    if (!open.empty() && !more(open)) break;
   }
   return deciding;
 }
@@ -136,24 +195,26 @@ std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, 
   return text;
 }
 
-/// By `deciding` the rules that decided, row by row.
+/// By `deciding`, the rule that decided.
+SurfaceVerdict verdict_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+                          int deciding) {
+  if (deciding < 0) return {type_by_default(pack, table, row), ""};
+  const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding)];
+  return {rule.type, rule.id};
+}
+
+/// The same row by row.
 std::vector<SurfaceVerdict> verdicts_of(const Pack& pack, const SurfaceTable& table,
                                         const std::vector<int>& deciding) {
   std::vector<SurfaceVerdict> verdicts;
   verdicts.reserve(table.rows());
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (deciding[row] < 0) {
-      verdicts.push_back({type_by_default(pack, table, row), ""});
-      continue;
-    }
-    const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding[row])];
-    verdicts.push_back({rule.type, rule.id});
-  }
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    verdicts.push_back(verdict_of(pack, table, row, deciding[row]));
   return verdicts;
 }
 
 std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
-  if (pack.surfaces) return deciding_rules(*pack.surfaces, table);
+  if (pack.surfaces) return Decider(*pack.surfaces, table).decide(all_rows(table));
   return std::vector<int>(table.rows(), -1);
 }
 
@@ -190,21 +251,52 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
                         const Segmentation& segmentation, const Interpretation& interpretation,
                         const RuleBase& base) {
   if (interpretation.verdicts.empty()) return table;
-  std::size_t polygons = 0;
-  for (const Polygon& polygon : building.polygons)
-    polygons = std::max(polygons, static_cast<std::size_t>(polygon.source) + 1);
-  const auto owners = polygon_owners(segmentation, polygons);
+  const auto owners = polygon_owners(segmentation, polygon_numbers(building));
+  std::vector<bool> is_emitted;
+  for (const Verdict& verdict : interpretation.verdicts)
+    is_emitted.push_back(top_of(base.pack(), verdict.label) != nullptr);
   for (std::size_t row = 0; row < building.polygons.size(); ++row) {
     const std::string* part = nullptr;
     for (const int f : owners[static_cast<std::size_t>(building.polygons[row].source)]) {
       const std::string& label = interpretation.verdicts[static_cast<std::size_t>(f)].label;
-      const bool is_emitted = top_of(base.pack(), label) != nullptr;
-      if (!label.empty() && (part == nullptr || is_emitted)) part = &label;
-      if (is_emitted) break;
+      const bool is_written = is_emitted[static_cast<std::size_t>(f)];
+      if (!label.empty() && (part == nullptr || is_written)) part = &label;
+      if (is_written) break;
     }
     if (part != nullptr) table.set(row, "part", *part);
   }
   return table;
+}
+
+std::vector<int> rows_to_name(const Building& building, const Segmentation& segmentation,
+                              const Interpretation& interpretation, const RuleBase& base) {
+  const auto owners = polygon_owners(segmentation, polygon_numbers(building));
+  std::vector<rules::Role> roles;
+  for (const Verdict& verdict : interpretation.verdicts)
+    roles.push_back(rules::role_of(base.pack(), verdict.label));
+  std::vector<int> rows;
+  for (std::size_t row = 0; row < building.polygons.size(); ++row) {
+    const auto features = owners[static_cast<std::size_t>(building.polygons[row].source)];
+    const auto written = std::ranges::find_if(
+        features, [&](int f) { return roles[static_cast<std::size_t>(f)].emission != nullptr; });
+    if (written == features.end() || !roles[static_cast<std::size_t>(*written)].is_opening())
+      rows.push_back(static_cast<int>(row));
+  }
+  return rows;
+}
+
+std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table,
+                                               std::span<const int> rows,
+                                               const MoreAttributes& more) {
+  const Pack& pack = base.pack();
+  std::vector<int> deciding(table.rows(), -1);
+  if (pack.surfaces) deciding = decide_with_more(*pack.surfaces, table, rows, more);
+  std::vector<SurfaceVerdict> verdicts(table.rows());
+  for (const int r : rows) {
+    const auto row = static_cast<std::size_t>(r);
+    verdicts[row] = verdict_of(pack, table, row, deciding[row]);
+  }
+  return verdicts;
 }
 
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table) {

@@ -7,6 +7,8 @@
 #include "kernel/model/surface_table.h"
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,19 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
 /// what looks down is GroundSurface within `ground_reach` of the lowest point, else
 /// OuterCeilingSurface.
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table);
+
+/// The rows of the polygons that annotate() names by interpret_surfaces: those in no opening.
+std::vector<int> rows_to_name(const Building& building, const Segmentation& segmentation,
+                              const Interpretation& interpretation, const RuleBase& base);
+
+/// Fills further attributes of some rows of a table; false if none are left to be filled.
+using MoreAttributes = std::function<bool(std::span<const int> rows)>;
+
+/// The same of some rows of a table that is being filled: `more` is asked for numbers of those rows
+/// that cannot be named without them. The verdicts of other rows are empty.
+std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table,
+                                               std::span<const int> rows,
+                                               const MoreAttributes& more);
 
 /// Why a surface is what it is, for a reader at a terminal: its attributes, then every entry of
 /// `surfaces:` up to the one that decided with what came of its conditions and where they stand.

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@ namespace {
 
 using detail::LineCrossing;
 using detail::SurfaceFace;
+using detail::SurfaceFaces;
 
 /// Within this of level a normal has no azimuth, as for features.
 constexpr double kLevel_deg = 0.5;
@@ -64,49 +66,56 @@ const SurfaceColumns& surface_columns() {
   return columns;
 }
 
-class Surveyor {
- public:
-  Surveyor(const std::vector<SurfaceFace>& faces, const Tolerances& tolerances)
-      : faces_(faces),
-        tolerances_(tolerances),
-        lines_(faces),
-        facings_(faces.size()),
-        table_(faces.size()) {
-    for (const SurfaceFace& face : faces) box_.grow(face.box);
-  }
+}  // namespace
 
-  /// Sides that are known.
-  void set_facing(std::size_t row, Facing facing) { facings_[row] = facing; }
-  /// Judges those of the others.
+struct SurfaceSurvey::State {
+  template <class Figures>
+  State(const Figures& figures, const Tolerances& given);
+
+  /// Judges the sides of the faces that are not known.
   void judge_facing(const std::vector<bool>& is_known);
-  SurfaceTable survey();
-
- private:
-  [[nodiscard]] Vec3 outward(std::size_t row) const {
-    return facings_[row].is_turned ? -faces_[row].normal : faces_[row].normal;
-  }
-  [[nodiscard]] std::optional<bool> looks_up_by_position(const SurfaceFace& face) const;
-  void measure(std::size_t row);
+  /// What is known of a face once its outer side is.
+  void describe(std::size_t row);
+  void measure_sides(std::size_t row);
   void measure_gaps(std::size_t row);
   void measure_surroundings(std::size_t row);
-  [[nodiscard]] bool is_below(const std::optional<LineCrossing>& above, Vec3 point) const;
 
-  const std::vector<SurfaceFace>& faces_;
-  const Tolerances& tolerances_;
-  detail::VerticalLines lines_;
-  std::vector<Facing> facings_;
-  Box box_;
-  SurfaceTable table_;
+  [[nodiscard]] const detail::VerticalLines& lines();
+  [[nodiscard]] Vec3 outward(std::size_t row) const {
+    return facings[row].is_turned ? -faces[row].normal : faces[row].normal;
+  }
+  [[nodiscard]] std::optional<bool> looks_up_by_position(const SurfaceFace& face);
+  [[nodiscard]] bool is_below(const std::optional<LineCrossing>& above, Vec3 point);
+
+  Tolerances tolerances;
+  SurfaceFaces faces;
+  /// Once something is asked of them.
+  std::optional<detail::VerticalLines> vertical_lines;
+  std::vector<Facing> facings;
+  Box box;
+  SurfaceTable table;
 };
+
+template <class Figures>
+SurfaceSurvey::State::State(const Figures& figures, const Tolerances& given)
+    : tolerances(given), faces(figures), facings(faces.size()), table(faces.size()) {
+  for (const SurfaceFace& face : faces) box.grow(face.box);
+}
+
+const detail::VerticalLines& SurfaceSurvey::State::lines() {
+  if (!vertical_lines) vertical_lines.emplace(faces);
+  return *vertical_lines;
+}
 
 /// The topmost surface looks up and the lowest one down. Between them each surface that a line
 /// meets changes between air and material, if it meets an even number of them in all; else
 /// something is missing or overhangs, and the line says nothing.
-std::optional<bool> Surveyor::looks_up_by_position(const SurfaceFace& face) const {
+std::optional<bool> SurfaceSurvey::State::looks_up_by_position(const SurfaceFace& face) {
   std::ptrdiff_t above = 0, below = 0;
-  for (const LineCrossing& c : lines_.at(face.middle)) {
-    if (c.z > face.middle.z + tolerances_.weld_m) ++above;
-    if (c.z < face.middle.z - tolerances_.weld_m) ++below;
+  const Vec3 middle = face.middle();
+  for (const LineCrossing& c : lines().at(middle)) {
+    if (c.z > middle.z + tolerances.weld_m) ++above;
+    if (c.z < middle.z - tolerances.weld_m) ++below;
   }
   if (above == 0 && below == 0) return std::nullopt;
   if (above == 0 || below == 0) return above == 0;
@@ -114,11 +123,11 @@ std::optional<bool> Surveyor::looks_up_by_position(const SurfaceFace& face) cons
   return above % 2 == 0;
 }
 
-void Surveyor::judge_facing(const std::vector<bool>& is_known) {
+void SurfaceSurvey::State::judge_facing(const std::vector<bool>& is_known) {
   double agree_m2 = 0, all_m2 = 0;
-  std::vector<bool> is_told(faces_.size(), false), is_against(faces_.size(), false);
-  for (std::size_t row = 0; row < faces_.size(); ++row) {
-    const SurfaceFace& face = faces_[row];
+  std::vector<bool> is_told(faces.size(), false), is_against(faces.size(), false);
+  for (std::size_t row = 0; row < faces.size(); ++row) {
+    const SurfaceFace& face = faces[row];
     if (is_known[row] || face.is_steep()) continue;
     const auto looks_up = looks_up_by_position(face);
     if (!looks_up) continue;
@@ -129,69 +138,67 @@ void Surveyor::judge_facing(const std::vector<bool>& is_known) {
   }
   const bool is_as_given = agree_m2 >= kMajority * all_m2;
   const bool is_all_turned = !is_as_given && agree_m2 <= (1 - kMajority) * all_m2;
-  for (std::size_t row = 0; row < faces_.size(); ++row) {
+  for (std::size_t row = 0; row < faces.size(); ++row) {
     if (is_known[row]) continue;
     if (is_as_given)
-      facings_[row] = {false, "input"};
+      facings[row] = {false, "input"};
     else if (is_all_turned)
-      facings_[row] = {true, "position"};
+      facings[row] = {true, "position"};
     else if (!is_told[row])
-      facings_[row] = {false, "input"};
+      facings[row] = {false, "input"};
     else
-      facings_[row] = {is_against[row], "position"};
+      facings[row] = {is_against[row], "position"};
   }
 }
 
-SurfaceTable Surveyor::survey() {
-  for (std::size_t row = 0; row < faces_.size(); ++row) measure(row);
-  return std::move(table_);
-}
-
-void Surveyor::measure(std::size_t row) {
-  const SurfaceFace& face = faces_[row];
-  table_.set(row, surface_columns().area, face.area_m2);
-  table_.set(row, surface_columns().facing, std::string(facings_[row].source));
+void SurfaceSurvey::State::describe(std::size_t row) {
+  const SurfaceFace& face = faces[row];
+  table.set(row, surface_columns().area, face.area_m2);
+  table.set(row, surface_columns().facing, std::string(facings[row].source));
   if (!face.box.is_empty()) {
-    table_.set(row, surface_columns().height, face.box.min.z - box_.min.z);
-    table_.set(row, surface_columns().top, face.box.max.z - box_.min.z);
-    table_.set(row, surface_columns().below_ridge, box_.max.z - face.box.max.z);
+    table.set(row, surface_columns().height, face.box.min.z - box.min.z);
+    table.set(row, surface_columns().top, face.box.max.z - box.min.z);
+    table.set(row, surface_columns().below_ridge, box.max.z - face.box.max.z);
   }
   if (face.normal == Vec3{}) return;
   const Vec3 normal = outward(row);
   const double inclination = detail::inclination_deg(normal);
-  table_.set(row, surface_columns().inclination, inclination);
-  if (std::min(inclination, 180 - inclination) > kLevel_deg) {
-    const double azimuth = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi;
-    table_.set(row, surface_columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
-  }
-  const detail::Sides sides = detail::sides_of(face);
-  table_.set(row, surface_columns().a, sides.a_m);
-  table_.set(row, surface_columns().b, sides.b_m);
-  measure_gaps(row);
-  if (!face.is_steep()) measure_surroundings(row);
+  table.set(row, surface_columns().inclination, inclination);
+  if (std::min(inclination, 180 - inclination) <= kLevel_deg) return;
+  const double azimuth = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi;
+  table.set(row, surface_columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
-void Surveyor::measure_gaps(std::size_t row) {
-  const Vec3 middle = faces_[row].middle;
-  const double weld_m = tolerances_.weld_m;
-  if (const auto above = lines_.next_above(middle, middle.z + weld_m))
-    table_.set(row, surface_columns().gap_above, above->z - middle.z);
-  if (const auto below = lines_.next_below(middle, std::nextafter(middle.z - weld_m, box_.min.z)))
-    table_.set(row, surface_columns().gap_below, middle.z - below->z);
+void SurfaceSurvey::State::measure_sides(std::size_t row) {
+  if (faces[row].normal == Vec3{}) return;
+  const detail::Sides sides = detail::sides_of(faces[row]);
+  table.set(row, surface_columns().a, sides.a_m);
+  table.set(row, surface_columns().b, sides.b_m);
+}
+
+void SurfaceSurvey::State::measure_gaps(std::size_t row) {
+  if (faces[row].normal == Vec3{}) return;
+  const Vec3 middle = faces[row].middle();
+  const double weld_m = tolerances.weld_m;
+  if (const auto above = lines().next_above(middle, middle.z + weld_m))
+    table.set(row, surface_columns().gap_above, above->z - middle.z);
+  if (const auto below = lines().next_below(middle, std::nextafter(middle.z - weld_m, box.min.z)))
+    table.set(row, surface_columns().gap_below, middle.z - below->z);
 }
 
 /// Whether there is material at a point, of whose vertical line `above` is the next crossing: if
 /// one leaves it there through a surface that looks up, and entered it through one that looks down.
 /// An overhang of one sheet makes no material of the air below it.
-bool Surveyor::is_below(const std::optional<LineCrossing>& above, Vec3 point) const {
+bool SurfaceSurvey::State::is_below(const std::optional<LineCrossing>& above, Vec3 point) {
   if (!above || outward(at(above->face)).z <= 0) return false;
-  const auto below = lines_.next_below(point, point.z);
+  const auto below = lines().next_below(point, point.z);
   return below && outward(at(below->face)).z < 0;
 }
 
-void Surveyor::measure_surroundings(std::size_t row) {
-  const SurfaceFace& face = faces_[row];
-  const detail::Outline& outline = face.outlines[0];
+void SurfaceSurvey::State::measure_surroundings(std::size_t row) {
+  const SurfaceFace& face = faces[row];
+  if (face.is_steep()) return;
+  const detail::OutlineView outline = face.outlines[0];
   double all_m = 0, up_m = 0, down_m = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec3 from = outline[i], edge = outline[(i + 1) % outline.size()] - from;
@@ -202,20 +209,22 @@ void Surveyor::measure_surroundings(std::size_t row) {
     for (const double t : kProbes) {
       const Vec3 beyond = from + t * edge + kProbe_m * out;
       const Vec3 low = beyond - Vec3{0, 0, kProbe_m}, high = beyond + Vec3{0, 0, kProbe_m};
-      const auto above = lines_.next_above(low, low.z);
+      const auto above = lines().next_above(low, low.z);
       const bool is_down = is_below(above, low);
       // Mostly the line meets nothing in between.
       const bool is_same = !above || above->z > high.z;
-      const bool is_up = is_same ? is_down : is_below(lines_.next_above(high, high.z), high);
+      const bool is_up = is_same ? is_down : is_below(lines().next_above(high, high.z), high);
       all_m += share_m;
       if (is_up) up_m += share_m;
       if (is_down) down_m += share_m;
     }
   }
   if (!(all_m > 0)) return;
-  table_.set(row, surface_columns().wall_up, up_m / all_m);
-  table_.set(row, surface_columns().wall_down, down_m / all_m);
+  table.set(row, surface_columns().wall_up, up_m / all_m);
+  table.set(row, surface_columns().wall_down, down_m / all_m);
 }
+
+namespace {
 
 /// The rows of polygons by their numbers.
 std::vector<int> rows_by_source(const Building& building) {
@@ -229,16 +238,16 @@ std::vector<int> rows_by_source(const Building& building) {
   return rows;
 }
 
-/// A polygon looks where the solid's facet looks that it lies in.
-std::vector<bool> take_facing(const Solid& solid, const std::vector<SurfaceFace>& faces,
-                              const std::vector<int>& rows, Surveyor& surveyor) {
+/// A polygon looks where the solid's facet looks that it lies in. True for those that lie in one.
+std::vector<bool> take_facing(const Solid& solid, const SurfaceFaces& faces,
+                              const std::vector<int>& rows, std::vector<Facing>& facings) {
   std::vector<bool> is_known(faces.size(), false);
   for (const Facet& facet : solid.facets) {
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     for (const int source : facet.polygons) {
       if (source < 0 || at(source) >= rows.size() || rows[at(source)] < 0) continue;
       const std::size_t row = at(rows[at(source)]);
-      surveyor.set_facing(row, {dot(faces[row].normal, normal) < 0, "solid"});
+      facings[row] = {dot(faces[row].normal, normal) < 0, "solid"};
       is_known[row] = true;
     }
   }
@@ -260,32 +269,62 @@ void add_features(const SurfaceContext& context, const Building& building, std::
   }
 }
 
+SurfaceTable fully_measured(SurfaceSurvey survey) {
+  std::vector<int> rows(survey.table().rows());
+  std::iota(rows.begin(), rows.end(), 0);
+  for (const SurfaceMeasure what : kSurfaceMeasures) survey.measure(what, rows);
+  return std::move(survey.table());
+}
+
 }  // namespace
+
+SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& tolerances,
+                             const SurfaceContext& context)
+    : state_(std::make_unique<State>(building, tolerances)) {
+  const auto rows = rows_by_source(building);
+  std::vector<bool> is_known(state_->faces.size(), false);
+  if (context.solid != nullptr)
+    is_known = take_facing(*context.solid, state_->faces, rows, state_->facings);
+  state_->judge_facing(is_known);
+  SurfaceTable& table = state_->table;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    state_->describe(row);
+    table.set(row, surface_columns().synthetic, 0.0);
+  }
+  if (context.segmentation != nullptr && context.features != nullptr)
+    add_features(context, building, rows.size(), table);
+}
+
+SurfaceSurvey::SurfaceSurvey(const Solid& solid, const Tolerances& tolerances)
+    : state_(std::make_unique<State>(solid, tolerances)) {
+  std::ranges::fill(state_->facings, Facing{false, "solid"});
+  SurfaceTable& table = state_->table;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    state_->describe(row);
+    table.set(row, surface_columns().synthetic, solid.facets[row].polygons.empty() ? 1.0 : 0.0);
+  }
+}
+
+SurfaceSurvey::SurfaceSurvey(SurfaceSurvey&&) noexcept = default;
+SurfaceSurvey::~SurfaceSurvey() = default;
+
+SurfaceTable& SurfaceSurvey::table() { return state_->table; }
+
+void SurfaceSurvey::measure(SurfaceMeasure what, std::span<const int> rows) {
+  for (const int row : rows) {
+    if (what == SurfaceMeasure::sides) state_->measure_sides(at(row));
+    if (what == SurfaceMeasure::gaps) state_->measure_gaps(at(row));
+    if (what == SurfaceMeasure::surroundings) state_->measure_surroundings(at(row));
+  }
+}
 
 SurfaceTable describe_surfaces(const Building& building, const Tolerances& tolerances,
                                const SurfaceContext& context) {
-  const auto faces = detail::faces_of(building);
-  const auto rows = rows_by_source(building);
-  Surveyor surveyor(faces, tolerances);
-  std::vector<bool> is_known(faces.size(), false);
-  if (context.solid != nullptr) is_known = take_facing(*context.solid, faces, rows, surveyor);
-  surveyor.judge_facing(is_known);
-  SurfaceTable table = surveyor.survey();
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    table.set(row, surface_columns().synthetic, 0.0);
-  if (context.segmentation != nullptr && context.features != nullptr)
-    add_features(context, building, rows.size(), table);
-  return table;
+  return fully_measured(SurfaceSurvey(building, tolerances, context));
 }
 
 SurfaceTable describe_facets(const Solid& solid, const Tolerances& tolerances) {
-  const auto faces = detail::faces_of(solid);
-  Surveyor surveyor(faces, tolerances);
-  for (std::size_t row = 0; row < faces.size(); ++row) surveyor.set_facing(row, {false, "solid"});
-  SurfaceTable table = surveyor.survey();
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    table.set(row, surface_columns().synthetic, solid.facets[row].polygons.empty() ? 1.0 : 0.0);
-  return table;
+  return fully_measured(SurfaceSurvey(solid, tolerances));
 }
 
 }  // namespace oriel

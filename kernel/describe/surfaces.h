@@ -7,6 +7,10 @@
 #include "kernel/model/surface_table.h"
 #include "kernel/model/tolerances.h"
 
+#include <array>
+#include <memory>
+#include <span>
+
 namespace oriel {
 
 /// What is known of a building besides its polygons; each may be null.
@@ -18,20 +22,50 @@ struct SurfaceContext {
   const FeatureTable* features = nullptr;
 };
 
-/// Fills every attribute of surface_schema() that can be told without rules (all but `part`) for
-/// every polygon of the building, whether it is closed or not: row = position in
-/// Building::polygons.
-///
-/// The outer side of a polygon is that of the solid's facet it lies in. Without one it is told from
-/// what lies straight above and below: the topmost surface looks up, the lowest one down, and
-/// between them air and material take turns. If the polygons of which that can be said lie as their
-/// corners say with three quarters of their area, all are taken as they are; if three quarters lie
-/// the other way round, all are turned; else each as it is said of it, the others as they are.
-/// docs/describe.md#surfaces says how the rest is measured.
+/// What is costly to measure of a surface, the cheaper first.
+enum class SurfaceMeasure {
+  sides,        ///< a, b
+  gaps,         ///< gap_above, gap_below
+  surroundings  ///< wall_up, wall_down
+};
+inline constexpr std::array kSurfaceMeasures = {SurfaceMeasure::sides, SurfaceMeasure::gaps,
+                                                SurfaceMeasure::surroundings};
+
+/// Describes the surfaces of one building as far as it is asked to. What is measured of a surface
+/// does not depend on what else is.
+class SurfaceSurvey {
+ public:
+  /// Fills every attribute of surface_schema() that can be told without rules (all but `part`) and
+  /// is no SurfaceMeasure, for every polygon of the building, whether it is closed or not: row =
+  /// position in Building::polygons.
+  ///
+  /// The outer side of a polygon is that of the solid's facet it lies in. Without one it is told
+  /// from what lies straight above and below: the topmost surface looks up, the lowest one down,
+  /// and between them air and material take turns. If the polygons of which that can be said lie as
+  /// their corners say with three quarters of their area, all are taken as they are; if three
+  /// quarters lie the other way round, all are turned; else each as it is said of it, the others as
+  /// they are. docs/describe.md#surfaces says how the rest is measured.
+  explicit SurfaceSurvey(const Building& building, const Tolerances& tolerances = {},
+                         const SurfaceContext& context = {});
+  /// The same for the facets of a solid: row = FacetId. A facet without input polygons is
+  /// synthetic.
+  explicit SurfaceSurvey(const Solid& solid, const Tolerances& tolerances = {});
+  SurfaceSurvey(SurfaceSurvey&&) noexcept;
+  ~SurfaceSurvey();
+
+  /// Fills the attributes of `what` in `rows`, where they can be told.
+  void measure(SurfaceMeasure what, std::span<const int> rows);
+  /// What was filled so far. Attributes may be set that stand nowhere yet (`part`).
+  [[nodiscard]] SurfaceTable& table();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// SurfaceSurvey with everything measured.
 SurfaceTable describe_surfaces(const Building& building, const Tolerances& tolerances = {},
                                const SurfaceContext& context = {});
-
-/// The same for the facets of a solid: row = FacetId. A facet without input polygons is synthetic.
 SurfaceTable describe_facets(const Solid& solid, const Tolerances& tolerances = {});
 
 }  // namespace oriel

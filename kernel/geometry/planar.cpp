@@ -26,9 +26,9 @@ Axes axes_for(Vec3 normal) {
   return {&Vec3::y, &Vec3::z, &Vec3::x};
 }
 
-template <class Visit>
-void for_each_edge(std::span<const Outline> outlines, Visit visit) {
-  for (const Outline& outline : outlines)
+template <class Points, class Visit>
+void for_each_edge(std::span<const Points> outlines, Visit visit) {
+  for (const Points& outline : outlines)
     for (std::size_t i = 0; i < outline.size(); ++i)
       visit(outline[i], outline[i + 1 < outline.size() ? i + 1 : 0]);
 }
@@ -37,7 +37,8 @@ void for_each_edge(std::span<const Outline> outlines, Visit visit) {
 using FewNumbers = boost::container::small_vector<double, 32>;
 
 /// Where the line v = level cuts the outlines, sorted along u.
-FewNumbers crossings(std::span<const Outline> outlines, const Axes& axes, double level) {
+template <class Points>
+FewNumbers crossings(std::span<const Points> outlines, const Axes& axes, double level) {
   FewNumbers cuts;
   for_each_edge(outlines, [&](Vec3 p, Vec3 q) {
     if ((p.*axes.v > level) == (q.*axes.v > level)) return;
@@ -49,7 +50,8 @@ FewNumbers crossings(std::span<const Outline> outlines, const Axes& axes, double
 }
 
 /// A point in the middle of the longest chord of the figure at a level; nothing if there is none.
-std::optional<Vec3> point_at(std::span<const Outline> outlines, Vec3 normal, const Axes& axes,
+template <class Points>
+std::optional<Vec3> point_at(std::span<const Points> outlines, Vec3 normal, const Axes& axes,
                              double level) {
   const FewNumbers cuts = crossings(outlines, axes, level);
   double longest = kThin_m;
@@ -83,6 +85,26 @@ std::vector<std::size_t> by_falling_gap(const FewNumbers& levels) {
   std::ranges::stable_sort(order, std::greater{},
                            [&](std::size_t i) { return gap_above(levels, i); });
   return order;
+}
+
+template <class Points>
+std::optional<Vec3> point_inside_of(std::span<const Points> outlines, Vec3 normal) {
+  const Axes axes = axes_for(normal);
+  FewNumbers levels;
+  for (const Points& outline : outlines)
+    for (const Vec3 p : outline) levels.push_back(p.*axes.v);
+  std::ranges::sort(levels);
+  // The middle of the tallest gap between vertices: the line there meets no vertex. Where outlines
+  // run over each other there is nothing inside, and the next gap is tried.
+  std::size_t tallest = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i] - levels[i - 1] > gap_above(levels, tallest)) tallest = i - 1;
+  if (gap_above(levels, tallest) <= 0) return std::nullopt;
+  if (const auto point = point_at(outlines, normal, axes, middle_above(levels, tallest)))
+    return point;
+  for (const std::size_t i : by_falling_gap(levels))
+    if (const auto point = point_at(outlines, normal, axes, middle_above(levels, i))) return point;
+  return std::nullopt;
 }
 
 /// The signed solid angle of a triangle seen from the origin, after Van Oosterom & Strackee 1983.
@@ -140,22 +162,11 @@ double distance_to_segment(Vec3 point, Vec3 from, Vec3 to) {
 }
 
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal) {
-  const Axes axes = axes_for(normal);
-  FewNumbers levels;
-  for (const Outline& outline : outlines)
-    for (const Vec3 p : outline) levels.push_back(p.*axes.v);
-  std::ranges::sort(levels);
-  // The middle of the tallest gap between vertices: the line there meets no vertex. Where outlines
-  // run over each other there is nothing inside, and the next gap is tried.
-  std::size_t tallest = 0;
-  for (std::size_t i = 1; i < levels.size(); ++i)
-    if (levels[i] - levels[i - 1] > gap_above(levels, tallest)) tallest = i - 1;
-  if (gap_above(levels, tallest) <= 0) return std::nullopt;
-  if (const auto point = point_at(outlines, normal, axes, middle_above(levels, tallest)))
-    return point;
-  for (const std::size_t i : by_falling_gap(levels))
-    if (const auto point = point_at(outlines, normal, axes, middle_above(levels, i))) return point;
-  return std::nullopt;
+  return point_inside_of(outlines, normal);
+}
+
+std::optional<Vec3> interior_point_of(std::span<const OutlineView> outlines, Vec3 normal) {
+  return point_inside_of(outlines, normal);
 }
 
 double winding_part(std::span<const Outline> outlines, Vec3 eye) {

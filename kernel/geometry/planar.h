@@ -10,6 +10,8 @@
 namespace oriel::detail {
 
 using Outline = std::vector<Vec3>;
+/// The points of an outline that stand elsewhere.
+using OutlineView = std::span<const Vec3>;
 
 /// A figure thinner than this (its area below kThin_m times its perimeter) may have an area of
 /// either sign by rounding.
@@ -38,6 +40,7 @@ double distance_to_segment(Vec3 point, Vec3 from, Vec3 to);
 /// tallest gap between its vertices allows. Outlines may run over each other. Nothing if the figure
 /// has no area, or is thinner than kThin_m.
 std::optional<Vec3> interior_point(std::span<const Outline> outlines, Vec3 normal);
+std::optional<Vec3> interior_point_of(std::span<const OutlineView> outlines, Vec3 normal);
 
 /// The solid angle under which the figure is seen from `eye`, as a part of the full sphere:
 /// positive where its outer outline runs clockwise for the eye, that is, from behind its normal.

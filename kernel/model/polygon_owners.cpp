@@ -4,6 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace oriel {
 
@@ -30,8 +31,7 @@ std::vector<double> sizes_of(const std::vector<Feature>& features) {
 
 }  // namespace
 
-std::vector<std::vector<int>> polygon_owners(const Segmentation& segmentation,
-                                             std::size_t polygons) {
+PolygonOwners polygon_owners(const Segmentation& segmentation, std::size_t polygons) {
   const auto& features = segmentation.features;
   const auto size_m3 = sizes_of(features);
   std::vector<int> order(features.size());
@@ -39,15 +39,19 @@ std::vector<std::vector<int>> polygon_owners(const Segmentation& segmentation,
   std::ranges::sort(order, {}, [&](int f) {
     return std::tuple(size_m3[index(f)], features[index(f)].source_polygons.size(), -f);
   });
-  std::vector<std::vector<int>> owners(polygons);
-  for (const int feature : order) {
-    for (const int polygon : features[index(feature)].source_polygons) {
+  std::vector<int> first(polygons + 1, 0);
+  for (const Feature& feature : features)
+    for (const int polygon : feature.source_polygons) {
       if (polygon < 0 || index(polygon) >= polygons)
         throw std::logic_error("a feature lists a polygon that the building does not have");
-      owners[index(polygon)].push_back(feature);
+      ++first[index(polygon) + 1];
     }
-  }
-  return owners;
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> owners(index(first.back())), next(first);
+  for (const int feature : order)
+    for (const int polygon : features[index(feature)].source_polygons)
+      owners[index(next[index(polygon)]++)] = feature;
+  return {std::move(first), std::move(owners)};
 }
 
 }  // namespace oriel

@@ -12,7 +12,7 @@ namespace oriel::detail {
 /// point, not at all of them.
 class PlanFigure {
  public:
-  explicit PlanFigure(std::span<const Outline> outlines);
+  explicit PlanFigure(std::span<const OutlineView> outlines);
 
   [[nodiscard]] const Box& box() const { return box_; }
   /// Even-odd over all outlines; z is not looked at. Points on an outline may fall on either side.
@@ -20,13 +20,16 @@ class PlanFigure {
 
  private:
   struct Edge {
-    Vec3 from, to;
+    double from_x, from_y, to_x, to_y;
   };
   [[nodiscard]] std::size_t strip_of(double y) const;
+  template <class Visit>
+  void for_each_touch(std::span<const OutlineView> outlines, Visit visit) const;
 
   Box box_;
-  /// Edges by the strips of equal width in y that they touch.
-  std::vector<std::vector<Edge>> strips_;
+  /// Edges by the strips of equal width in y that they touch: those of strip s begin at first_[s].
+  std::vector<Edge> edges_;
+  std::vector<int> first_;
 };
 
 }  // namespace oriel::detail

@@ -1,11 +1,9 @@
 #include "kernel/describe/detail/surface_faces.h"
 
 #include "kernel/describe/detail/shape.h"
-#include "kernel/geometry/outlines.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <utility>
 
 namespace oriel::detail {
 
@@ -14,7 +12,7 @@ namespace {
 /// cos 85 degrees. A window sill that slopes is far from it, a wall that leans near to it.
 constexpr double kSteep = 0.0872;
 
-Vec3 area_vector(const Outline& outline) {
+Vec3 area_vector(OutlineView outline) {
   Vec3 sum;
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
     sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
@@ -22,30 +20,24 @@ Vec3 area_vector(const Outline& outline) {
 }
 
 /// Corners of a polygon lie off its plane by millimetres: the plane goes through their mean.
-Vec3 mean_of(const Outline& outline) {
+Vec3 mean_of(OutlineView outline) {
   Vec3 sum;
   for (const Vec3 p : outline) sum = sum + p;
   return outline.empty() ? sum : (1.0 / static_cast<double>(outline.size())) * sum;
 }
 
-SurfaceFace face_of(std::vector<Outline> outlines) {
+SurfaceFace face_of(std::span<const OutlineView> outlines) {
   SurfaceFace face;
-  face.outlines = std::move(outlines);
-  if (face.outlines.empty()) return face;
-  for (const Vec3 p : face.outlines[0]) face.box.grow(p);
-  const Vec3 outer = area_vector(face.outlines[0]);
+  face.outlines = outlines;
+  if (outlines.empty()) return face;
+  for (const Vec3 p : outlines[0]) face.box.grow(p);
+  const Vec3 outer = area_vector(outlines[0]);
   face.normal = normalised(outer);
   // Holes run the other way round; where they do not, they are holes all the same.
   face.area_m2 = length(outer);
-  for (std::size_t i = 1; i < face.outlines.size(); ++i)
-    face.area_m2 -= length(area_vector(face.outlines[i]));
+  for (std::size_t i = 1; i < outlines.size(); ++i)
+    face.area_m2 -= length(area_vector(outlines[i]));
   face.area_m2 = std::max(face.area_m2, 0.0);
-  face.middle = mean_of(face.outlines[0]);
-  if (face.normal == Vec3{}) return face;
-  if (const auto inside = interior_point(face.outlines, face.normal)) {
-    const double off = dot(face.middle - *inside, face.normal);
-    face.middle = *inside + off * face.normal;
-  }
   return face;
 }
 
@@ -53,32 +45,56 @@ SurfaceFace face_of(std::vector<Outline> outlines) {
 
 bool SurfaceFace::is_steep() const { return std::abs(normal.z) < kSteep; }
 
-double SurfaceFace::z_at(Vec3 point) const {
+Vec3 SurfaceFace::middle() const {
+  if (outlines.empty()) return {};
+  const Vec3 mean = mean_of(outlines[0]);
+  if (normal == Vec3{}) return mean;
+  const auto inside = interior_point_of(outlines, normal);
+  if (!inside) return mean;
+  const double off = dot(mean - *inside, normal);
+  return *inside + off * normal;
+}
+
+double z_at(const SurfaceFace& face, Vec3 middle, Vec3 point) {
   const Vec3 d = point - middle;
-  return middle.z - (d.x * normal.x + d.y * normal.y) / normal.z;
+  return middle.z - (d.x * face.normal.x + d.y * face.normal.y) / face.normal.z;
 }
 
-std::vector<SurfaceFace> faces_of(const Building& building) {
-  std::vector<SurfaceFace> faces;
-  faces.reserve(building.polygons.size());
-  for (const Polygon& polygon : building.polygons) {
-    std::vector<Outline> outlines;
-    for (const auto& ring : polygon.rings) {
-      outlines.emplace_back();
-      for (const int v : ring)
-        outlines.back().push_back(building.vertices[static_cast<std::size_t>(v)]);
+/// All points are taken before the first view of them is made, and all views before the first face.
+template <class Figures, class RingsOf, class PointAt>
+void SurfaceFaces::take(const Figures& figures, RingsOf rings_of, PointAt point_at) {
+  std::size_t points = 0, rings = 0;
+  for (const auto& figure : figures)
+    for (const auto& ring : rings_of(figure)) {
+      ++rings;
+      points += ring.size();
     }
-    faces.push_back(face_of(std::move(outlines)));
+  points_.reserve(points);
+  outlines_.reserve(rings);
+  faces_.reserve(figures.size());
+  for (const auto& figure : figures)
+    for (const auto& ring : rings_of(figure)) {
+      for (const int v : ring) points_.push_back(point_at(v));
+      outlines_.push_back({points_.data() + points_.size() - ring.size(), ring.size()});
+    }
+  const OutlineView* next = outlines_.data();
+  for (const auto& figure : figures) {
+    const std::size_t count = rings_of(figure).size();
+    faces_.push_back(face_of({next, count}));
+    next += count;
   }
-  return faces;
 }
 
-std::vector<SurfaceFace> faces_of(const Solid& solid) {
-  std::vector<SurfaceFace> faces;
-  faces.reserve(solid.facets.size());
-  for (const Facet& facet : solid.facets)
-    faces.push_back(face_of(outlines_of(solid.vertices, facet.loops)));
-  return faces;
+SurfaceFaces::SurfaceFaces(const Building& building) {
+  take(
+      building.polygons, [](const Polygon& p) -> const auto& { return p.rings; },
+      [&](int v) { return building.vertices[static_cast<std::size_t>(v)]; });
+}
+
+SurfaceFaces::SurfaceFaces(const Solid& solid) {
+  take(
+      solid.facets, [](const Facet& f) -> const auto& { return f.loops; },
+      [&](int v) { return solid.vertices[static_cast<std::size_t>(v)].point; });
 }
 
 Sides sides_of(const SurfaceFace& face) {
@@ -88,7 +104,7 @@ Sides sides_of(const SurfaceFace& face) {
   std::vector<Vec3> flat;
   flat.reserve(face.outlines[0].size());
   for (const Vec3 p : face.outlines[0]) flat.push_back({dot(p, u), dot(p, v), 0});
-  const StandingBox box = standing_box(flat);
+  const StandingBox box = standing_box(std::move(flat));
   return {box.length, box.breadth};
 }
 

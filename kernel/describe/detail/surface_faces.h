@@ -4,29 +4,52 @@
 #include "kernel/model/building.h"
 #include "kernel/model/solid.h"
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
 
-/// A polygon or facet as a figure in space.
+/// A polygon or facet as a figure in space. Refers to the points of its SurfaceFaces.
 struct SurfaceFace {
   /// Outer outline first.
-  std::vector<Outline> outlines;
+  std::span<const OutlineView> outlines;
   /// Unit normal by the order of the corners; 0 for a figure without area.
   Vec3 normal;
   double area_m2 = 0;
-  /// A point inside, on the plane.
-  Vec3 middle;
   Box box;
 
   /// Its plane is so steep (within 5 degrees of vertical) that up and down mean nothing.
   [[nodiscard]] bool is_steep() const;
-  /// The height of its plane over a point in plan; the face must not be vertical.
-  [[nodiscard]] double z_at(Vec3 point) const;
+  /// A point inside, on the plane.
+  [[nodiscard]] Vec3 middle() const;
 };
 
-std::vector<SurfaceFace> faces_of(const Building& building);
-std::vector<SurfaceFace> faces_of(const Solid& solid);
+/// The height of a face's plane over a point in plan; the face must not be vertical. `middle` is
+/// that of the face.
+double z_at(const SurfaceFace& face, Vec3 middle, Vec3 point);
+
+/// The faces of a building or a solid, with their points in one piece of memory.
+class SurfaceFaces {
+ public:
+  explicit SurfaceFaces(const Building& building);
+  explicit SurfaceFaces(const Solid& solid);
+  SurfaceFaces(const SurfaceFaces&) = delete;
+  SurfaceFaces& operator=(const SurfaceFaces&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return faces_.size(); }
+  [[nodiscard]] const SurfaceFace& operator[](std::size_t face) const { return faces_[face]; }
+  [[nodiscard]] auto begin() const { return faces_.begin(); }
+  [[nodiscard]] auto end() const { return faces_.end(); }
+
+ private:
+  template <class Figures, class RingsOf, class PointAt>
+  void take(const Figures& figures, RingsOf rings_of, PointAt point_at);
+
+  std::vector<Vec3> points_;
+  std::vector<OutlineView> outlines_;
+  std::vector<SurfaceFace> faces_;
+};
 
 /// The sides of the smallest rectangle around the face in its plane, the longer one first.
 struct Sides {

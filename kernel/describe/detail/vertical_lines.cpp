@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <ranges>
-#include <tuple>
 #include <utility>
 
 namespace oriel::detail {
@@ -28,69 +28,87 @@ int cell(double value, double low, double high, int count) {
 
 }  // namespace
 
-VerticalLines::VerticalLines(std::span<const SurfaceFace> faces) : faces_(faces) {
-  figures_.reserve(faces.size());
-  std::vector<int> lying;
+VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const bool is_lying = !faces[f].is_steep();
-    figures_.emplace_back(is_lying ? std::span<const Outline>(faces[f].outlines)
-                                   : std::span<const Outline>());
-    if (!is_lying) continue;
-    lying.push_back(static_cast<int>(f));
+    if (faces[f].is_steep()) continue;
+    entries_.push_back(entry_of(faces[f], static_cast<int>(f)));
     box_.grow(faces[f].box);
   }
-  side_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(lying.size()))), 1,
+  std::ranges::sort(entries_, {}, [](const Entry& e) { return std::pair(e.z0, e.face); });
+  side_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(entries_.size()))), 1,
                      kLargestSide);
-  cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
-  for (const int f : lying) {
-    const Box& box = faces[static_cast<std::size_t>(f)].box;
-    const Entry entry = entry_of(faces[static_cast<std::size_t>(f)], f);
-    for (int row = row_of(box.min.y); row <= row_of(box.max.y); ++row)
-      for (int column = column_of(box.min.x); column <= column_of(box.max.x); ++column)
-        cells_[static_cast<std::size_t>(row * side_ + column)].push_back(entry);
-  }
-  for (auto& cell : cells_)
-    std::ranges::sort(cell, {}, [](const Entry& e) { return std::tuple(e.z0, e.face); });
+  fill_cells();
 }
 
 /// A plane's heights over a box are between those over its corners.
 VerticalLines::Entry VerticalLines::entry_of(const SurfaceFace& face, int number) {
   const Box& box = face.box;
-  Entry entry{box.min.x, box.max.x, box.min.y, box.max.y, Box::kInfinity, -Box::kInfinity, number};
+  Entry entry{box.min.x, box.max.x,      box.min.y,
+              box.max.y, Box::kInfinity, -Box::kInfinity,
+              number,    face.middle(),  PlanFigure(face.outlines)};
   for (const double x : {box.min.x, box.max.x})
     for (const double y : {box.min.y, box.max.y}) {
-      const double z = face.z_at({x, y, 0});
+      const double z = z_at(face, entry.middle, {x, y, 0});
       entry.z0 = std::min(entry.z0, z - kRounding_m);
       entry.z1 = std::max(entry.z1, z + kRounding_m);
     }
   return entry;
 }
 
+/// First how many there are in a cell, then which.
+void VerticalLines::fill_cells() {
+  std::vector<Cells> touched;
+  touched.reserve(entries_.size());
+  for (const Entry& entry : entries_) touched.push_back(cells_of(entry));
+  const auto for_each_cell = [&](const Cells& cells, auto visit) {
+    for (int row = cells.row0; row <= cells.row1; ++row)
+      for (int column = cells.column0; column <= cells.column1; ++column)
+        visit(static_cast<std::size_t>(row * side_ + column));
+  };
+  first_.assign(static_cast<std::size_t>(side_ * side_) + 1, 0);
+  for (const Cells& cells : touched)
+    for_each_cell(cells, [&](std::size_t cell) { ++first_[cell + 1]; });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  in_cells_.resize(static_cast<std::size_t>(first_.back()));
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for (std::size_t e = 0; e < touched.size(); ++e)
+    for_each_cell(touched[e], [&](std::size_t cell) {
+      in_cells_[static_cast<std::size_t>(next[cell]++)] = static_cast<int>(e);
+    });
+}
+
 int VerticalLines::column_of(double x) const { return cell(x, box_.min.x, box_.max.x, side_); }
 int VerticalLines::row_of(double y) const { return cell(y, box_.min.y, box_.max.y, side_); }
 
-const std::vector<VerticalLines::Entry>& VerticalLines::cell_of(Vec3 point) const {
-  return cells_[static_cast<std::size_t>(row_of(point.y) * side_ + column_of(point.x))];
+VerticalLines::Cells VerticalLines::cells_of(const Entry& e) const {
+  return {row_of(e.y0), row_of(e.y1), column_of(e.x0), column_of(e.x1)};
+}
+
+std::span<const int> VerticalLines::cell_of(Vec3 point) const {
+  const auto cell = static_cast<std::size_t>(row_of(point.y) * side_ + column_of(point.x));
+  const auto begin = static_cast<std::size_t>(first_[cell]);
+  return {in_cells_.data() + begin, static_cast<std::size_t>(first_[cell + 1]) - begin};
 }
 
 std::optional<LineCrossing> VerticalLines::crossing(const Entry& e, Vec3 point) const {
   if (point.x < e.x0 || point.x > e.x1 || point.y < e.y0 || point.y > e.y1) return std::nullopt;
-  const auto face = static_cast<std::size_t>(e.face);
-  if (!figures_[face].contains(point)) return std::nullopt;
-  return LineCrossing{faces_[face].z_at(point), e.face};
+  if (!e.figure.contains(point)) return std::nullopt;
+  return LineCrossing{z_at(faces_[static_cast<std::size_t>(e.face)], e.middle, point), e.face};
 }
 
 std::vector<LineCrossing> VerticalLines::at(Vec3 point) const {
   std::vector<LineCrossing> crossings;
-  for (const Entry& e : cell_of(point))
-    if (const auto c = crossing(e, point)) crossings.push_back(*c);
+  for (const int e : cell_of(point))
+    if (const auto c = crossing(entries_[static_cast<std::size_t>(e)], point))
+      crossings.push_back(*c);
   std::ranges::sort(crossings, {}, order);
   return crossings;
 }
 
 std::optional<LineCrossing> VerticalLines::next_above(Vec3 point, double z) const {
   std::optional<LineCrossing> best;
-  for (const Entry& e : cell_of(point)) {
+  for (const int number : cell_of(point)) {
+    const Entry& e = entries_[static_cast<std::size_t>(number)];
     if (best && e.z0 > best->z) break;
     if (e.z1 <= z) continue;
     const auto c = crossing(e, point);
@@ -101,7 +119,8 @@ std::optional<LineCrossing> VerticalLines::next_above(Vec3 point, double z) cons
 
 std::optional<LineCrossing> VerticalLines::next_below(Vec3 point, double z) const {
   std::optional<LineCrossing> best;
-  for (const Entry& e : std::views::reverse(cell_of(point))) {
+  for (const int number : std::views::reverse(cell_of(point))) {
+    const Entry& e = entries_[static_cast<std::size_t>(number)];
     if (e.z0 > z || (best && e.z1 < best->z)) continue;
     const auto c = crossing(e, point);
     if (c && c->z <= z && (!best || order(*best) < order(*c))) best = c;

@@ -19,7 +19,7 @@ struct LineCrossing {
 /// above. Refers to the faces, which must outlive it.
 class VerticalLines {
  public:
-  explicit VerticalLines(std::span<const SurfaceFace> faces);
+  explicit VerticalLines(const SurfaceFaces& faces);
 
   /// All crossings of the vertical line through `point`, from below; of equal heights by number.
   [[nodiscard]] std::vector<LineCrossing> at(Vec3 point) const;
@@ -29,25 +29,35 @@ class VerticalLines {
   [[nodiscard]] std::optional<LineCrossing> next_below(Vec3 point, double z) const;
 
  private:
-  [[nodiscard]] int column_of(double x) const;
-  [[nodiscard]] int row_of(double y) const;
-
-  std::span<const SurfaceFace> faces_;
-  std::vector<PlanFigure> figures_;
-  Box box_;
-  int side_ = 1;
-  /// A face, its box seen from above and the heights it can be met at: what most faces of a cell
-  /// are left out by.
+  /// A face that is not steep: its box seen from above and the heights it can be met at, which most
+  /// faces of a cell are left out by, then what it is.
   struct Entry {
     double x0, x1, y0, y1, z0, z1;
     int face;
+    Vec3 middle;
+    PlanFigure figure;
+  };
+  /// The cells that a box touches.
+  struct Cells {
+    int row0, row1, column0, column1;
   };
   [[nodiscard]] static Entry entry_of(const SurfaceFace& face, int number);
-  [[nodiscard]] const std::vector<Entry>& cell_of(Vec3 point) const;
+  void fill_cells();
+  [[nodiscard]] int column_of(double x) const;
+  [[nodiscard]] int row_of(double y) const;
+  [[nodiscard]] Cells cells_of(const Entry& entry) const;
+  [[nodiscard]] std::span<const int> cell_of(Vec3 point) const;
   [[nodiscard]] std::optional<LineCrossing> crossing(const Entry& entry, Vec3 point) const;
 
-  /// The faces whose box touches a cell, row by row; in a cell by z0.
-  std::vector<std::vector<Entry>> cells_;
+  const SurfaceFaces& faces_;
+  Box box_;
+  int side_ = 1;
+  /// By z0, then by number.
+  std::vector<Entry> entries_;
+  /// The entries whose box touches a cell, in their order, row by row: those of cell c begin at
+  /// first_[c].
+  std::vector<int> in_cells_;
+  std::vector<int> first_;
 };
 
 }  // namespace oriel::detail
