@@ -130,6 +130,8 @@ ExitCode work(Arguments& arguments) {
     arguments.out = "-";
   if (arguments.is_repaired) arguments.crossings = "cut";
   arguments.only_names_surfaces = true;
+  arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
+                                   !arguments.has_reasons && !arguments.is_repaired;
   if (arguments.is_json) throw CLI::ValidationError("--json", "goes with --existing audit only");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);

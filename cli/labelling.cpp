@@ -44,7 +44,7 @@ LabelledBuilding annotated(const Building& building, const OnLine& line, const R
 }
 
 LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rules)
-    : arguments_(arguments), rules_(rules) {
+    : arguments_(arguments), rules_(rules), config_sha256_(sha256(arguments.configuration())) {
   const auto codelists = rules.codelists();
   if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
     throw CLI::ValidationError(
@@ -66,7 +66,7 @@ LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine&
   options.codelist = arguments_.codelist;
   options.has_reasons = arguments_.has_reasons;
   options.surfaces = line.named_surfaces;
-  options.attributes.emplace_back("oriel_config_sha256", sha256(arguments_.configuration()));
+  options.attributes.emplace_back("oriel_config_sha256", config_sha256_);
   return cli::annotated(building, line, rules_, options);
 }
 

@@ -82,6 +82,8 @@ class LabelOutputs {
 
   const LabelArguments& arguments_;
   const RuleBase& rules_;
+  /// Of the arguments as they are when the outputs are made.
+  std::string config_sha256_;
   std::optional<Destination> destination_;
   std::unique_ptr<FeatureRecordWriter> features_;
   bool has_ended_ = false;  ///< an input did

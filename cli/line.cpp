@@ -73,7 +73,7 @@ OnLine run_line(const Building& building, const SegmentOptions& options,
 }
 
 OnLine run_from_solid(OnLine out, const Building& building, const SegmentOptions& options,
-                      const RuleBase* rules, Timings& timings) {
+                      const RuleBase* rules, Timings& timings, const DescribeOptions& describing) {
   const auto is_ours = [](const Issue& issue) { return issue.code == "E901"; };
   if (std::ranges::any_of(out.issues, is_ours)) return out;
   try {
@@ -91,8 +91,8 @@ OnLine run_from_solid(OnLine out, const Building& building, const SegmentOptions
       return found;
     });
     append(out.issues, segmentation.issues);
-    out.description =
-        timings.measure(Stage::describe, [&] { return describe(building, segmentation); });
+    out.description = timings.measure(Stage::describe,
+                                      [&] { return describe(building, segmentation, describing); });
     if (rules != nullptr) {
       out.interpretation = timings.measure(Stage::interpret, [&] {
         return interpret(*rules, out.description.table, out.description.graph);

@@ -50,8 +50,10 @@ OnLine run_line(const Building& building, const SegmentOptions& options,
                 const RepairOptions& repair, const RuleBase* rules, Timings& timings);
 
 /// The rest of it, for a building that has come to its solid, or to none.
+/// `describing`: what is read of its description.
 OnLine run_from_solid(OnLine line, const Building& building, const SegmentOptions& options,
-                      const RuleBase* rules, Timings& timings);
+                      const RuleBase* rules, Timings& timings,
+                      const DescribeOptions& describing = {});
 
 /// The first step of it only.
 OnLine run_to_solid(const Building& building, const Tolerances& tolerances,

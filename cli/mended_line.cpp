@@ -68,9 +68,13 @@ OnLine run_whole_line(const LineArguments& arguments, const RuleBase* rules,
 OnLine whole_line_from(OnLine solid, const LineArguments& arguments, const RuleBase* rules,
                        const Building& building, const Tolerances& tolerances, Timings& timings) {
   const SegmentOptions options = arguments.segment_options(tolerances);
-  OnLine line = arguments.ignores_semantics
-                    ? run_from_solid(std::move(solid), hintless(building), options, rules, timings)
-                    : run_from_solid(std::move(solid), building, options, rules, timings);
+  DescribeOptions describing;
+  if (rules != nullptr && arguments.only_labels_features)
+    describing = {rules->attributes_read(), rules->relations_read()};
+  OnLine line = arguments.ignores_semantics ? run_from_solid(std::move(solid), hintless(building),
+                                                             options, rules, timings, describing)
+                                            : run_from_solid(std::move(solid), building, options,
+                                                             rules, timings, describing);
   line.tolerances = tolerances;
   if (rules != nullptr && arguments.only_names_surfaces)
     name_line_surfaces(building, tolerances, *rules, timings, line);

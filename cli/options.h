@@ -55,8 +55,10 @@ struct LineArguments {
   bool ends_at_reading = false;
   /// What is asked for is the solid: buildings are not segmented.
   bool ends_at_solid = false;
-  /// What is asked of surfaces is what they are, not their attributes.
+  /// What is asked of surfaces is what they are, and of features their labels: attributes are told
+  /// as far as rules read them.
   bool only_names_surfaces = false;
+  bool only_labels_features = false;
 
   [[nodiscard]] ReadOptions read_options() const;
   /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.

@@ -136,7 +136,7 @@ int Annotator::find_labelled(const Polygon& polygon) const {
 }
 
 Annotator::NamedSurfaces Annotator::named_surfaces() const {
-  NamedSurfaces named{options_.surfaces, {}};
+  NamedSurfaces named{{options_.surfaces.begin(), options_.surfaces.end()}, {}};
   SurfaceTable with;
   const SurfaceTable* table = &surfaces_;
   if (named.verdicts.empty()) {

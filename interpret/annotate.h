@@ -10,8 +10,8 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/model/surface_table.h"
 
+#include <span>
 #include <string>
-#include <vector>
 
 namespace oriel {
 
@@ -26,7 +26,7 @@ struct AnnotateOptions {
   /// feature, or that of surface_reasons().
   bool has_reasons = false;
   /// What interpret_surfaces says of the rows_to_name(), if it is known already; else empty.
-  std::vector<SurfaceVerdict> surfaces{};
+  std::span<const SurfaceVerdict> surfaces{};
 };
 
 /// What is to be written about a building whose features were labelled (docs/formats.md).

@@ -113,6 +113,18 @@ std::vector<std::string> RuleBase::codelists() const {
   return {lists.begin(), lists.end()};
 }
 
+std::vector<bool> RuleBase::attributes_read() const {
+  std::vector<bool> is_read(feature_schema().size(), false);
+  for (const auto* columns : {&pack_->reads.numbers, &pack_->reads.texts})
+    for (const std::size_t column : *columns) is_read[column] = true;
+  return is_read;
+}
+
+std::vector<bool> RuleBase::relations_read() const {
+  const auto& all = pack_->reads.relations;
+  return {all.begin(), all.begin() + std::ssize(relation_schema())};
+}
+
 Checked<RuleBase> load_pack(std::string text, std::string file) {
   return load(std::move(text), std::move(file), find_embedded);
 }

@@ -37,6 +37,11 @@ class RuleBase {
   /// The code lists that `emit:` has codes for, sorted.
   [[nodiscard]] std::vector<std::string> codelists() const;
 
+  /// By column of feature_schema() and by position in relation_schema(): what interpret() and
+  /// annotate() without reasons read of a building's features.
+  [[nodiscard]] std::vector<bool> attributes_read() const;
+  [[nodiscard]] std::vector<bool> relations_read() const;
+
   /// The inside, for interpret's own files.
   [[nodiscard]] const rules::Pack& pack() const { return *pack_; }
 

@@ -1,25 +1,23 @@
 #include "kernel/describe/describe.h"
 
+#include "kernel/describe/detail/feature_names.h"
+#include "kernel/describe/detail/panes.h"
 #include "kernel/describe/detail/relations.h"
 #include "kernel/describe/detail/shape.h"
 #include "kernel/describe/detail/site.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/geometry/visible_level.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/model/wall_lean.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace oriel {
 
@@ -59,6 +57,8 @@ struct FeatureColumns {
   std::size_t edge_gap = column_of("edge_gap").value();
   std::size_t along = column_of("along").value();
   std::size_t storey = column_of("storey").value();
+  std::size_t per_facade = column_of("per_facade").value();
+  std::size_t per_storey = column_of("per_storey").value();
 };
 
 const FeatureColumns& columns() {
@@ -184,46 +184,8 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
   table.set(s.id, columns().growth_side, side);
 }
 
-/// Input polygons as what is parallel to a plane.
-class Panes {
- public:
-  Panes(const Building& building, double grid_m) {
-    for (const Polygon& polygon : building.polygons) {
-      if (polygon.source < 0 || polygon.rings.empty()) continue;
-      if (std::ssize(panes_) <= polygon.source) panes_.resize(at(polygon.source) + 1);
-      Pane& pane = panes_[at(polygon.source)];
-      auto outlines = detail::outlines_of(building, polygon, grid_m);
-      for (detail::Outline& outline : outlines) {
-        detail::start_at_least(outline);
-        for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-          pane.area = pane.area + 0.5 * cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-        if (&outline != &outlines[0]) continue;
-        for (const Vec3 p : outline)
-          pane.middle = pane.middle + (1.0 / static_cast<double>(outline.size())) * p;
-      }
-    }
-  }
-
-  [[nodiscard]] std::optional<double> level_in(const Feature& feature, const Plane& plane) const {
-    std::vector<detail::ParallelArea> parallel;
-    for (const int source : feature.source_polygons) {
-      const Pane& pane = panes_[at(source)];
-      const double across_m2 = std::abs(dot(pane.area, plane.normal));
-      if (across_m2 > std::sqrt(0.5) * length(pane.area))  // by 45 degrees or less
-        parallel.push_back({dot(pane.middle, plane.normal) - plane.offset_m, across_m2});
-    }
-    return detail::visible_level(std::move(parallel), feature.new_area_m2);
-  }
-
- private:
-  struct Pane {
-    Vec3 area, middle;
-  };
-  std::vector<Pane> panes_;  ///< by Polygon::source
-};
-
 void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
-                     const Panes& panes) {
+                     const detail::Panes& panes) {
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
   if (const auto level_m = panes.level_in(*s.feature, plane))
@@ -305,40 +267,6 @@ void describe_place_in_facet(FeatureTable& table, const Subject& s,
   table.set(s.id, columns().along, detail::extent_along(s.points, s.across).middle() - left);
 }
 
-/// 64-bit FNV-1a, written in 13 characters of base 32.
-std::string hashed(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ULL;
-  }
-  std::string digits;
-  for (int i = 0; i < 13; ++i, hash /= 32) digits += "0123456789abcdefghjkmnpqrstvwxyz"[hash % 32];
-  return digits;
-}
-
-void name_features(FeatureTable& table, const Building& building,
-                   const Segmentation& segmentation) {
-  const auto millimetres = [](double metres) { return std::llround(metres * 1000); };
-  std::map<std::string, int> uses;
-  for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
-    const Feature& f = segmentation.features[i];
-    const Box box = f.box.moved(building.frame.origin_m);
-    std::string content = fmt::format("{}|{}|{}", building.id, building.lod, to_string(f.sense));
-    for (const double c : {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z})
-      content += fmt::format("|{}", millimetres(c));
-    if (!f.planes.empty()) {
-      const Vec3 n = segmentation.planes[f.planes.front().index()].normal;
-      content += fmt::format("|{}|{}|{}", millimetres(n.x), millimetres(n.y), millimetres(n.z));
-    }
-    // Features that agree in all this (parts of one box) are told apart by their order.
-    const int use = uses[content]++;
-    table.set_id(
-        FeatureId{static_cast<int>(i)},
-        fmt::format("f{}", hashed(use == 0 ? content : fmt::format("{}|{}", content, use))));
-  }
-}
-
 void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
                       const std::vector<int>& group_of, const char* name) {
   std::map<std::pair<int, Sense>, int> counts;
@@ -367,12 +295,39 @@ bool is_opening(const Subject& s) {
          std::abs(s.normal->z) < 0.5;
 }
 
+/// What takes its time and is left out if nobody asks for it.
+struct Asked {
+  explicit Asked(const DescribeOptions& options) {
+    const auto is_asked = [&](std::size_t column) {
+      return options.attributes.empty() || options.attributes.at(column);
+    };
+    const FeatureColumns& c = columns();
+    recess = is_asked(c.recess);
+    growth = is_asked(c.growth_up) || is_asked(c.growth_down) || is_asked(c.growth_out) ||
+             is_asked(c.growth_side);
+    place_in_facet = is_asked(c.edge_gap) || is_asked(c.along);
+    companions = is_asked(c.per_facade) || is_asked(c.per_storey);
+    const auto leads = [&](const char* relation) {
+      const auto found = std::ranges::find(relation_schema(), relation, &RelationKind::name);
+      return options.relations.empty() ||
+             options.relations.at(static_cast<std::size_t>(found - relation_schema().begin()));
+    };
+    neighbours = {leads("alike"), leads("beside"), leads("above")};
+  }
+
+  bool recess, growth, place_in_facet, companions;
+  detail::Neighbours neighbours;
+};
+
 }  // namespace
 
-Description describe(const Building& building, const Segmentation& segmentation) {
+Description describe(const Building& building, const Segmentation& segmentation,
+                     const DescribeOptions& options) {
   Description out{FeatureTable(building.id, segmentation.features.size()), {}};
+  const Asked asked(options);
   const detail::Site site(segmentation);
-  const Panes panes(building, segmentation.grid_m);
+  std::optional<detail::Panes> panes;
+  if (asked.recess) panes.emplace(building, segmentation.grid_m);
   CellReaches reaches(segmentation);
   const std::vector<int> facades = detail::facades_of(segmentation);
   std::vector<Subject> subjects;
@@ -383,20 +338,22 @@ Description describe(const Building& building, const Segmentation& segmentation)
     const Subject& s = subjects.back();
     describe_cut(out.table, s);
     describe_size(out.table, s);
-    describe_recess(out.table, s, segmentation, panes);
-    describe_growth(out.table, s, reaches);
+    if (panes) describe_recess(out.table, s, segmentation, *panes);
+    if (asked.growth) describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
-    describe_place_in_facet(out.table, s, segmentation);
+    if (asked.place_in_facet) describe_place_in_facet(out.table, s, segmentation);
     placed.push_back(in_facade(s, facades[i]));
     openings.push_back(is_opening(s) ? 1 : 0);
   }
   const std::vector<int> storeys = detail::storeys_of(placed, openings);
   for (std::size_t i = 0; i < subjects.size(); ++i)
     if (storeys[i] >= 0) out.table.set(subjects[i].id, columns().storey, storeys[i]);
-  count_companions(out.table, subjects, facades, "per_facade");
-  count_companions(out.table, subjects, storeys, "per_storey");
-  name_features(out.table, building, segmentation);
-  out.graph = detail::relate(segmentation, placed, storeys);
+  if (asked.companions) {
+    count_companions(out.table, subjects, facades, "per_facade");
+    count_companions(out.table, subjects, storeys, "per_storey");
+  }
+  detail::name_features(out.table, building, segmentation);
+  out.graph = detail::relate(segmentation, placed, storeys, asked.neighbours);
   return out;
 }
 

@@ -5,6 +5,8 @@
 #include "kernel/model/feature_table.h"
 #include "kernel/model/segmentation.h"
 
+#include <vector>
+
 namespace oriel {
 
 /// What is known of the features of one building without any rule: their attributes and how they
@@ -14,6 +16,13 @@ struct Description {
   FeatureGraph graph;
 };
 
+/// What somebody reads of a description: the rest may be missing.
+struct DescribeOptions {
+  /// By column of feature_schema() and by position in relation_schema(); empty: all are read.
+  std::vector<bool> attributes;
+  std::vector<bool> relations;
+};
+
 /// Fills every attribute of feature_schema() that can be told, and every relation of
 /// relation_schema().
 ///
@@ -21,6 +30,7 @@ struct Description {
 /// feature to the millimetre: they do not depend on the order of the input. Source: paper 5.1
 /// (dimensions, difference of bounding boxes) and 5.2 (inclination, height over ground, similarity,
 /// containment); docs/describe.md says how each is measured.
-Description describe(const Building& building, const Segmentation& segmentation);
+Description describe(const Building& building, const Segmentation& segmentation,
+                     const DescribeOptions& options = {});
 
 }  // namespace oriel

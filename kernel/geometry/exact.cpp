@@ -30,6 +30,15 @@ Int128 gcd(Int128 p, Int128 q) {
 
 bool fits_in_64_bits(Int128 value) { return value == static_cast<std::int64_t>(value); }
 
+/// std::llround without a call: what is cut off is exact in doubles of this size.
+std::int64_t rounded(double value) {
+  constexpr double kLimit = 1e15;
+  if (!(std::abs(value) < kLimit)) return std::llround(value);
+  const auto whole = static_cast<std::int64_t>(value);
+  const double rest = value - static_cast<double>(whole);
+  return whole + static_cast<std::int64_t>(rest >= 0.5) - static_cast<std::int64_t>(rest <= -0.5);
+}
+
 int sign_of(Int128 value) { return (value > 0) - (value < 0); }
 
 /// numerator / denominator to about one bit: the integer part and the fraction are divided apart.
@@ -107,8 +116,7 @@ std::optional<Rational> meet_along_axes(const Plane& p, const Plane& q, const Pl
 }  // namespace
 
 GridPoint round_to_grid(Vec3 point, double grid_m) {
-  return {std::llround(point.x / grid_m), std::llround(point.y / grid_m),
-          std::llround(point.z / grid_m)};
+  return {rounded(point.x / grid_m), rounded(point.y / grid_m), rounded(point.z / grid_m)};
 }
 
 Rational round_finely(Vec3 point, double grid_m) {

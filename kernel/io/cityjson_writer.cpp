@@ -23,10 +23,10 @@ using detail::append_json;
 using detail::decoded;
 using detail::RawNode;
 
-/// The root object of `text` and what stands around it.
+/// The root object of `text`, which is JSON: only white space stands around it.
 std::string_view root_of(std::string_view text) {
   const std::size_t start = text.find('{');
-  return text.substr(start, detail::end_of_value(text, start) - start);
+  return text.substr(start, text.rfind('}') + 1 - start);
 }
 
 /// Sets members in the object under `key`, which is made if it is not there.

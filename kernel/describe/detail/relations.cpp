@@ -106,7 +106,7 @@ std::vector<int> storeys_of(const std::vector<InFacade>& features,
 }
 
 FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
-                    const std::vector<int>& storeys) {
+                    const std::vector<int>& storeys, const Neighbours& asked) {
   std::vector<Pair> hosts, alike, beside, above;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i)
     if (segmentation.features[i].host.is_valid())
@@ -118,12 +118,16 @@ FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade
   graph.set_classes("same_facade", facades);
   graph.set_classes("same_storey", storeys);
   // Feature by feature, so that the pairs come sorted.
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    for (const FeatureId other : graph.others("same_facade", id(i))) {
-      const InFacade &p = features[i], &q = features[other.index()];
-      if (is_alike(p, q)) alike.emplace_back(id(i), other);
-      if (is_beside(p, q)) beside.emplace_back(id(i), other);
-      if (is_above(p, q)) above.emplace_back(id(i), other);
+  const FeatureLinks& same_facade = graph.links("same_facade");
+  for (std::size_t i = 0; i < same_facade.list_of.size(); ++i) {
+    if (same_facade.list_of[i] < 0) continue;
+    const InFacade& p = features[i];
+    for (const int other : same_facade.list(static_cast<std::size_t>(same_facade.list_of[i]))) {
+      if (other == static_cast<int>(i)) continue;
+      const InFacade& q = features[static_cast<std::size_t>(other)];
+      if (asked.alike && is_alike(p, q)) alike.emplace_back(id(i), FeatureId{other});
+      if (asked.beside && is_beside(p, q)) beside.emplace_back(id(i), FeatureId{other});
+      if (asked.above && is_above(p, q)) above.emplace_back(id(i), FeatureId{other});
     }
   }
   graph.set("host", std::move(hosts));

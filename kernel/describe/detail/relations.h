@@ -30,8 +30,14 @@ std::vector<int> facades_of(const Segmentation& segmentation);
 std::vector<int> storeys_of(const std::vector<InFacade>& features,
                             const std::vector<char>& is_opening);
 
-/// All relations of relation_schema().
+/// Which of the relations between features of one facade are asked for, that are found pair by
+/// pair.
+struct Neighbours {
+  bool alike = true, beside = true, above = true;
+};
+
+/// All relations of relation_schema() but those that are not asked for, which stay empty.
 FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
-                    const std::vector<int>& storeys);
+                    const std::vector<int>& storeys, const Neighbours& asked);
 
 }  // namespace oriel::detail

@@ -2,6 +2,7 @@
 
 #include "kernel/io/detail/text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -19,6 +20,8 @@ void append_number(std::string& out, Number number) {
   out.append(digits.data(), end);
 }
 
+bool is_escaped(char c) { return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20U; }
+
 /// `text` with every byte that is no UTF-8 replaced by U+FFFD.
 std::string repaired(std::string_view text) {
   std::string result;
@@ -34,13 +37,17 @@ std::string repaired(std::string_view text) {
 void append_json(std::string& out, std::string_view text) {
   if (find_non_utf8(text)) return append_json(out, std::string_view(repaired(text)));
   out += '"';
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
+  while (!text.empty()) {
+    const auto plain =
+        static_cast<std::size_t>(std::ranges::find_if(text, is_escaped) - text.begin());
+    out.append(text.substr(0, plain));
+    text.remove_prefix(plain);
+    if (text.empty()) break;
+    if (const char c = text.front(); c == '"' || c == '\\')
       out.append({'\\', c});
-    else if (static_cast<unsigned char>(c) < 0x20U)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     else
-      out += c;
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    text.remove_prefix(1);
   }
   out += '"';
 }

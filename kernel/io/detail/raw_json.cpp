@@ -3,10 +3,6 @@
 #include "kernel/io/detail/json_text.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -15,104 +11,9 @@ namespace oriel::detail {
 
 namespace {
 
-enum ByteKind : std::uint8_t { other, quote, open, close, separator, space };
-
-constexpr std::array<std::uint8_t, 256> kKinds = [] {
-  std::array<std::uint8_t, 256> kinds{};
-  kinds['"'] = quote;
-  kinds['{'] = kinds['['] = open;
-  kinds['}'] = kinds[']'] = close;
-  kinds[','] = kinds[':'] = separator;
-  kinds[' '] = kinds['\t'] = kinds['\n'] = kinds['\r'] = space;
-  return kinds;
-}();
-
-ByteKind kind_of(char c) { return static_cast<ByteKind>(kKinds[static_cast<unsigned char>(c)]); }
-
-std::size_t skip_space(std::string_view text, std::size_t at) {
-  while (at < text.size() && kind_of(text[at]) == space) ++at;
-  return at;
-}
-
-/// The offset behind the string whose opening quote is `text[at]`.
-std::size_t end_of_string(std::string_view text, std::size_t at) {
-  const std::size_t start = at + 1;
-  for (at = text.find('"', start); at < text.size(); at = text.find('"', at + 1)) {
-    std::size_t slashes = 0;
-    while (at - slashes > start && text[at - slashes - 1] == '\\') ++slashes;
-    if (slashes % 2 == 0) return at + 1;
-  }
-  return text.size();
-}
-
-constexpr std::uint64_t every_byte(std::uint64_t byte) { return byte * 0x0101010101010101ULL; }
-
-/// The high bit of each byte of `word` that is 0.
-constexpr std::uint64_t zero_bytes(std::uint64_t word) {
-  constexpr std::uint64_t kLow = every_byte(0x7F);
-  return ~(((word & kLow) + kLow) | word | kLow);
-}
-
-/// The high bit of each of the eight bytes at `bytes` that is a quote or a bracket, the first byte
-/// lowest. All four brackets, and no other byte that JSON has outside strings, are 0x7F when bits
-/// 1, 2 and 5 are set.
-std::uint64_t structural_bytes(const char* bytes) {
-  std::uint64_t word = 0;
-  std::memcpy(&word, bytes, sizeof word);
-  if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
-  return zero_bytes((word | every_byte(0x26)) ^ every_byte(0x7F)) |
-         zero_bytes(word ^ every_byte('"'));
-}
-
-/// Counts brackets up to the one that closes what was opened.
-class DepthCounter {
- public:
-  /// Takes a bracket; true if it is the last one. Of brackets only those that open have bit 1.
-  bool close_at(char bracket) {
-    depth_ += (bracket & 2) - 1;
-    return depth_ == 0;
-  }
-
- private:
-  int depth_ = 0;
-};
-
-/// The offset behind the object or array whose opening bracket is `text[at]`.
-std::size_t end_of_container(std::string_view text, std::size_t at) {
-  constexpr std::size_t kStep = sizeof(std::uint64_t);
-  DepthCounter counter;
-  while (at + kStep <= text.size()) {
-    std::size_t next = at + kStep;
-    for (std::uint64_t found = structural_bytes(&text[at]); found != 0; found &= found - 1) {
-      const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(found)) / 8;
-      if (text[i] == '"') {
-        next = end_of_string(text, i);
-        break;
-      }
-      if (counter.close_at(text[i])) return i + 1;
-    }
-    at = next;
-  }
-  for (; at < text.size(); ++at) {
-    const ByteKind kind = kind_of(text[at]);
-    if (kind == quote)
-      at = end_of_string(text, at) - 1;
-    else if ((kind == open || kind == close) && counter.close_at(text[at]))
-      return at + 1;
-  }
-  return text.size();
-}
+bool is_closing(char c) { return c == '}' || c == ']'; }
 
 }  // namespace
-
-std::size_t end_of_value(std::string_view text, std::size_t at) {
-  if (at >= text.size()) return text.size();
-  const ByteKind kind = kind_of(text[at]);
-  if (kind == quote) return end_of_string(text, at);
-  if (kind == open) return end_of_container(text, at);
-  while (at < text.size() && kind_of(text[at]) == other) ++at;
-  return at;
-}
 
 std::string decoded(std::string_view raw) {
   if (raw.size() < 2) return std::string(raw);
@@ -126,10 +27,10 @@ RawNode::RawNode(std::string_view text) : close_(text.front() == '{' ? '}' : ']'
   std::size_t from = 1;
   std::size_t at = skip_space(text, from);
   inside_ = text.substr(from, at - from);
-  while (at < text.size() && kind_of(text[at]) != close) {
+  while (at < text.size() && !is_closing(text[at])) {
     Slot slot;
     if (close_ == '}') {
-      const std::size_t key_end = end_of_string(text, at);
+      const std::size_t key_end = end_of_value(text, at);
       slot.key = text.substr(at, key_end - at);
       at = skip_space(text, std::min(skip_space(text, key_end) + 1, text.size()));
     }
@@ -191,7 +92,13 @@ void RawNode::erase(std::string_view key) {
 }
 
 std::string RawNode::text() const {
-  std::string result(1, close_ == '}' ? '{' : '[');
+  std::size_t size = inside_.size() + 2;
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    size += slots_[i].before.size() + slots_[i].added_key.size() + value(i).size() +
+            slots_[i].after.size() + 4;
+  std::string result;
+  result.reserve(size);
+  result += close_ == '}' ? '{' : '[';
   bool is_first = true;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
@@ -206,12 +113,13 @@ std::string RawNode::text() const {
     result += slot.after;
   }
   if (slots_.empty()) result += inside_;
-  return result + close_;
+  result += close_;
+  return result;
 }
 
 void for_each_element(std::string_view text, const std::function<void(std::string_view)>& visit) {
   std::size_t at = skip_space(text, 1);
-  while (at < text.size() && kind_of(text[at]) != close) {
+  while (at < text.size() && !is_closing(text[at])) {
     const std::size_t end = end_of_value(text, at);
     visit(text.substr(at, end - at));
     at = skip_space(text, end);

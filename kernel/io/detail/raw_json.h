@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/io/detail/json_scan.h"
+
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -8,10 +10,6 @@
 #include <vector>
 
 namespace oriel::detail {
-
-/// The offset behind the JSON value that starts at `text[at]`. No recursion: depth costs nothing.
-/// `text` must be valid JSON from there on; of other text the result is some offset ≤ text.size().
-std::size_t end_of_value(std::string_view text, std::size_t at);
 
 /// The string whose raw form, quotes included, is `raw`, with its escapes resolved.
 std::string decoded(std::string_view raw);

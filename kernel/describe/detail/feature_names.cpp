@@ -1,0 +1,66 @@
+#include "kernel/describe/detail/feature_names.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// 64-bit FNV-1a, written in 13 characters of base 32.
+std::string hashed(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  std::string digits = "f";
+  for (int i = 0; i < 13; ++i, hash /= 32) digits += "0123456789abcdefghjkmnpqrstvwxyz"[hash % 32];
+  return digits;
+}
+
+/// Appends "|" and the millimetres.
+void append_millimetres(std::string& text, std::initializer_list<double> metres) {
+  for (const double m : metres) {
+    std::array<char, 24> digits;
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), std::llround(m * 1000)).ptr;
+    text += '|';
+    text.append(digits.data(), end);
+  }
+}
+
+}  // namespace
+
+void name_features(FeatureTable& table, const Building& building,
+                   const Segmentation& segmentation) {
+  std::unordered_map<std::string, int> uses;
+  uses.reserve(segmentation.features.size());
+  const std::string start = fmt::format("{}|{}|", building.id, building.lod);
+  std::string content;
+  for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
+    const Feature& f = segmentation.features[i];
+    const Box box = f.box.moved(building.frame.origin_m);
+    content = start;
+    content += to_string(f.sense);
+    append_millimetres(content, {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
+    if (!f.planes.empty()) {
+      const Vec3 n = segmentation.planes[f.planes.front().index()].normal;
+      append_millimetres(content, {n.x, n.y, n.z});
+    }
+    // Features that agree in all this (parts of one box) are told apart by their order.
+    const int use = uses[content]++;
+    if (use > 0) content += fmt::format("|{}", use);
+    table.set_id(FeatureId{static_cast<int>(i)}, hashed(content));
+  }
+}
+
+}  // namespace oriel::detail
