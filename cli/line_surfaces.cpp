@@ -22,6 +22,25 @@ SurfaceContext context_of(const OnLine& line) {
   return context;
 }
 
+/// The cheaper measures first.
+class MeasuredWhenAsked : public MoreAttributes {
+ public:
+  explicit MeasuredWhenAsked(SurfaceSurvey& survey) : survey_(survey) {}
+
+  [[nodiscard]] bool is_pending(std::size_t column) const override {
+    const auto measure = measure_of(column);
+    const auto pending = std::span(kSurfaceMeasures).subspan(done_);
+    return measure && std::ranges::find(pending, *measure) != pending.end();
+  }
+  void measure(std::span<const int> rows) override {
+    survey_.measure(kSurfaceMeasures.at(done_++), rows);
+  }
+
+ private:
+  SurfaceSurvey& survey_;
+  std::size_t done_ = 0;
+};
+
 /// Runs `describe`; what it throws is a fault of ours in this building.
 template <class Describe>
 void measured_describe(const Building& building, Timings& timings, OnLine& line,
@@ -52,12 +71,8 @@ void name_line_surfaces(const Building& building, const Tolerances& tolerances,
     SurfaceTable& table = survey.table();
     table = with_parts(std::move(table), building, segmentation, line.interpretation, rules);
     const auto rows = rows_to_name(building, segmentation, line.interpretation, rules);
-    std::size_t measured = 0;
-    line.named_surfaces = interpret_surfaces(rules, table, rows, [&](std::span<const int> unnamed) {
-      if (measured == kSurfaceMeasures.size()) return false;
-      survey.measure(kSurfaceMeasures.at(measured++), unnamed);
-      return true;
-    });
+    MeasuredWhenAsked more(survey);
+    line.named_surfaces = interpret_surfaces(rules, table, rows, more);
     line.surfaces = std::move(table);
   });
 }

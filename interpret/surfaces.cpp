@@ -4,6 +4,7 @@
 #include "interpret/detail/facts.h"
 #include "interpret/detail/names.h"
 #include "interpret/detail/role.h"
+#include "interpret/detail/surface_decider.h"
 #include "interpret/detail/surface_rules.h"
 #include "kernel/model/polygon_owners.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 using rules::Frame;
 using rules::HostKind;
-using rules::kBlock;
 using rules::Pack;
 using rules::SurfaceRule;
 using rules::SurfaceRules;
@@ -63,62 +63,6 @@ std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::si
   }
 }
 
-/// For each of the rows, in their order, the first rule that holds, or -1.
-class Decider {
- public:
-  Decider(const SurfaceRules& surfaces, const SurfaceTable& table)
-      : surfaces_(surfaces), facts_(surfaces.pack, table), evaluator_(surfaces.pack, facts_) {}
-
-  [[nodiscard]] std::vector<int> decide(std::span<const int> rows);
-  /// Those of the rows of decide() for which a value that is missing may matter.
-  [[nodiscard]] const std::vector<int>& undecided() const { return undecided_; }
-
- private:
-  void decide_block(std::span<const int> rows, std::span<int> deciding);
-
-  const SurfaceRules& surfaces_;
-  rules::Facts facts_;
-  rules::Evaluator evaluator_;
-  std::vector<int> undecided_;
-};
-
-std::vector<int> Decider::decide(std::span<const int> rows) {
-  undecided_.clear();
-  std::vector<int> deciding(rows.size(), -1);
-  for (std::size_t begin = 0; begin < rows.size(); begin += kBlock) {
-    const std::size_t size = std::min(kBlock, rows.size() - begin);
-    decide_block(rows.subspan(begin, size), std::span(deciding).subspan(begin, size));
-  }
-  return deciding;
-}
-
-void Decider::decide_block(std::span<const int> rows, std::span<int> deciding) {
-  std::array<Truth, kBlock> open, holds, answer;
-  std::array<bool, kBlock> is_doubtful;
-  Frame frame;
-  frame.size = rows.size();
-  frame.rows[0] = rows.data();
-  std::fill_n(open.begin(), frame.size, Truth::yes);
-  std::fill_n(is_doubtful.begin(), frame.size, false);
-  for (std::size_t r = 0; r < surfaces_.rules.size(); ++r) {
-    holds = open;
-    frame.needed = holds.data();
-    for (const rules::ExprId id : surfaces_.rules[r].when) {
-      evaluator_.truths(id, frame, std::span(answer).first(frame.size));
-      for (std::size_t i = 0; i < frame.size; ++i) holds[i] = std::min(holds[i], answer[i]);
-    }
-    for (std::size_t i = 0; i < frame.size; ++i) {
-      if (open[i] != Truth::yes) continue;
-      if (holds[i] == Truth::unknown) is_doubtful[i] = true;
-      if (holds[i] != Truth::yes) continue;
-      deciding[i] = static_cast<int>(r);
-      open[i] = Truth::no;
-    }
-  }
-  for (std::size_t i = 0; i < frame.size; ++i)
-    if (is_doubtful[i]) undecided_.push_back(rows[i]);
-}
-
 std::vector<int> all_rows(const SurfaceTable& table) {
   std::vector<int> rows(table.rows());
   std::iota(rows.begin(), rows.end(), 0);
@@ -128,16 +72,18 @@ std::vector<int> all_rows(const SurfaceTable& table) {
 /// By row; of rows that are not asked for -1. The order of the three-valued logic sees to it that
 /// what is decided while values are missing stays so when they are filled in.
 std::vector<int> decide_with_more(const SurfaceRules& surfaces, const SurfaceTable& table,
-                                  std::span<const int> rows, const MoreAttributes& more) {
-  Decider decider(surfaces, table);
+                                  std::span<const int> rows, MoreAttributes& more) {
+  rules::SurfaceDecider decider(surfaces, table, &more);
   std::vector<int> deciding(table.rows(), -1);
   std::vector<int> open(rows.begin(), rows.end());
-  while (!open.empty()) {
+  for (;;) {
     const auto found = decider.decide(open);
     for (std::size_t i = 0; i < open.size(); ++i)
       deciding[static_cast<std::size_t>(open[i])] = found[i];
     open = decider.undecided();
-    if (!open.empty() && !more(open)) break;
+    if (open.empty()) break;
+    more.measure(open);
+    decider.look_again();
   }
   return deciding;
 }
@@ -214,7 +160,7 @@ std::vector<SurfaceVerdict> verdicts_of(const Pack& pack, const SurfaceTable& ta
 }
 
 std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
-  if (pack.surfaces) return Decider(*pack.surfaces, table).decide(all_rows(table));
+  if (pack.surfaces) return rules::SurfaceDecider(*pack.surfaces, table).decide(all_rows(table));
   return std::vector<int>(table.rows(), -1);
 }
 
@@ -286,8 +232,7 @@ std::vector<int> rows_to_name(const Building& building, const Segmentation& segm
 }
 
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table,
-                                               std::span<const int> rows,
-                                               const MoreAttributes& more) {
+                                               std::span<const int> rows, MoreAttributes& more) {
   const Pack& pack = base.pack();
   std::vector<int> deciding(table.rows(), -1);
   if (pack.surfaces) deciding = decide_with_more(*pack.surfaces, table, rows, more);

@@ -7,7 +7,6 @@
 #include "kernel/model/surface_table.h"
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,14 +40,20 @@ std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const Surfa
 std::vector<int> rows_to_name(const Building& building, const Segmentation& segmentation,
                               const Interpretation& interpretation, const RuleBase& base);
 
-/// Fills further attributes of some rows of a table; false if none are left to be filled.
-using MoreAttributes = std::function<bool(std::span<const int> rows)>;
+/// Numbers of a table that are measured when they are asked for.
+class MoreAttributes {
+ public:
+  virtual ~MoreAttributes() = default;
+  /// Whether a column of surface_schema() is still to be measured.
+  [[nodiscard]] virtual bool is_pending(std::size_t column) const = 0;
+  /// Fills one pending column or more in those rows of the table.
+  virtual void measure(std::span<const int> rows) = 0;
+};
 
 /// The same of some rows of a table that is being filled: `more` is asked for numbers of those rows
 /// that cannot be named without them. The verdicts of other rows are empty.
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table,
-                                               std::span<const int> rows,
-                                               const MoreAttributes& more);
+                                               std::span<const int> rows, MoreAttributes& more);
 
 /// Why a surface is what it is, for a reader at a terminal: its attributes, then every entry of
 /// `surfaces:` up to the one that decided with what came of its conditions and where they stand.

@@ -278,6 +278,14 @@ SurfaceTable fully_measured(SurfaceSurvey survey) {
 
 }  // namespace
 
+std::optional<SurfaceMeasure> measure_of(std::size_t column) {
+  const SurfaceColumns& c = surface_columns();
+  if (column == c.a || column == c.b) return SurfaceMeasure::sides;
+  if (column == c.gap_above || column == c.gap_below) return SurfaceMeasure::gaps;
+  if (column == c.wall_up || column == c.wall_down) return SurfaceMeasure::surroundings;
+  return std::nullopt;
+}
+
 SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& tolerances,
                              const SurfaceContext& context)
     : state_(std::make_unique<State>(building, tolerances)) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace oriel {
@@ -30,6 +31,9 @@ enum class SurfaceMeasure {
 };
 inline constexpr std::array kSurfaceMeasures = {SurfaceMeasure::sides, SurfaceMeasure::gaps,
                                                 SurfaceMeasure::surroundings};
+
+/// What fills a column of surface_schema(); nothing for those that cost little.
+std::optional<SurfaceMeasure> measure_of(std::size_t column);
 
 /// Describes the surfaces of one building as far as it is asked to. What is measured of a surface
 /// does not depend on what else is.

@@ -11,19 +11,32 @@ namespace oriel::detail {
 
 namespace {
 
+/// A point or direction in plan.
+struct InPlan {
+  double x = 0, y = 0;
+
+  friend InPlan operator-(InPlan p, InPlan q) { return {p.x - q.x, p.y - q.y}; }
+  friend bool operator==(InPlan, InPlan) = default;
+};
+
+using Hull = std::vector<InPlan>;
+
 /// The convex hull in plan, counter-clockwise (Andrew's monotone chain).
-std::vector<Vec3> hull_in_plan(std::vector<Vec3> points) {
-  for (Vec3& p : points) p.z = 0;
-  std::ranges::sort(points, [](Vec3 p, Vec3 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
+Hull hull_in_plan(const std::vector<Vec3>& of) {
+  Hull points;
+  points.reserve(of.size());
+  for (const Vec3 p : of) points.push_back({p.x, p.y});
+  std::ranges::sort(points, [](InPlan p, InPlan q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
-  std::vector<Vec3> hull;
+  Hull hull;
   hull.reserve(2 * points.size());
+  const auto turn = [](InPlan p, InPlan q) { return p.x * q.y - p.y * q.x; };
   const auto add_half = [&](auto from, auto to) {
     const std::size_t begin = hull.size();
     for (auto p = from; p != to; ++p) {
       while (hull.size() > begin + 1 &&
-             cross(hull.back() - hull[hull.size() - 2], *p - hull.back()).z <= 0)
+             turn(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0)
         hull.pop_back();
       hull.push_back(*p);
     }
@@ -33,6 +46,17 @@ std::vector<Vec3> hull_in_plan(std::vector<Vec3> points) {
   add_half(points.begin(), points.end());
   add_half(points.rbegin(), points.rend());
   return hull;
+}
+
+/// The extent of points in plan along a direction.
+double size_along(const Hull& points, InPlan direction) {
+  Extent extent;
+  for (const InPlan p : points) {
+    const double along = p.x * direction.x + p.y * direction.y;
+    extent.low = std::min(extent.low, along);
+    extent.high = std::max(extent.high, along);
+  }
+  return extent.size();
 }
 
 }  // namespace
@@ -47,14 +71,14 @@ StandingBox standing_box(const std::vector<Vec3>& points) {
   StandingBox best;
   best.height = extent_along(points, {0, 0, 1}).size();
   best.along = {1, 0, 0};
-  const std::vector<Vec3> hull = hull_in_plan(points);
+  const Hull hull = hull_in_plan(points);
   double least = Box::kInfinity;
   // One side of the smallest rectangle lies along a side of the hull.
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec3 side = hull[(i + 1) % hull.size()] - hull[i];
+    const InPlan side = hull[i + 1 < hull.size() ? i + 1 : 0] - hull[i];
     if (side.x == 0 && side.y == 0) continue;
-    const Vec3 u = normalised(side), v{-u.y, u.x, 0};
-    const double along = extent_along(hull, u).size(), across = extent_along(hull, v).size();
+    const Vec3 u = normalised({side.x, side.y, 0}), v{-u.y, u.x, 0};
+    const double along = size_along(hull, {u.x, u.y}), across = size_along(hull, {v.x, v.y});
     if (along * across >= least) continue;
     least = along * across;
     best.length = std::max(along, across);
@@ -75,6 +99,7 @@ Extent extent_along(const std::vector<Vec3>& points, Vec3 direction) {
 
 std::vector<Vec3> points_of(const Segmentation& segmentation, const Feature& feature) {
   std::vector<Vec3> points;
+  points.reserve(feature.vertices.size());
   for (const int v : feature.vertices) points.push_back(segmentation.vertices[at(v)].point);
   return points;
 }

@@ -104,7 +104,7 @@ Sides sides_of(const SurfaceFace& face) {
   std::vector<Vec3> flat;
   flat.reserve(face.outlines[0].size());
   for (const Vec3 p : face.outlines[0]) flat.push_back({dot(p, u), dot(p, v), 0});
-  const StandingBox box = standing_box(std::move(flat));
+  const StandingBox box = standing_box(flat);
   return {box.length, box.breadth};
 }
 

@@ -37,15 +37,15 @@ VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
   std::ranges::sort(entries_, {}, [](const Entry& e) { return std::pair(e.z0, e.face); });
   side_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(entries_.size()))), 1,
                      kLargestSide);
+  figures_.resize(entries_.size());
   fill_cells();
 }
 
 /// A plane's heights over a box are between those over its corners.
 VerticalLines::Entry VerticalLines::entry_of(const SurfaceFace& face, int number) {
   const Box& box = face.box;
-  Entry entry{box.min.x, box.max.x,      box.min.y,
-              box.max.y, Box::kInfinity, -Box::kInfinity,
-              number,    face.middle(),  PlanFigure(face.outlines)};
+  Entry entry{box.min.x,      box.max.x,       box.min.y, box.max.y,
+              Box::kInfinity, -Box::kInfinity, number,    face.middle()};
   for (const double x : {box.min.x, box.max.x})
     for (const double y : {box.min.y, box.max.y}) {
       const double z = z_at(face, entry.middle, {x, y, 0});
@@ -90,17 +90,20 @@ std::span<const int> VerticalLines::cell_of(Vec3 point) const {
   return {in_cells_.data() + begin, static_cast<std::size_t>(first_[cell + 1]) - begin};
 }
 
-std::optional<LineCrossing> VerticalLines::crossing(const Entry& e, Vec3 point) const {
+std::optional<LineCrossing> VerticalLines::crossing(std::size_t entry, Vec3 point) const {
+  const Entry& e = entries_[entry];
   if (point.x < e.x0 || point.x > e.x1 || point.y < e.y0 || point.y > e.y1) return std::nullopt;
-  if (!e.figure.contains(point)) return std::nullopt;
-  return LineCrossing{z_at(faces_[static_cast<std::size_t>(e.face)], e.middle, point), e.face};
+  const SurfaceFace& face = faces_[static_cast<std::size_t>(e.face)];
+  auto& figure = figures_[entry];
+  if (!figure) figure.emplace(face.outlines);
+  if (!figure->contains(point)) return std::nullopt;
+  return LineCrossing{z_at(face, e.middle, point), e.face};
 }
 
 std::vector<LineCrossing> VerticalLines::at(Vec3 point) const {
   std::vector<LineCrossing> crossings;
   for (const int e : cell_of(point))
-    if (const auto c = crossing(entries_[static_cast<std::size_t>(e)], point))
-      crossings.push_back(*c);
+    if (const auto c = crossing(static_cast<std::size_t>(e), point)) crossings.push_back(*c);
   std::ranges::sort(crossings, {}, order);
   return crossings;
 }
@@ -111,7 +114,7 @@ std::optional<LineCrossing> VerticalLines::next_above(Vec3 point, double z) cons
     const Entry& e = entries_[static_cast<std::size_t>(number)];
     if (best && e.z0 > best->z) break;
     if (e.z1 <= z) continue;
-    const auto c = crossing(e, point);
+    const auto c = crossing(static_cast<std::size_t>(number), point);
     if (c && c->z > z && (!best || order(*c) < order(*best))) best = c;
   }
   return best;
@@ -122,7 +125,7 @@ std::optional<LineCrossing> VerticalLines::next_below(Vec3 point, double z) cons
   for (const int number : std::views::reverse(cell_of(point))) {
     const Entry& e = entries_[static_cast<std::size_t>(number)];
     if (e.z0 > z || (best && e.z1 < best->z)) continue;
-    const auto c = crossing(e, point);
+    const auto c = crossing(static_cast<std::size_t>(number), point);
     if (c && c->z <= z && (!best || order(*best) < order(*c))) best = c;
   }
   return best;

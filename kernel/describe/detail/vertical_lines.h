@@ -35,7 +35,6 @@ class VerticalLines {
     double x0, x1, y0, y1, z0, z1;
     int face;
     Vec3 middle;
-    PlanFigure figure;
   };
   /// The cells that a box touches.
   struct Cells {
@@ -47,13 +46,15 @@ class VerticalLines {
   [[nodiscard]] int row_of(double y) const;
   [[nodiscard]] Cells cells_of(const Entry& entry) const;
   [[nodiscard]] std::span<const int> cell_of(Vec3 point) const;
-  [[nodiscard]] std::optional<LineCrossing> crossing(const Entry& entry, Vec3 point) const;
+  [[nodiscard]] std::optional<LineCrossing> crossing(std::size_t entry, Vec3 point) const;
 
   const SurfaceFaces& faces_;
   Box box_;
   int side_ = 1;
   /// By z0, then by number.
   std::vector<Entry> entries_;
+  /// Of entries, made when they are asked for: most faces are left out by their boxes.
+  mutable std::vector<std::optional<PlanFigure>> figures_;
   /// The entries whose box touches a cell, in their order, row by row: those of cell c begin at
   /// first_[c].
   std::vector<int> in_cells_;

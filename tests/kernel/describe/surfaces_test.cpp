@@ -138,6 +138,29 @@ TEST_SUITE("kernel/describe") {
     CHECK(table.number(ground, "height").value() == doctest::Approx(0));
   }
 
+  TEST_CASE("what is measured of a surface does not depend on what else is") {
+    const Building building = block();
+    const SurfaceTable all = describe_surfaces(building);
+    for (int row = 0; row < static_cast<int>(all.rows()); ++row) {
+      SurfaceSurvey survey(building);
+      // The costliest first.
+      for (auto what = kSurfaceMeasures.rbegin(); what != kSurfaceMeasures.rend(); ++what)
+        survey.measure(*what, {&row, 1});
+      for (const Attribute& attribute : surface_schema()) {
+        if (attribute.unit == Unit::text) continue;
+        CAPTURE(attribute.name);
+        const auto r = static_cast<std::size_t>(row);
+        CHECK(survey.table().number(r, attribute.name) == all.number(r, attribute.name));
+      }
+    }
+    SurfaceSurvey untouched(building);
+    for (std::size_t c = 0; c < surface_schema().size(); ++c) {
+      if (!measure_of(c)) continue;
+      for (std::size_t row = 0; row < all.rows(); ++row)
+        CHECK_FALSE(untouched.table().number(row, surface_schema()[c].name));
+    }
+  }
+
   TEST_CASE("facets that no polygon made are synthetic") {
     auto solid = solidify(block());
     REQUIRE(solid.value);

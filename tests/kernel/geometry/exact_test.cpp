@@ -45,6 +45,23 @@ TEST_SUITE("kernel/geometry") {
     }));
   }
 
+  TEST_CASE("points are rounded as std::llround rounds") {
+    const auto check = [](double value) {
+      CAPTURE(value);
+      CHECK(round_to_grid({value, -value, 0}, 1) ==
+            GridPoint{std::llround(value), std::llround(-value), 0});
+    };
+    for (const double value :
+         {0.0, 0.5, 1.5, 2.5, std::nextafter(0.5, 0.0), std::nextafter(0.5, 1.0),
+          std::nextafter(2.5, 0.0), 4503599627370495.5, 4503599627370496.0, 9007199254740993.0,
+          999999999999999.5, 1e15, 1e18})
+      check(value);
+    CHECK(rc::check([&] {
+      const double value = static_cast<double>(*number(std::int64_t{1} << 40)) / 1024;
+      RC_ASSERT(round_to_grid({value, 0, 0}, 1)[0] == std::llround(value));
+    }));
+  }
+
   TEST_CASE("fine rounding keeps what the grid cannot tell apart") {
     const Vec3 point{1.0 / 3, 2.0 / 7, -5.0 / 11};
     const Vec3 back = to_metres(round_finely(point, kGrid_m), kGrid_m);
