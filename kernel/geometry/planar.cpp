@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include <boost/container/small_vector.hpp>
 
@@ -107,6 +108,25 @@ std::optional<Vec3> point_inside_of(std::span<const Points> outlines, Vec3 norma
   return std::nullopt;
 }
 
+/// contains() for the axes that are left.
+template <double Vec3::*kU, double Vec3::*kV>
+bool contains_along(std::span<const Outline> outlines, Vec3 point) {
+  bool is_inside = false;
+  for (const Outline& outline : outlines) {
+    if (outline.empty()) continue;
+    const Vec3* p = &outline.back();
+    bool is_above = p->*kV > point.*kV;
+    for (const Vec3& q : outline) {
+      const bool was_above = std::exchange(is_above, q.*kV > point.*kV);
+      const Vec3& from = *std::exchange(p, &q);
+      if (was_above == is_above) continue;
+      const double t = (point.*kV - from.*kV) / (q.*kV - from.*kV);
+      if (point.*kU < from.*kU + t * (q.*kU - from.*kU)) is_inside = !is_inside;
+    }
+  }
+  return is_inside;
+}
+
 /// The signed solid angle of a triangle seen from the origin, after Van Oosterom & Strackee 1983.
 double solid_angle(Vec3 p, Vec3 q, Vec3 r) {
   const double lp = length(p), lq = length(q), lr = length(r);
@@ -137,13 +157,9 @@ double perimeter(const Outline& outline) {
 
 bool contains(std::span<const Outline> outlines, Vec3 normal, Vec3 point) {
   const Axes axes = axes_for(normal);
-  bool is_inside = false;
-  for_each_edge(outlines, [&](Vec3 p, Vec3 q) {
-    if ((p.*axes.v > point.*axes.v) == (q.*axes.v > point.*axes.v)) return;
-    const double t = (point.*axes.v - p.*axes.v) / (q.*axes.v - p.*axes.v);
-    if (point.*axes.u < p.*axes.u + t * (q.*axes.u - p.*axes.u)) is_inside = !is_inside;
-  });
-  return is_inside;
+  if (axes.dropped == &Vec3::z) return contains_along<&Vec3::x, &Vec3::y>(outlines, point);
+  if (axes.dropped == &Vec3::y) return contains_along<&Vec3::x, &Vec3::z>(outlines, point);
+  return contains_along<&Vec3::y, &Vec3::z>(outlines, point);
 }
 
 bool contains_clearly(std::span<const Outline> outlines, Vec3 normal, Vec3 point, double margin_m) {

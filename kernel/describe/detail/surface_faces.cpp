@@ -19,13 +19,6 @@ Vec3 area_vector(OutlineView outline) {
   return 0.5 * sum;
 }
 
-/// Corners of a polygon lie off its plane by millimetres: the plane goes through their mean.
-Vec3 mean_of(OutlineView outline) {
-  Vec3 sum;
-  for (const Vec3 p : outline) sum = sum + p;
-  return outline.empty() ? sum : (1.0 / static_cast<double>(outline.size())) * sum;
-}
-
 SurfaceFace face_of(std::span<const OutlineView> outlines) {
   SurfaceFace face;
   face.outlines = outlines;
@@ -45,19 +38,25 @@ SurfaceFace face_of(std::span<const OutlineView> outlines) {
 
 bool SurfaceFace::is_steep() const { return std::abs(normal.z) < kSteep; }
 
+Vec3 SurfaceFace::mean() const {
+  Vec3 sum;
+  if (outlines.empty() || outlines[0].empty()) return sum;
+  for (const Vec3 p : outlines[0]) sum = sum + p;
+  return (1.0 / static_cast<double>(outlines[0].size())) * sum;
+}
+
 Vec3 SurfaceFace::middle() const {
-  if (outlines.empty()) return {};
-  const Vec3 mean = mean_of(outlines[0]);
-  if (normal == Vec3{}) return mean;
+  const Vec3 middle = mean();
+  if (normal == Vec3{}) return middle;
   const auto inside = interior_point_of(outlines, normal);
-  if (!inside) return mean;
-  const double off = dot(mean - *inside, normal);
+  if (!inside) return middle;
+  const double off = dot(middle - *inside, normal);
   return *inside + off * normal;
 }
 
-double z_at(const SurfaceFace& face, Vec3 middle, Vec3 point) {
-  const Vec3 d = point - middle;
-  return middle.z - (d.x * face.normal.x + d.y * face.normal.y) / face.normal.z;
+double z_at(const SurfaceFace& face, Vec3 on_plane, Vec3 point) {
+  const Vec3 d = point - on_plane;
+  return on_plane.z - (d.x * face.normal.x + d.y * face.normal.y) / face.normal.z;
 }
 
 /// All points are taken before the first view of them is made, and all views before the first face.

@@ -21,13 +21,16 @@ struct SurfaceFace {
 
   /// Its plane is so steep (within 5 degrees of vertical) that up and down mean nothing.
   [[nodiscard]] bool is_steep() const;
+  /// The mean of the outer outline's corners. Corners of a polygon lie off its plane by
+  /// millimetres: the plane goes through their mean.
+  [[nodiscard]] Vec3 mean() const;
   /// A point inside, on the plane.
   [[nodiscard]] Vec3 middle() const;
 };
 
-/// The height of a face's plane over a point in plan; the face must not be vertical. `middle` is
-/// that of the face.
-double z_at(const SurfaceFace& face, Vec3 middle, Vec3 point);
+/// The height of a face's plane over a point in plan; the face must not be vertical. `on_plane` is
+/// a point of its plane.
+double z_at(const SurfaceFace& face, Vec3 on_plane, Vec3 point);
 
 /// The faces of a building or a solid, with their points in one piece of memory.
 class SurfaceFaces {

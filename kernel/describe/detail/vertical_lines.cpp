@@ -37,18 +37,19 @@ VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
   std::ranges::sort(entries_, {}, [](const Entry& e) { return std::pair(e.z0, e.face); });
   side_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(entries_.size()))), 1,
                      kLargestSide);
-  figures_.resize(entries_.size());
+  met_.resize(entries_.size());
   fill_cells();
 }
 
-/// A plane's heights over a box are between those over its corners.
+/// A plane's heights over a box are between those over its corners. The mean of the corners is on
+/// the plane as the middle is, and is found sooner.
 VerticalLines::Entry VerticalLines::entry_of(const SurfaceFace& face, int number) {
   const Box& box = face.box;
-  Entry entry{box.min.x,      box.max.x,       box.min.y, box.max.y,
-              Box::kInfinity, -Box::kInfinity, number,    face.middle()};
+  const Vec3 mean = face.mean();
+  Entry entry{box.min.x, box.max.x, box.min.y, box.max.y, Box::kInfinity, -Box::kInfinity, number};
   for (const double x : {box.min.x, box.max.x})
     for (const double y : {box.min.y, box.max.y}) {
-      const double z = z_at(face, entry.middle, {x, y, 0});
+      const double z = z_at(face, mean, {x, y, 0});
       entry.z0 = std::min(entry.z0, z - kRounding_m);
       entry.z1 = std::max(entry.z1, z + kRounding_m);
     }
@@ -94,10 +95,10 @@ std::optional<LineCrossing> VerticalLines::crossing(std::size_t entry, Vec3 poin
   const Entry& e = entries_[entry];
   if (point.x < e.x0 || point.x > e.x1 || point.y < e.y0 || point.y > e.y1) return std::nullopt;
   const SurfaceFace& face = faces_[static_cast<std::size_t>(e.face)];
-  auto& figure = figures_[entry];
-  if (!figure) figure.emplace(face.outlines);
-  if (!figure->contains(point)) return std::nullopt;
-  return LineCrossing{z_at(face, e.middle, point), e.face};
+  auto& met = met_[entry];
+  if (!met) met = Met{PlanFigure(face.outlines), face.middle()};
+  if (!met->figure.contains(point)) return std::nullopt;
+  return LineCrossing{z_at(face, met->middle, point), e.face};
 }
 
 std::vector<LineCrossing> VerticalLines::at(Vec3 point) const {

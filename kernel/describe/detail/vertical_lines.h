@@ -34,6 +34,10 @@ class VerticalLines {
   struct Entry {
     double x0, x1, y0, y1, z0, z1;
     int face;
+  };
+  /// What else is needed of a face that a line may meet.
+  struct Met {
+    PlanFigure figure;
     Vec3 middle;
   };
   /// The cells that a box touches.
@@ -54,7 +58,7 @@ class VerticalLines {
   /// By z0, then by number.
   std::vector<Entry> entries_;
   /// Of entries, made when they are asked for: most faces are left out by their boxes.
-  mutable std::vector<std::optional<PlanFigure>> figures_;
+  mutable std::vector<std::optional<Met>> met_;
   /// The entries whose box touches a cell, in their order, row by row: those of cell c begin at
   /// first_[c].
   std::vector<int> in_cells_;

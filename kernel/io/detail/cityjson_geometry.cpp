@@ -140,6 +140,7 @@ bool GeometryReader::read_ring(dom::element element) {
                                     "numbers",
                                     polygon, found_kind(element)));
   std::vector<int> ring;
+  ring.reserve(numbers->size());
   for (const dom::element value : *numbers) {
     const auto number = as_integer(value);
     if (!number)
@@ -157,8 +158,8 @@ bool GeometryReader::read_ring(dom::element element) {
     ring.push_back(local_vertex(index));
   }
   auto& rings = polygons_.back().rings;
-  rings.push_back(
-      without_repeats(ring, static_cast<int>(polygon), static_cast<int>(rings.size()), repeats_));
+  rings.push_back(without_repeats(std::move(ring), static_cast<int>(polygon),
+                                  static_cast<int>(rings.size()), repeats_));
   return true;
 }
 

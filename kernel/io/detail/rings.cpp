@@ -20,19 +20,19 @@ bool has_three_points(const std::vector<int>& ring, const std::vector<Vec3>& poi
 
 }  // namespace
 
-std::vector<int> without_repeats(const std::vector<int>& ring, int polygon, int number,
+std::vector<int> without_repeats(std::vector<int> ring, int polygon, int number,
                                  std::vector<RepeatedVertex>& repeats) {
-  std::vector<int> kept;
-  kept.reserve(ring.size());
+  std::size_t kept = 0;
   for (const int vertex : ring) {
-    if (!kept.empty() && kept.back() == vertex)
+    if (kept > 0 && ring[kept - 1] == vertex)
       repeats.push_back({polygon, number, vertex});
     else
-      kept.push_back(vertex);
+      ring[kept++] = vertex;
   }
-  for (; kept.size() > 1 && kept.front() == kept.back(); kept.pop_back())
-    repeats.push_back({polygon, number, kept.back()});
-  return kept;
+  ring.resize(kept);
+  for (; ring.size() > 1 && ring.front() == ring.back(); ring.pop_back())
+    repeats.push_back({polygon, number, ring.back()});
+  return ring;
 }
 
 std::optional<Fault> find_degenerate(const std::vector<Polygon>& polygons,

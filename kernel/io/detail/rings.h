@@ -14,7 +14,7 @@ constexpr double kMaxExtent_m = 4000;
 
 /// `ring` without vertices that repeat the one before them, and without a last one that repeats the
 /// first. What was dropped is added to `repeats`, as of ring `number` of polygon `polygon`.
-std::vector<int> without_repeats(const std::vector<int>& ring, int polygon, int number,
+std::vector<int> without_repeats(std::vector<int> ring, int polygon, int number,
                                  std::vector<RepeatedVertex>& repeats);
 
 /// E311 if rings of `polygons` have fewer than three distinct points. They stay: to drop them is
