@@ -19,17 +19,17 @@ struct InPlan {
   friend bool operator==(InPlan, InPlan) = default;
 };
 
-using Hull = std::vector<InPlan>;
+using PlanHull = std::vector<InPlan>;
 
 /// The convex hull in plan, counter-clockwise (Andrew's monotone chain).
-Hull hull_in_plan(const std::vector<Vec3>& of) {
-  Hull points;
+PlanHull hull_in_plan(const std::vector<Vec3>& of) {
+  PlanHull points;
   points.reserve(of.size());
   for (const Vec3 p : of) points.push_back({p.x, p.y});
   std::ranges::sort(points, [](InPlan p, InPlan q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
-  Hull hull;
+  PlanHull hull;
   hull.reserve(2 * points.size());
   const auto turn = [](InPlan p, InPlan q) { return p.x * q.y - p.y * q.x; };
   const auto add_half = [&](auto from, auto to) {
@@ -49,7 +49,7 @@ Hull hull_in_plan(const std::vector<Vec3>& of) {
 }
 
 /// The extent of points in plan along a direction.
-double size_along(const Hull& points, InPlan direction) {
+double size_along(const PlanHull& points, InPlan direction) {
   Extent extent;
   for (const InPlan p : points) {
     const double along = p.x * direction.x + p.y * direction.y;
@@ -71,7 +71,7 @@ StandingBox standing_box(const std::vector<Vec3>& points) {
   StandingBox best;
   best.height = extent_along(points, {0, 0, 1}).size();
   best.along = {1, 0, 0};
-  const Hull hull = hull_in_plan(points);
+  const PlanHull hull = hull_in_plan(points);
   double least = Box::kInfinity;
   // One side of the smallest rectangle lies along a side of the hull.
   for (std::size_t i = 0; i < hull.size(); ++i) {
