@@ -168,7 +168,8 @@ class FeatureRemover {
     for (Boundary& body : bodies_) {
       const detail::EdgeIndex edges(body, {split >> 1});
       detail::Section section{split >> 1, looks_along_class ? 1 : -1};
-      section_at(body, section, edges.edges_at(0), {-1, options_.tolerances.weld_m});
+      section_at(body, section, edges.edges_at(0, section.direction),
+                 {-1, options_.tolerances.weld_m});
       const auto region = region_around(section, f);
       if (!region) continue;
       const detail::Lump lump = detail::LumpFinder(body, section).find(*region);

@@ -1,5 +1,6 @@
 #include "kernel/segment/segment.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/body_state.h"
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/cells.h"
@@ -58,12 +59,17 @@ class Segmenter {
   /// The solid's lumps: one is the root itself, several hang under a root that cuts nothing.
   void start() {
     out_.root = add_node();
-    int lumps = 0;
-    for (const Shell& shell : solid_.shells) lumps = std::max(lumps, shell.lump + 1);
+    std::vector<int> shells;  // of each lump
+    for (const Shell& shell : solid_.shells) {
+      if (shell.lump >= std::ssize(shells)) shells.resize(at(shell.lump) + 1, 0);
+      ++shells[at(shell.lump)];
+    }
+    const int lumps = static_cast<int>(shells.size());
     ground_ = detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg);
     std::vector<Boundary> bodies;
     for (int lump = 0; lump < lumps; ++lump) bodies.push_back(boundary_of(solid_, lump, world_));
     hang(std::move(bodies), {}, 1, {}, out_.root);
+    for (std::size_t i = 0; i < tasks_.size(); ++i) tasks_[i].has_one_shell = shells[i] == 1;
   }
 
   NodeId add_node() {
@@ -89,7 +95,7 @@ class Segmenter {
 
   /// Splits one body down to its leaf: each round is a node of the tree.
   void split(Task task) {
-    take_out_cavities(task);
+    if (!task.has_one_shell) take_out_cavities(task);
     std::optional<detail::Chooser> chooser;
     std::set<std::pair<detail::BodyState, detail::CutKey>> seen;
     std::set<detail::CutKey> banned;  // those that have led back, and those that failed

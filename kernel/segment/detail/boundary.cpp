@@ -133,19 +133,28 @@ int Boundary::add_facet_on(int number, Side side, const Sources& sources,
   OnSide& on = on_side_[index(number)];
   on.facets.push_back(f);
   ++on.living;
-  facets_.push_back({side, {}, sources, std::move(marks), number, 0});
+  FacetRecord& facet = facets_.emplace_back();
+  facet.side = side;
+  facet.sources = sources;
+  facet.marks = std::move(marks);
+  facet.on_side = number;
   return f;
 }
 
 int Boundary::add_cycle(std::span<const int> origins, int f, bool is_backward) {
   const int first = half_edge_count(), last = first + static_cast<int>(origins.size()) - 1;
   const int l = static_cast<int>(loops_.size());
-  int e = first;
-  for (const int origin : origins) {
-    const int up = e < last ? e + 1 : first, down = e > first ? e - 1 : last;
-    half_edges_.push_back({origin, is_backward ? down : up, is_backward ? up : down, -1, l, f});
+  half_edges_.resize(half_edges_.size() + origins.size());
+  const int step = is_backward ? -1 : 1;
+  for (int e = first; const int origin : origins) {
+    HalfEdge& edge = half_edges_[index(e)];
+    edge.origin = origin;
+    edge.next = e + step;
+    edge.prev = e - step;
+    edge.loop = l;
     ++e;
   }
+  is_backward ? link(first, last) : link(last, first);
   loops_.push_back({first, f, 0});
   attach(l, f);
   return first;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 namespace oriel::detail {
 
@@ -22,7 +21,8 @@ class Capper {
  public:
   Capper(const Boundary& body, const Component& component, Corner corner)
       : body_(body), world_(body.world()), component_(component), corner_(corner) {
-    for (const int e : component.rim) label_[e] = rim_side(body, component.sides, e);
+    labels_.reserve(component.rim.size());
+    for (const int e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
   }
 
   std::optional<std::vector<Cap>> run() {
@@ -37,24 +37,37 @@ class Capper {
   }
 
  private:
+  /// A half-edge of the rim by its place there.
+  using Place = std::size_t;
+
   /// Where the rim changes from one plane to another.
   struct Switch {
     int point;
     Side from, to;
-    int rim;  ///< the first rim half-edge behind it
+    Place rim;  ///< the first half-edge behind it
   };
+
+  /// Where a half-edge stands in the rim, which is sorted.
+  [[nodiscard]] std::optional<Place> place_of(int e) const {
+    const auto place = std::ranges::lower_bound(component_.rim, e);
+    if (place == component_.rim.end() || *place != e) return std::nullopt;
+    return static_cast<Place>(place - component_.rim.begin());
+  }
 
   /// The rim half-edge that follows each on its closed curve.
   bool order_rim() {
-    for (const int e : component_.rim) {
-      int follower = body_.next(e);
-      for (int steps = 0; !label_.contains(follower); ++steps) {
+    followers_.reserve(component_.rim.size());
+    for (Place i = 0; i < component_.rim.size(); ++i) {
+      int follower = body_.next(component_.rim[i]);
+      auto place = place_of(follower);
+      for (int steps = 0; !place; ++steps) {
         if (steps > body_.half_edge_count()) return false;
         follower = body_.next(body_.twin(follower));
+        place = place_of(follower);
       }
-      follower_[e] = follower;
-      if (label_[e] != label_[follower])
-        switches_.push_back({body_.origin(follower), label_[e], label_[follower], follower});
+      followers_.push_back(*place);
+      if (labels_[i] != labels_[*place])
+        switches_.push_back({body_.origin(follower), labels_[i], labels_[*place], *place});
     }
     return true;
   }
@@ -65,24 +78,22 @@ class Capper {
       cap.side = side ^ 1;
       cap.is_taken = true;
     }
-    std::map<int, bool> is_done;
-    for (const int start : component_.rim) {
-      if (label_[start] != side || is_done[start]) continue;
+    std::vector<char> is_done(labels_.size(), 0);
+    for (Place start = 0; start < labels_.size(); ++start) {
+      if (labels_[start] != side || is_done[start] != 0) continue;
       CapLoop loop;
-      int e = start;
+      Place i = start;
       do {
-        is_done[e] = true;
+        is_done[i] = 1;
+        const int e = component_.rim[i];
         loop.edges.push_back({e, body_.origin(e), body_.target(e)});
-        const int follower = follower_[e];
-        if (label_[follower] == side) {
-          e = follower;
-          continue;
-        }
-        const auto back = walk_in_the_open(side, label_[follower], body_.target(e), loop);
+        i = followers_[i];
+        if (labels_[i] == side) continue;
+        const auto back = walk_in_the_open(side, labels_[i], body_.target(e), loop);
         if (!back || loop.edges.size() > at(body_.half_edge_count())) return std::nullopt;
-        e = *back;
-      } while (e != start && !is_done[e]);
-      if (e != start) return std::nullopt;
+        i = *back;
+      } while (i != start && is_done[i] == 0);
+      if (i != start) return std::nullopt;
       cap.loops.push_back(std::move(loop));
     }
     return cap;
@@ -91,12 +102,12 @@ class Capper {
   /// From `point`, where the rim leaves the plane of `side` for that of `other`, along the edges of
   /// the corner to where the rim comes back to `side`: adds the free edges, returns the rim
   /// half-edge there.
-  std::optional<int> walk_in_the_open(Side side, Side other, int point, CapLoop& loop) {
+  std::optional<Place> walk_in_the_open(Side side, Side other, int point, CapLoop& loop) {
     for (int steps = 0; steps <= 4; ++steps) {
       const auto stop = next_stop(side, other, point);
       if (!stop) return std::nullopt;
       loop.edges.push_back({-1, point, stop->point});
-      if (stop->rim >= 0) return stop->rim;
+      if (stop->rim) return stop->rim;
       point = stop->point;
       other = stop->other;
     }
@@ -105,8 +116,8 @@ class Capper {
 
   struct Stop {
     int point;
-    int rim;     ///< where the rim takes over, or -1
-    Side other;  ///< the plane to walk along next, if it does not
+    std::optional<Place> rim;  ///< where the rim takes over
+    Side other;                ///< the plane to walk along next, if it does not
   };
 
   /// From the caps `side` and `other` towards the inside of the corner's edge between them.
@@ -127,14 +138,14 @@ class Capper {
       const double distance = dot(direction, world_.points.at(stop.point)) - here;
       if (stop.point == point || distance <= 0 || distance > least) return;
       // Where several planes meet, the walk goes on along the one that bounds the corner.
-      if (distance == least && (stop.rim < 0 && !bounds_corner(side, stop))) return;
+      if (distance == least && (!stop.rim && !bounds_corner(side, stop))) return;
       least = distance;
       nearest = stop;
     };
     for (const Side third : component_.sides) {
       if (third == side || third == other) continue;
       const auto meeting = world_.points.meet(side >> 1, other >> 1, third >> 1);
-      if (meeting && is_on_corner(*meeting)) offer({*meeting, -1, third});
+      if (meeting && is_on_corner(*meeting)) offer({*meeting, std::nullopt, third});
     }
     for (const Switch& s : switches_)
       if (s.from == other && s.to == side) offer({s.point, s.rim, other});
@@ -163,8 +174,8 @@ class Capper {
   World& world_;
   const Component& component_;
   Corner corner_;
-  std::map<int, Side> label_;
-  std::map<int, int> follower_;
+  std::vector<Side> labels_;      ///< by place in the rim: the plane of the cap there
+  std::vector<Place> followers_;  ///< likewise
   std::vector<Switch> switches_;
 };
 
@@ -193,8 +204,9 @@ class Judge {
         int most = -1, least = 1;
         for (const Side side : component.sides) {
           if (side == component.ground) continue;
-          most = std::max(most, world_.points.level(body_.origin(e), side));
-          least = std::min(least, world_.points.level(body_.origin(e), side));
+          const int level = world_.points.level(body_.origin(e), side);
+          most = std::max(most, level);
+          least = std::min(least, level);
         }
         is_behind_all &= most <= 0;
         is_before_all &= least >= 0;

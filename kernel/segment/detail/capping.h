@@ -31,7 +31,7 @@ struct Patch {
 /// Facets that may become a patch.
 struct Component {
   std::vector<int> facets;  ///< ascending
-  std::vector<int> rim;     ///< half-edges of its facets, their twins beyond
+  std::vector<int> rim;     ///< half-edges of its facets, their twins beyond; ascending
   std::vector<Side> sides;  ///< on which the rim lies, ascending
   Side ground = -1;         ///< one of the sides, if the patch stands on the ground
 };

@@ -62,7 +62,7 @@ class CornerCutter {
     const EdgeIndex edges(*body_, {side >> 1});
     const int behind = (side & 1) != 0 ? 1 : -1;
     Section section{side >> 1, behind};
-    section_at(*body_, section, edges.edges_at(0), {-1, weld_m_});
+    section_at(*body_, section, edges.edges_at(0, section.direction), {-1, weld_m_});
     if (section.loops.empty()) return section.crossings.empty();
     Lump all;
     for (int r = 0; r < std::ssize(section.regions); ++r)
@@ -215,8 +215,9 @@ class CornerHoleFinder {
   [[nodiscard]] bool crosses(int f, Side side) const {
     bool has_front = false, has_back = false;
     body_.for_each_edge(f, [&](int e) {
-      has_front |= level(body_.origin(e), side) > 0;
-      has_back |= level(body_.origin(e), side) < 0;
+      const int here = level(body_.origin(e), side);
+      has_front |= here > 0;
+      has_back |= here < 0;
     });
     return has_front && has_back;
   }
@@ -246,6 +247,7 @@ class CornerHoleFinder {
         const int low = std::min(level(body_.origin(e), side), level(body_.target(e), side));
         is_behind &= low < 0;
         reaches_behind &= low <= 0;
+        if (!reaches_behind) break;
       }
       has_bend |= is_behind && body_.is_reflex(e);
       for (std::size_t i = 0; reaches_behind && i < set.size(); ++i)

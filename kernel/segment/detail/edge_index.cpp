@@ -1,47 +1,49 @@
 #include "kernel/segment/detail/edge_index.h"
 
+#include "kernel/model/detail/index.h"
+
 #include <algorithm>
-#include <map>
 
 namespace oriel::detail {
 
-EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes)
-    : body_(body), edges_(planes.size()) {
+EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : body_(body) {
+  // Planes are numbered class by class, and in a class by rank.
   const PlaneTable& table = body.world().planes;
-  std::map<int, std::vector<std::pair<int, std::size_t>>> by_class;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    by_class[table.class_of(planes[i])].emplace_back(table.rank_of(planes[i]), i);
-  for (auto& [number, members] : by_class) {
-    std::ranges::sort(members);
-    Class c{number, {}, {}, {}};
-    for (const auto& [rank, entry] : members) {
-      c.ranks.push_back(rank);
-      c.entries.push_back(entry);
-    }
-    constexpr std::size_t kMany = 8;  // times: then searching costs less than a table
-    const std::size_t ranks = 2 * table.normal_class(number).planes.size() + 1;
-    if (ranks <= kMany * c.ranks.size())
-      for (std::size_t rank = 0, i = 0; rank <= ranks; ++rank) {
-        while (i < c.ranks.size() && c.ranks[i] < static_cast<int>(rank)) ++i;
-        c.first.push_back(static_cast<int>(i));
-      }
-    classes_.push_back(std::move(c));
+  first_gaps_.reserve(planes.size());
+  std::size_t gaps = 0;
+  for (const int plane : planes) {
+    if (classes_.empty() || classes_.back().number != table.class_of(plane))
+      classes_.push_back({table.class_of(plane), {}, gaps++, {}});
+    classes_.back().ranks.push_back(table.rank_of(plane));
+    first_gaps_.push_back(gaps++ - 1);
   }
+  edges_.resize(gaps);
+  make_tables();
   update();
 }
 
-std::size_t EdgeIndex::Class::first_from(int rank) const {
-  if (!first.empty()) return static_cast<std::size_t>(first[static_cast<std::size_t>(rank)]);
-  return static_cast<std::size_t>(std::ranges::lower_bound(ranks, rank) - ranks.begin());
+void EdgeIndex::make_tables() {
+  constexpr std::size_t kMany = 8;  // times: then searching costs less than a table
+  for (Class& c : classes_) {
+    const std::size_t ranks = 2 * body_.world().planes.normal_class(c.number).planes.size() + 2;
+    if (ranks > kMany * c.ranks.size()) continue;
+    c.before.reserve(ranks);
+    for (int rank = 0, i = 0; rank < static_cast<int>(ranks); ++rank) {
+      while (i < std::ssize(c.ranks) && c.ranks[at(i)] < rank) ++i;
+      c.before.push_back(i);
+    }
+  }
 }
 
-void EdgeIndex::update() {
-  struct Edge {
-    int half, from, to;
-  };
+std::size_t EdgeIndex::Class::planes_before(int rank) const {
+  if (!before.empty()) return at(before[at(rank)]);
+  return at(std::ranges::lower_bound(ranks, rank) - ranks.begin());
+}
+
+std::vector<EdgeIndex::Edge> EdgeIndex::new_edges() const {
   const int count = body_.half_edge_count();
   std::vector<Edge> edges;
-  edges.reserve(static_cast<std::size_t>(count - known_));
+  edges.reserve(at(count - known_));
   for (int e = known_; e < count; ++e) {
     if (!body_.is_alive_edge(e)) continue;
     const int twin = body_.twin(e);
@@ -49,19 +51,26 @@ void EdgeIndex::update() {
     if (twin >= known_ && twin < e) continue;
     edges.push_back({e, body_.origin(e), body_.origin(twin)});
   }
-  for (const Class& c : classes_) {
-    const auto rank = body_.world().points.ranks(c.number);
-    for (const Edge& edge : edges) {
-      const int from = rank[static_cast<std::size_t>(edge.from)];
-      const int to = rank[static_cast<std::size_t>(edge.to)];
-      if (from == to) continue;
-      const int high = std::max(from, to);
-      for (std::size_t i = c.first_from(std::min(from, to));
-           i < c.ranks.size() && c.ranks[i] <= high; ++i)
-        edges_[c.entries[i]].push_back(edge.half);
-    }
+  return edges;
+}
+
+template <class Visit>
+void EdgeIndex::for_each_run(const Class& c, std::span<const Edge> edges, Visit visit) const {
+  const auto rank = body_.world().points.ranks(c.number);
+  for (const Edge& edge : edges) {
+    const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
+    if (low == high) continue;
+    visit(edge, c.first_gap + c.planes_before(low + 1), c.first_gap + c.planes_before(high));
   }
-  known_ = count;
+}
+
+void EdgeIndex::update() {
+  const std::vector<Edge> edges = new_edges();
+  for (const Class& c : classes_)
+    for_each_run(c, edges, [&](const Edge& edge, std::size_t first, std::size_t last) {
+      for (std::size_t gap = first; gap <= last; ++gap) edges_[gap].push_back(edge.half);
+    });
+  known_ = body_.half_edge_count();
 }
 
 }  // namespace oriel::detail

@@ -14,6 +14,7 @@ struct Task {
   FeatureId feature;            ///< the body is in it; invalid: the solid itself
   int sign = 1;                 ///< -1 for air
   std::vector<int> own_planes;  ///< no split planes of this body
+  bool has_one_shell = false;   ///< for certain, so it has no cavities
   int model = -1;               ///< others wait for what becomes of it, or it waits itself
   std::optional<Congruence> copy_of_model = std::nullopt;
 };

@@ -58,9 +58,12 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
 
 /// Planes of a point are sorted, each once.
 void PointTable::add_plane(Point& point, int plane) const {
-  auto place = point.planes.end();
-  while (place != point.planes.begin() && *(place - 1) >= plane) --place;
-  if (place == point.planes.end() || *place != plane) point.planes.insert(place, plane);
+  auto& planes = point.planes;
+  std::size_t place = planes.size();
+  while (place > 0 && planes[place - 1] >= plane) --place;
+  if (place < planes.size() && planes[place] == plane) return;
+  planes.push_back(plane);
+  for (std::size_t i = planes.size() - 1; i > place; --i) std::swap(planes[i], planes[i - 1]);
 }
 
 PointTable::Place PointTable::place_at(const exact::Rational& where) const {
@@ -136,11 +139,6 @@ const Incidence& PointTable::incidence() {
     incidence_.make(solid_points_, planes_.size(),
                     [&](int p) -> const Few<int, 4>& { return points_[index(p)].planes; });
   return incidence_;
-}
-
-int PointTable::side(int point, int plane) {
-  const int difference = rank(point, planes_.class_of(plane)) - planes_.rank_of(plane);
-  return (difference > 0) - (difference < 0);
 }
 
 int PointTable::cross_edge(int f, int g, int low, int high, int plane) {

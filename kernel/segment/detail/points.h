@@ -42,7 +42,10 @@ class PointTable {
                                                 : ranks(k)[index(point)];
   }
   /// -1, 0, +1: behind, on, in front of a plane as its class has it.
-  [[nodiscard]] int side(int point, int plane);
+  [[nodiscard]] int side(int point, int plane) {
+    const int difference = rank(point, planes_.class_of(plane)) - planes_.rank_of(plane);
+    return (difference > 0) - (difference < 0);
+  }
   /// The same for an oriented plane: +1 where its normal points.
   [[nodiscard]] int level(int point, Side of) {
     const int level = side(point, of >> 1);

@@ -29,15 +29,17 @@ class Sectioner {
         plane_rank_(world_.planes.rank_of(section.plane)),
         section_(section) {}
 
-  void run() {
+  /// True if all living edges cross the plane.
+  bool run() {
     ask_for_facets();
-    find_crossings();
-    if (section_.crossings.empty()) return;
+    const bool do_all_cross = find_crossings();
+    if (section_.crossings.empty()) return do_all_cross;
     if (!link_chords() || !close_loops()) {
       section_.loops.clear();
-      return;
+      return false;
     }
     find_regions();
+    return do_all_cross;
   }
 
   bool prune() {
@@ -59,29 +61,37 @@ class Sectioner {
     return (difference > 0) - (difference < 0);
   }
 
-  void find_crossings() {
-    scratch_.crossed_edges.start(body_.half_edge_count());
-    const int limit = plane_rank_ * section_.direction;
+  bool find_crossings() {
+    StampSet& crossed = scratch_.crossed_edges;
+    crossed.start(body_.half_edge_count());
+    auto& crossings = section_.crossings;
+    crossings.reserve(edges_.size());
+    const auto ranks = ranks_;
+    const int direction = section_.direction, limit = plane_rank_ * direction;
+    std::size_t living = 0;
     for (const int one : edges_) {
-      if (!body_.is_alive_edge(one)) continue;
-      const int other = body_.twin(one);
-      const int rank_one = ranks_[at(body_.origin(one))],
-                rank_other = ranks_[at(body_.origin(other))];
-      const bool is_one_up = rank_one * section_.direction > limit;
-      if (is_one_up == (rank_other * section_.direction > limit)) continue;
-      const int e = is_one_up ? one : other;
+      const auto& half = body_.edge(one);
+      if (half.next < 0) continue;
+      ++living;
+      int e = one, up = half.origin, down = body_.origin(half.twin);
+      const bool is_one_up = ranks[at(up)] * direction > limit;
+      if (is_one_up == (ranks[at(down)] * direction > limit)) continue;
+      if (!is_one_up) {
+        e = half.twin;
+        std::swap(up, down);
+      }
       // An edge that was shortened or paired anew may be among them twice.
-      if (!scratch_.crossed_edges.insert(e)) continue;
-      const bool ends_on_plane = (is_one_up ? rank_other : rank_one) == plane_rank_;
-      section_.crossings.push_back({e, meeting(e, is_one_up ? other : one, ends_on_plane)});
+      if (crossed.insert(e))
+        crossings.push_back({e, meeting(up, down, ranks[at(down)] == plane_rank_)});
     }
+    return crossings.size() == living;
   }
 
-  /// Where an edge meets the plane, from the half-edges that start at its upper and its lower end.
+  /// Where an edge meets the plane, from its upper and its lower end.
   [[nodiscard]] Vec3 meeting(int up, int down, bool ends_on_plane) const {
-    const Vec3 q = body_.at(down);
+    const Vec3 q = world_.points.at(down);
     if (ends_on_plane) return q;
-    const Vec3 p = body_.at(up);
+    const Vec3 p = world_.points.at(up);
     const double hp = dot(axis_, p) - offset_m_, hq = dot(axis_, q) - offset_m_;
     return hp > hq ? p + (hp / (hp - hq)) * (q - p) : q;
   }
@@ -90,14 +100,15 @@ class Sectioner {
   /// material above it to its left, from a half-edge that leads down to one that leads up.
   bool link_chords() {
     scratch_.start_chords(body_.facet_count());
-    for (int c = 0; c < std::ssize(section_.crossings); ++c) {
-      const int e = section_.crossings[at(c)].edge;
-      add_end(body_.facet_of(e), 2 * c + 1);
-      add_end(body_.facet_of(body_.twin(e)), 2 * c);
+    const int count = static_cast<int>(section_.crossings.size());
+    for (int c = 0; c < count; ++c) {
+      const auto& half = body_.edge(section_.crossings[at(c)].edge);
+      add_end(half.facet, 2 * c + 1);
+      add_end(body_.facet_of(half.twin), 2 * c);
     }
     for (std::size_t i = 0; i < scratch_.facets_with_several.size(); ++i)
       if (!link_in_facet(scratch_.facets_with_several[i], scratch_.chord_ends[i])) return false;
-    return std::ranges::all_of(section_.crossings, [](const Crossing& c) { return c.next >= 0; });
+    return true;
   }
 
   /// Links the two ends of a facet that has no more, as most have.
@@ -166,19 +177,24 @@ class Sectioner {
     return dot(line, up) / dot(axis_, up);
   }
 
+  /// False if some crossing begins no chord.
   bool close_loops() {
-    auto& crossings = section_.crossings;
+    const std::span<Crossing> crossings = section_.crossings;
     for (int start = 0; start < std::ssize(crossings); ++start) {
       if (crossings[at(start)].loop >= 0) continue;
       const int number = static_cast<int>(section_.loops.size());
       const Vec3 origin = crossings[at(start)].at;
       Vec3 sum, from;
-      int c = start, first = start;
+      int c = start, first = start, least = crossings[at(start)].edge;
       do {
-        if (crossings[at(c)].loop >= 0 || crossings[at(c)].next < 0) return false;
-        crossings[at(c)].loop = number;
-        if (crossings[at(c)].edge < crossings[at(first)].edge) first = c;
-        c = crossings[at(c)].next;
+        Crossing& here = crossings[at(c)];
+        if (here.loop >= 0 || here.next < 0) return false;
+        here.loop = number;
+        if (here.edge < least) {
+          least = here.edge;
+          first = c;
+        }
+        c = here.next;
         const Vec3 to = crossings[at(c)].at - origin;
         sum = sum + cross(from, to);
         from = to;
@@ -321,12 +337,12 @@ class Sectioner {
 
 }  // namespace
 
-void section_at(const Boundary& body, Section& section, std::span<const int> edges,
+bool section_at(const Boundary& body, Section& section, std::span<const int> edges,
                 const SectionOptions& options) {
   section.crossings.clear();
   section.loops.clear();
   section.regions.clear();
-  Sectioner(body, section, edges, options).run();
+  return Sectioner(body, section, edges, options).run();
 }
 
 bool prune_section(const Boundary& body, Section& section, const SectionOptions& options) {

@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/slots.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/segment/detail/gap.h"
 #include "kernel/segment/detail/sweep.h"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ void Slots::sweep_classes() {
   for (const std::size_t i : to_do_)
     if (slots_[i].is_stale)
       met[at(world_.planes.class_of(planes_[slots_[i].entry]))] +=
-          edges_.edges_at(slots_[i].entry).size();
+          edges_.edges_at(slots_[i].entry, slots_[i].section.direction).size();
   for (const Class& c : classes_)
     if (met[at(c.number)] > kManyTimes * at(body_.half_edge_count())) sweep_class(c);
   std::erase_if(to_do_, [&](std::size_t i) { return slots_[i].is_idle; });
@@ -68,25 +69,49 @@ void Slots::sweep_class(const Class& c) {
   const auto passed = sweep(body_, c.number, planes);
   work_ += 2 * body_.half_edge_count();
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (passed[i].in_front_m2) let_rest(2 * (c.first + i), *passed[i].in_front_m2);
-    if (passed[i].behind_m2) let_rest(2 * (c.first + i) + 1, *passed[i].behind_m2);
+    if (passed[i].in_front_m2) swept(2 * (c.first + i), *passed[i].in_front_m2);
+    if (passed[i].behind_m2) swept(2 * (c.first + i) + 1, *passed[i].behind_m2);
   }
 }
 
 /// The section is one region of material that is not natural. Nothing can be cut there if it is
 /// larger than the old area, whatever coplanar facets cover of it.
-void Slots::let_rest(std::size_t number, double area_m2) {
-  Slot& slot = slots_[number];
-  if (!slot.is_stale) return;
-  const Side looking = slot.section.looking();
+void Slots::swept(std::size_t number, double area_m2) {
+  if (!slots_[number].is_stale) return;
+  const Side looking = slots_[number].section.looking();
   const double old = body_.area_on(looking), covered = body_.area_on(looking ^ 1);
-  const double margin = area_m2 - kSweptArea_m2 - covered - old;
-  if (old > 0 && margin <= 0) return;
-  margins_.set(number, old > 0 ? margin : Margins::kNone);
+  let_rest(number, old > 0 ? area_m2 - kSweptArea_m2 - covered - old : Margins::kNone);
+}
+
+/// The section that was made of one end of a gap tells of the other.
+void Slots::look_across_gap(std::size_t number) {
+  const std::size_t entry = slots_[number].entry;
+  const bool is_in_front = fresh_.direction > 0;
+  if (is_in_front ? entry + 1 == planes_.size() : entry == 0) return;
+  const std::size_t next = is_in_front ? entry + 1 : entry - 1;
+  const std::size_t other = 2 * next + (is_in_front ? 1 : 0);
+  if (!slots_[other].is_stale || !is_of_use(slots_[other]) ||
+      world_.planes.class_of(planes_[next]) != world_.planes.class_of(planes_[entry]))
+    return;
+  work_ += std::ssize(fresh_.crossings);
+  let_rest(other, margin_across_gap(body_, fresh_, planes_[next]));
+}
+
+/// Nothing can be cut as long as no more than the margin is lost.
+void Slots::let_rest(std::size_t number, double margin_m2) {
+  if (margin_m2 <= 0) return;
+  Slot& slot = slots_[number];
+  margins_.set(number, margin_m2);
   slot.is_idle = true;
   slot.is_clear = true;
   slot.is_stale = false;
   count_tests(slot);
+}
+
+/// There are facets in the plane.
+bool Slots::is_of_use(const Slot& slot) const {
+  const Side looking = slot.section.looking();
+  return body_.area_on(looking) > 0 || body_.area_on(looking ^ 1) > 0;
 }
 
 void Slots::count_tests(const Slot& slot) {
@@ -130,7 +155,7 @@ void Slots::refresh(bool natural_only) {
   }
   for (const std::size_t i : to_do_) {
     Slot& slot = slots_[i];
-    if (slot.is_stale || !prune(i)) refresh(i);
+    if (!slot.is_idle && (slot.is_stale || !prune(i))) refresh(i);
     slot.is_stale = slot.is_to_prune = false;
     if (slot.section.regions.empty())
       promising_.erase(i);
@@ -175,16 +200,16 @@ void Slots::refresh(std::size_t number) {
   slot.is_idle = false;
   lively_.erase(number);
   slot.section.regions.clear();
-  const Side looking = slot.section.looking();
-  if (body_.area_on(looking) <= 0 && body_.area_on(looking ^ 1) <= 0) return;
-  const auto edges = edges_.edges_at(slot.entry);
+  if (!is_of_use(slot)) return;
+  const auto edges = edges_.edges_at(slot.entry, slot.section.direction);
   fresh_.plane = slot.section.plane;
   fresh_.direction = slot.section.direction;
-  section_at(body_, fresh_, edges, section_options_);
+  const bool do_all_cross = section_at(body_, fresh_, edges, section_options_);
   work_ += std::ssize(edges);
   count_tests(slot);
   for (const Region& region : fresh_.regions)
     if (region.is_candidate && fresh_.old_area(region) > region.new_area) ++stats_.candidates;
+  if (do_all_cross) look_across_gap(number);
   if (judge(number, fresh_)) std::swap(slot.section, fresh_);
 }
 

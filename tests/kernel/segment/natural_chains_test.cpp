@@ -36,7 +36,7 @@ ChainCounts compare(const Building& building) {
   ChainCounts counts;
   for (std::size_t slot = 0; slot < 2 * planes.size(); ++slot) {
     detail::Section section{planes[slot / 2], slot % 2 == 0 ? 1 : -1};
-    section_at(body, section, edges.edges_at(slot / 2), {ground, 0.001});
+    section_at(body, section, edges.edges_at(slot / 2, section.direction), {ground, 0.001});
     const bool is_natural = std::ranges::any_of(
         section.regions, [](const detail::Region& r) { return r.is_natural && r.is_candidate; });
     ++counts.slots;

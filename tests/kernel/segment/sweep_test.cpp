@@ -28,7 +28,7 @@ void compare(const Boundary& body, int plane, int direction, const std::optional
   ++counts.answered;
   const detail::EdgeIndex edges(body, {plane});
   detail::Section section{plane, direction};
-  section_at(body, section, edges.edges_at(0), {});
+  section_at(body, section, edges.edges_at(0, direction), {});
   REQUIRE(section.loops.size() == 1);
   CHECK(std::abs(section.loops[0].area - *area) < detail::kSweptArea_m2);
   CHECK_FALSE(section.regions.at(0).is_natural);
