@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -24,7 +25,7 @@ bool is_alone_in(const std::vector<double>& values, double value) {
 }
 
 // The keys by which the passes of the orders sort one-plane candidates; nothing: not a candidate of
-// the pass.
+// the pass. Below `limit` a value is valid.
 
 /// N1: natural pockets by new / (old + new), which is always below 1, natural protrusions by new /
 /// old below 1.
@@ -37,14 +38,13 @@ std::optional<double> natural_key(const Region& region, double new_area, double 
 }
 
 /// N3: natural protrusions with more new area than old, by new / (old + new).
-std::optional<double> wide_natural_key(const Region& region, double new_area, double old_area,
-                                       double) {
+std::optional<double> wide_natural_key(const Region& region, double new_area, double old_area) {
   if (!region.is_natural || !region.is_material) return std::nullopt;
   return new_area / (old_area + new_area);
 }
 
 /// S and the paper's order: new / old, below 1.
-std::optional<double> strict_key(const Region&, double new_area, double old_area, double limit) {
+std::optional<double> strict_key(double new_area, double old_area, double limit) {
   const double value = new_area / old_area;
   return value < limit ? std::optional(value) : std::nullopt;
 }
@@ -70,19 +70,19 @@ std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
 
 std::optional<Choice> Chooser::natural_next() {
   slots_.refresh(true);
-  if (auto choice = best_section_cut(natural_key, {})) return choice;
+  if (auto choice = best_section_cut(Pass::natural, {})) return choice;
   if (options_.max_order > 1)
     if (auto choice = first_of_least_order(patches(false))) return choice;
-  if (auto choice = best_section_cut(wide_natural_key, {})) return choice;
+  if (auto choice = best_section_cut(Pass::wide_natural, {})) return choice;
   slots_.refresh(false);
-  if (options_.max_order == 1) return best_section_cut(strict_key, {});
-  if (auto choice = best_section_cut(strict_key, patches(true))) return choice;
+  if (options_.max_order == 1) return best_section_cut(Pass::strict, {});
+  if (auto choice = best_section_cut(Pass::strict, patches(true))) return choice;
   return corner_cut({});
 }
 
 std::optional<Choice> Chooser::paper_next() {
   slots_.refresh(false);
-  if (auto choice = best_section_cut(strict_key, {})) return choice;
+  if (auto choice = best_section_cut(Pass::strict, {})) return choice;
   if (options_.max_order == 1) return std::nullopt;
   return corner_cut(patches(true));
 }
@@ -160,9 +160,23 @@ Lump Chooser::lump_at(const Candidate& candidate, LumpFinder& finder, bool is_al
   return same;
 }
 
+std::optional<double> Chooser::key_of(Pass pass, const Region& region, double new_area,
+                                      double old_area) const {
+  const double limit = 1 - options_.tolerances.value_rel;
+  switch (pass) {
+    case Pass::natural:
+      return natural_key(region, new_area, old_area, limit);
+    case Pass::wide_natural:
+      return wide_natural_key(region, new_area, old_area);
+    case Pass::strict:
+      break;
+  }
+  return strict_key(new_area, old_area, limit);
+}
+
 /// Gives a candidate its lump, and the key of that as a whole. False if it is no feature, or none
 /// of the pass.
-bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder, bool is_alone) {
+bool Chooser::check(Candidate& candidate, Pass pass, LumpFinder& finder, bool is_alone) {
   const Section& section = candidate.slot->section;
   const Region& region = section.regions[at(candidate.region)];
   Lump found = lump_at(candidate, finder, is_alone);
@@ -174,7 +188,7 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder, bool is_a
     return false;
   for (const int r : lump.regions) {
     const auto value =
-        key(section.regions[at(r)], lump.new_area, section.old_area(region), limit());
+        key_of(pass, section.regions[at(r)], lump.new_area, section.old_area(region));
     if (!value) return false;
     candidate.key = *value;
   }
@@ -184,13 +198,51 @@ bool Chooser::check(Candidate& candidate, Key key, LumpFinder& finder, bool is_a
   return *first == candidate.region;
 }
 
+template <class Visit>
+void Chooser::for_each_candidate(const Slot& slot, Pass pass, Visit visit) const {
+  for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
+    const Region& region = slot.section.regions[at(r)];
+    const double old = region.is_candidate ? slot.section.old_area(region) : 0;
+    if (old <= 0 || is_banned(slot.section, region)) continue;
+    if (const auto key = key_of(pass, region, region.new_area, old)) visit(r, *key);
+  }
+}
+
+/// Infinite if it has no candidate. Known of a slot that was not looked at again since.
+double Chooser::least_key(std::size_t number, Pass pass) {
+  auto& leasts = leasts_[static_cast<std::size_t>(pass)];
+  if (leasts.empty()) leasts.resize(slots_.size());
+  Least& least = leasts[number];
+  const Slot& slot = slots_[number];
+  if (least.looks == slot.looks && banned_->empty()) return least.key;
+  least = {banned_->empty() ? slot.looks : -1, std::numeric_limits<double>::infinity()};
+  for_each_candidate(slot, pass, [&](int, double key) { least.key = std::min(least.key, key); });
+  return least.key;
+}
+
+/// Adds the candidates of the slots that have one with no larger key; a slot is asked once.
+void Chooser::take_candidates(std::vector<Candidate>& candidates, Pass pass, double most) {
+  const std::size_t before = candidates.size();
+  while (!waiting_.empty() && waiting_.front().first <= most) {
+    const std::size_t number = waiting_.front().second;
+    std::ranges::pop_heap(waiting_, std::greater{});
+    waiting_.pop_back();
+    const Slot& slot = slots_[number];
+    for_each_candidate(slot, pass, [&](int region, double key) {
+      candidates.push_back({number, &slot, region, -1, key});
+    });
+  }
+  if (candidates.size() > before) std::ranges::stable_sort(candidates, {}, &Candidate::number);
+}
+
 /// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
 /// features are dropped.
-void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) {
+void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
   const double group = 1 + std::max(kSame, options_.tolerances.value_rel);
-  while (!candidates.empty()) {
-    double least = candidates[0].key;
+  while (!candidates.empty() || !waiting_.empty()) {
+    double least = waiting_.empty() ? candidates[0].key : waiting_.front().first;
     for (const Candidate& c : candidates) least = std::min(least, c.key);
+    take_candidates(candidates, pass, least * group);
     bool is_settled = true;
     const auto leads = [&](const Candidate& c) { return c.lump < 0 && c.key <= least * group; };
     std::vector<double> keys;
@@ -205,28 +257,29 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Key key) {
       is_settled = false;
       if (c.slot != found_in) finder.emplace(body_, c.slot->section);
       found_in = c.slot;
-      return !check(c, key, *finder, is_alone_in(keys, c.key));
+      return !check(c, pass, *finder, is_alone_in(keys, c.key));
     });
     if (is_settled) return;
   }
 }
 
-std::optional<Choice> Chooser::best_section_cut(Key key, const std::vector<Patch>& rivals) {
+/// Only slots with a leader are asked for their candidates: most do not change from cut to cut.
+void Chooser::wait_for_slots(Pass pass) {
+  waiting_.clear();
+  for (const std::size_t number : slots_.promising()) {
+    const double key = least_key(number, pass);
+    if (key < std::numeric_limits<double>::infinity()) waiting_.emplace_back(key, number);
+  }
+  std::ranges::make_heap(waiting_, std::greater{});
+}
+
+std::optional<Choice> Chooser::best_section_cut(Pass pass, const std::vector<Patch>& rivals) {
   std::vector<Candidate> candidates;
   lumps_.clear();
   pockets_.clear();
   lump_of_kind_.clear();
-  for (const std::size_t i : slots_.promising()) {
-    const Slot& slot = slots_[i];
-    for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
-      const Region& region = slot.section.regions[at(r)];
-      const double old = region.is_candidate ? slot.section.old_area(region) : 0;
-      if (old <= 0 || is_banned(slot.section, region)) continue;
-      if (const auto value = key(region, region.new_area, old, limit()))
-        candidates.push_back({&slot, r, -1, *value});
-    }
-  }
-  check_leaders(candidates, key);
+  wait_for_slots(pass);
+  check_leaders(candidates, pass);
   std::optional<Choice> best;
   std::map<std::pair<const Slot*, bool>, bool> is_done;
   double least = std::numeric_limits<double>::infinity();

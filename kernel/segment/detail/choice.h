@@ -60,8 +60,17 @@ class Chooser {
 
  private:
   using Slot = Slots::Slot;
+  /// The passes differ in which regions they take, and by what they sort them.
+  enum class Pass { natural, wide_natural, strict };
+  static constexpr std::size_t kPasses = 3;
+  /// The least key of a slot's regions in a pass, as the slot was when it was looked at so often.
+  struct Least {
+    int looks = -1;
+    double key = 0;
+  };
   /// A region as a candidate of the pass at hand.
   struct Candidate {
+    std::size_t number = 0;  ///< of its slot
     const Slot* slot = nullptr;
     int region = -1;
     int lump = -1;  ///< in lumps_ once the flood has found it
@@ -70,14 +79,18 @@ class Chooser {
   [[nodiscard]] const Lump& lump_of(const Candidate& candidate) const {
     return lumps_[static_cast<std::size_t>(candidate.lump)];
   }
-  using Key = std::optional<double> (*)(const Region&, double new_area, double old_area,
-                                        double limit);
-
   std::optional<Choice> natural_next();
   std::optional<Choice> paper_next();
-  std::optional<Choice> best_section_cut(Key key, const std::vector<Patch>& rivals);
-  void check_leaders(std::vector<Candidate>& candidates, Key key);
-  bool check(Candidate& candidate, Key key, LumpFinder& finder, bool is_alone);
+  std::optional<Choice> best_section_cut(Pass pass, const std::vector<Patch>& rivals);
+  [[nodiscard]] std::optional<double> key_of(Pass pass, const Region& region, double new_area,
+                                             double old_area) const;
+  [[nodiscard]] double least_key(std::size_t number, Pass pass);
+  void wait_for_slots(Pass pass);
+  void take_candidates(std::vector<Candidate>& candidates, Pass pass, double most);
+  template <class Visit>
+  void for_each_candidate(const Slot& slot, Pass pass, Visit visit) const;
+  void check_leaders(std::vector<Candidate>& candidates, Pass pass);
+  bool check(Candidate& candidate, Pass pass, LumpFinder& finder, bool is_alone);
   Lump lump_at(const Candidate& candidate, LumpFinder& finder, bool is_alone);
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
@@ -104,7 +117,9 @@ class Chooser {
   std::int64_t& work_;
   Slots slots_;
   const std::set<CutKey>* banned_ = nullptr;
+  std::array<std::vector<Least>, kPasses> leasts_;  ///< by slot
   // Found in the pass at hand.
+  std::vector<std::pair<double, std::size_t>> waiting_;  ///< slots by their least key, a heap
   std::vector<Lump> lumps_;
   Pockets pockets_;
   std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets

@@ -239,49 +239,85 @@ class Sectioner {
         ((is_known && region.covered.empty()) || !is_sliver(region.loops[0], region.new_area));
   }
 
+  [[nodiscard]] bool is_dead(const Crossing& c) const { return !body_.is_alive_edge(c.edge); }
+
   /// False if a loop is dead in part only, or a living one lies in a dead one.
   bool drop_dead_loops() {
-    const auto is_dead = [&](const Crossing& c) { return !body_.is_alive_edge(c.edge); };
-    if (std::ranges::none_of(section_.crossings, is_dead)) return true;
+    if (std::ranges::none_of(section_.crossings, [&](const Crossing& c) { return is_dead(c); }))
+      return true;
+    list_by_loop();
+    std::vector<int> new_loop;
+    if (!number_living_loops(new_loop) || !drop_dead_regions(new_loop)) return false;
+    drop_dead_crossings(new_loop);
+    return true;
+  }
+
+  /// The crossings of each loop stand together from then on, in the order of the loops.
+  void list_by_loop() {
+    if (section_.is_by_loop) return;
+    section_.is_by_loop = true;
     std::vector<Crossing> crossings;
-    std::vector<SectionLoop> loops;
-    std::vector<Region> regions;
-    std::vector<int> new_loop(section_.loops.size(), -1);
     crossings.reserve(section_.crossings.size());
     for (int l = 0; l < std::ssize(section_.loops); ++l) {
-      std::size_t dead = 0;
-      const int first = static_cast<int>(crossings.size()), number = static_cast<int>(loops.size());
+      const int first = static_cast<int>(crossings.size());
       for_each_crossing(section_, l, [&](const Crossing& c) {
-        dead += is_dead(c) ? 1 : 0;
-        crossings.push_back({c.edge, c.at, static_cast<int>(crossings.size()) + 1, number});
+        crossings.push_back({c.edge, c.at, static_cast<int>(crossings.size()) + 1, l});
       });
-      if (dead > 0 && first + static_cast<int>(dead) < std::ssize(crossings)) return false;
-      if (dead > 0) {
-        crossings.resize(at(first));
-        continue;
-      }
-      crossings.back().next = first;
-      loops.push_back({first, section_.loops[at(l)].area});
-      new_loop[at(l)] = number;
-    }
-    for (Region& region : section_.regions) {
-      if (new_loop[at(region.loops[0])] < 0) {
-        if (std::ranges::any_of(region.loops, [&](int l) { return new_loop[at(l)] >= 0; }))
-          return false;
-        continue;
-      }
-      Region& same = regions.emplace_back(std::move(region));
-      Few<int, 2> living;
-      for (const int l : same.loops)
-        if (new_loop[at(l)] >= 0)
-          living.push_back(new_loop[at(l)]);
-        else
-          same.area += std::abs(section_.loops[at(l)].area);
-      same.loops = std::move(living);
+      crossings.back().next = section_.loops[at(l)].first = first;
     }
     section_.crossings.swap(crossings);
-    section_.loops.swap(loops);
-    section_.regions.swap(regions);
+  }
+
+  [[nodiscard]] int end_of_loop(std::size_t l) const {
+    const auto& loops = section_.loops;
+    return l + 1 < loops.size() ? loops[l + 1].first : static_cast<int>(section_.crossings.size());
+  }
+
+  /// -1: it is dead.
+  bool number_living_loops(std::vector<int>& new_loop) const {
+    int living = 0;
+    for (std::size_t l = 0; l < section_.loops.size(); ++l) {
+      const int first = section_.loops[l].first, last = end_of_loop(l);
+      int dead = 0;
+      for (int c = first; c < last; ++c) dead += is_dead(section_.crossings[at(c)]) ? 1 : 0;
+      if (dead > 0 && dead < last - first) return false;
+      new_loop.push_back(dead > 0 ? -1 : living++);
+    }
+    return true;
+  }
+
+  void drop_dead_crossings(const std::vector<int>& new_loop) {
+    auto& crossings = section_.crossings;
+    int kept = 0, kept_loops = 0;
+    for (std::size_t l = 0; l < new_loop.size(); ++l) {
+      if (new_loop[l] < 0) continue;
+      const int first = section_.loops[l].first, last = end_of_loop(l), shift = first - kept;
+      for (int c = first; c < last && shift > 0; ++c) {
+        const Crossing& from = crossings[at(c)];
+        crossings[at(c - shift)] = {from.edge, from.at, from.next - shift, kept_loops};
+      }
+      section_.loops[at(kept_loops++)] = {kept, section_.loops[l].area};
+      kept += last - first;
+    }
+    crossings.resize(at(kept));
+    section_.loops.resize(at(kept_loops));
+  }
+
+  bool drop_dead_regions(const std::vector<int>& new_loop) {
+    const auto is_gone = [&](int l) { return new_loop[at(l)] < 0; };
+    for (Region& region : section_.regions) {
+      if (is_gone(region.loops[0])) {
+        if (!std::ranges::all_of(region.loops, is_gone)) return false;
+        region.loops.clear();
+        continue;
+      }
+      for (const int l : region.loops)
+        if (is_gone(l)) region.area += std::abs(section_.loops[at(l)].area);
+      region.loops.erase(std::remove_if(region.loops.begin(), region.loops.end(), is_gone),
+                         region.loops.end());
+      for (int& l : region.loops) l = new_loop[at(l)];
+    }
+    std::erase_if(section_.regions, [](const Region& region) { return region.loops.empty(); });
     return true;
   }
 
@@ -342,6 +378,7 @@ bool section_at(const Boundary& body, Section& section, std::span<const int> edg
   section.crossings.clear();
   section.loops.clear();
   section.regions.clear();
+  section.is_by_loop = false;
   return Sectioner(body, section, edges, options).run();
 }
 

@@ -55,6 +55,7 @@ struct Section {
   std::vector<Region> regions = {};
   /// The area of the body's facets on the split side of air and of material: the old area of a cut.
   std::array<double, 2> old_areas = {};
+  bool is_by_loop = false;  ///< crossings stand loop by loop, in their order
 
   /// The side that looks to where the section looks.
   [[nodiscard]] Side looking() const { return 2 * plane + (direction > 0 ? 0 : 1); }

@@ -102,6 +102,9 @@ void Slots::let_rest(std::size_t number, double margin_m2) {
   if (margin_m2 <= 0) return;
   Slot& slot = slots_[number];
   margins_.set(number, margin_m2);
+  slot.is_to_prune = false;
+  slot.section.regions.clear();  // those that it had before it was touched
+  promising_.erase(number);
   slot.is_idle = true;
   slot.is_clear = true;
   slot.is_stale = false;
@@ -157,6 +160,7 @@ void Slots::refresh(bool natural_only) {
     Slot& slot = slots_[i];
     if (!slot.is_idle && (slot.is_stale || !prune(i))) refresh(i);
     slot.is_stale = slot.is_to_prune = false;
+    ++slot.looks;
     if (slot.section.regions.empty())
       promising_.erase(i);
     else
@@ -180,6 +184,7 @@ void Slots::put_off() {
     if (!slot.is_stale || chains_.may_be_natural(i)) return false;
     slot.section.regions.clear();
     slot.is_to_prune = false;
+    ++slot.looks;
     promising_.erase(i);
     put_off_.push_back(i);
     return true;

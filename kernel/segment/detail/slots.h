@@ -46,6 +46,7 @@ class Slots {
   /// A split plane seen from one side.
   struct Slot {
     std::size_t entry;  ///< of its plane in planes_
+    int looks = 0;      ///< how often its section was looked at again
     bool is_stale = true;
     /// Nothing can be cut here; margins_ has the area by which the smallest region is too large.
     bool is_idle = false;
@@ -71,6 +72,7 @@ class Slots {
 
   /// The slots with something to cut, ascending.
   [[nodiscard]] const std::set<std::size_t>& promising() const { return promising_; }
+  [[nodiscard]] std::size_t size() const { return slots_.size(); }
   [[nodiscard]] const Slot& operator[](std::size_t i) const { return slots_[i]; }
 
  private:
