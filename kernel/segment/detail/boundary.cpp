@@ -127,15 +127,14 @@ int Boundary::number_side(Side side) {
   return number;
 }
 
-int Boundary::add_facet_on(int number, Side side, const Sources& sources,
-                           std::vector<CapMark> marks) {
+int Boundary::add_facet_on(int number, Side side, Sources sources, std::vector<CapMark> marks) {
   const int f = facet_count();
   OnSide& on = on_side_[index(number)];
   on.facets.push_back(f);
   ++on.living;
   FacetRecord& facet = facets_.emplace_back();
   facet.side = side;
-  facet.sources = sources;
+  facet.sources = std::move(sources);
   facet.marks = std::move(marks);
   facet.on_side = number;
   return f;

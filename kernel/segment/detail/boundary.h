@@ -127,7 +127,7 @@ class Boundary {
   /// A facet without loops.
   int add_facet(Side side, const Sources& sources = {}, std::vector<CapMark> marks = {});
   /// The same with the number that number_side() has for the side.
-  int add_facet_on(int number, Side side, const Sources& sources, std::vector<CapMark> marks);
+  int add_facet_on(int number, Side side, Sources sources, std::vector<CapMark> marks);
   /// A number for what lies on a side, for as long as the boundary lives.
   int number_side(Side side);
   /// Room for that many half-edges and facets.

@@ -147,8 +147,9 @@ Lump Chooser::lump_at(const Candidate& candidate, LumpFinder& finder, bool is_al
     return lump;
   }
   const int kind = pockets_.kind_of(pocket);
-  if (kind == std::ssize(lump_of_kind_)) {
-    lump_of_kind_.push_back(static_cast<int>(lumps_.size()));
+  if (kind >= std::ssize(lump_of_kind_)) lump_of_kind_.resize(at(kind) + 1, -1);
+  if (lump_of_kind_[at(kind)] < 0) {
+    lump_of_kind_[at(kind)] = static_cast<int>(lumps_.size());
     Lump first = finder.find(candidate.region);
     first.pocket = pocket;
     return first;
@@ -276,8 +277,7 @@ void Chooser::wait_for_slots(Pass pass) {
 std::optional<Choice> Chooser::best_section_cut(Pass pass, const std::vector<Patch>& rivals) {
   std::vector<Candidate> candidates;
   lumps_.clear();
-  pockets_.clear();
-  lump_of_kind_.clear();
+  lump_of_kind_.assign(at(pockets_.kind_count()), -1);
   wait_for_slots(pass);
   check_leaders(candidates, pass);
   std::optional<Choice> best;

@@ -56,7 +56,10 @@ class Chooser {
   std::optional<Choice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
-  void changed(const std::vector<Change>& changes) { slots_.changed(changes); }
+  void changed(const std::vector<Change>& changes) {
+    slots_.changed(changes);
+    pockets_.changed(changes);
+  }
 
  private:
   using Slot = Slots::Slot;
@@ -117,12 +120,12 @@ class Chooser {
   std::int64_t& work_;
   Slots slots_;
   const std::set<CutKey>* banned_ = nullptr;
+  Pockets pockets_;
   std::array<std::vector<Least>, kPasses> leasts_;  ///< by slot
   // Found in the pass at hand.
   std::vector<std::pair<double, std::size_t>> waiting_;  ///< slots by their least key, a heap
   std::vector<Lump> lumps_;
-  Pockets pockets_;
-  std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets
+  std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
 };
 
 }  // namespace oriel::detail

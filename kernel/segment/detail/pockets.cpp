@@ -18,6 +18,10 @@ bool is_same_place(Vec3 difference) {
   return dot(difference, difference) <= kSame_m * kSame_m;
 }
 
+bool is_of_pocket(const Region& region) {
+  return region.is_natural && region.loops.size() == 1 && region.covered.empty();
+}
+
 Vec3 shift_in_metres(const std::array<std::int64_t, 3>& shift, double grid_m) {
   return {static_cast<double>(shift[0]) * grid_m, static_cast<double>(shift[1]) * grid_m,
           static_cast<double>(shift[2]) * grid_m};
@@ -25,16 +29,39 @@ Vec3 shift_in_metres(const std::array<std::int64_t, 3>& shift, double grid_m) {
 
 }  // namespace
 
-void Pockets::clear() {
-  pockets_.clear();
-  kinds_.clear();
-  edges_.clear();
-  rims_.clear();
+void Pockets::changed(const std::vector<Change>& changes) {
   order_.pocket = -1;
+  StampSet& is_touched = body_.world().scratch.met_points;
+  is_touched.start(body_.world().points.size());
+  for (const Change& change : changes)
+    for (const int p : change.points) is_touched.insert(p);
+  const auto has_gone = [&](const Pocket& pocket) {
+    const auto edges = edges_of(pocket);
+    return std::ranges::any_of(kinds_[at(pocket.kind)].corners, [&](const Corner& corner) {
+      return is_touched.contains(body_.origin(edges[at(corner.edge)]));
+    });
+  };
+  for (Kind& kind : kinds_)
+    if (kind.cap >= 0 && has_gone(pockets_[at(kind.first)])) kind.cap = -1;
+  for (Pocket& pocket : pockets_)
+    if (pocket.kind >= 0 && (kinds_[at(pocket.kind)].cap < 0 || has_gone(pocket))) pocket.kind = -1;
+}
+
+/// The pocket that was found in front of a region, when the body was the same there.
+int Pockets::find_known(const Section& section, const Region& region) const {
+  if (!is_of_pocket(region)) return -1;
+  const int known =
+      at_edge_.find(section.crossings[at(section.loops[at(region.loops[0])].first)].edge);
+  if (known < 0 || pockets_[at(known)].kind < 0) return -1;
+  const Kind& kind = kinds_[at(pockets_[at(known)].kind)];
+  const bool is_of_section =
+      kind.cap == section.split_side(region) && kind.direction == section.direction;
+  return is_of_section ? known : -1;
 }
 
 int Pockets::find(const Section& section, int region) {
   const Region& here = section.regions[at(region)];
+  if (const int known = find_known(section, here); known >= 0) return known;
   if (!trace_rim(section, here)) return -1;
   Pocket pocket;
   const Side cap = section.split_side(here);
@@ -50,14 +77,17 @@ int Pockets::find(const Section& section, int region) {
   pocket.first_rim = static_cast<int>(rims_.size());
   edges_.insert(edges_.end(), walk_.begin(), walk_.end());
   rims_.insert(rims_.end(), rim_.begin(), rim_.end());
+  const int number = static_cast<int>(pockets_.size());
   pockets_.push_back(pocket);
-  return static_cast<int>(pockets_.size()) - 1;
+  at_edge_.make_room(body_.half_edge_count());
+  at_edge_.set(section.crossings[at(section.loops[at(here.loops[0])].first)].edge, number);
+  return number;
 }
 
 /// The edges along the region's outline, and the facet beyond them. False if a chord is more or
 /// less than an edge, or if they are not all of a hole of that facet.
 bool Pockets::trace_rim(const Section& section, const Region& region) {
-  if (!region.is_natural || region.loops.size() != 1 || !region.covered.empty()) return false;
+  if (!is_of_pocket(region)) return false;
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int rank = planes.rank_of(section.plane);

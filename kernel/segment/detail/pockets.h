@@ -3,6 +3,7 @@
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/congruence.h"
 #include "kernel/segment/detail/section.h"
+#include "kernel/segment/detail/slots.h"
 
 #include <algorithm>
 #include <array>
@@ -25,12 +26,14 @@ class Pockets {
   /// `ground`: the side of the ground, -1: none.
   Pockets(const Boundary& body, Side ground) : body_(body), ground_plane_(ground >> 1) {}
 
-  /// Forgets all. To be called when the body has changed.
-  void clear();
+  /// Tells that the body has changed in this way and no other: pockets that the changes have no
+  /// point of stay known, with their numbers.
+  void changed(const std::vector<Change>& changes);
 
   /// The number of the pocket in front of a region; -1 if the lump there is none.
   int find(const Section& section, int region);
 
+  [[nodiscard]] int kind_count() const { return static_cast<int>(kinds_.size()); }
   /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
   /// asks for (find_congruence).
   [[nodiscard]] int kind_of(int pocket) const { return pockets_[index(pocket)].kind; }
@@ -48,7 +51,7 @@ class Pockets {
 
  private:
   struct Pocket {
-    int kind = -1;
+    int kind = -1;                           ///< -1: it has gone
     int first_edge = 0, first_rim = 0;       ///< in edges_, rims_
     std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
   };
@@ -60,7 +63,7 @@ class Pockets {
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
   /// listed facet by facet, in the order in which these are met.
   struct Kind {
-    Side cap = -1;
+    Side cap = -1;  ///< -1: the first has gone, and with it the kind
     int direction = 0;
     bool is_convex = false;
     int first = -1;            ///< the first pocket
@@ -80,6 +83,7 @@ class Pockets {
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] int find_known(const Section& section, const Region& region) const;
   bool trace_rim(const Section& section, const Region& region);
   bool find_facets(const Section& section);
   [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
@@ -101,6 +105,7 @@ class Pockets {
   std::vector<Pocket> pockets_;
   std::vector<Kind> kinds_;
   std::vector<int> edges_, rims_;  ///< of the pockets
+  StampMap at_edge_;               ///< pockets, by the first crossing of their regions
   mutable Order order_;            ///< of the model that was asked for last
 
   // The pocket at hand.

@@ -34,8 +34,12 @@ class StampSet {
 class StampMap {
  public:
   void start(int size) {
-    if (std::ssize(entries_) < size) entries_.resize(static_cast<std::size_t>(size));
+    make_room(size);
     ++last_;
+  }
+  /// For numbers below `size`.
+  void make_room(int size) {
+    if (std::ssize(entries_) < size) entries_.resize(static_cast<std::size_t>(size));
   }
   void set(int i, int number) { entries_[static_cast<std::size_t>(i)] = {last_, number}; }
   /// -1 if there is none, as for what is out of range.
@@ -51,7 +55,7 @@ class StampMap {
     int number = -1;
   };
   std::vector<Entry> entries_;
-  int last_ = 0;
+  int last_ = 1;
 };
 
 /// The ends of chords of a section in one facet. An end is twice its crossing, and one more if the
