@@ -24,9 +24,16 @@ double Boundary::area_on(Side side) const {
   return on == nullptr || on->living == 0 ? 0 : on->area;
 }
 
-bool Boundary::has_facets_on(Side side) const {
-  const OnSide* on = on_side(side);
-  return on != nullptr && on->living > 0;
+Boundary::OnPlane Boundary::on_plane(int plane) const {
+  OnPlane found;
+  auto i = std::ranges::lower_bound(number_of_side_, 2 * plane, {}, &std::pair<Side, int>::first);
+  for (; i != number_of_side_.end() && i->first >> 1 == plane; ++i) {
+    const OnSide& on = on_side_[index(i->second)];
+    if (on.living == 0) continue;
+    found.areas[index(i->first & 1)] = on.area;
+    found.has_facets[index(i->first & 1)] = true;
+  }
+  return found;
 }
 
 std::vector<Side> Boundary::sides() const {

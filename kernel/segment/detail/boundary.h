@@ -7,6 +7,7 @@
 #include "kernel/segment/detail/points.h"
 #include "kernel/segment/detail/scratch.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <utility>
@@ -88,7 +89,13 @@ class Boundary {
   [[nodiscard]] double area(int f) const;
   /// The area of all facets of a side.
   [[nodiscard]] double area_on(Side side) const;
-  [[nodiscard]] bool has_facets_on(Side side) const;
+  /// The same of both sides of a plane, by orientation, and whether there are any facets.
+  struct OnPlane {
+    std::array<double, 2> areas = {};
+    std::array<bool, 2> has_facets = {};
+    [[nodiscard]] bool has_area() const { return areas[0] > 0 || areas[1] > 0; }
+  };
+  [[nodiscard]] OnPlane on_plane(int plane) const;
   /// The sides that have facets, ascending.
   [[nodiscard]] std::vector<Side> sides() const;
   /// The living facets of a side, ascending.

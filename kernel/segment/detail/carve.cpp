@@ -248,15 +248,22 @@ double area_on_lump(const CapLoop& loop, const PointTable& points, bool is_hole,
   return signed_area(room, normal);
 }
 
-/// The corners of a facet of one loop, turned round if it is of air.
-void trace_facet(const Boundary& body, int f, bool is_hole, Outline& corners) {
-  corners.clear();
+/// signed_area() of a facet of one loop, turned round if it is of air.
+double area_of_facet(const Boundary& body, int f, bool is_hole, Vec3 normal) {
+  const PointTable& points = body.world().points;
   const int first = body.loop(body.facet(f).loops[0]).first;
-  int e = first;
-  do {
-    corners.push_back(is_hole ? body.world().points.at(body.target(e)) : body.at(e));
-    e = is_hole ? body.prev(e) : body.next(e);
-  } while (e != first);
+  const Vec3 start = points.at(is_hole ? body.target(first) : body.origin(first));
+  Vec3 sum, from;
+  for (int e = first;;) {
+    const int after = is_hole ? body.prev(e) : body.next(e);
+    if (after == first) break;
+    // The half-edge before one ends where that one begins.
+    const Vec3 to = points.at(is_hole ? body.origin(e) : body.origin(after)) - start;
+    if (e != first) sum = sum + cross(from, to);
+    from = to;
+    e = after;
+  }
+  return dot(sum, normal) / 2;
 }
 
 }  // namespace
@@ -271,9 +278,8 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   // Sums as Boundary makes them of a body that is copied facet by facet.
   filled.surface = -area_on_lump(cap.loops[0], points, true, planes.normal(cap.side), room);
   for (const int f : facets) {
-    trace_facet(body, f, is_hole, room);
     const Side side = body.facet(f).side ^ flip;
-    const double facet_area = signed_area(room, planes.normal(side));
+    const double facet_area = area_of_facet(body, f, is_hole, planes.normal(side));
     filled.volume += planes.offset_m(side) * facet_area;
     filled.surface += facet_area;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -20,13 +21,14 @@ class FarEnd {
         offset_m_(body.world().planes.offset_m(2 * plane + (section.looking() & 1))),
         ranks_(body.world().points.ranks(body.world().planes.class_of(plane))),
         limit_(body.world().planes.rank_of(plane) * section.direction),
-        areas_{body.area_on(2 * plane + (section.looking() & 1)),
-               body.area_on(2 * plane + ((section.looking() & 1) ^ 1))} {}
+        areas_(body.on_plane(plane).areas) {
+    // From there one looks back: the split side of air is the one that `section` looks to.
+    if ((section.looking() & 1) != 0) std::swap(areas_[0], areas_[1]);
+  }
 
   double margin() {
     double least = std::numeric_limits<double>::infinity();
     for (const Region& region : section_.regions) {
-      // What is looked at from there: material's split side looks back.
       const double old = areas_[region.is_material ? 1 : 0];
       if (old <= 0) continue;
       const auto area = area_of(region);

@@ -45,7 +45,7 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
     if (solid.vertices[v].is_meeting && point.planes.size() >= 3)
       where = exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
                           planes.plane(point.planes[2]));
-    places_.push_back(where ? place_at(*where).at : Vec3{});
+    places_.push_back(where ? metres_of(*where) : Vec3{});
     point.is_by_decree = !where || length(places_[v] - at) > kOnSegment_m;
     if (!point.is_by_decree) continue;
     const Place place = place_at(exact::round_finely(at, grid_m_));
@@ -66,9 +66,9 @@ void PointTable::add_plane(Point& point, int plane) const {
   for (std::size_t i = planes.size() - 1; i > place; --i) std::swap(planes[i], planes[i - 1]);
 }
 
-PointTable::Place PointTable::place_at(const exact::Rational& where) const {
+Vec3 PointTable::metres_of(const exact::Rational& where) const {
   const auto grid = exact::as_grid_point(where);
-  return {where, grid ? exact::to_metres(*grid, grid_m_) : exact::to_metres(where, grid_m_)};
+  return grid ? exact::to_metres(*grid, grid_m_) : exact::to_metres(where, grid_m_);
 }
 
 exact::Rational PointTable::exact_at(int p) const {

@@ -95,7 +95,10 @@ class PointTable {
   std::optional<int> met_near(const Point& point, Vec3 where);
   bool lies_on_too(int p, const Few<int, 4>& planes);
   void add(Point point, const Place& place);
-  [[nodiscard]] Place place_at(const exact::Rational& where) const;
+  [[nodiscard]] Vec3 metres_of(const exact::Rational& where) const;
+  [[nodiscard]] Place place_at(const exact::Rational& where) const {
+    return {where, metres_of(where)};
+  }
   [[nodiscard]] exact::Rational exact_at(int p) const;
   [[nodiscard]] int exact_side(const exact::Rational& point, int plane) const;
   int compute_rank(int point, int k);

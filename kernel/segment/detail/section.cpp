@@ -51,8 +51,10 @@ class Sectioner {
 
  private:
   void ask_for_facets() {
-    section_.old_areas = {body_.area_on(looking_ ^ 1), body_.area_on(looking_)};
-    has_facets_ = {body_.has_facets_on(looking_ ^ 1), body_.has_facets_on(looking_)};
+    const auto on_plane = body_.on_plane(looking_ >> 1);
+    const std::size_t material = at(looking_ & 1), air = 1 - material;
+    section_.old_areas = {on_plane.areas[air], on_plane.areas[material]};
+    has_facets_ = {on_plane.has_facets[air], on_plane.has_facets[material]};
   }
 
   /// +1 on the side looked to, 0 on the plane, -1 on the other side.

@@ -79,7 +79,8 @@ void Slots::sweep_class(const Class& c) {
 void Slots::swept(std::size_t number, double area_m2) {
   if (!slots_[number].is_stale) return;
   const Side looking = slots_[number].section.looking();
-  const double old = body_.area_on(looking), covered = body_.area_on(looking ^ 1);
+  const auto areas = body_.on_plane(looking >> 1).areas;
+  const double old = areas[at(looking & 1)], covered = areas[at((looking & 1) ^ 1)];
   let_rest(number, old > 0 ? area_m2 - kSweptArea_m2 - covered - old : Margins::kNone);
 }
 
@@ -90,8 +91,9 @@ void Slots::look_across_gap(std::size_t number) {
   if (is_in_front ? entry + 1 == planes_.size() : entry == 0) return;
   const std::size_t next = is_in_front ? entry + 1 : entry - 1;
   const std::size_t other = 2 * next + (is_in_front ? 1 : 0);
-  if (!slots_[other].is_stale || !is_of_use(slots_[other]) ||
-      world_.planes.class_of(planes_[next]) != world_.planes.class_of(planes_[entry]))
+  if (!slots_[other].is_stale ||
+      world_.planes.class_of(planes_[next]) != world_.planes.class_of(planes_[entry]) ||
+      !body_.on_plane(planes_[next]).has_area())
     return;
   work_ += std::ssize(fresh_.crossings);
   let_rest(other, margin_across_gap(body_, fresh_, planes_[next]));
@@ -111,16 +113,11 @@ void Slots::let_rest(std::size_t number, double margin_m2) {
   count_tests(slot);
 }
 
-/// There are facets in the plane.
-bool Slots::is_of_use(const Slot& slot) const {
-  const Side looking = slot.section.looking();
-  return body_.area_on(looking) > 0 || body_.area_on(looking ^ 1) > 0;
-}
-
 void Slots::count_tests(const Slot& slot) {
   const Side looking = slot.section.looking();
-  if (body_.area_on(looking) > 0) ++stats_.protrusion_tests;
-  if (body_.area_on(looking ^ 1) > 0) ++stats_.hole_tests;
+  const auto areas = body_.on_plane(looking >> 1).areas;
+  if (areas[at(looking & 1)] > 0) ++stats_.protrusion_tests;
+  if (areas[at((looking & 1) ^ 1)] > 0) ++stats_.hole_tests;
 }
 
 /// False if there is nothing to cut: no region is natural or smaller than the old area.
@@ -205,7 +202,7 @@ void Slots::refresh(std::size_t number) {
   slot.is_idle = false;
   lively_.erase(number);
   slot.section.regions.clear();
-  if (!is_of_use(slot)) return;
+  if (!body_.on_plane(planes_[slot.entry]).has_area()) return;
   const auto edges = edges_.edges_at(slot.entry, slot.section.direction);
   fresh_.plane = slot.section.plane;
   fresh_.direction = slot.section.direction;

@@ -117,7 +117,6 @@ class Slots {
   void swept(std::size_t number, double area_m2);
   void look_across_gap(std::size_t number);
   void let_rest(std::size_t number, double margin_m2);
-  [[nodiscard]] bool is_of_use(const Slot& slot) const;
   void count_tests(const Slot& slot);
   void refresh(std::size_t number);
   bool prune(std::size_t number);
