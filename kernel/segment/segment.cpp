@@ -218,6 +218,8 @@ class Segmenter {
     const std::size_t first_part = tasks_.size();
     std::vector<detail::Change> changes;
     changes.reserve(choice.lumps.size() + choice.patches.size());
+    if (tasks_.capacity() < tasks_.size() + choice.lumps.size())
+      tasks_.reserve(2 * tasks_.capacity() + choice.lumps.size());
     is_body_changed_ = false;
     const std::vector<std::size_t> models = models_of(choice);
     for (std::size_t i = 0; i < choice.lumps.size(); ++i) {
