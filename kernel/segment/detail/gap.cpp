@@ -1,11 +1,13 @@
 #include "kernel/segment/detail/gap.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/segment/detail/nested_loops.h"
 #include "kernel/segment/detail/sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <optional>
+#include <span>
 #include <utility>
 
 namespace oriel::detail {
@@ -26,56 +28,67 @@ class FarEnd {
     if ((section.looking() & 1) != 0) std::swap(areas_[0], areas_[1]);
   }
 
-  double margin() {
+  double margin() const {
+    if (!is_sound() || !do_all_reach()) return 0;
     double least = std::numeric_limits<double>::infinity();
     for (const Region& region : section_.regions) {
       const double old = areas_[region.is_material ? 1 : 0];
       if (old <= 0) continue;
-      const auto area = area_of(region);
-      if (!area) return 0;
+      if (!is_crossed(region.loops[0])) return 0;
       const double covered = areas_[region.is_material ? 0 : 1];
-      least = std::min(least, *area - kSweptArea_m2 - covered - old);
+      least = std::min(least, area_of(region) - kSweptArea_m2 - covered - old);
     }
     return least;
   }
 
  private:
-  /// Nothing if a vertex lies in the gap, or if the outline may follow edges at its end.
-  std::optional<double> area_of(const Region& region) const {
+  /// Each loop belongs to a region of material, be it as a hole. One that pokes out of its facet
+  /// (bad input) does not, and may do so at the other end.
+  [[nodiscard]] bool is_sound() const {
+    std::size_t loops = 0;
+    for (const Region& region : section_.regions)
+      if (region.is_material) loops += region.loops.size();
+    return loops == section_.loops.size();
+  }
+
+  [[nodiscard]] int level_of_end(const Crossing& c) const {
+    return ranks_[at(body_.origin(c.edge))] * section_.direction - limit_;
+  }
+
+  /// No edge ends in the gap.
+  [[nodiscard]] bool do_all_reach() const {
+    return std::ranges::all_of(section_.crossings,
+                               [&](const Crossing& c) { return level_of_end(c) >= 0; });
+  }
+
+  /// An edge goes on beyond the plane, so a chord there follows no edge.
+  [[nodiscard]] bool is_crossed(int loop) const {
+    bool is_beyond = false;
+    for_each_crossing(section_, loop, [&](const Crossing& c) { is_beyond |= level_of_end(c) > 0; });
+    return is_beyond;
+  }
+
+  [[nodiscard]] double area_of(const Region& region) const {
     double sum = 0;
-    for (const int l : region.loops) {
-      bool is_crossed = false;
-      const auto area = area_of(l, is_crossed);
-      if (!area || (l == region.loops[0] && !is_crossed)) return std::nullopt;
-      sum += *area;
-    }
+    for (const int l : region.loops) sum += area_of(l);
     return region.is_material ? sum : -sum;
   }
 
-  /// `is_crossed`: an edge goes on beyond the plane, so a chord there follows no edge.
-  std::optional<double> area_of(int loop, bool& is_crossed) const {
-    const int first = section_.loops[at(loop)].first;
-    Vec3 origin, sum, from;
-    int c = first;
-    do {
-      const Crossing& crossing = section_.crossings[at(c)];
-      const int rank = ranks_[at(body_.origin(crossing.edge))] * section_.direction;
-      if (rank < limit_) return std::nullopt;
-      is_crossed |= rank > limit_;
-      const Vec3 here = end_of(crossing, rank == limit_);
-      if (c == first) origin = here;
-      const Vec3 to = here - origin;
+  [[nodiscard]] double area_of(int loop) const {
+    const Vec3 origin = end_of(section_.crossings[at(section_.loops[at(loop)].first)]);
+    Vec3 sum, from;
+    for_each_crossing(section_, loop, [&](const Crossing& c) {
+      const Vec3 to = end_of(c) - origin;
       sum = sum + cross(from, to);
       from = to;
-      c = crossing.next;
-    } while (c != first);
+    });
     return dot(sum, axis_) / 2;
   }
 
   /// Where the edge of a crossing leaves the gap.
-  [[nodiscard]] Vec3 end_of(const Crossing& crossing, bool ends_on_plane) const {
+  [[nodiscard]] Vec3 end_of(const Crossing& crossing) const {
     const Vec3 up = body_.at(crossing.edge);
-    if (ends_on_plane) return up;
+    if (level_of_end(crossing) == 0) return up;
     const double rise = dot(axis_, up - crossing.at), above = dot(axis_, up) - offset_m_;
     return rise > 0 ? up + (above / rise) * (crossing.at - up) : up;
   }
