@@ -18,11 +18,22 @@
 
 namespace oriel {
 
+namespace detail {
+
+/// Which side of a face is the outer one, and what says so.
+struct SurfaceFacing {
+  bool is_turned = false;
+  const char* source = "input";
+};
+
+}  // namespace detail
+
 namespace {
 
 using detail::LineCrossing;
 using detail::SurfaceFace;
 using detail::SurfaceFaces;
+using detail::SurfaceFacing;
 
 /// Within this of level a normal has no azimuth, as for features.
 constexpr double kLevel_deg = 0.5;
@@ -34,12 +45,6 @@ constexpr double kMajority = 0.75;
 
 /// Where on an edge is looked, as shares of it.
 constexpr std::array<double, 3> kProbes = {1.0 / 6, 0.5, 5.0 / 6};
-
-/// Which side of a face is the outer one, and what says so.
-struct Facing {
-  bool is_turned = false;
-  const char* source = "input";
-};
 
 /// Where the attributes stand, found once.
 struct SurfaceColumns {
@@ -91,7 +96,7 @@ struct SurfaceSurvey::State {
   SurfaceFaces faces;
   /// Once something is asked of them.
   std::optional<detail::VerticalLines> vertical_lines;
-  std::vector<Facing> facings;
+  std::vector<SurfaceFacing> facings;
   Box box;
   SurfaceTable table;
 };
@@ -240,7 +245,7 @@ std::vector<int> rows_by_source(const Building& building) {
 
 /// A polygon looks where the solid's facet looks that it lies in. True for those that lie in one.
 std::vector<bool> take_facing(const Solid& solid, const SurfaceFaces& faces,
-                              const std::vector<int>& rows, std::vector<Facing>& facings) {
+                              const std::vector<int>& rows, std::vector<SurfaceFacing>& facings) {
   std::vector<bool> is_known(faces.size(), false);
   for (const Facet& facet : solid.facets) {
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
@@ -305,7 +310,7 @@ SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& toleran
 
 SurfaceSurvey::SurfaceSurvey(const Solid& solid, const Tolerances& tolerances)
     : state_(std::make_unique<State>(solid, tolerances)) {
-  std::ranges::fill(state_->facings, Facing{false, "solid"});
+  std::ranges::fill(state_->facings, SurfaceFacing{false, "solid"});
   SurfaceTable& table = state_->table;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     state_->describe(row);
