@@ -221,19 +221,31 @@ double Chooser::least_key(std::size_t number, Pass pass) {
   return least.key;
 }
 
-/// Adds the candidates of the slots that have one with no larger key; a slot is asked once.
+/// Adds the candidates with no larger key; a slot that has others waits on with the least of them.
 void Chooser::take_candidates(std::vector<Candidate>& candidates, Pass pass, double most) {
-  const std::size_t before = candidates.size();
+  const auto before = std::ssize(candidates);
   while (!waiting_.empty() && waiting_.front().first <= most) {
-    const std::size_t number = waiting_.front().second;
+    const auto [least, number] = waiting_.front();
     std::ranges::pop_heap(waiting_, std::greater{});
-    waiting_.pop_back();
     const Slot& slot = slots_[number];
+    double next = std::numeric_limits<double>::infinity();
     for_each_candidate(slot, pass, [&](int region, double key) {
-      candidates.push_back({number, &slot, region, -1, key});
+      if (key > most)
+        next = std::min(next, key);
+      else if (key >= least)
+        candidates.push_back({number, &slot, region, -1, key});
     });
+    if (next < std::numeric_limits<double>::infinity()) {
+      waiting_.back().first = next;
+      std::ranges::push_heap(waiting_, std::greater{});
+    } else {
+      waiting_.pop_back();
+    }
   }
-  if (candidates.size() > before) std::ranges::stable_sort(candidates, {}, &Candidate::number);
+  const auto place = [](const Candidate& c) { return std::pair(c.number, c.region); };
+  const auto added = candidates.begin() + before;
+  std::ranges::sort(added, candidates.end(), {}, place);
+  std::ranges::inplace_merge(candidates.begin(), added, candidates.end(), {}, place);
 }
 
 /// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
@@ -244,23 +256,21 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
     double least = waiting_.empty() ? candidates[0].key : waiting_.front().first;
     for (const Candidate& c : candidates) least = std::min(least, c.key);
     take_candidates(candidates, pass, least * group);
-    bool is_settled = true;
     const auto leads = [&](const Candidate& c) { return c.lump < 0 && c.key <= least * group; };
     std::vector<double> keys;
     for (const Candidate& c : candidates)
       if (leads(c)) keys.push_back(c.key);
+    if (keys.empty()) return;
     std::ranges::sort(keys);
     // Candidates of one slot stand together, so one finder at a time does.
     const Slot* found_in = nullptr;
     std::optional<LumpFinder> finder;
     std::erase_if(candidates, [&](Candidate& c) {
       if (!leads(c)) return false;
-      is_settled = false;
       if (c.slot != found_in) finder.emplace(body_, c.slot->section);
       found_in = c.slot;
       return !check(c, pass, *finder, is_alone_in(keys, c.key));
     });
-    if (is_settled) return;
   }
 }
 

@@ -123,7 +123,8 @@ class Chooser {
   Pockets pockets_;
   std::array<std::vector<Least>, kPasses> leasts_;  ///< by slot
   // Found in the pass at hand.
-  std::vector<std::pair<double, std::size_t>> waiting_;  ///< slots by their least key, a heap
+  /// Slots by the least key of what was not taken of them, a heap.
+  std::vector<std::pair<double, std::size_t>> waiting_;
   std::vector<Lump> lumps_;
   std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
 };
