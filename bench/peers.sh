@@ -6,8 +6,8 @@
 #   nef-halves CGAL Nef, body and complement cut by the half-space of every plane: one level, no tree
 #   nef-convex CGAL Nef, convex decomposition: all pieces, no tree; left out for 2000 windows, where it takes minutes
 #   prototype  the throw-away kernel of the project's design, in doubles: the whole tree
-# The two of one level are measured at some 10 (pmp) and 3 (nef) planes and scaled to all. oriel and pmp take turns, as the clock
-# of a machine changes within seconds: medians of five. Takes three to four minutes.
+# The two of one level are measured at some 10 (pmp) and 3 (nef) planes and scaled to all. oriel and pmp take nine turns, as
+# the clock of a machine changes within seconds: the one with the median ratio stands here. Takes two to four minutes.
 #   bench/peers.sh [natural|paper]   the order of cuts; paper, as the peers know no other
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -35,23 +35,11 @@ pmp() {
     sed -n 's/.* done=[0-9]*\/\([0-9]*\) clip=\([0-9.]*\)(fail [0-9]*) split=\([0-9.]*\)(fail .*/\1 \2 \3/p' |
     awk '{ print 1000 * $1 * $3, 1000 * $1 * $2 }'
 }
-# Of each column of the lines read.
-medians() {
-  awk '{ for (i = 1; i <= NF; i++) value[i, NR] = $i }
-    END {
-      for (i = 1; i <= NF; i++) {
-        for (n = 1; n <= NR; n++) for (m = n; m > 1 && value[i, m] + 0 < value[i, m - 1] + 0; m--) {
-          t = value[i, m]; value[i, m] = value[i, m - 1]; value[i, m - 1] = t
-        }
-        printf "%s ", value[i, int((NR + 1) / 2)]
-      }
-    }'
-}
-# BUILDING RUNS: solidify, segment, split, clip.
+# BUILDING RUNS: solidify, segment, split, clip of the turn whose split / segment is the median.
 in_turns() {
-  for _ in 1 2 3 4 5; do
+  for _ in 1 2 3 4 5 6 7 8 9; do
     echo "$(build/release/bench/bench_timed_calls "$work/$1.off" "$order" "$2") $(pmp "$work/$1.mm.off")"
-  done | medians
+  done | awk '{ printf "%.4f %s\n", $3 / $2, $0 }' | sort -n | sed -n '5s/^[^ ]* //p'
 }
 nef_halves() {
   "$work/nef" planes "$1" 3 2>&1 |
