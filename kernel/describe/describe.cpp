@@ -11,12 +11,14 @@
 #include "kernel/model/wall_lean.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <system_error>
 #include <utility>
 
 namespace oriel {
@@ -59,6 +61,7 @@ struct FeatureColumns {
   std::size_t storey = column_of("storey").value();
   std::size_t per_facade = column_of("per_facade").value();
   std::size_t per_storey = column_of("per_storey").value();
+  std::size_t lod = column_of("lod").value();
 };
 
 const FeatureColumns& columns() {
@@ -295,6 +298,15 @@ bool is_opening(const Subject& s) {
          std::abs(s.normal->z) < 0.5;
 }
 
+/// "2.2"; nothing if the level of detail is no number.
+std::optional<double> level_of_detail(const Building& building) {
+  const std::string& text = building.lod;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
 /// What takes its time and is left out if nobody asks for it.
 struct Asked {
   explicit Asked(const DescribeOptions& options) {
@@ -333,11 +345,13 @@ Description describe(const Building& building, const Segmentation& segmentation,
   std::vector<Subject> subjects;
   std::vector<InFacade> placed;
   std::vector<char> openings;
+  const auto lod = level_of_detail(building);
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     subjects.push_back(subject_of(segmentation, FeatureId{static_cast<int>(i)}));
     const Subject& s = subjects.back();
     describe_cut(out.table, s);
     describe_size(out.table, s);
+    if (lod) out.table.set(s.id, columns().lod, *lod);
     if (panes) describe_recess(out.table, s, segmentation, *panes);
     if (asked.growth) describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);

@@ -80,6 +80,9 @@ const std::vector<Attribute>& feature_schema() {
        "number of its storey among the openings' storeys, from 0; missing where none", "5.2"},
       {"per_facade", count, "features of its kind on its facade, itself included", "5.2"},
       {"per_storey", count, "features of its kind in its storey, itself included", "5.2"},
+      // Of the building.
+      {"lod", ratio, "level of detail that the input states, such as 2.2; missing if none",
+       "rules.md"},
   };
   return schema;
 }

@@ -121,6 +121,20 @@ TEST_SUITE("kernel/describe") {
     check_numbers(d, d.at({0, 2, 1}, {0.2, 4, 2.5}), {{"azimuth", 270}});
   }
 
+  TEST_CASE("features have the level of detail that the input states") {
+    Building building = test::full_house();
+    const auto first = [](const Described& d) { return d.table().number(FeatureId{0}, "lod"); };
+    for (const auto& [text, number] : {std::pair{"2.2", 2.2}, {"3", 3.0}}) {
+      building.lod = text;
+      CHECK(first(described(building)) == number);
+    }
+    for (const char* text : {"", "LoD2", "2.2b"}) {
+      CAPTURE(std::string(text));
+      building.lod = text;
+      CHECK_FALSE(first(described(building)));
+    }
+  }
+
   TEST_CASE("a turned house has features of the same sizes that face elsewhere") {
     const Building building = test::full_house();
     const Described d = described(building);
