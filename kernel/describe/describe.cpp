@@ -17,8 +17,8 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace oriel {
