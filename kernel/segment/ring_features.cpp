@@ -4,6 +4,7 @@
 #include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/polygon_grid.h"
 #include "kernel/segment/detail/reach.h"
+#include "kernel/segment/detail/residents.h"
 #include "kernel/segment/detail/ring_content.h"
 #include "kernel/segment/detail/rings.h"
 
@@ -26,9 +27,6 @@ using detail::Reach;
 using detail::Ring;
 using detail::RingContent;
 
-/// The caps of a feature fill this part of a ring's rectangle: it is the ring's. As for the boxes
-/// of objects in bench/recall.sh.
-constexpr double kSame = 0.8;
 /// A notch is a ring if what is parallel in it fills this part of it.
 constexpr double kFilled = 0.5;
 /// The sides of a wall or a frame are parallel to within 8 degrees.
@@ -40,9 +38,16 @@ class RingWriter {
  public:
   RingWriter(const Building& building, const Solid& solid, Segmentation& segmentation,
              const Tolerances& tolerances)
-      : solid_(solid), out_(segmentation), tolerances_(tolerances), grid_(building, solid.grid_m) {}
+      : building_(building),
+        solid_(solid),
+        out_(segmentation),
+        tolerances_(tolerances),
+        residents_(segmentation, tolerances) {}
 
   void run() {
+    const bool is_open = solid_.shells.empty();
+    if (!is_open && all_rings_have_residents(solid_, residents_, tolerances_)) return;
+    grid_ = detail::PolygonGrid(building_, solid_.grid_m);
     const std::vector<Ring> rings = detail::find_rings(solid_, grid_, tolerances_);
     if (rings.empty()) return;
     find_homes();
@@ -63,40 +68,6 @@ class RingWriter {
       for (int f = 0; f < std::ssize(facets); ++f)
         for (const int polygon : facets[at(f)].polygons) home_[polygon] = {CellId{c}, f};
     }
-    for (int i = 0; i < std::ssize(out_.features); ++i)
-      for (const PlaneId plane : out_.features[at(i)].planes)
-        residents_[plane].push_back({FeatureId{i}, cap_of(FeatureId{i}, plane)});
-    for (auto& [plane, residents] : residents_)
-      std::ranges::stable_sort(residents, {}, [](const Resident& r) { return r.cap.u0; });
-  }
-
-  struct Resident {
-    FeatureId id;
-    Reach cap;  ///< of its points in that plane
-  };
-
-  [[nodiscard]] Reach cap_of(FeatureId id, PlaneId number) const {
-    const Plane& plane = out_.planes[number.index()];
-    std::vector<Vec3> cap;
-    for (const int v : out_.features[id.index()].vertices) {
-      const Vec3 p = out_.vertices[at(v)].point;
-      if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
-        cap.push_back(p);
-    }
-    return detail::axes_in(plane.normal).reach_of(cap);
-  }
-
-  /// Features of the tree with a cap in a rectangle of a plane.
-  [[nodiscard]] std::vector<Resident> residents_in(PlaneId plane, const Reach& reach) const {
-    std::vector<Resident> within;
-    const auto found = residents_.find(plane);
-    if (found == residents_.end()) return within;
-    const double slack = tolerances_.weld_m + tolerances_.plane_offset_m;
-    auto r = std::ranges::lower_bound(found->second, reach.u0 - slack, {},
-                                      [](const Resident& resident) { return resident.cap.u0; });
-    for (; r != found->second.end() && r->cap.u0 <= reach.u1; ++r)
-      if (reach.holds(r->cap, slack)) within.push_back(*r);
-    return within;
   }
 
   // --- features
@@ -106,10 +77,7 @@ class RingWriter {
     const Vec3 normal = plane_of(ring).normal;
     const detail::ReachAxes axes = detail::axes_in(normal);
     const Reach reach = axes.reach_of(ring.outline);
-    const std::vector<Resident> within = residents_in(plane, reach);
-    if (std::ranges::any_of(
-            within, [&](const Resident& r) { return r.cap.area() >= kSame * reach.area(); }))
-      return;
+    if (residents_.fills(plane, reach)) return;
     const auto home = home_of(ring);
     if (!home) return;
     const RingContent content = detail::content_of(ring, solid_, grid_);
@@ -118,11 +86,10 @@ class RingWriter {
     const std::optional<FeatureId> owner = owner_of(ring, content);
     const FeatureId id{static_cast<int>(out_.features.size())};
     out_.features.push_back(make(ring, content, *home, owner));
-    for (const Resident& resident : within) {
-      Feature& inner = out_.features[resident.id.index()];
+    for (const FeatureId resident : residents_.within(plane, reach)) {
+      Feature& inner = out_.features[resident.index()];
       if (inner.planes.front() == plane && !inner.is_uncut &&
-          detail::contains({&ring.outline, 1}, normal, inner.cap_point) &&
-          !carries(resident.id, id))
+          detail::contains({&ring.outline, 1}, normal, inner.cap_point) && !carries(resident, id))
         inner.host = id;
     }
     for (const int p : content.polygons) owner_[grid_.polygons()[at(p)].source] = id;
@@ -275,12 +242,13 @@ class RingWriter {
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
 
+  const Building& building_;
   const Solid& solid_;
   Segmentation& out_;
   const Tolerances& tolerances_;
+  detail::Residents residents_;
   detail::PolygonGrid grid_;
-  std::map<int, CellFacet> home_;  ///< by Polygon::source
-  std::map<PlaneId, std::vector<Resident>> residents_;
+  std::map<int, CellFacet> home_;   ///< by Polygon::source
   std::map<int, FeatureId> owner_;  ///< by Polygon::source: the smallest ring around it so far
   std::map<std::array<long, 3>, std::vector<Told>> told_;  ///< rings by their middle
   std::map<std::tuple<double, double, double>, int> vertex_;

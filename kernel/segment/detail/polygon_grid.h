@@ -22,6 +22,8 @@ struct PlacedPolygon {
 /// The input polygons of a building, found by the middles of their boxes.
 class PolygonGrid {
  public:
+  /// Of no polygons.
+  PolygonGrid() = default;
   /// `grid_m` as for outlines_of.
   PolygonGrid(const Building& building, double grid_m);
 

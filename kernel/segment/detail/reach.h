@@ -28,13 +28,15 @@ struct ReachAxes {
 
   [[nodiscard]] Reach reach_of(const std::vector<Vec3>& points) const {
     Reach reach;
-    for (const Vec3 p : points) {
-      reach.u0 = std::min(reach.u0, dot(p, u));
-      reach.u1 = std::max(reach.u1, dot(p, u));
-      reach.v0 = std::min(reach.v0, dot(p, v));
-      reach.v1 = std::max(reach.v1, dot(p, v));
-    }
+    for (const Vec3 p : points) grow(reach, p);
     return reach;
+  }
+  void grow(Reach& reach, Vec3 p) const {
+    const double along_u = dot(p, u), along_v = dot(p, v);
+    reach.u0 = std::min(reach.u0, along_u);
+    reach.u1 = std::max(reach.u1, along_u);
+    reach.v0 = std::min(reach.v0, along_v);
+    reach.v1 = std::max(reach.v1, along_v);
   }
 };
 

@@ -23,6 +23,13 @@ constexpr double kFrame_m = 0.15;
 constexpr double kNotch_deg = 150;
 constexpr double kStraightSide_deg = 1;
 
+/// In a plane, counter-clockwise.
+Outline laid(const Plane& plane, Outline loop) {
+  for (Vec3& p : loop) p = p + (plane.offset_m - dot(p, plane.normal)) * plane.normal;
+  if (signed_area(loop, plane.normal) < 0) std::ranges::reverse(loop);
+  return loop;
+}
+
 class RingFinder {
  public:
   RingFinder(const Solid& solid, const PolygonGrid& grid, const Tolerances& tolerances)
@@ -48,13 +55,12 @@ class RingFinder {
     if (is_open_)
       for (const int source : facet.polygons) find_rings_of(f, source);
     for (std::size_t l = 0; l < facet.loops.size(); ++l) {
-      Outline loop;
-      for (const int v : facet.loops[l]) loop.push_back(solid_.vertices[at(v)].point);
-      loop = laid(f, std::move(loop));
+      if (l == 0 && !is_open_) continue;
+      Ring ring = ring_of(solid_, FacetId{f}, facet.loops[l]);
       if (l > 0)
-        add({FacetId{f}, std::move(loop), 0, Ring::Kind::inner, -1});
-      else if (is_open_)
-        find_notches(f, loop);
+        add(std::move(ring));
+      else
+        find_notches(f, ring.outline);
     }
   }
 
@@ -94,9 +100,9 @@ class RingFinder {
   void find_rings_of(int f, int source) {
     const PlacedPolygon& polygon = grid_.of(source);
     for (std::size_t r = 1; r < polygon.rings.size(); ++r)
-      add({FacetId{f}, laid(f, polygon.rings[r]), 0, Ring::Kind::inner, source});
+      add({FacetId{f}, laid(plane_of(f), polygon.rings[r]), 0, Ring::Kind::inner, source});
     if (is_frame(polygon, plane_of(f).normal))
-      add({FacetId{f}, laid(f, polygon.outline()), 0, Ring::Kind::frame, source});
+      add({FacetId{f}, laid(plane_of(f), polygon.outline()), 0, Ring::Kind::frame, source});
   }
 
   /// Two frames side by side in one plane are the leaves of one opening; more of them are a row.
@@ -168,19 +174,11 @@ class RingFinder {
     return axes.reach_of(inner).holds(axes.reach_of(polygon.outline()), kFrame_m);
   }
 
-  /// In the plane of a facet, counter-clockwise.
-  [[nodiscard]] Outline laid(int f, Outline loop) const {
-    const Plane& plane = plane_of(f);
-    for (Vec3& p : loop) p = p + (plane.offset_m - dot(p, plane.normal)) * plane.normal;
-    if (signed_area(loop, plane.normal) < 0) std::ranges::reverse(loop);
-    return loop;
-  }
-
   /// Slits are no rings, and no ring counts twice.
   void add(Ring ring) {
     const Vec3 normal = plane_of(ring).normal;
     ring.area_m2 = signed_area(ring.outline, normal);
-    if (ring.area_m2 <= tolerances_.weld_m * perimeter(ring.outline) / 2) return;
+    if (is_slit(ring, tolerances_)) return;
     start_at_least(ring.outline);
     const Reach reach = axes_in(normal).reach_of(ring.outline);
     const auto place = [](double c) { return static_cast<long>(std::floor(c / (4 * kLean_m))); };
@@ -229,6 +227,20 @@ class RingFinder {
 };
 
 }  // namespace
+
+Ring ring_of(const Solid& solid, FacetId facet, const Loop& loop) {
+  const Plane& plane = solid.planes[solid.facets[facet.index()].plane.index()];
+  Outline outline;
+  outline.reserve(loop.size());
+  for (const int v : loop) outline.push_back(solid.vertices[at(v)].point);
+  outline = laid(plane, std::move(outline));
+  const double area_m2 = signed_area(outline, plane.normal);
+  return {facet, std::move(outline), area_m2, Ring::Kind::inner, -1};
+}
+
+bool is_slit(const Ring& ring, const Tolerances& tolerances) {
+  return ring.area_m2 <= tolerances.weld_m * perimeter(ring.outline) / 2;
+}
 
 std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid,
                              const Tolerances& tolerances) {

@@ -30,6 +30,12 @@ struct Ring {
   int source = -1;  ///< the input polygon it is a ring of, -1 if of the facet
 };
 
+/// The ring that a loop of a facet is, whether a hole or its outer one.
+Ring ring_of(const Solid& solid, FacetId facet, const Loop& loop);
+
+/// So thin that it is no ring.
+bool is_slit(const Ring& ring, const Tolerances& tolerances);
+
 /// The rings of a solid's facets; of an open shell (no Solid::shells) also those of the input
 /// polygons, narrow frames and notches. The largest first, then by place; slits are none, and no
 /// ring counts twice. `grid` has the polygons of the building that `solid` is of.
