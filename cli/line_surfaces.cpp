@@ -67,10 +67,10 @@ void name_line_surfaces(const Building& building, const Tolerances& tolerances,
   static const Segmentation none;
   const Segmentation& segmentation = line.segmentation ? *line.segmentation : none;
   measured_describe(building, timings, line, [&] {
-    SurfaceSurvey survey(building, tolerances, context_of(line));
-    SurfaceTable& table = survey.table();
-    table = with_parts(std::move(table), building, segmentation, line.interpretation, rules);
     const auto rows = rows_to_name(building, segmentation, line.interpretation, rules);
+    SurfaceSurvey survey(building, tolerances, context_of(line), rows);
+    SurfaceTable& table = survey.table();
+    table = with_parts(std::move(table), building, segmentation, line.interpretation, rules, rows);
     MeasuredWhenAsked more(survey);
     line.named_surfaces = interpret_surfaces(rules, table, rows, more);
     line.surfaces = std::move(table);

@@ -196,12 +196,21 @@ std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t r
 SurfaceTable with_parts(SurfaceTable table, const Building& building,
                         const Segmentation& segmentation, const Interpretation& interpretation,
                         const RuleBase& base) {
+  const auto rows = all_rows(table);
+  return with_parts(std::move(table), building, segmentation, interpretation, base, rows);
+}
+
+SurfaceTable with_parts(SurfaceTable table, const Building& building,
+                        const Segmentation& segmentation, const Interpretation& interpretation,
+                        const RuleBase& base, std::span<const int> rows) {
+  static const std::size_t part_column = surface_column_of("part").value();
   if (interpretation.verdicts.empty()) return table;
   const auto owners = polygon_owners(segmentation, polygon_numbers(building));
   std::vector<bool> is_emitted;
   for (const Verdict& verdict : interpretation.verdicts)
     is_emitted.push_back(top_of(base.pack(), verdict.label) != nullptr);
-  for (std::size_t row = 0; row < building.polygons.size(); ++row) {
+  for (const int r : rows) {
+    const auto row = static_cast<std::size_t>(r);
     const std::string* part = nullptr;
     for (const int f : owners[static_cast<std::size_t>(building.polygons[row].source)]) {
       const std::string& label = interpretation.verdicts[static_cast<std::size_t>(f)].label;
@@ -209,7 +218,7 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
       if (!label.empty() && (part == nullptr || is_written)) part = &label;
       if (is_written) break;
     }
-    if (part != nullptr) table.set(row, "part", *part);
+    if (part != nullptr) table.set(row, part_column, *part);
   }
   return table;
 }

@@ -28,6 +28,11 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
                         const Segmentation& segmentation, const Interpretation& interpretation,
                         const RuleBase& base);
 
+/// The same for some rows only.
+SurfaceTable with_parts(SurfaceTable table, const Building& building,
+                        const Segmentation& segmentation, const Interpretation& interpretation,
+                        const RuleBase& base, std::span<const int> rows);
+
 /// Names every surface of a table, in its order. The first entry of the pack's `surfaces:` whose
 /// conditions all hold decides; a condition on a missing value does not hold. Where none does, the
 /// inclination decides by `hosts:`: walls, and what has no inclination, are WallSurface; what looks

@@ -261,22 +261,28 @@ std::vector<bool> take_facing(const Solid& solid, const SurfaceFaces& faces,
 
 /// The smallest feature that lists each polygon.
 void add_features(const SurfaceContext& context, const Building& building, std::size_t polygons,
-                  SurfaceTable& table) {
+                  std::span<const int> rows, SurfaceTable& table) {
+  static const std::size_t host_inclination = column_of("host_inclination").value();
   const auto owners = polygon_owners(*context.segmentation, polygons);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const int source = building.polygons[row].source;
+  for (const int row : rows) {
+    const int source = building.polygons[at(row)].source;
     if (source < 0 || owners[at(source)].empty()) continue;
     const FeatureId innermost{owners[at(source)].front()};
-    table.set(row, surface_columns().sense,
+    table.set(at(row), surface_columns().sense,
               to_string(context.segmentation->features[innermost.index()].sense));
-    if (const auto host = context.features->number(innermost, "host_inclination"))
-      table.set(row, surface_columns().host_inclination, *host);
+    if (const auto host = context.features->number(innermost, host_inclination))
+      table.set(at(row), surface_columns().host_inclination, *host);
   }
 }
 
-SurfaceTable fully_measured(SurfaceSurvey survey) {
-  std::vector<int> rows(survey.table().rows());
+std::vector<int> rows_up_to(std::size_t count) {
+  std::vector<int> rows(count);
   std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+SurfaceTable fully_measured(SurfaceSurvey survey) {
+  const std::vector<int> rows = rows_up_to(survey.table().rows());
   for (const SurfaceMeasure what : kSurfaceMeasures) survey.measure(what, rows);
   return std::move(survey.table());
 }
@@ -293,19 +299,22 @@ std::optional<SurfaceMeasure> measure_of(std::size_t column) {
 
 SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& tolerances,
                              const SurfaceContext& context)
+    : SurfaceSurvey(building, tolerances, context, rows_up_to(building.polygons.size())) {}
+
+SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& tolerances,
+                             const SurfaceContext& context, std::span<const int> rows)
     : state_(std::make_unique<State>(building, tolerances)) {
-  const auto rows = rows_by_source(building);
+  const auto by_source = rows_by_source(building);
   std::vector<bool> is_known(state_->faces.size(), false);
   if (context.solid != nullptr)
-    is_known = take_facing(*context.solid, state_->faces, rows, state_->facings);
+    is_known = take_facing(*context.solid, state_->faces, by_source, state_->facings);
   state_->judge_facing(is_known);
-  SurfaceTable& table = state_->table;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    state_->describe(row);
-    table.set(row, surface_columns().synthetic, 0.0);
+  for (const int row : rows) {
+    state_->describe(at(row));
+    state_->table.set(at(row), surface_columns().synthetic, 0.0);
   }
   if (context.segmentation != nullptr && context.features != nullptr)
-    add_features(context, building, rows.size(), table);
+    add_features(context, building, by_source.size(), rows, state_->table);
 }
 
 SurfaceSurvey::SurfaceSurvey(const Solid& solid, const Tolerances& tolerances)

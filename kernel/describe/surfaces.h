@@ -51,6 +51,10 @@ class SurfaceSurvey {
   /// they are. docs/describe.md#surfaces says how the rest is measured.
   explicit SurfaceSurvey(const Building& building, const Tolerances& tolerances = {},
                          const SurfaceContext& context = {});
+  /// The same for some rows only: what is told of them does not depend on which. Others stay
+  /// without values.
+  SurfaceSurvey(const Building& building, const Tolerances& tolerances,
+                const SurfaceContext& context, std::span<const int> rows);
   /// The same for the facets of a solid: row = FacetId. A facet without input polygons is
   /// synthetic.
   explicit SurfaceSurvey(const Solid& solid, const Tolerances& tolerances = {});
