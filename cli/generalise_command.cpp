@@ -196,6 +196,7 @@ void check_source(const Arguments& arguments) {
 }
 
 ExitCode work(Arguments& arguments) {
+  arguments.only_names_surfaces = true;
   if (arguments.out.empty()) {
     if (!arguments.is_piped_stream() || !arguments.series.empty())
       throw CLI::RequiredError("--output");

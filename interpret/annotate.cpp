@@ -59,12 +59,7 @@ class Annotator {
   void find_roles();
   void find_polygons();
   void find_owners();
-  /// By row; reasons if they are asked for.
-  struct NamedSurfaces {
-    std::vector<SurfaceVerdict> verdicts;
-    std::vector<std::string> reasons;
-  };
-  [[nodiscard]] NamedSurfaces named_surfaces() const;
+  void name_surfaces();
   void add_surfaces();
   void add_parents();
   void add_installations();
@@ -96,6 +91,10 @@ class Annotator {
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
   PolygonOwners owners_;
+  /// By row; reasons if they are asked for.
+  std::vector<SurfaceVerdict> own_verdicts_;
+  std::span<const SurfaceVerdict> verdicts_;
+  std::vector<std::string> reasons_;
   /// The surface of every opening that has one.
   std::map<int, int> opening_surfaces_;
   LabelledBuilding result_;
@@ -135,21 +134,22 @@ int Annotator::find_labelled(const Polygon& polygon) const {
   return -1;
 }
 
-Annotator::NamedSurfaces Annotator::named_surfaces() const {
-  NamedSurfaces named{{options_.surfaces.begin(), options_.surfaces.end()}, {}};
+/// They may be named already.
+void Annotator::name_surfaces() {
+  verdicts_ = options_.surfaces;
   SurfaceTable with;
   const SurfaceTable* table = &surfaces_;
-  if (named.verdicts.empty()) {
+  if (verdicts_.empty()) {
     with = with_parts(surfaces_, building_, segmentation_, interpretation_, base_);
     table = &with;
-    named.verdicts = interpret_surfaces(base_, with);
+    verdicts_ = own_verdicts_ = interpret_surfaces(base_, with);
   }
-  if (options_.has_reasons) named.reasons = surface_reasons(base_, *table, named.verdicts);
-  return named;
+  if (options_.has_reasons)
+    reasons_ = surface_reasons(base_, *table, {verdicts_.begin(), verdicts_.end()});
 }
 
 void Annotator::add_surfaces() {
-  auto [verdicts, reasons] = named_surfaces();
+  name_surfaces();
   result_.surface_of_polygon.assign(owners_.polygons(), -1);
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
@@ -158,9 +158,9 @@ void Annotator::add_surfaces() {
     const int feature = find_labelled(polygon);
     if (feature < 0 || !roles_[index(feature)].is_opening()) {
       surface = next;
-      result_.surfaces.push_back({std::move(verdicts[row].type), -1, {}});
+      result_.surfaces.push_back({verdicts_[row].type, -1, {}});
       if (options_.has_reasons)
-        result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons[row]));
+        result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons_[row]));
       continue;
     }
     const auto [found, is_new] = opening_surfaces_.try_emplace(feature, next);

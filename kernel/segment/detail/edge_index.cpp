@@ -3,6 +3,7 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace oriel::detail {
 
@@ -10,14 +11,12 @@ EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : bod
   // Planes are numbered class by class, and in a class by rank.
   const PlaneTable& table = body.world().planes;
   first_gaps_.reserve(planes.size());
-  std::size_t gaps = 0;
   for (const int plane : planes) {
     if (classes_.empty() || classes_.back().number != table.class_of(plane))
-      classes_.push_back({table.class_of(plane), {}, gaps++, {}});
+      classes_.push_back({table.class_of(plane), {}, gaps_++, {}});
     classes_.back().ranks.push_back(table.rank_of(plane));
-    first_gaps_.push_back(gaps++ - 1);
+    first_gaps_.push_back(gaps_++ - 1);
   }
-  edges_.resize(gaps);
   make_tables();
   update();
 }
@@ -54,22 +53,35 @@ std::vector<EdgeIndex::Edge> EdgeIndex::new_edges() const {
   return edges;
 }
 
-template <class Visit>
-void EdgeIndex::for_each_run(const Class& c, std::span<const Edge> edges, Visit visit) const {
-  const auto rank = body_.world().points.ranks(c.number);
-  for (const Edge& edge : edges) {
-    const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
-    if (low == high) continue;
-    visit(edge, c.first_gap + c.planes_before(low + 1), c.first_gap + c.planes_before(high));
+/// Class by class.
+std::vector<EdgeIndex::Run> EdgeIndex::runs_of(std::span<const Edge> edges) const {
+  std::vector<Run> runs;
+  runs.reserve(edges.size() * classes_.size());
+  for (const Class& c : classes_) {
+    const auto rank = body_.world().points.ranks(c.number);
+    for (const Edge& edge : edges) {
+      const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
+      if (low == high) continue;
+      runs.push_back({edge.half, static_cast<int>(c.first_gap + c.planes_before(low + 1)),
+                      static_cast<int>(c.first_gap + c.planes_before(high))});
+    }
   }
+  return runs;
 }
 
 void EdgeIndex::update() {
-  const std::vector<Edge> edges = new_edges();
-  for (const Class& c : classes_)
-    for_each_run(c, edges, [&](const Edge& edge, std::size_t first, std::size_t last) {
-      for (std::size_t gap = first; gap <= last; ++gap) edges_[gap].push_back(edge.half);
-    });
+  const std::vector<Run> runs = runs_of(new_edges());
+  if (known_ == 0) {
+    std::vector<int> sizes(gaps_ + 1, 0);
+    for (const Run& run : runs) {
+      ++sizes[at(run.first)];
+      --sizes[at(run.last) + 1];
+    }
+    std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
+    edges_.make(std::span(sizes).first(gaps_));
+  }
+  for (const Run& run : runs)
+    for (int gap = run.first; gap <= run.last; ++gap) edges_.push_back(at(gap), run.half);
   known_ = body_.half_edge_count();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/segment/detail/boundary.h"
+#include "kernel/segment/detail/growing_lists.h"
 
 #include <cstddef>
 #include <span>
@@ -43,16 +44,18 @@ class EdgeIndex {
   };
   void make_tables();
   [[nodiscard]] std::vector<Edge> new_edges() const;
-  /// Calls `visit(edge, first, last)` for those that are not level: the gaps from `first` to `last`
-  /// are those they run through.
-  template <class Visit>
-  void for_each_run(const Class& c, std::span<const Edge> edges, Visit visit) const;
+  /// A half-edge whose edge is not level, and the gaps that it runs through.
+  struct Run {
+    int half, first, last;
+  };
+  [[nodiscard]] std::vector<Run> runs_of(std::span<const Edge> edges) const;
 
   const Boundary& body_;
   std::vector<Class> classes_;
   std::vector<std::size_t> first_gaps_;  ///< of each plane the gap behind it
-  std::vector<std::vector<int>> edges_;  ///< by gap
-  int known_ = 0;                        ///< half-edges taken in
+  std::size_t gaps_ = 0;
+  GrowingLists edges_;  ///< by gap
+  int known_ = 0;       ///< half-edges taken in
 };
 
 }  // namespace oriel::detail

@@ -75,10 +75,24 @@ class Imprinter {
     });
   }
 
+  /// The edge that a chord is already: it leads from one end of it to the other, and its facet
+  /// meets the plane nowhere else, as those of a window do. -1: none.
+  [[nodiscard]] int edge_of(int c) const {
+    const int begin = section_.crossings[at(c)].edge;
+    const int end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+    const int e = body_.next(begin);
+    if (body_.next(e) != end) return -1;
+    int on_plane = 0;
+    body_.for_each_edge(body_.facet_of(begin),
+                        [&](int f) { on_plane += level(body_.origin(f)) == 0 ? 1 : 0; });
+    return on_plane == 2 ? e : -1;
+  }
+
   /// For every facet that a chord may split: its corners on the plane that touch it from the other
   /// side, along the line.
   void collect_corners() {
     for_each_crossing([&](int c) {
+      if (edge_of(c) >= 0) return;
       const int f = body_.facet_of(section_.crossings[at(c)].edge);
       const auto [entry, is_new] = corners_.try_emplace(f);
       if (!is_new) return;
@@ -104,11 +118,15 @@ class Imprinter {
     std::vector<int> rim;
     int c = section_.loops[at(l)].first;
     do {
-      add_chord(c, rim);
+      if (const int e = edge_of(c); e >= 0)
+        rim.push_back(e);
+      else
+        add_chord(c, rim);
       c = section_.crossings[at(c)].next;
     } while (c != section_.loops[at(l)].first);
     cancel_spikes(rim);
     std::vector<CapEdge> edges;
+    edges.reserve(rim.size());
     for (const int e : rim) edges.push_back({e, body_.origin(e), body_.target(e)});
     return edges;
   }
@@ -169,6 +187,10 @@ class Imprinter {
   }
 
   void cancel_spikes(std::vector<int>& rim) const {
+    const auto is_back = [&](std::size_t i) { return i > 0 && body_.twin(rim[i - 1]) == rim[i]; };
+    bool has_spike = rim.size() > 1 && body_.twin(rim.back()) == rim.front();
+    for (std::size_t i = 0; i < rim.size(); ++i) has_spike = has_spike || is_back(i);
+    if (!has_spike) return;
     std::vector<int> out;
     for (const int e : rim) {
       if (!out.empty() && body_.twin(out.back()) == e)

@@ -33,10 +33,7 @@ void NaturalChains::forget() {
 
 bool NaturalChains::refresh() {
   if (std::ranges::all_of(classes_, &Class::is_known)) return false;
-  std::vector<int> edges;
-  edges.reserve(at(body_.half_edge_count() - body_.dead_edge_count()) / 2);
-  for (int e = 0; e < body_.half_edge_count(); ++e)
-    if (body_.is_alive_edge(e) && e < body_.twin(e)) edges.push_back(e);
+  const std::vector<Edge> edges = living_edges();
   for (Class& c : classes_) {
     if (!c.is_known) look(c, edges);
     c.is_known = true;
@@ -44,16 +41,34 @@ bool NaturalChains::refresh() {
   return true;
 }
 
-void NaturalChains::look(const Class& c, std::span<const int> edges) {
+std::vector<NaturalChains::Edge> NaturalChains::living_edges() const {
+  std::vector<Edge> edges;
+  edges.reserve(at(body_.half_edge_count() - body_.dead_edge_count()) / 2);
+  for (int e = 0; e < body_.half_edge_count(); ++e) {
+    const int twin = body_.twin(e);
+    if (!body_.is_alive_edge(e) || e > twin) continue;
+    edges.push_back({e, twin, body_.origin(e), body_.origin(twin), body_.side_of_edge(e) >> 1,
+                     body_.side_of_edge(twin) >> 1});
+  }
+  return edges;
+}
+
+void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
   const auto ranks = world_.points.ranks(c.number);
+  const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
   steps_.clear();
   leaving_.resize(ranks.size(), 0);
   entering_.resize(ranks.size(), 0);
-  for (const int e : edges) {
-    const int rank = ranks[at(body_.origin(e))];
-    if ((rank & 1) == 0 || ranks[at(body_.target(e))] != rank) continue;
-    add_step(c, ranks, e);
-    add_step(c, ranks, body_.twin(e));
+  for (const Edge& edge : edges) {
+    const int rank = ranks[at(edge.from)];
+    if ((rank & 1) == 0 || ranks[at(edge.to)] != rank) continue;
+    // Mostly one of the facets lies in the plane and the other one does not.
+    const int plane = planes[at(rank / 2)];
+    if (edge.plane == plane && edge.twin_plane == plane) continue;
+    const auto entry = entry_of(c, plane);
+    if (!entry) continue;
+    if (edge.plane != plane) add_step(*entry, normal, ranks, edge.half);
+    if (edge.twin_plane != plane) add_step(*entry, normal, ranks, edge.twin);
   }
   sort_steps(c);
   for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) {
@@ -74,16 +89,10 @@ void NaturalChains::sort_steps(const Class& c) {
   for (const Step& step : steps_) sorted_[ends_[step.slot - 2 * c.first + 1]++] = step;
 }
 
-void NaturalChains::add_step(const Class& c, std::span<const int> ranks, int e) {
-  const int rank = ranks[at(body_.origin(e))];
-  const int plane = world_.planes.normal_class(c.number).planes[at(rank / 2)];
-  if (body_.side_of_edge(e) >> 1 == plane) return;
-  const auto entry = entry_of(c, plane);
-  if (!entry) return;
-  const int direction = direction_of(e, rank, ranks);
-  if (direction == 0) return;
-  if (hangs_below(e, direction * world_.planes.normal_class(c.number).normal)) return;
-  const std::size_t slot = 2 * *entry + (direction > 0 ? 0 : 1);
+void NaturalChains::add_step(std::size_t entry, Vec3 normal, std::span<const int> ranks, int e) {
+  const int direction = direction_of(e, ranks);
+  if (direction == 0 || hangs_below(e, direction * normal)) return;
+  const std::size_t slot = 2 * entry + (direction > 0 ? 0 : 1);
   steps_.push_back({slot, body_.origin(e), body_.target(e)});
 }
 
@@ -98,17 +107,23 @@ std::optional<std::size_t> NaturalChains::entry_of(const Class& c, int plane) co
   return static_cast<std::size_t>(found - planes_.begin());
 }
 
-/// +1 or -1 if the facet's outline comes to the plane of rank `rank` from that side, runs in it
+/// +1 or -1 if the facet's outline comes to the plane that `e` lies in from that side, runs in it
 /// along `e` and goes back to the same side; 0 if it goes through the plane or lies in it.
-int NaturalChains::direction_of(int e, int rank, std::span<const int> ranks) const {
-  int before = body_.prev(e), after = body_.next(e);
-  while (before != e && ranks[at(body_.origin(before))] == rank) before = body_.prev(before);
+int NaturalChains::direction_of(int e, std::span<const int> ranks) const {
+  const int rank = ranks[at(body_.origin(e))];
+  int before = body_.prev(e), after = body_.next(body_.next(e));
+  int from = ranks[at(body_.origin(before))], to = ranks[at(body_.origin(after))];
+  while (before != e && from == rank) {
+    before = body_.prev(before);
+    from = ranks[at(body_.origin(before))];
+  }
   if (before == e) return 0;
-  while (ranks[at(body_.target(after))] == rank) after = body_.next(after);
-  const bool is_from_above = ranks[at(body_.origin(before))] > rank,
-             is_to_above = ranks[at(body_.target(after))] > rank;
-  if (is_from_above != is_to_above) return 0;
-  return is_from_above ? 1 : -1;
+  while (to == rank) {
+    after = body_.next(after);
+    to = ranks[at(body_.origin(after))];
+  }
+  if ((from > rank) != (to > rank)) return 0;
+  return from > rank ? 1 : -1;
 }
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told

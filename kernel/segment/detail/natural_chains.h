@@ -44,11 +44,21 @@ class NaturalChains {
     bool is_known = false;
   };
 
-  void look(const Class& c, std::span<const int> edges);
+  /// A living edge, as far as all classes ask of it: its half-edge and the twin of that, where they
+  /// begin, and the planes of their facets.
+  struct Edge {
+    int half, twin;
+    int from, to;
+    int plane, twin_plane;
+  };
+
+  [[nodiscard]] std::vector<Edge> living_edges() const;
+  void look(const Class& c, std::span<const Edge> edges);
   void sort_steps(const Class& c);
-  void add_step(const Class& c, std::span<const int> ranks, int e);
+  /// `entry`: of the plane that the half-edge `e` lies in.
+  void add_step(std::size_t entry, Vec3 normal, std::span<const int> ranks, int e);
   [[nodiscard]] std::optional<std::size_t> entry_of(const Class& c, int plane) const;
-  [[nodiscard]] int direction_of(int e, int rank, std::span<const int> ranks) const;
+  [[nodiscard]] int direction_of(int e, std::span<const int> ranks) const;
   [[nodiscard]] bool hangs_below(int e, Vec3 up) const;
   bool has_chain(std::span<Step> steps);
   [[nodiscard]] bool is_free(int point) const;
