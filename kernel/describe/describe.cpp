@@ -195,29 +195,41 @@ void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& 
     table.set(s.id, columns().recess, -*level_m);
 }
 
+/// How far a feature reaches along a direction.
+Extent extent_of(const Segmentation& segmentation, const Feature& feature, Vec3 direction) {
+  Extent extent;
+  for (const int v : feature.vertices) {
+    const double along = dot(segmentation.vertices[at(v)].point, direction);
+    extent.low = std::min(extent.low, along);
+    extent.high = std::max(extent.high, along);
+  }
+  return extent;
+}
+
 /// Where the ground is looked for: below the middle of the cap, a little inside the body.
-Vec3 foot_of(const Subject& s) {
-  Vec3 middle = 0.5 * (s.feature->box.min + s.feature->box.max);
-  if (!s.normal) return middle;
+Vec3 foot_of(const Segmentation& segmentation, const Feature& feature) {
+  const Vec3 middle = 0.5 * (feature.box.min + feature.box.max);
+  if (feature.planes.empty()) return middle;
   constexpr double kInside_m = 0.01;  // off the wall's own plane, so that the facet below it is met
-  const Extent out = detail::extent_along(s.points, *s.normal);
+  const Vec3 normal = segmentation.planes[feature.planes.front().index()].normal;
+  const Extent out = extent_of(segmentation, feature, normal);
   // The cap is the inner end of a protrusion and the outer end of a hole.
-  double cap = s.feature->sense == Sense::hole ? out.high : out.low;
-  if (s.feature->sense == Sense::imprint) cap = dot(s.feature->cap_point, *s.normal);
-  return middle + (cap - dot(middle, *s.normal) - kInside_m) * *s.normal;
+  double cap = feature.sense == Sense::hole ? out.high : out.low;
+  if (feature.sense == Sense::imprint) cap = dot(feature.cap_point, normal);
+  return middle + (cap - dot(middle, normal) - kInside_m) * normal;
 }
 
 /// The ground at the foot of a feature. Where that is the underside of a part that itself hangs in
 /// the air (a window of a bay), the ground at the foot of that part, if it is lower.
 detail::Foot ground_of(const Subject& s, const Segmentation& segmentation,
                        const detail::Site& site) {
-  detail::Foot foot = site.ground_at(foot_of(s), s.feature->host_facet);
+  detail::Foot foot = site.ground_at(foot_of(segmentation, *s.feature), s.feature->host_facet);
   CellId cell = foot.cell;
   for (std::size_t steps = 0; cell.is_valid() && steps < segmentation.cells.size(); ++steps) {
     const FeatureId carrier = segmentation.cells[cell.index()].feature;
     if (!carrier.is_valid() || carrier == s.id) break;
-    const Subject carrying = subject_of(segmentation, carrier);
-    const detail::Foot below = site.ground_at(foot_of(carrying), carrying.feature->host_facet);
+    const Feature& carrying = segmentation.features[carrier.index()];
+    const detail::Foot below = site.ground_at(foot_of(segmentation, carrying), carrying.host_facet);
     if (below.ground_m >= foot.ground_m) break;
     foot = below;
     cell = below.cell;

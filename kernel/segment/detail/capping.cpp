@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace oriel::detail {
 
@@ -196,15 +197,36 @@ class Judge {
   }
 
  private:
+  /// A side as all points are asked about it.
+  struct Limit {
+    std::span<const int> ranks;
+    int rank, direction;
+    /// As PointTable::level.
+    [[nodiscard]] int level(int point) const {
+      const int difference = ranks[at(point)] - rank;
+      return ((difference > 0) - (difference < 0)) * direction;
+    }
+  };
+
+  /// Those of a component, without the ground.
+  [[nodiscard]] Few<Limit, 4> limits_of(const Component& component) const {
+    Few<Limit, 4> limits;
+    for (const Side side : component.sides)
+      if (side != component.ground)
+        limits.push_back({world_.points.ranks(world_.planes.class_of(side >> 1)),
+                          world_.planes.rank_of(side >> 1), (side & 1) != 0 ? -1 : 1});
+    return limits;
+  }
+
   [[nodiscard]] std::optional<Corner> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
+    const auto limits = limits_of(component);
     for (const int f : component.facets) {
       body_.for_each_edge(f, [&](int e) {
         work_ += std::ssize(component.sides);
         int most = -1, least = 1;
-        for (const Side side : component.sides) {
-          if (side == component.ground) continue;
-          const int level = world_.points.level(body_.origin(e), side);
+        for (const Limit& limit : limits) {
+          const int level = limit.level(body_.origin(e));
           most = std::max(most, level);
           least = std::min(least, level);
         }

@@ -26,11 +26,15 @@ class PatchFinder {
     grow_all();
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f)) surface_ += body_.area(f);
+    Component alone, widened;
     for (int n = 0; n < std::ssize(grown_); ++n) {
-      const Component alone = component_of({n});
+      widened_.assign(1, n);
+      make_component(widened_, alone);
       offer(alone);
-      for_fewer_sides(alone, [&](const std::vector<Side>& sides) {
-        if (widen(n, sides)) offer(component_of(widened_));
+      for_fewer_sides(alone, [&](unsigned limits) {
+        if (!widen(n, limits)) return;
+        make_component(widened_, widened);
+        offer(widened);
       });
     }
     return std::move(patches_);
@@ -40,7 +44,7 @@ class PatchFinder {
   std::vector<Component> components() {
     grow_all();
     std::vector<Component> all;
-    for (int n = 0; n < std::ssize(grown_); ++n) all.push_back(component_of({n}));
+    for (int n = 0; n < std::ssize(grown_); ++n) make_component({n}, all.emplace_back());
     return all;
   }
 
@@ -91,6 +95,7 @@ class PatchFinder {
     std::erase_if(group.rim,
                   [&](int e) { return number_of_[at(body_.facet_of(body_.twin(e)))] == number; });
     std::ranges::sort(group.sides);
+    group.sides.erase(std::unique(group.sides.begin(), group.sides.end()), group.sides.end());
     grown_.push_back(std::move(group));
   }
 
@@ -107,8 +112,11 @@ class PatchFinder {
   }
 
   /// Several groups as one component.
-  [[nodiscard]] Component component_of(const std::vector<int>& groups) const {
-    Component component;
+  void make_component(const std::vector<int>& groups, Component& component) const {
+    component.facets.clear();
+    component.rim.clear();
+    component.sides.clear();
+    component.ground = -1;
     for (const int n : groups) {
       const Grown& group = grown_[at(n)];
       component.facets.insert(component.facets.end(), group.facets.begin(), group.facets.end());
@@ -125,29 +133,27 @@ class PatchFinder {
     std::ranges::sort(component.sides);
     component.sides.erase(std::unique(component.sides.begin(), component.sides.end()),
                           component.sides.end());
-    return component;
   }
 
-  /// Visits the sets of two or more of a component's split planes that leave one out at least.
+  /// Visits the sets of two or more of a component's split planes that leave one out at least, as
+  /// bits of limit_bits_.
   template <class Visit>
-  void for_fewer_sides(const Component& component, const Visit& visit) const {
-    std::vector<Side> sides = component.sides, set;
+  void for_fewer_sides(const Component& component, const Visit& visit) {
+    std::vector<Side> sides = component.sides;
     std::erase(sides, component.ground);
     constexpr std::size_t kMost = 6;  // 2^6 sets: a component with more planes is no single feature
     if (sides.size() < 3 || sides.size() > kMost) return;
-    for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask) {
-      if (std::popcount(mask) < 2 || std::popcount(mask) > options_.max_order) continue;
-      set.clear();
-      for (std::size_t i = 0; i < sides.size(); ++i)
-        if ((mask >> i & 1U) != 0) set.push_back(sides[i]);
-      visit(set);
-    }
+    if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
+    for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
+    for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask)
+      if (std::popcount(mask) >= 2 && std::popcount(mask) <= options_.max_order) visit(mask);
+    for (const Side side : sides) limit_bits_[at(side)] = 0;
   }
 
-  /// Makes widened_ a group with all that lies beyond its rim but for the given planes: a chimney's
-  /// shaft with its head. False if that runs into one of those planes itself, or has more than half
-  /// of the body's surface: then the rest is the part.
-  bool widen(int start, const std::vector<Side>& limits) {
+  /// Makes widened_ a group with all that lies beyond its rim but for the given planes (bits): a
+  /// chimney's shaft with its head. False if that runs into one of those planes itself, or has more
+  /// than half of the body's surface: then the rest is the part.
+  bool widen(int start, unsigned limits) {
     std::vector<int>& groups = widened_;
     groups.assign(1, start);
     group_stamps_[at(start)] = ++last_stamp_;
@@ -156,10 +162,11 @@ class PatchFinder {
       const Grown& group = grown_[at(groups[i])];
       area += group.area;
       work_ += std::ssize(group.beyond);
-      const auto is_in_group = [&](Side s) { return std::ranges::binary_search(group.sides, s); };
-      if (2 * area > surface_ || std::ranges::any_of(limits, is_in_group)) return false;
+      unsigned own = 0;
+      for (const Side side : group.sides) own |= limit_bits_[at(side)];
+      if (2 * area > surface_ || (own & limits) != 0) return false;
       for (const auto& [side, other] : group.beyond) {
-        if (group_stamps_[at(other)] == last_stamp_ || std::ranges::binary_search(limits, side))
+        if (group_stamps_[at(other)] == last_stamp_ || (limit_bits_[at(side)] & limits) != 0)
           continue;
         group_stamps_[at(other)] = last_stamp_;
         groups.push_back(other);
@@ -203,6 +210,8 @@ class PatchFinder {
   std::vector<int> group_stamps_;  ///< the last widening that has met a group
   int last_stamp_ = 0;
   std::vector<int> widened_;  ///< groups
+  /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
+  std::vector<unsigned> limit_bits_;
   std::set<std::vector<int>> seen_;
   std::vector<Patch> patches_;
 };
