@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include <boost/container/small_vector.hpp>
@@ -144,8 +143,11 @@ double signed_area(const Outline& outline, Vec3 normal) {
 }
 
 void start_at_least(Outline& outline) {
-  const auto key = [](Vec3 p) { return std::tuple(p.x, p.y, p.z); };
-  std::ranges::rotate(outline, std::ranges::min_element(outline, {}, key));
+  const auto is_less = [](Vec3 p, Vec3 q) {
+    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+  };
+  const auto least = std::ranges::min_element(outline, is_less);
+  if (least != outline.begin()) std::ranges::rotate(outline, least);
 }
 
 double perimeter(const Outline& outline) {

@@ -15,13 +15,18 @@ namespace oriel::detail {
 
 namespace {
 
-/// 64-bit FNV-1a, written in 13 characters of base 32.
-std::string hashed(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
+/// 64-bit FNV-1a, gone on with from the hash of what stands before.
+constexpr std::uint64_t kHashOfNothing = 0xcbf29ce484222325ULL;
+std::uint64_t hash_on(std::uint64_t hash, std::string_view text) {
   for (const char c : text) {
     hash ^= static_cast<unsigned char>(c);
     hash *= 0x100000001b3ULL;
   }
+  return hash;
+}
+
+/// A hash in 13 characters of base 32.
+std::string written(std::uint64_t hash) {
   std::string digits = "f";
   for (int i = 0; i < 13; ++i, hash /= 32) digits += "0123456789abcdefghjkmnpqrstvwxyz"[hash % 32];
   return digits;
@@ -42,24 +47,25 @@ void append_millimetres(std::string& text, std::initializer_list<double> metres)
 
 void name_features(FeatureTable& table, const Building& building,
                    const Segmentation& segmentation) {
-  std::unordered_map<std::string, int> uses;
+  std::unordered_map<std::uint64_t, int> uses;  // by hash
   uses.reserve(segmentation.features.size());
-  const std::string start = fmt::format("{}|{}|", building.id, building.lod);
+  const std::uint64_t start =
+      hash_on(kHashOfNothing, fmt::format("{}|{}|", building.id, building.lod));
   std::string content;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     const Feature& f = segmentation.features[i];
     const Box box = f.box.moved(building.frame.origin_m);
-    content = start;
-    content += to_string(f.sense);
+    content = to_string(f.sense);
     append_millimetres(content, {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
     if (!f.planes.empty()) {
       const Vec3 n = segmentation.planes[f.planes.front().index()].normal;
       append_millimetres(content, {n.x, n.y, n.z});
     }
     // Features that agree in all this (parts of one box) are told apart by their order.
-    const int use = uses[content]++;
-    if (use > 0) content += fmt::format("|{}", use);
-    table.set_id(FeatureId{static_cast<int>(i)}, hashed(content));
+    std::uint64_t hash = hash_on(start, content);
+    const int use = uses[hash]++;
+    if (use > 0) hash = hash_on(hash, fmt::format("|{}", use));
+    table.set_id(FeatureId{static_cast<int>(i)}, written(hash));
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace oriel::detail {
@@ -43,14 +42,9 @@ std::optional<double> Panes::level_in(const Feature& feature, const Plane& plane
 
 /// The corners of a ring from the least one on.
 void Panes::take_outline(const std::vector<int>& ring, Outline& outline) const {
-  const auto key = [&](int v) {
-    const Vec3 p = corners_[at(v)];
-    return std::tuple(p.x, p.y, p.z);
-  };
-  const auto least = std::ranges::min_element(ring, {}, key);
   outline.clear();
-  for (auto v = least; v != ring.end(); ++v) outline.push_back(corners_[at(*v)]);
-  for (auto v = ring.begin(); v != least; ++v) outline.push_back(corners_[at(*v)]);
+  for (const int v : ring) outline.push_back(corners_[at(v)]);
+  start_at_least(outline);
 }
 
 }  // namespace oriel::detail

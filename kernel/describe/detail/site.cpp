@@ -12,6 +12,18 @@ namespace {
 /// leaning wall.
 constexpr double kWallFrom_deg = 80;
 
+Extent height_of(const Segmentation& segmentation, const Cell& cell) {
+  Extent height;
+  for (const Facet& facet : cell.facets)
+    for (const Loop& loop : facet.loops)
+      for (const int v : loop) {
+        const double z = segmentation.vertices[static_cast<std::size_t>(v)].point.z;
+        height.low = std::min(height.low, z);
+        height.high = std::max(height.high, z);
+      }
+  return height;
+}
+
 }  // namespace
 
 Site::Site(const Segmentation& segmentation)
@@ -22,7 +34,7 @@ Site::Site(const Segmentation& segmentation)
   for (std::size_t c = 0; c < segmentation.cells.size(); ++c) {
     const Cell& cell = segmentation.cells[c];
     if (cell.sign < 0) continue;
-    const Extent height = extent_along(points_of(segmentation, cell), {0, 0, 1});
+    const Extent height = height_of(segmentation, cell);
     all.low = std::min(all.low, height.low);
     if (cell.volume_m3 > largest || cell.flag == LeafFlag::open) {
       largest = cell.volume_m3;

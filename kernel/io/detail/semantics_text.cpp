@@ -86,11 +86,14 @@ class Filling {
     flat_.resize(polygon_count(), -1);
     const std::size_t count = std::min(wanted.size(), flat_.size());
     explain_kept(wanted.first(count));
-    for (std::size_t i = 0; i < count; ++i)
-      if (flat_[i] < 0 && is_surface(wanted[i])) number_of_[index(wanted[i])] = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (flat_[i] >= 0 || !is_surface(wanted[i]) || number_of_[index(wanted[i])] == 0) continue;
+      number_of_[index(wanted[i])] = 0;
+      added_.push_back(index(wanted[i]));
+    }
+    if (!std::ranges::is_sorted(added_)) std::ranges::sort(added_);
     int next = static_cast<int>(existing_.size());
-    for (int& number : number_of_)
-      if (number == 0) number = next++;
+    for (const std::size_t s : added_) number_of_[s] = next++;
     link_parents(wanted.first(count));
     bool is_filled = !reasons_of_.empty();
     for (std::size_t i = 0; i < count; ++i)
@@ -107,8 +110,7 @@ class Filling {
       if (i > 0) text += ',';
       text += with_additions(i);
     }
-    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-      if (number_of_[s] < 0) continue;
+    for (const std::size_t s : added_) {
       if (text.size() > 1) text += ',';
       append_surface(text, s);
     }
@@ -173,9 +175,9 @@ class Filling {
       if (!is_kept_ && is_surface(wanted[i]) && flat_[i] >= 0 && instead[index(wanted[i])] < 0 &&
           !is_opening(flat_[i]))
         instead[index(wanted[i])] = flat_[i];
-    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    for (const std::size_t s : added_) {
       const int parent = surfaces_[s].parent;
-      if (number_of_[s] < 0 || !is_surface(parent)) continue;
+      if (!is_surface(parent)) continue;
       const int added = number_of_[index(parent)];
       const int number = added >= 0 ? added : instead[index(parent)];
       if (number < 0) continue;
@@ -227,6 +229,8 @@ class Filling {
   std::vector<std::string_view> existing_;
   /// The surface of each polygon in the output's numbers, -1 for none.
   std::vector<int> flat_;
+  /// Those of our surfaces that are added, ascending: an installation has few of a building's.
+  std::vector<std::size_t> added_;
   /// The output's number of each of our surfaces, -1 if it is not added.
   std::vector<int> number_of_;
   std::map<std::size_t, int> parent_of_;
