@@ -1,5 +1,6 @@
 #include "kernel/segment/detail/carve.h"
 
+#include "kernel/model/detail/index.h"
 #include "kernel/model/issue.h"
 #include "kernel/segment/detail/facet_copier.h"
 #include "kernel/segment/detail/number_map.h"
@@ -63,6 +64,9 @@ class Remover {
   Remover(Boundary& body, const std::vector<Cap>& caps, bool is_hole)
       : body_(body), caps_(caps), is_hole_(is_hole), copier_(body, is_hole) {
     for (const Cap& cap : caps)
+      for (const CapLoop& loop : cap.loops) rim_size_ += loop.edges.size();
+    twin_of_rim_.reserve(rim_size_);
+    for (const Cap& cap : caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges)
           if (edge.rim >= 0) twin_of_rim_.emplace_back(edge.rim, body.twin(edge.rim));
@@ -74,6 +78,7 @@ class Remover {
   Carved run(FeatureId mark, std::vector<int> touched) {
     copier_.add(facets_);
     close_lump();
+    touched.reserve(touched.size() + at(copier_.boundary().half_edge_count()) + rim_size_);
     for (const int f : facets_)
       body_.for_each_edge(f, [&](int e) { touched.push_back(body_.origin(e)); });
     for (const Cap& cap : caps_)
@@ -156,6 +161,7 @@ class Remover {
     Boundary& lump = copier_.boundary();
     std::vector<Open> free;
     NumberMap of_rim;
+    of_rim.reserve(rim_size_);
     for (const Cap& cap : caps_) {
       const int f = add_cap(lump, cap, is_hole_ ? cap.side : cap.side ^ 1, !is_hole_, free, of_rim);
       for (const int g : cap.covered) {
@@ -175,6 +181,7 @@ class Remover {
   void close_rest(FeatureId mark) {
     std::vector<Open> free;
     NumberMap of_rim;
+    of_rim.reserve(rim_size_);
     std::vector<int> facets;
     for (const Cap& cap : caps_)
       facets.push_back(add_cap(body_, cap, cap.side, false, free, of_rim));
@@ -231,6 +238,7 @@ class Remover {
   const std::vector<Cap>& caps_;
   bool is_hole_;
   FacetCopier copier_;
+  std::size_t rim_size_ = 0;
   NumberMap twin_of_rim_;    ///< as they were before the cut, sorted
   std::vector<int> facets_;  ///< of the lump
   std::vector<int> cap_facets_;

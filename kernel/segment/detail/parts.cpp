@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/parts.h"
 
 #include "kernel/geometry/planar.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <map>
@@ -10,10 +11,11 @@ namespace oriel::detail {
 
 namespace {
 
-/// The points, sorted, each once.
+/// The points, sorted, each once: about `most` of them.
 template <class Points>
-std::vector<int> sorted_uniquely(Points&& points, World& world) {
+std::vector<int> sorted_uniquely(Points&& points, int most, World& world) {
   std::vector<int> sorted;
+  sorted.reserve(at(most));
   world.scratch.met_points.start(world.points.size());
   for (const int p : points)
     if (world.scratch.met_points.insert(p)) sorted.push_back(p);
@@ -44,12 +46,14 @@ std::vector<int> points_of(const Boundary& body) {
   const auto edges = std::views::iota(0, body.half_edge_count());
   const auto is_alive = [&](int e) { return body.is_alive_edge(e); };
   const auto origin = [&](int e) { return body.origin(e); };
+  constexpr int kEdgesAtPoint = 3;  // at least
   return sorted_uniquely(edges | std::views::filter(is_alive) | std::views::transform(origin),
-                         body.world());
+                         body.half_edge_count() / kEdgesAtPoint, body.world());
 }
 
 Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::vector<int>& part) {
-  Change change{sorted_uniquely(carved.touched, carved.lump.world()),
+  const int most = static_cast<int>(part.size());
+  Change change{sorted_uniquely(carved.touched, most, carved.lump.world()),
                 {},
                 {},
                 false,
@@ -59,6 +63,7 @@ Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::
   if (part != change.points) change.part = part;
   const bool is_simple =
       caps.size() == 1 && caps[0].loops.size() == 1 && caps[0].covered.empty() && !caps[0].is_taken;
+  if (is_simple) change.rim.reserve(caps[0].loops[0].edges.size());
   if (is_simple)
     for (const CapEdge& edge : caps[0].loops[0].edges) change.rim.emplace_back(edge.from, edge.to);
   for (const Cap& cap : caps) change.has_covered |= !cap.covered.empty() || cap.is_taken;

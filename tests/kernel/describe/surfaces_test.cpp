@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <set>
+#include <span>
 
 #include <doctest/doctest.h>
 
@@ -158,6 +160,28 @@ TEST_SUITE("kernel/describe") {
       if (!measure_of(c)) continue;
       for (std::size_t row = 0; row < all.rows(); ++row)
         CHECK_FALSE(untouched.table().number(row, surface_schema()[c].name));
+    }
+  }
+
+  TEST_CASE("what is told of some surfaces only is what is told of them among all") {
+    const Building building = block();
+    const auto solid = solidify(building, {});
+    REQUIRE(solid.value);
+    const SurfaceContext context{&*solid.value, nullptr, nullptr};
+    SurfaceSurvey all(building, {}, context);
+    for (int row = 0; row < static_cast<int>(all.table().rows()); ++row) {
+      SurfaceSurvey one(building, {}, context, std::span(&row, 1));
+      REQUIRE(one.table().rows() == all.table().rows());
+      for (const Attribute& attribute : surface_schema())
+        for (std::size_t other = 0; other < all.table().rows(); ++other) {
+          const bool is_asked = other == static_cast<std::size_t>(row);
+          if (attribute.unit == Unit::text)
+            CHECK(one.table().text(other, attribute.name) ==
+                  (is_asked ? all.table().text(other, attribute.name) : ""));
+          else
+            CHECK(one.table().number(other, attribute.name) ==
+                  (is_asked ? all.table().number(other, attribute.name) : std::nullopt));
+        }
     }
   }
 
