@@ -255,7 +255,10 @@ class SeriesWriter {
                                     fmt::format("a fault of oriel's own: {}", fault.what())));
       return 0;
     }
-    for (const SeriesOperation& operation : series.operations) log += operation_line(operation);
+    for (SeriesOperation& operation : series.operations) {
+      operation.lod = arguments_.lod;
+      log += operation_line(operation);
+    }
     LevelState state = series.finest;
     for (std::size_t i = 0; i < scales_.size(); ++i) {
       const double before = i == 0 ? 0 : scales_[i - 1];

@@ -85,11 +85,15 @@ std::pair<double, std::string> nearest(const std::map<double, std::string>& leve
 /// order.
 class LevelMover {
  public:
-  LevelMover(const std::string& log, double from, double to) : log_(log), from_(from), to_(to) {}
+  LevelMover(const std::string& log, double from, double to) : log_(log), from_(from), to_(to) {
+    if (log_.next() != nullptr) lod_ = log_.next()->lod;
+  }
 
   /// Appends the file at the scale; false if the level and the log do not fit, which is told.
   bool move(const std::string& file, OutputFile& out, Report& report) {
-    Reader reader(file);
+    ReadOptions options;
+    if (!lod_.empty()) options.lod = lod_;
+    Reader reader(file, options);
     while (auto record = reader.next()) {
       if (!record->value) {
         report.tell(record->issues);
@@ -116,7 +120,7 @@ class LevelMover {
     const auto operations = operations_of(document);
     std::vector<std::string> ids;
     for (const auto& [id, list] : operations) ids.push_back(id);
-    auto states = read_level(line, document.name, ids, header_);
+    auto states = read_level(line, document.name, ids, header_, lod_);
     report.tell(states.issues);
     if (!states.value) return std::nullopt;
     if (text.empty() && header_.empty()) header_ = line;
@@ -164,6 +168,7 @@ class LevelMover {
 
   OperationReader log_;
   double from_, to_;
+  std::string lod_;     ///< of the log's operations
   std::string header_;  ///< of a stream
 };
 

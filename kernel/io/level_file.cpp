@@ -37,8 +37,8 @@ Members members_of(const Json& json, const std::set<std::string>& but) {
 
 class LevelReader {
  public:
-  LevelReader(const Json& root, const Json& header)
-      : objects_(root.at("CityObjects")), vertices_(root.at("vertices")) {
+  LevelReader(const Json& root, const Json& header, const std::string& lod)
+      : objects_(root.at("CityObjects")), vertices_(root.at("vertices")), lod_(lod) {
     const Json& transform = header.at("transform");
     scale_ = vector_of(transform.at("scale"));
     translate_ = vector_of(transform.at("translate"));
@@ -82,12 +82,13 @@ class LevelReader {
     }
   }
 
-  /// Of the solids the first of the highest level of detail, as the Reader chooses.
-  static const Json& chosen_geometry(const Json& geometries) {
+  /// Of the solids the first of the level of detail, or of the highest, as the Reader chooses.
+  [[nodiscard]] const Json& chosen_geometry(const Json& geometries) const {
     const Json* chosen = nullptr;
     for (const Json& geometry : geometries) {
       const std::string type = geometry.at("type").get<std::string>();
       if (type != "Solid" && type != "MultiSolid") continue;
+      if (!lod_.empty() && geometry.at("lod") != lod_) continue;
       if (chosen == nullptr || geometry.at("lod") > chosen->at("lod")) chosen = &geometry;
     }
     if (chosen == nullptr) throw std::runtime_error("it has no solid");
@@ -131,6 +132,7 @@ class LevelReader {
 
   const Json& objects_;
   const Json& vertices_;
+  const std::string& lod_;
   Vec3 scale_, translate_;
 };
 
@@ -138,14 +140,14 @@ class LevelReader {
 
 Checked<std::vector<LevelState>> read_level(std::string_view text, const std::string& file,
                                             const std::vector<std::string>& ids,
-                                            std::string_view header) {
+                                            std::string_view header, const std::string& lod) {
   Checked<std::vector<LevelState>> out;
   std::vector<LevelState> states;
   std::string building;
   try {
     const Json root = Json::parse(text);
     const Json above = header.empty() ? Json() : Json::parse(header);
-    LevelReader reader(root, header.empty() ? root : above);
+    LevelReader reader(root, header.empty() ? root : above, lod);
     for (const std::string& id : ids) {
       building = id;
       states.push_back(reader.state(id));

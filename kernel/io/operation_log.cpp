@@ -152,6 +152,7 @@ Change change_of(const Json& json) {
 SeriesOperation operation_of(const Json& json) {
   SeriesOperation operation;
   json.at("building").get_to(operation.building);
+  if (json.contains("lod")) json.at("lod").get_to(operation.lod);
   json.at("oriel_id").get_to(operation.oriel_id);
   json.at("label").get_to(operation.label);
   json.at("operation").get_to(operation.operation);
@@ -183,6 +184,7 @@ SeriesOperation operation_in(std::string_view line, const detail::TextName& name
 std::string operation_line(const SeriesOperation& operation) {
   Json out;
   out["building"] = operation.building;
+  if (!operation.lod.empty()) out["lod"] = operation.lod;
   out["oriel_id"] = operation.oriel_id;
   out["label"] = operation.label;
   out["operation"] = operation.operation;

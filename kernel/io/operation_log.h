@@ -11,9 +11,9 @@
 
 namespace oriel {
 
-/// One line of `NAME.oplog.jsonl`, with its line end: building, oriel_id, label, operation, rule,
-/// scale, with, aabb, forward, inverse (docs/formats.md). Points are in the input's coordinates, to
-/// the micrometre; aabb = [xmin, ymin, zmin, xmax, ymax, zmax].
+/// One line of `NAME.oplog.jsonl`, with its line end: building, lod, oriel_id, label, operation,
+/// rule, scale, with, aabb, forward, inverse (docs/formats.md). Points are in the input's
+/// coordinates, to the micrometre; aabb = [xmin, ymin, zmin, xmax, ymax, zmax].
 std::string operation_line(const SeriesOperation& operation);
 
 /// The operations of such a text, in their order. E119 for a line that is none, with its number;

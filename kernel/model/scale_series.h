@@ -72,6 +72,8 @@ struct Change {
 /// One elementary operation of a series.
 struct SeriesOperation {
   std::string building;
+  /// The level of detail whose geometry it changes; empty: the highest.
+  std::string lod;
   std::string oriel_id;  ///< of the feature
   std::string label;     ///< empty: unknown
   std::string operation;

@@ -150,6 +150,47 @@ TEST_SUITE("cli") {
     CHECK(mixed.says("G409 has levels of two series"));
   }
 
+  TEST_CASE("a series of another level of detail than the highest goes both ways") {
+    const Folder folder;
+    json city = json::parse(bytes_of(sample("house")));
+    json& geometries = city["CityObjects"]["house"]["geometry"];
+    json finest = geometries[0];
+    finest["lod"] = "3.3";
+    geometries[0]["lod"] = "2.2";
+    geometries.push_back(finest);
+    const std::string two = folder.write("two.city.json", city.dump());
+    REQUIRE(run({"generalise", two, "--lod", "2.2", "--series", "1:500,1:2500,1:10000", "-o",
+                 folder / "s"})
+                .exit == 0);
+    const auto facets = [&](const std::string& file) { return facets_in(folder / file, "house"); };
+    const auto lods = [&](const std::string& file) {
+      std::string text;
+      const json level = json::parse(bytes_of(folder / file));
+      for (const json& geometry : level["CityObjects"]["house"]["geometry"])
+        text += geometry["lod"].get<std::string>() + " ";
+      return text;
+    };
+    const auto levels = std::vector{facets("s.1-500.city.json"), facets("s.1-2500.city.json"),
+                                    facets("s.1-10000.city.json")};
+    CHECK(levels[0].size() > levels[1].size());
+    CHECK(levels[1].size() > levels[2].size());
+    for (const std::string end : {"500", "10000"}) {
+      CAPTURE(end);
+      const std::string only = folder / ("only-" + end);
+      folder.write("only-" + end + ".oplog.jsonl", bytes_of(folder / "s.oplog.jsonl"));
+      folder.write("only-" + end + ".1-" + end + ".city.json",
+                   bytes_of(folder / ("s.1-" + end + ".city.json")));
+      std::size_t i = 0;
+      for (const std::string scale : {"1:500", "1:2500", "1:10000"}) {
+        const Outcome at =
+            run({"generalise", "--at", scale, "--from", only, "-o", folder / "at.city.json"});
+        REQUIRE(at.exit == 0);
+        CHECK(facets("at.city.json") == levels[i++]);
+        CHECK(lods("at.city.json") == "2.2 3.3 ");
+      }
+    }
+  }
+
   TEST_CASE("a line of a stream that cannot be drawn stays and the others go on") {
     const Folder folder;
     std::string lines = run({"cat", sample("block")}).out;
