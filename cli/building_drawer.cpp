@@ -6,9 +6,6 @@
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
 #include "kernel/compare/hausdorff.h"
-#include "kernel/io/as_written.h"
-#include "kernel/model/detail/index.h"
-#include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 
 #include <algorithm>
@@ -48,43 +45,6 @@ void mend_unchanged(const Document& document, const Building& building, const On
 /// A mended solid of more facets is drawn without its steps being judged: with all that lies within
 /// millimetres of each other in it, that takes minutes and helps little.
 constexpr std::size_t kIntricateFacets = 1000;
-
-/// Facets are parted so often; what is folded then is judged as it is.
-constexpr int kPartings = 4;
-
-/// Parts facets that are folded as they are written; their parts are what they were. False if there
-/// are none, or if something else is wrong, too.
-bool part_once(const Document& document, std::size_t building, LabelledBuilding& labelled) {
-  if (!labelled.geometry) return false;
-  const Building written = as_written(document, document.buildings[building], *labelled.geometry,
-                                      spare_digits(document));
-  auto parted = part_folded(*labelled.geometry, written, validate(written));
-  if (!parted) return false;
-  const std::size_t before = labelled.geometry->facets.size();
-  labelled.geometry = std::move(parted->solid);
-  for (std::size_t f = before; f < parted->whole_of.size(); ++f) {
-    const int whole = parted->whole_of[f];
-    if (!labelled.surface_of_polygon.empty())
-      labelled.surface_of_polygon.push_back(labelled.surface_of_polygon[at(whole)]);
-    for (Installation& installation : labelled.installations) {
-      const auto found = std::ranges::find(installation.polygons, whole);
-      if (found == installation.polygons.end()) continue;
-      const int surface =
-          installation.surfaces[at(static_cast<int>(found - installation.polygons.begin()))];
-      installation.polygons.push_back(static_cast<int>(f));
-      installation.surfaces.push_back(surface);
-    }
-  }
-  return true;
-}
-
-void part_redrawn(const Document& document, DrawnBuilding& drawn) {
-  for (Redrawn& redrawn : drawn.all) {
-    int partings = 0;
-    while (partings < kPartings && part_once(document, drawn.building, redrawn.labelled))
-      ++partings;
-  }
-}
 
 /// Of each target how fine the file has to be; what is valid at no scale is the fault.
 std::optional<Issue> prove(const Document& document, const OnLine& line, DrawnBuilding& drawn) {
@@ -163,7 +123,8 @@ std::optional<OnLine> BuildingDrawer::mend(const Document& document, const OnLin
     return draw(document, drawn.building, *mended, is_intricate ? Judging::none : Judging::refused);
   });
   timings.measure(Stage::write, [&] {
-    part_redrawn(document, again);
+    for (Redrawn& redrawn : again.all)
+      part_written(document, document.buildings[drawn.building], redrawn.labelled);
     if (!is_intricate) return keep_valid(document, *mended, again);
     if (auto fault = prove(document, *mended, again))
       give_up(document, *mended, std::move(*fault), again);

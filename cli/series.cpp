@@ -15,6 +15,7 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -32,6 +33,8 @@ struct Staged {
   const OnLine* line = nullptr;
   LabelledBuilding labelled;
   bool is_judged = false;  ///< each step of its levels is, which takes long
+  /// It is drawn from a mended solid: folded facets are parted, and each level judged by itself.
+  bool is_mended = false;
   std::vector<SeriesLevel> levels{};
   std::unique_ptr<FiringScales> firing{};
   std::vector<Issue> issues{};             ///< of its levels
@@ -137,6 +140,20 @@ class SeriesWriter {
     outputs_.take(document, product);
   }
 
+  static std::function<void(LabelledBuilding&)> finishing(const Document& document,
+                                                          const Staged& one) {
+    return [&document, building = one.building](LabelledBuilding& labelled) {
+      part_written(document, *building, labelled);
+    };
+  }
+
+  static std::function<std::optional<Issue>(const Solid&)> judging(const Document& document,
+                                                                   const Staged& one) {
+    return [&document, building = one.building, line = one.line](const Solid& solid) {
+      return prove_redrawn(document, *building, *line->solid, solid).fault;
+    };
+  }
+
   [[nodiscard]] SeriesInput input_of(const Document& document, const Staged& one) const {
     return {*one.building,
             one.labelled,
@@ -151,7 +168,9 @@ class SeriesWriter {
                 invariants.judge =
                     judge_as_written(document, *one.building, *one.line->solid, true);
               return invariants;
-            }};
+            },
+            one.is_mended ? finishing(document, one) : nullptr,
+            one.is_mended ? judging(document, one) : nullptr};
   }
 
   /// Its levels; set aside if one cannot be written as a valid solid, unless it came as none
@@ -171,8 +190,9 @@ class SeriesWriter {
   }
 
   [[nodiscard]] Staged with_levels(const Document& document, const Building& building,
-                                   const OnLine& line) const {
+                                   const OnLine& line, bool is_mended = false) const {
     Staged one{&building, &line, outputs_.annotated(building, line)};
+    one.is_mended = is_mended;
     draw_levels(document, one);
     return one;
   }
@@ -189,7 +209,7 @@ class SeriesWriter {
     auto mended = mended_line(arguments_, &rules_, document, *one.building, *one.line, within);
     if (!mended) return;
     auto line = std::make_unique<const OnLine>(std::move(*mended));
-    Staged anew = with_levels(document, *one.building, *line);
+    Staged anew = with_levels(document, *one.building, *line, true);
     if (!anew.is_valid()) return;
     anew.issues.insert(anew.issues.begin(), line->issues.back());
     anew.mended = std::move(line);

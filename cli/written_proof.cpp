@@ -1,9 +1,13 @@
 #include "cli/written_proof.h"
 
 #include "kernel/io/as_written.h"
+#include "kernel/model/detail/index.h"
+#include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,6 +30,35 @@ WrittenProof prove_written(const Document& document, const Building& building, c
 
 namespace {
 
+/// Facets are parted so often; what is folded then is judged as it is.
+constexpr int kPartings = 4;
+
+/// Parts facets that are folded as they are written; their parts are what they were. False if there
+/// are none, or if something else is wrong, too.
+bool part_once(const Document& document, const Building& building, LabelledBuilding& labelled) {
+  if (!labelled.geometry) return false;
+  const Building written =
+      as_written(document, building, *labelled.geometry, spare_digits(document));
+  auto parted = part_folded(*labelled.geometry, written, validate(written));
+  if (!parted) return false;
+  const std::size_t before = labelled.geometry->facets.size();
+  labelled.geometry = std::move(parted->solid);
+  for (std::size_t f = before; f < parted->whole_of.size(); ++f) {
+    const int whole = parted->whole_of[f];
+    if (!labelled.surface_of_polygon.empty())
+      labelled.surface_of_polygon.push_back(labelled.surface_of_polygon[at(whole)]);
+    for (Installation& installation : labelled.installations) {
+      const auto found = std::ranges::find(installation.polygons, whole);
+      if (found == installation.polygons.end()) continue;
+      const int surface =
+          installation.surfaces[at(static_cast<int>(found - installation.polygons.begin()))];
+      installation.polygons.push_back(static_cast<int>(f));
+      installation.surfaces.push_back(surface);
+    }
+  }
+  return true;
+}
+
 bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
   return validate(building).empty() || !prove_written(document, building, own).fault;
 }
@@ -47,6 +80,11 @@ WrittenProof prove_redrawn(const Document& document, const Building& building, c
   proof.fault->code = "G410";
   proof.fault->sentence = "would not be valid as it is written: " + why;
   return proof;
+}
+
+void part_written(const Document& document, const Building& building, LabelledBuilding& labelled) {
+  int partings = 0;
+  while (partings < kPartings && part_once(document, building, labelled)) ++partings;
 }
 
 Judge judge_as_written(const Document& document, const Building& building, const Solid& own,

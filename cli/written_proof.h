@@ -3,6 +3,7 @@
 #include "generalise/invariants.h"
 #include "kernel/io/document.h"
 #include "kernel/model/issue.h"
+#include "kernel/model/labelled_building.h"
 #include "kernel/model/solid.h"
 
 #include <optional>
@@ -27,6 +28,10 @@ WrittenProof prove_redrawn(const Document& document, const Building& building, c
 
 /// The warning G413.
 Issue excuse_of(const Building& building, const std::string& why);
+
+/// Parts the facets of what is to be written in the place of the polygons of `building` that would
+/// be folded there (part_folded), if nothing else is wrong with it; their parts are what they were.
+void part_written(const Document& document, const Building& building, LabelledBuilding& labelled);
 
 /// A judge of solids to be written in the place of the polygons of `building`, whose solid is
 /// `own`; all must outlive it.

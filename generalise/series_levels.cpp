@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace oriel {
 
 namespace {
@@ -34,6 +36,10 @@ class Levels {
     Checked<std::vector<SeriesLevel>> out;
     auto finest = level_of(input_, 0, {}, {}, out.issues);
     if (!finest) return out;
+    if (auto fault = fault_of(*finest)) {
+      out.issues.push_back(std::move(*fault));
+      return out;
+    }
     std::vector<SeriesLevel> levels{std::move(*finest)};
     for (const double scale : scales) {
       auto level = next(levels.back(), scale, out.issues);
@@ -115,6 +121,8 @@ class Levels {
       auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
       if (!level || !restore_refused(*level, old, steps)) {
         if (level && is_setback(before, *level)) return on_top(before, steps, scale, issues);
+        if (auto fault = level ? fault_of(*level) : std::nullopt)
+          return given_up(before, std::move(*level), std::move(*fault), issues);
         std::ranges::move(found, std::back_inserter(issues));
         if (level && is_nothing_new(before, *level)) return unchanged(before, std::move(*level));
         return level;
@@ -135,6 +143,20 @@ class Levels {
     same.scale = after.scale;
     same.refused = std::move(after.refused);
     return same;
+  }
+
+  [[nodiscard]] std::optional<Issue> fault_of(const SeriesLevel& level) const {
+    if (!input_.fault_of) return std::nullopt;
+    return input_.fault_of(*level.redrawn.labelled.geometry);
+  }
+
+  static SeriesLevel given_up(const SeriesLevel& before, SeriesLevel after, Issue fault,
+                              std::vector<Issue>& issues) {
+    fault.severity = Severity::warning;
+    fault.sentence += fmt::format("; at 1:{} it stays as it is at the scale before", after.scale);
+    issues.push_back(std::move(fault));
+    after.refused.insert(after.refused.end(), after.steps.begin(), after.steps.end());
+    return unchanged(before, std::move(after));
   }
 
   /// All steps were carried out, or refused, at the level before.
@@ -191,7 +213,7 @@ class Levels {
     std::vector<Issue> found;
     auto level =
         level_of(input_, best.scale, listed(more), invariants_after(before, best.scale), found);
-    if (level && !is_setback(before, *level)) {
+    if (level && !is_setback(before, *level) && !fault_of(*level)) {
       best = std::move(*level);
       std::ranges::move(found, std::back_inserter(issues));
     } else if (tasks.size() > 1) {
@@ -246,6 +268,7 @@ std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std:
   made.value->is_drawn_anew = true;
   level.redrawn = redraw(input.building, input.labelled, input.segmentation, input.table,
                          input.interpretation, std::move(*made.value), input.options.tolerances);
+  if (input.finish) input.finish(level.redrawn.labelled);
   return level;
 }
 

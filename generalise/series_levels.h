@@ -4,6 +4,7 @@
 #include "kernel/model/plan.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace oriel {
@@ -19,6 +20,10 @@ struct SeriesInput {
   SegmentOptions options{};
   /// What must not change at 1 : scale; not given: anything may.
   std::function<Invariants(double scale)> invariants_at{};
+  /// What is still to be done to each level, and to each state between, once it is drawn.
+  std::function<void(LabelledBuilding&)> finish{};
+  /// Why a solid must not be written, if it must not; not given: any may.
+  std::function<std::optional<Issue>(const Solid&)> fault_of{};
 };
 
 /// What is asked for at 1 : scale.
@@ -43,7 +48,9 @@ struct SeriesLevel {
 ///   which the step came. Rows (aggregate, typify) change only as a whole.
 /// - A step that is refused where an older one was carried out leaves that one in force.
 /// - A step by which an older one would no longer be carried out is undone (G408, a warning).
-/// Issues as of generalise(); no value after G402.
+/// - A level that must not be written stays as the one before: the fault is a warning; as the
+///   building came, it is an error.
+/// Issues as of generalise(); no value after an error.
 Checked<std::vector<SeriesLevel>> series_levels(const SeriesInput& input,
                                                 const std::vector<double>& scales,
                                                 const PlanAt& plan_at);

@@ -204,8 +204,8 @@ class LevelOperations {
     into.is_redrawing = into.is_redrawing || one.is_redrawing;
   }
 
-  /// What the steps make, if `one` is carried out among them and leaves a closed solid. No
-  /// invariant has to hold between levels.
+  /// What the steps make, if `one` is carried out among them and leaves a closed solid that may be
+  /// written. No invariant has to hold between levels.
   [[nodiscard]] std::optional<LevelState> state_of(const std::vector<Step>& steps,
                                                    const Draft& one) const {
     std::vector<Issue> issues;
@@ -213,6 +213,7 @@ class LevelOperations {
     if (!level || level->steps.size() != steps.size()) return std::nullopt;
     const auto& removed = level->generalised.removed;
     if (!std::ranges::includes(removed, one.gone)) return std::nullopt;
+    if (input_.fault_of && input_.fault_of(*level->redrawn.labelled.geometry)) return std::nullopt;
     LevelState state = level_state(level->redrawn.labelled, place_);
     if (!is_closed(*labelled_building(state, input_.building.frame).geometry)) return std::nullopt;
     return state;

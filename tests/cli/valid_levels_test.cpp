@@ -284,6 +284,25 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("slow: levels of a series that would not be valid stay as the ones before" *
+            doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const std::string id = "NL.IMBAG.Pand.0503100000019275-0";
+    const Outcome made =
+        run({"generalise", shared / "data/3dbag/tile_5910.city.jsonl", "--lod", "2.2", "--id", id,
+             "--series", "1:500,1:1000,1:10000", "-o", folder / "s"});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("G413") == std::string::npos);
+    CHECK(made.err.find("at 1:1000 it stays as it is at the scale before") != std::string::npos);
+    for (const char* scale : {"1:1", "1:500", "1:700", "1:10000"}) {
+      CAPTURE(scale);
+      const std::string at = folder / "at.city.jsonl";
+      CHECK(run({"generalise", "--at", scale, "--from", folder / "s", "-o", at}).exit == 0);
+      CHECK(valid_in({at}, {"--lod", "2.2", "--id", id}).size() == 1);
+    }
+  }
+
   TEST_CASE("slow: what is generalised of all data and of generated houses is valid in the file" *
             doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
     // ORIEL_SLOW=1000 for as many houses; CI takes fewer.

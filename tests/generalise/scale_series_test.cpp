@@ -25,12 +25,19 @@ namespace {
 
 const std::vector<double> kSeriesScales{500, 1000, 2500, 5000, 10000};
 
-ScaleSeries series_of(const Line& line) {
-  const SeriesInput input{line.building(), line.labelled,       line.solid, line.segmentation,
-                          line.table(),    line.interpretation, {},         {}};
-  const PlanAt plan_at = [&](double scale) {
+SeriesInput input_of(const Line& line) {
+  return {line.building(), line.labelled,       line.solid, line.segmentation,
+          line.table(),    line.interpretation, {},         {}};
+}
+
+PlanAt plan_of(const Line& line) {
+  return [&](double scale) {
     return plan(residential(), line.table(), line.description.graph, line.interpretation, scale);
   };
+}
+
+ScaleSeries series_of(const Line& line, const SeriesInput& input) {
+  const PlanAt plan_at = plan_of(line);
   const auto levels = series_levels(input, kSeriesScales, plan_at);
   REQUIRE(levels.value);
   std::vector<const LabelledBuilding*> all;
@@ -40,6 +47,8 @@ ScaleSeries series_of(const Line& line) {
                       FiringScales(kSeriesScales, plan_bounds(residential()), plan_at),
                       [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
 }
+
+ScaleSeries series_of(const Line& line) { return series_of(line, input_of(line)); }
 
 /// Every prefix is a valid closed solid; all the way back gives the same states.
 void check_both_ways(const Line& line, const ScaleSeries& series) {
@@ -127,6 +136,62 @@ TEST_SUITE("generalise") {
         REQUIRE(move_state(state, *log.value, from, to));
         CHECK(hash_of(state) == hash_of(state_at(series, to)));
       }
+    }
+  }
+
+  TEST_CASE("a level that must not be written stays as the one before and is told") {
+    const Line line = line_of_sample("house");
+    const auto free = series_levels(input_of(line), kSeriesScales, plan_of(line));
+    REQUIRE(free.value);
+    const auto facets_at = [](const SeriesLevel& level) {
+      return level.redrawn.labelled.geometry->facets.size();
+    };
+    const std::size_t least = facets_at(free.value->at(2)) - 1;
+    CHECK(facets_at(free.value->at(3)) < least);
+    SeriesInput input = input_of(line);
+    input.fault_of = [&](const Solid& solid) -> std::optional<Issue> {
+      if (solid.facets.size() >= least) return std::nullopt;
+      return building_issue(Severity::error, "G410", "house", "too few");
+    };
+    const auto levels = series_levels(input, kSeriesScales, plan_of(line));
+    REQUIRE(levels.value);
+    for (const std::size_t i : {2, 3, 4, 5}) {
+      CHECK(facets_at(levels.value->at(i)) == facets_at(free.value->at(2)));
+      CHECK(levels.value->at(i).scale == kSeriesScales[i - 1]);
+    }
+    CHECK(std::ranges::count(levels.issues, "G410", &Issue::code) == 3);
+    CHECK_FALSE(has_errors(levels.issues));
+    check_both_ways(line, series_of(line, input));
+    const ScaleSeries series = series_of(line, input);
+    CHECK(state_at(series, 1000) == state_at(series, 10000));
+    CHECK_FALSE(state_at(series, 1) == state_at(series, 1000));
+  }
+
+  TEST_CASE("a building that must not be written as it came has no series") {
+    const Line line = line_of_sample("house");
+    SeriesInput input = input_of(line);
+    input.fault_of = [](const Solid&) {
+      return building_issue(Severity::error, "G410", "house", "no");
+    };
+    const auto levels = series_levels(input, kSeriesScales, plan_of(line));
+    CHECK_FALSE(levels.value);
+    CHECK(has_errors(levels.issues));
+  }
+
+  TEST_CASE("levels and the states between are finished as the input asks") {
+    const Line line = line_of_sample("house");
+    SeriesInput input = input_of(line);
+    input.finish = [](LabelledBuilding& labelled) {
+      for (SemanticSurface& surface : labelled.surfaces)
+        surface.members.emplace_back("finished", true);
+    };
+    const ScaleSeries series = series_of(line, input);
+    check_both_ways(line, series);
+    LevelState state = series.finest;
+    for (const SeriesOperation& operation : series.operations) {
+      for (const auto& [outer, facet] : state.facets)
+        CHECK(facet.members.back() == Members::value_type("finished", true));
+      REQUIRE(apply(state, operation.forward));
     }
   }
 
