@@ -4,6 +4,7 @@
 #include "kernel/model/detail/index.h"
 #include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
+#include "kernel/validate/weld_written.h"
 
 #include <algorithm>
 #include <string>
@@ -30,32 +31,42 @@ WrittenProof prove_written(const Document& document, const Building& building, c
 
 namespace {
 
-/// Facets are parted so often; what is folded then is judged as it is.
+/// Facets are welded and parted so often; what is wrong then is judged as it is.
 constexpr int kPartings = 4;
 
-/// Parts facets that are folded as they are written; their parts are what they were. False if there
-/// are none, or if something else is wrong, too.
+/// Surfaces and installations are handed on to the facets that are left of theirs.
+void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
+  labelled.geometry = std::move(parted.solid);
+  if (!labelled.surface_of_polygon.empty()) {
+    std::vector<int> surfaces;
+    for (const int whole : parted.whole_of)
+      surfaces.push_back(labelled.surface_of_polygon[at(whole)]);
+    labelled.surface_of_polygon = std::move(surfaces);
+  }
+  for (Installation& installation : labelled.installations) {
+    const Installation old =
+        std::exchange(installation, Installation{installation.id, installation.attributes, {}, {}});
+    for (std::size_t f = 0; f < parted.whole_of.size(); ++f) {
+      const auto found = std::ranges::find(old.polygons, parted.whole_of[f]);
+      if (found == old.polygons.end()) continue;
+      installation.polygons.push_back(static_cast<int>(f));
+      installation.surfaces.push_back(
+          old.surfaces[static_cast<std::size_t>(found - old.polygons.begin())]);
+    }
+  }
+}
+
+/// Welds what is written as one point, else parts facets that are folded as they are written. False
+/// if there is neither, or if something else is wrong, too.
 bool part_once(const Document& document, const Building& building, LabelledBuilding& labelled) {
   if (!labelled.geometry) return false;
   const Building written =
       as_written(document, building, *labelled.geometry, spare_digits(document));
-  auto parted = part_folded(*labelled.geometry, written, validate(written));
+  const auto findings = validate(written);
+  auto parted = weld_written(*labelled.geometry, written, findings);
+  if (!parted) parted = part_folded(*labelled.geometry, written, findings);
   if (!parted) return false;
-  const std::size_t before = labelled.geometry->facets.size();
-  labelled.geometry = std::move(parted->solid);
-  for (std::size_t f = before; f < parted->whole_of.size(); ++f) {
-    const int whole = parted->whole_of[f];
-    if (!labelled.surface_of_polygon.empty())
-      labelled.surface_of_polygon.push_back(labelled.surface_of_polygon[at(whole)]);
-    for (Installation& installation : labelled.installations) {
-      const auto found = std::ranges::find(installation.polygons, whole);
-      if (found == installation.polygons.end()) continue;
-      const int surface =
-          installation.surfaces[at(static_cast<int>(found - installation.polygons.begin()))];
-      installation.polygons.push_back(static_cast<int>(f));
-      installation.surfaces.push_back(surface);
-    }
-  }
+  put_parted(std::move(*parted), labelled);
   return true;
 }
 

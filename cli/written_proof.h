@@ -29,8 +29,9 @@ WrittenProof prove_redrawn(const Document& document, const Building& building, c
 /// The warning G413.
 Issue excuse_of(const Building& building, const std::string& why);
 
-/// Parts the facets of what is to be written in the place of the polygons of `building` that would
-/// be folded there (part_folded), if nothing else is wrong with it; their parts are what they were.
+/// Of what is to be written in the place of the polygons of `building`, welds what the file's grid
+/// makes one point (weld_written), and parts facets that would be folded there (part_folded), if
+/// nothing else is wrong; what is left of facets is what they were.
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled);
 
 /// A judge of solids to be written in the place of the polygons of `building`, whose solid is

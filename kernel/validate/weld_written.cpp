@@ -1,0 +1,79 @@
+#include "kernel/validate/weld_written.h"
+
+#include "kernel/geometry/exact.h"
+#include "kernel/model/detail/index.h"
+#include "kernel/solidify/detail/shells.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+/// By vertex of the solid the first one that is written as the same point.
+std::vector<int> first_of_each_point(const Solid& solid, const Building& written) {
+  std::vector<int> first(solid.vertices.size(), -1);
+  std::map<int, int> vertex_at;  // by vertex as written
+  for (const Polygon& polygon : written.polygons) {
+    const auto& loops = solid.facets[at(polygon.source)].loops;
+    for (std::size_t r = 0; r < loops.size(); ++r)
+      for (std::size_t i = 0; i < loops[r].size(); ++i)
+        first[at(loops[r][i])] =
+            vertex_at.try_emplace(polygon.rings[r][i], loops[r][i]).first->second;
+  }
+  return first;
+}
+
+/// Empty if less than a triangle is left.
+Loop welded(const Loop& loop, const std::vector<int>& first) {
+  Loop out;
+  for (const int v : loop)
+    if (out.empty() || out.back() != first[at(v)]) out.push_back(first[at(v)]);
+  while (out.size() > 1 && out.front() == out.back()) out.pop_back();
+  return std::set<int>(out.begin(), out.end()).size() < 3 ? Loop{} : out;
+}
+
+/// Facets whose outer loop is gone leave, with what was in them.
+std::vector<int> weld_facets(Solid& solid, const std::vector<int>& first) {
+  std::vector<int> whole_of, number_of(solid.facets.size(), -1);
+  std::vector<Facet> facets;
+  for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+    Facet& facet = solid.facets[f];
+    for (Loop& loop : facet.loops) loop = welded(loop, first);
+    if (facet.loops[0].empty()) continue;
+    std::erase_if(facet.loops, [](const Loop& loop) { return loop.empty(); });
+    number_of[f] = static_cast<int>(facets.size());
+    whole_of.push_back(static_cast<int>(f));
+    facets.push_back(std::move(facet));
+  }
+  solid.facets = std::move(facets);
+  for (Shell& shell : solid.shells) {
+    std::erase_if(shell.facets, [&](FacetId f) { return number_of[f.index()] < 0; });
+    for (FacetId& f : shell.facets) f = FacetId{number_of[f.index()]};
+  }
+  std::erase_if(solid.shells, [](const Shell& shell) { return shell.facets.empty(); });
+  return whole_of;
+}
+
+}  // namespace
+
+std::optional<PartedSolid> weld_written(const Solid& solid, const Building& written,
+                                        const std::vector<Finding>& findings) {
+  if (std::ranges::find(findings, "E312", &Finding::code) == findings.end()) return std::nullopt;
+  PartedSolid out{solid, {}};
+  const std::vector<int> first = first_of_each_point(solid, written);
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    if (first[v] < 0 || first[v] == static_cast<int>(v)) continue;
+    // It stands for others that lie in other planes.
+    Vertex& kept = out.solid.vertices[at(first[v])];
+    kept = {exact::to_metres(exact::round_to_grid(kept.point, solid.grid_m), solid.grid_m), false};
+  }
+  out.whole_of = weld_facets(out.solid, first);
+  detail::arrange_planes_and_loops(out.solid);
+  return out;
+}
+
+}  // namespace oriel

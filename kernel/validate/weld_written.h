@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/solid.h"
+#include "kernel/validate/part_folded.h"
+
+#include <optional>
+#include <vector>
+
+namespace oriel {
+
+/// The solid without edges of which both ends are written as one point (E312): vertices that the
+/// file's grid makes one are one, and facets of which less than a triangle is left are gone.
+///
+/// `written` is what as_written() makes of the solid, `findings` what validate() finds in that.
+/// Nothing if there is no such edge. Whether the rest is valid has to be judged.
+std::optional<PartedSolid> weld_written(const Solid& solid, const Building& written,
+                                        const std::vector<Finding>& findings);
+
+}  // namespace oriel
