@@ -88,9 +88,10 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("every level of every built-in profile loads without findings") {
-    const std::array names{"cfd",         "citygml:1",   "citygml:2",  "citygml:3", "lod:1.0",
-                           "lod:1.2",     "lod:1.3",     "lod:2.0",    "map",       "plateau:2.0",
-                           "plateau:2.1", "plateau:2.2", "plateau:3.1"};
+    const std::array names{"cfd",         "citygml:1",   "citygml:2",   "citygml:3",
+                           "lod:1.0",     "lod:1.2",     "lod:1.3",     "lod:2.0",
+                           "map",         "plateau:2.0", "plateau:2.1", "plateau:2.2",
+                           "plateau:3.0", "plateau:3.1", "plateau:3.2"};
     const RuleBase residential = *load_pack_file("residential").value;
     for (const char* name : names) {
       const auto loaded = load_profile_file(name);
@@ -99,6 +100,9 @@ TEST_SUITE("interpret") {
       CHECK(loaded.value->thresholds(1000)->is_chain());
       CHECK(check_profile(*loaded.value, residential).empty());
     }
+    const auto all = load_profile_file("plateau:3.3");
+    REQUIRE(all.value);
+    CHECK_FALSE(all.value->thresholds(1000));
     CHECK(embedded_profiles() ==
           std::vector<std::string>{"cfd", "citygml", "lod", "map", "plateau"});
   }
@@ -124,6 +128,7 @@ TEST_SUITE("interpret") {
     CHECK(codes_of("{form: as-is, parts: {height-m: 0, area-m2: 4}}") == "R211 ");
     CHECK(codes_of("{form: as-is, invariants: {overhang-pct: 0.1}}") == "");
     CHECK(codes_of("{form: as-is, invariants: {overhang: 0.1}}") == "R209 ");
+    CHECK(codes_of("{form: as-is, invariants: {eaves-m: 0}}") == "R211 ");
     CHECK(codes_of("{form: as-is}", "7") == "R271 ");
     CHECK(codes_of("{}") == "R210 ");
     CHECK_FALSE(load_profile_file("no-such-profile").value);
