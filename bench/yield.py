@@ -7,7 +7,9 @@
 Solids: the buildings that oriel takes as solids. Valid: their outputs that `oriel validate` calls valid, the file read
 again, of all outputs, and in parentheses those that were invalid as they were read. Yield: buildings with nothing
 refused or set aside. Parts: of these the buildings in which something that was to go for its size turned out to be a part
-of the building and stayed (G411, G412). Short: edges under the target's least length of which the input has no such edge.
+of the building and stayed (G411, G412, G418). Short: edges under the target's least length of which the input has no such
+edge, found here without oriel. Left: buildings in which oriel tells such edges (G415) that it could not clear; as they
+were: those in which it tells only edges of parts that stay as they were; untold: those with short edges of which it tells nothing.
 ORIEL_YIELD_V=1 names the buildings that fall short.
 """
 import itertools
@@ -21,7 +23,7 @@ from collections import defaultdict
 from city_lines import records
 
 TARGETS = [("--scale", f"1:{n}") for n in (500, 1000, 2500, 5000, 10000)] + [("--to-lod", l) for l in ("2.0", "1.2", "1.0")]
-NEAR_M = 0.005  # ends of an edge that stays: snapping moves them by some mm
+NEAR_M = 0.01  # ends of an edge that stays: planes are drawn through noisy points, which moves them by up to 8 mm
 
 
 def least_edge_m(target):
@@ -114,8 +116,8 @@ def validity(oriel, paths, lod):
 
 def main():
     if sys.argv[1] == "--header":
-        print("| data | target | solids | changed | valid in the file (invalid as read) | done | yield | parts | short edges |")
-        print("|" + "---|" * 9)
+        print("| data | target | solids | changed | valid in the file (invalid as read) | done | yield | parts | short edges | left | of parts as they were | untold |")
+        print("|" + "---|" * 12)
         return
     oriel, name, files = sys.argv[1], sys.argv[2], sys.argv[3:]
     name, _, lod = name.partition(":")
@@ -129,7 +131,7 @@ def main():
             why = folder + "/why.jsonl"
             os.mkdir(folder + "/out")
             out = folder + "/out/"
-            made = run([oriel, "generalise", *files, option, level, "-j", "2", "-o", out, "--explain", why,
+            made = run([oriel, "generalise", *files, option, level, "-v", "-j", "2", "-o", out, "--explain", why,
                         *(["--lod", lod] if lod else []), *(["--rules", pack] if pack else []),
                         *(["--profile", profile] if profile and option == "--scale" else [])])
             if made.returncode not in (0, 3):
@@ -149,8 +151,11 @@ def report(oriel, name, option, level, lod, told, why, written, before, was_vali
             changed.add(deed["building"])
         elif deed["code"]:
             parts.add(deed["building"])
+    left, whole = set(), set()
     for line in told.splitlines():
         words = line.split()
+        if len(words) > 3 and "G415" in words[2:4]:
+            (whole if "stay as they were" in line else left).add(words[1].rstrip(":"))
         if len(words) < 3 or words[0] not in ("error:", "warning:"):
             continue
         building, code = words[1].rstrip(":"), words[2]
@@ -165,7 +170,8 @@ def report(oriel, name, option, level, lod, told, why, written, before, was_vali
     came_invalid = sum(not was_valid.get(b, False) for b in outputs if not is_valid.get(b, False))
     done = sum(b not in refused for b in solids)
     print(f"| {name} | {level} | {len(solids)} | {len(changed)} | {valid} of {len(outputs)} ({came_invalid}) | {done} | "
-          f"{100 * done / max(1, len(solids)):.1f} % | {len((parts & solids) - set(refused))} | {sum(n > 0 for n in short.values())} ({sum(short.values())}) |", flush=True)
+          f"{100 * done / max(1, len(solids)):.1f} % | {len((parts & solids) - set(refused))} | {sum(n > 0 for n in short.values())} ({sum(short.values())}) | {len(left)} | {len(whole - left)} | "
+          f"{sum(n > 0 for b, n in short.items() if b not in left | whole)} |", flush=True)
     if os.environ.get("ORIEL_YIELD_V"):
         for b in sorted(solids):
             if b in refused or short.get(b) or not is_valid.get(b, False):

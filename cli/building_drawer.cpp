@@ -2,7 +2,7 @@
 
 #include "cli/mended_line.h"
 #include "cli/written_proof.h"
-#include "generalise/fineness.h"
+#include "generalise/fineness_issues.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan.h"
 #include "kernel/compare/hausdorff.h"
@@ -161,7 +161,8 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const Su
     told[Part::deeds] += accounts_.text(of.building.id, target_text(profile),
                                         account(plan, *made.value, table, line.interpretation));
   // What is kept of it is not known any more once it is redrawn.
-  const Generalised changes{{}, made.value->removed, made.value->refused};
+  const Generalised changes{{},    made.value->removed, made.value->refused,
+                            false, made.value->changed, made.value->uncleared};
   std::optional<Redrawn> redrawn;
   if (targets_.has_lods()) {
     auto level = to_lod(of.building, of.labelled, *line.segmentation, table, line.interpretation,
@@ -189,7 +190,8 @@ Plan BuildingDrawer::plan_for(const Profile* profile, const OnLine& line, Produc
 
 Invariants BuildingDrawer::invariants_for(const Profile* profile, const Subject& of,
                                           Judging judging) const {
-  Invariants invariants = invariants_of(profile, targets_.scale);
+  Invariants invariants = beside_others(invariants_of(profile, rules_, targets_.scale), of.document,
+                                        of.building, *of.line.solid);
   if (judging != Judging::none)
     invariants.judge =
         judge_as_written(of.document, of.building, *of.line.solid, judging == Judging::thorough);
@@ -220,8 +222,11 @@ void BuildingDrawer::keep_figures(const Profile* profile, const Subject& of,
   const double least_m = least_edge_m(profile, targets_.scale);
   const Solid& before = *of.line.solid;
   const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
+  Fineness asked{least_m, profile != nullptr && profile->edge_min_m.has_value()};
+  if (profile != nullptr && profile->form != Profile::Form::as_is)
+    asked.why_not_tried = "blocks keep the footprint and the heights of the roof";
   keep(fineness_issues(of.building, before, after, *of.line.segmentation, of.line.description.table,
-                       changes, {least_m, profile != nullptr && profile->edge_min_m.has_value()}),
+                       changes, asked),
        told);
   if (!accounts_.has_metrics()) return;
   told[Part::figures] +=

@@ -163,7 +163,8 @@ class SeriesWriter {
             one.line->interpretation,
             arguments_.segment_options(one.line->tolerances),
             [this, &document, &one](double scale) {
-              Invariants invariants = invariants_of(profile_, scale);
+              Invariants invariants = beside_others(invariants_of(profile_, rules_, scale),
+                                                    document, *one.building, *one.line->solid);
               if (one.is_judged)
                 invariants.judge =
                     judge_as_written(document, *one.building, *one.line->solid, true);

@@ -4,6 +4,7 @@
 #include "generalise/invariants.h"
 #include "interpret/profile.h"
 #include "interpret/rule_base.h"
+#include "kernel/io/document.h"
 
 #include <optional>
 #include <string>
@@ -42,7 +43,13 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
 /// The least length that a target shows: the profile's, or its c, else 0.125 mm on the map.
 double least_edge_m(const Profile* profile, std::optional<double> scale);
 
-/// What must not change at a target, without a judge.
-Invariants invariants_of(const Profile* profile, std::optional<double> scale);
+/// What must not change at a target, by the profile and the pack; without a judge and party walls.
+Invariants invariants_of(const Profile* profile, const RuleBase& rules,
+                         std::optional<double> scale);
+
+/// The same of a building, with the walls of the document's other buildings that it stands against
+/// if they matter.
+Invariants beside_others(Invariants invariants, const Document& document, const Building& building,
+                         const Solid& solid);
 
 }  // namespace oriel::cli

@@ -1,5 +1,7 @@
 #include "generalise/carry_out.h"
 
+#include "generalise/clear_edges.h"
+#include "generalise/detail/stays.h"
 #include "generalise/detail/steps.h"
 #include "generalise/detail/tasks.h"
 #include "generalise/fineness.h"
@@ -25,19 +27,20 @@ class Guard {
         options_(options),
         invariants_(invariants),
         pieces_(pieces),
-        before_(measures_of(solid)),
+        before_(measures_of(solid, invariants)),
         judge_(invariants.judge) {
     judge_.settled = invariants.settled;
     judge_.violation_of = [this](const Solid& left) {
-      return violation(before_, measures_of(left), invariants_);
+      return violation(before_, measures_of(left, invariants_), invariants_);
     };
   }
 
   CarriedOut run() {
     while (true) {
       CarriedOut out = first(plan_.steps.size());
-      const auto broken = violation(before_, measures_of(out.solid), invariants_);
-      if (!broken && !undo_fine(out) && !undo_torn(out)) return with_undone(std::move(out));
+      const auto broken = violation(before_, measures_of(out.solid, invariants_), invariants_);
+      if (!broken && !undo_fine(out) && !undo_torn(out))
+        return with_undone(cleared(std::move(out)));
       if (!broken) continue;
       if (undone_.size() == plan_.steps.size()) return with_undone(std::move(out));
       undone_.push_back(culprit(*broken));
@@ -112,12 +115,32 @@ class Guard {
     return id.is_valid();
   }
 
+  /// Without new edges that are too short, as far as that can be.
+  [[nodiscard]] CarriedOut cleared(CarriedOut out) const {
+    if (invariants_.least_edge_m <= 0) return out;
+    ClearOrder order;
+    order.reach_m = invariants_.least_edge_m;
+    order.short_edges_of = [&](const Solid& solid) {
+      return without_whole_edges(
+          new_short_edges(solid_, solid, segmentation_, out.removed, invariants_.least_edge_m),
+          segmentation_, out.changed, out.removed, invariants_.least_edge_m);
+    };
+    order.keeps_facet = [&](const Solid& solid, const Facet& facet) {
+      return detail::why_it_stays(solid, facet, segmentation_, out.removed);
+    };
+    Cleared cleared = clear_edges(std::move(out.solid), order, judge_);
+    out.solid = std::move(cleared.solid);
+    out.uncleared = std::move(cleared.left);
+    return out;
+  }
+
   /// The first `good` steps break nothing, the first `bad` do.
   [[nodiscard]] CarriedOut::Refused culprit(Violation reason) const {
     std::size_t good = 0, bad = plan_.steps.size();
     while (bad - good > 1) {
       const std::size_t middle = good + (bad - good) / 2;
-      const auto broken = violation(before_, measures_of(first(middle).solid), invariants_);
+      const auto broken =
+          violation(before_, measures_of(first(middle).solid, invariants_), invariants_);
       (broken ? bad : good) = middle;
       if (broken) reason = *broken;
     }

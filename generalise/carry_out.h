@@ -8,6 +8,12 @@
 
 namespace oriel {
 
+/// An edge that is new and too short, of a part that changed, and why it could not be cleared.
+struct UnclearedEdge {
+  Vec3 from, to;
+  std::string reason;
+};
+
 /// A building after the steps of a plan.
 struct CarriedOut {
   Solid solid;
@@ -22,6 +28,7 @@ struct CarriedOut {
   std::vector<Refused> refused;
   /// Features that look different now; they are not among the removed. Ascending.
   std::vector<FeatureId> changed{};
+  std::vector<UnclearedEdge> uncleared{};
 };
 
 /// What may be a piece of something larger: a plinth, the eaves, a parapet.
@@ -39,7 +46,9 @@ struct Pieces {
 /// (G403), with all that it draws together. A piece is torn off what it runs on into if a new edge
 /// that is too short arises at it, no longer than the piece is thin, and belongs to something thin
 /// that stays or to what carries the piece, or if an edge of the body arises within it: then its
-/// step is taken back, if it may stay (G418).
+/// step is taken back, if it may stay (G418). Of new edges that are too short all the same those
+/// are cleared that can be (clear_edges), but for those of parts that stay as they were
+/// (without_whole_edges).
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                      const SegmentOptions& options, const Invariants& invariants = {},
                      const Pieces& pieces = {});

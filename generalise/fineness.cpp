@@ -124,6 +124,31 @@ FeatureId drawn_owner(const Facet& facet, const std::map<int, FeatureId>& drawn)
   return owner;
 }
 
+/// Edges, shorter than asked for, of cells and outlines of what stays as it was: their ends.
+std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmentation,
+                                                    const std::vector<FeatureId>& changed,
+                                                    const std::vector<FeatureId>& removed,
+                                                    double least_m) {
+  std::vector<std::pair<Vec3, Vec3>> edges;
+  const auto add = [&](const Loop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec3 p = segmentation.vertices[at(loop[i])].point;
+      const Vec3 q = segmentation.vertices[at(loop[(i + 1) % loop.size()])].point;
+      if (length(q - p) < least_m + 2 * kOnBox_m) edges.emplace_back(p, q);
+    }
+  };
+  const auto stays = [&](FeatureId id) {
+    return !std::ranges::binary_search(changed, id) && !std::ranges::binary_search(removed, id);
+  };
+  for (const Cell& cell : segmentation.cells)
+    if (stays(cell.feature))
+      for (const Facet& facet : cell.facets)
+        for (const Loop& loop : facet.loops) add(loop);
+  for (int i = 0; i < std::ssize(segmentation.features); ++i)
+    if (stays(FeatureId{i})) add(segmentation.features[at(i)].outline);
+  return edges;
+}
+
 /// A facet of the solid as outlines.
 struct Sheet {
   std::vector<Outline> outlines;
@@ -174,26 +199,6 @@ std::optional<Vec3> crossing(const Sheet& a, const Sheet& b) {
   return std::nullopt;
 }
 
-std::string place_text(Vec3 local_m, const Frame& frame) {
-  const Vec3 p = local_m + frame.origin_m;
-  return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z);
-}
-
-/// What of one feature, or of the body, is too fine.
-struct Finding {
-  std::size_t count = 0;
-  double least_m = std::numeric_limits<double>::infinity();
-  Vec3 at;
-
-  void add(double length_m, Vec3 where) {
-    ++count;
-    if (length_m >= least_m) return;
-    least_m = length_m;
-    at = where;
-  }
-};
-using Findings = std::map<FeatureId, Finding>;
-
 }  // namespace
 
 bool holds(const Box& box, Vec3 p, double off_m) {
@@ -235,6 +240,23 @@ std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& af
   const Corners corners(before);
   std::erase_if(edges, [&](const ShortEdge& edge) {
     return is_depth(edge, segmentation) || (corners.has(edge.from) && corners.has(edge.to));
+  });
+  return edges;
+}
+
+std::vector<ShortEdge> without_whole_edges(std::vector<ShortEdge> edges,
+                                           const Segmentation& segmentation,
+                                           const std::vector<FeatureId>& changed,
+                                           const std::vector<FeatureId>& removed, double least_m) {
+  if (edges.empty()) return edges;
+  const auto whole = edges_of_staying(segmentation, changed, removed, least_m);
+  std::erase_if(edges, [&](const ShortEdge& edge) {
+    return std::ranges::any_of(whole, [&](const auto& ends) {
+      const auto is_it = [&](Vec3 p, Vec3 q) {
+        return length(p - edge.from) <= kOnBox_m && length(q - edge.to) <= kOnBox_m;
+      };
+      return is_it(ends.first, ends.second) || is_it(ends.second, ends.first);
+    });
   });
   return edges;
 }
@@ -282,41 +304,6 @@ bool add_fine_owners(const Generalised& generalised, const Segmentation& segment
   for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
   std::ranges::stable_sort(plan.steps, {}, &Step::feature);
   return !owners.empty();
-}
-
-std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
-                                   const Solid& after, const Segmentation& segmentation,
-                                   const FeatureTable& table, const Generalised& generalised,
-                                   const Fineness& asked) {
-  Findings edges, gaps;
-  const auto found =
-      asked.is_everywhere
-          ? short_edges(after, segmentation, generalised.removed, asked.least_m)
-          : new_short_edges(before, after, segmentation, generalised.removed, asked.least_m);
-  for (const ShortEdge& edge : found) edges[edge.feature].add(edge.length_m, edge.from);
-  if (asked.is_everywhere)
-    for (const NarrowGap& gap :
-         narrow_gaps(after, segmentation, generalised.removed, asked.least_m))
-      gaps[gap.feature].add(gap.width_m, gap.at);
-
-  std::vector<Issue> issues;
-  const auto tell = [&](const Findings& findings, const char* code, const char* what) {
-    for (const auto& [feature, finding] : findings) {
-      const auto refused =
-          std::ranges::find(generalised.refused, feature, &CarriedOut::Refused::feature);
-      Issue issue = building_issue(
-          asked.is_everywhere ? Severity::warning : Severity::note, code, building.id,
-          fmt::format(
-              "has {} {} below {} m left, the least of {:.3f} m at {}{}", finding.count, what,
-              asked.least_m, finding.least_m, place_text(finding.at, building.frame),
-              refused == generalised.refused.end() ? "" : ": it was refused, " + refused->code));
-      if (feature.is_valid()) issue.place.feature = table.id(feature);
-      issues.push_back(std::move(issue));
-    }
-  };
-  tell(edges, "G415", "edges");
-  tell(gaps, "G416", "gaps");
-  return issues;
 }
 
 }  // namespace oriel

@@ -14,6 +14,8 @@ struct ShortEdge {
   double length_m = 0;
   /// The smallest feature whose box holds it; invalid: the body.
   FeatureId feature;
+
+  friend bool operator==(const ShortEdge&, const ShortEdge&) = default;
 };
 
 /// Two parallel facets that look at each other from nearer than asked for, with air between them.
@@ -50,24 +52,17 @@ std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& af
                                             const std::vector<FeatureId>& changed,
                                             const std::vector<FeatureId>& removed, double least_m);
 
+/// The edges without those of parts that stay as they were: edges of a cell, or of an outline, of
+/// the body or of a feature that is neither `changed` nor `removed` (both ascending). A ridge that
+/// a chimney hid is such an edge. `least_m` is what they are shorter than.
+std::vector<ShortEdge> without_whole_edges(std::vector<ShortEdge> edges,
+                                           const Segmentation& segmentation,
+                                           const std::vector<FeatureId>& changed,
+                                           const std::vector<FeatureId>& removed, double least_m);
+
 /// Gaps narrower than `least_m` between parallel facets that overlap, seen along their normal.
 std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m);
-
-/// What a target asks for: a least length of edges, of those that are new or, `is_everywhere`, of
-/// all, and of gaps.
-struct Fineness {
-  double least_m = 0;
-  bool is_everywhere = false;
-};
-
-/// What of a building that was redrawn as `after` is finer: for each feature with such edges a
-/// G415, and everywhere for each with such gaps a G416; a warning everywhere, else a note. It says
-/// if the feature was to change and was refused. What is new: new_short_edges().
-std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
-                                   const Solid& after, const Segmentation& segmentation,
-                                   const FeatureTable& table, const Generalised& generalised,
-                                   const Fineness& asked);
 
 /// Adds to the plan that features go whose edges are too short, everywhere: of what the plan left,
 /// `generalised`, the owner of each short edge, or, if that was to go and was refused, what carries

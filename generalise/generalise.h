@@ -29,6 +29,7 @@ struct Generalised {
   bool is_drawn_anew = false;
   /// Features that look different now, ascending.
   std::vector<FeatureId> changed{};
+  std::vector<UnclearedEdge> uncleared{};
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something

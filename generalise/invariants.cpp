@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,14 @@ double change_pct(double before, double after) {
   return before > 0 ? 100 * std::abs(after - before) / before : 0;
 }
 
+/// Of the lines at their main height less than half is left there.
+bool loses(const std::vector<LevelLine>& before, const std::vector<LevelLine>& after,
+           double within_m) {
+  const auto height_m = main_height_m(before);
+  return height_m &&
+         length_near_m(after, *height_m, within_m) < length_near_m(before, *height_m, within_m) / 2;
+}
+
 }  // namespace
 
 bool reaches_out(const Box& before, const Box& after, double slack_m) {
@@ -26,7 +35,7 @@ bool reaches_out(const Box& before, const Box& after, double slack_m) {
   return !(both == grown);
 }
 
-Measures measures_of(const Solid& solid) {
+Measures measures_of(const Solid& solid, const Invariants& invariants) {
   Measures out;
   for (const Shell& shell : solid.shells) out.lumps = std::max(out.lumps, shell.lump + 1);
   out.volume_m3 = volume_m3(solid);
@@ -40,26 +49,37 @@ Measures measures_of(const Solid& solid) {
     (is_low ? out.footprint_m2 : out.overhang_m2) -=
         plane.normal.z * area_m2(solid.vertices, facet, plane.normal);
   }
+  if (invariants.limits.ridge_m || invariants.limits.eaves_m) out.roof = roof_lines(solid);
+  out.party_walls_m2 = shared_m2(solid, invariants.party_walls);
   return out;
 }
 
 std::optional<Violation> violation(const Measures& before, const Measures& after,
                                    const Invariants& invariants) {
+  const Limits& limits = invariants.limits;
+  const auto broken = [](std::string sentence) { return Violation{"G405", std::move(sentence)}; };
   if (after.lumps > before.lumps) return Violation{"G411", "the building would fall apart"};
   const double hanging_m2 = after.overhang_m2 - before.overhang_m2;
-  if (invariants.overhang_pct && hanging_m2 > *invariants.overhang_pct / 100 * before.footprint_m2)
+  if (limits.overhang_pct && hanging_m2 > *limits.overhang_pct / 100 * before.footprint_m2)
     return Violation{"G411", fmt::format("{:.2f} m2 would hang in the air", hanging_m2)};
-  if (invariants.overhang_pct && reaches_out(before.box, after.box, kBoxSlack_m))
+  if (limits.overhang_pct && reaches_out(before.box, after.box, kBoxSlack_m))
     return Violation{"G412", "the building would reach further than it did"};
   const double footprint = change_pct(before.footprint_m2, after.footprint_m2);
-  if (invariants.footprint_pct && footprint > *invariants.footprint_pct)
-    return Violation{"G405", fmt::format("the footprint would change by {:.2f} %", footprint)};
+  if (limits.footprint_pct && footprint > *limits.footprint_pct)
+    return broken(fmt::format("the footprint would change by {:.2f} %", footprint));
   const double volume = change_pct(before.volume_m3, after.volume_m3);
-  if (invariants.volume_pct && volume > *invariants.volume_pct)
-    return Violation{"G405", fmt::format("the volume would change by {:.2f} %", volume)};
+  if (limits.volume_pct && volume > *limits.volume_pct)
+    return broken(fmt::format("the volume would change by {:.2f} %", volume));
+  const double party_walls = change_pct(before.party_walls_m2, after.party_walls_m2);
+  if (limits.party_walls_pct && party_walls > *limits.party_walls_pct)
+    return broken(fmt::format("its party walls would change by {:.2f} %", party_walls));
   const double top_m = std::abs(after.box.max.z - before.box.max.z);
-  if (invariants.top_m && top_m > *invariants.top_m)
-    return Violation{"G405", fmt::format("its highest point would move by {:.2f} m", top_m)};
+  if (limits.top_m && top_m > *limits.top_m)
+    return broken(fmt::format("its highest point would move by {:.2f} m", top_m));
+  if (limits.ridge_m && loses(before.roof.ridges, after.roof.ridges, *limits.ridge_m))
+    return broken(fmt::format("its ridge would move by more than {} m", *limits.ridge_m));
+  if (limits.eaves_m && loses(before.roof.eaves, after.roof.eaves, *limits.eaves_m))
+    return broken(fmt::format("its eaves would move by more than {} m", *limits.eaves_m));
   return std::nullopt;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "generalise/party_walls.h"
+#include "generalise/roof_lines.h"
+#include "kernel/model/limits.h"
 #include "kernel/model/solid.h"
 
 #include <functional>
@@ -39,13 +42,9 @@ struct Judge {
 
 /// What must not change by generalising.
 struct Invariants {
-  /// Percent of what it was; missing: it may change.
-  std::optional<double> footprint_pct, volume_pct;
-  /// Of the highest point.
-  std::optional<double> top_m;
-  /// How much of the footprint, in percent, may hang in the air that did not. If given, the box of
-  /// the building must not grow either, by more than a centimetre.
-  std::optional<double> overhang_pct{};
+  Limits limits{};
+  /// Those of which no more may be lost or gained than the limits say.
+  std::vector<PartyWall> party_walls{};
   /// No edge that is drawn may be shorter (short_edges_of_drawn), and none that tells of a piece
   /// torn off (new_short_edges); 0: it may.
   double least_edge_m = 0;
@@ -69,14 +68,19 @@ struct Measures {
   /// The area of all other facets that look down, as seen from above.
   double overhang_m2 = 0;
   Box box;
+  /// What Invariants ask for only.
+  RoofLines roof{};
+  double party_walls_m2 = 0;
 };
 
 /// A box that `before`, larger by `slack_m` on all sides, does not hold.
 bool reaches_out(const Box& before, const Box& after, double slack_m);
 
-Measures measures_of(const Solid& solid);
+Measures measures_of(const Solid& solid, const Invariants& invariants = {});
 
-/// What changed that must not, or nothing. It must never fall into more pieces than it was.
+/// What changed that must not, or nothing. It must never fall into more pieces than it was. The
+/// main ridge and the main eaves (main_height_m) change if less than half of their length is left
+/// at their height, give or take the limit; a roof without ridge, as a pyramid, has none to lose.
 std::optional<Violation> violation(const Measures& before, const Measures& after,
                                    const Invariants& invariants);
 

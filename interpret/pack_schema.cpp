@@ -32,7 +32,8 @@ constexpr const char* kSchema = R"json({
     "groups": {"type": ["object", "null"], "additionalProperties": {"$ref": "#/definitions/group"}},
     "emit": {"type": ["object", "null"], "additionalProperties": {"$ref": "#/definitions/emission"}},
     "surfaces": {"type": ["array", "null"], "items": {"anyOf": [{"$ref": "#/definitions/surface"}, {"$ref": "#/definitions/removal"}]}},
-    "generalise": {"type": ["array", "null"], "items": {"anyOf": [{"$ref": "#/definitions/entry"}, {"$ref": "#/definitions/removal"}]}}
+    "generalise": {"type": ["array", "null"], "items": {"anyOf": [{"$ref": "#/definitions/entry"}, {"$ref": "#/definitions/removal"}]}},
+    "invariants": {"$ref": "#/definitions/invariants"}
   },
   "definitions": {
     "expression": {"type": ["string", "number"], "description": "an expression of the rule language"},
@@ -104,6 +105,13 @@ constexpr const char* kSchema = R"json({
       "properties": {
         "rise": {"$ref": "#/definitions/range"}, "fall": {"$ref": "#/definitions/range"},
         "weight": {"type": "number"}
+      }
+    },
+    "invariants": {
+      "type": "object", "additionalProperties": false, "description": "what no operation may change by more than that",
+      "properties": {
+        "footprint-pct": {"type": "number"}, "volume-pct": {"type": "number"}, "overhang-pct": {"type": "number"},
+        "party-walls-pct": {"type": "number"}, "top-m": {"type": "number"}, "ridge-m": {"type": "number"}, "eaves-m": {"type": "number"}
       }
     },
     "decide": {

@@ -2,6 +2,7 @@
 
 #include "interpret/detail/embedded.h"
 #include "interpret/detail/pack.h"
+#include "interpret/detail/read_limits.h"
 #include "interpret/detail/section.h"
 #include "interpret/detail/suggest.h"
 #include "kernel/model/sha256.h"
@@ -85,7 +86,8 @@ class ProfileReader {
     profile_.names_classes = word(section.find("stl-solids"), "label", "class");
     read_sizes(section, node);
     if (const YamlNode* parts = section.find("parts")) read_parts(*parts);
-    if (const YamlNode* invariants = section.find("invariants")) read_invariants(*invariants);
+    if (const YamlNode* invariants = section.find("invariants"))
+      profile_.limits = rules::read_limits(*invariants, findings_);
   }
 
   void read_form(const YamlNode& node) {
@@ -190,20 +192,6 @@ class ProfileReader {
     if (height == nullptr || area == nullptr) return;
     const auto height_m = positive(*height, "'height-m'"), area_m2 = positive(*area, "'area-m2'");
     if (height_m && area_m2) profile_.part = Profile::Part{*height_m, *area_m2};
-  }
-
-  void read_invariants(const YamlNode& node) {
-    Section section(node, "'invariants'", {"footprint-pct", "volume-pct", "top-m", "overhang-pct"},
-                    findings_);
-    if (!section.is_map()) return;
-    const auto read = [&](const char* key, std::optional<double>& into) {
-      if (const YamlNode* value = section.find(key))
-        into = positive(*value, fmt::format("'{}'", key));
-    };
-    read("footprint-pct", profile_.footprint_pct);
-    read("volume-pct", profile_.volume_pct);
-    read("top-m", profile_.top_m);
-    read("overhang-pct", profile_.overhang_pct);
   }
 
   Findings& findings_;

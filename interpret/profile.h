@@ -5,6 +5,7 @@
 #include "kernel/model/feature_table.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/issue.h"
+#include "kernel/model/limits.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"
 
@@ -58,12 +59,8 @@ struct Profile {
   std::set<Significance> omitted;
   /// What becomes of such sheets: the operator "omit", "flatten" or "enlarge"; missing: they stay.
   std::map<SheetPlace, std::string> sheets;
-  /// What an operation must not change by more than this, in percent; missing: it may.
-  std::optional<double> footprint_pct, volume_pct;
-  /// The same of the highest point, in metres.
-  std::optional<double> top_m;
-  /// Percent of the footprint that may hang in the air and did not.
-  std::optional<double> overhang_pct;
+  /// What an operation must not change by more than that.
+  Limits limits;
 
   /// "lod:2.0".
   [[nodiscard]] std::string title() const { return name + ":" + level; }

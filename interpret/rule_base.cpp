@@ -96,6 +96,7 @@ const std::string& RuleBase::version() const { return pack_->version; }
 const std::string& RuleBase::file() const { return pack_->source.file(); }
 std::vector<std::string> RuleBase::files() const { return pack_->source.files(); }
 const std::string& RuleBase::sha256() const { return pack_->sha256; }
+const Limits& RuleBase::limits() const { return pack_->limits; }
 std::size_t RuleBase::rule_count() const { return pack_->rules.size(); }
 
 std::vector<std::string> RuleBase::labels() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/model/issue.h"
+#include "kernel/model/limits.h"
 
 #include <memory>
 #include <optional>
@@ -36,6 +37,9 @@ class RuleBase {
   [[nodiscard]] std::size_t rule_count() const;
   /// The code lists that `emit:` has codes for, sorted.
   [[nodiscard]] std::vector<std::string> codelists() const;
+
+  /// What no operation must change by more than that, at any scale.
+  [[nodiscard]] const Limits& limits() const;
 
   /// By column of feature_schema() and by position in relation_schema(): what interpret() and
   /// annotate() without reasons read of a building's features.

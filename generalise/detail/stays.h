@@ -3,6 +3,8 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace oriel::detail {
@@ -12,5 +14,12 @@ namespace oriel::detail {
 /// along. What has the polygons of features that are gone was made of them, and is not asked for.
 bool loses_what_stays(const Solid& before, const Solid& left, const Segmentation& segmentation,
                       const std::vector<FeatureId>& gone);
+
+/// Why a facet of what is left cannot be taken out: an outline of a feature that is not among the
+/// `removed` (ascending) will be drawn in it, or all its polygons are of such a feature. Nothing if
+/// it can.
+std::optional<std::string> why_it_stays(const Solid& left, const Facet& facet,
+                                        const Segmentation& segmentation,
+                                        const std::vector<FeatureId>& removed);
 
 }  // namespace oriel::detail

@@ -27,8 +27,8 @@ constexpr std::size_t kMostNames = 1024;
 
 const std::vector<std::string>& top_keys() {
   static const std::vector<std::string> keys = {
-      "schema", "pack",   "extends", "params", "hosts", "classes",  "relations", "macros",
-      "rules",  "decide", "iterate", "groups", "emit",  "surfaces", "generalise"};
+      "schema", "pack",   "extends", "params", "hosts", "classes",  "relations",  "macros",
+      "rules",  "decide", "iterate", "groups", "emit",  "surfaces", "generalise", "invariants"};
   return keys;
 }
 
@@ -79,6 +79,7 @@ void read_sections(Section& top, Loader& loader) {
   read(top.find("emit"), read_emit);
   read(top.find("surfaces"), read_surfaces);
   read(top.find("generalise"), read_generalise);
+  read(top.find("invariants"), read_invariants);
   check_entries(loader.pack, loader.findings);
 }
 

@@ -36,6 +36,7 @@ void read_iterate(const YamlNode& node, Loader& loader);
 void read_emit(const YamlNode& node, Loader& loader);
 void read_surfaces(const YamlNode& node, Loader& loader);
 void read_generalise(const YamlNode& node, Loader& loader);
+void read_invariants(const YamlNode& node, Loader& loader);
 
 /// True if `node` can name something new; else an error R216 that calls it `what`.
 bool expect_name(const YamlNode& node, const std::string& what, Findings& findings);

@@ -2,6 +2,7 @@
 
 #include "interpret/detail/expr.h"
 #include "interpret/detail/source.h"
+#include "kernel/model/limits.h"
 #include "kernel/model/name.h"
 
 #include <algorithm>
@@ -222,6 +223,7 @@ struct Pack {
   /// How often the pack is run at most; 0: once, without `iterate:`.
   int rounds = 0;
   std::vector<Entry> entries;
+  Limits limits;  ///< `invariants:`
   /// Null: the pack says nothing of surfaces but `hosts:`.
   std::shared_ptr<const SurfaceRules> surfaces;
   Code code;

@@ -2,6 +2,7 @@
 
 #include "kernel/attach/detail/clearance.h"
 #include "kernel/attach/detail/convex_body.h"
+#include "kernel/geometry/area_within.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"

@@ -1,6 +1,6 @@
 #include "kernel/attach/move_facet.h"
 
-#include "kernel/attach/detail/clearance.h"
+#include "kernel/attach/detail/passage.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/model/detail/index.h"
 
@@ -13,9 +13,6 @@
 namespace oriel {
 
 namespace {
-
-/// Edges of the result are no shorter: what is nearer becomes one vertex when it is read again.
-constexpr double kLeastEdge_m = 0.001;
 
 class FacetMover {
  public:
@@ -34,7 +31,8 @@ class FacetMover {
     for (auto& [vertex, corner] : moved_)
       if (!meet(corner)) return {std::nullopt, "more than three planes meet in one of its corners"};
     if (turns_edge()) return {std::nullopt, "an edge of it would vanish"};
-    if (is_in_the_way()) return {std::nullopt, "something lies in its way"};
+    if (detail::is_in_the_way(solid_, moving_, moves()))
+      return {std::nullopt, "something lies in its way"};
     Solid out = solid_;
     out.facets[moving_.index()].plane = {static_cast<int>(out.planes.size())};
     out.planes.push_back(to_);
@@ -82,6 +80,12 @@ class FacetMover {
     return found == moved_.end() ? before(v) : found->second.point;
   }
 
+  [[nodiscard]] detail::Moves moves() const {
+    detail::Moves moves;
+    for (const auto& [v, corner] : moved_) moves.emplace(v, corner.point);
+    return moves;
+  }
+
   [[nodiscard]] bool turns_edge() const {
     for (const Facet& facet : solid_.facets)
       for (const Loop& loop : facet.loops)
@@ -89,50 +93,8 @@ class FacetMover {
           const int p = loop[i], q = loop[(i + 1) % loop.size()];
           if (!moved_.contains(p) && !moved_.contains(q)) continue;
           const Vec3 was = before(q) - before(p);
-          if (dot(after(q) - after(p), was) < kLeastEdge_m * length(was)) return true;
+          if (dot(after(q) - after(p), was) < detail::kLeastEdge_m * length(was)) return true;
         }
-    return false;
-  }
-
-  /// What the facet passes through: in its own axes the box around its corners, before and after.
-  [[nodiscard]] std::vector<detail::HalfSpaceM> passage() const {
-    const Vec3 n = from_.normal;
-    const Vec3 u = normalised(std::abs(n.z) < 0.9 ? cross({0, 0, 1}, n) : cross({1, 0, 0}, n));
-    std::vector<detail::HalfSpaceM> limits;
-    for (const Vec3 direction : {u, -u, cross(n, u), -cross(n, u)}) {
-      detail::HalfSpaceM limit{direction, -Box::kInfinity};
-      for (const auto& [v, corner] : moved_)
-        limit.offset_m =
-            std::max({limit.offset_m, dot(direction, before(v)), dot(direction, corner.point)});
-      limits.push_back(limit);
-    }
-    limits.push_back({n, std::max(from_.offset_m, to_.offset_m) + kLeastEdge_m});
-    limits.push_back({-n, -std::min(from_.offset_m, to_.offset_m) + kLeastEdge_m});
-    return limits;
-  }
-
-  [[nodiscard]] bool is_in_the_way() const {
-    const auto limits = passage();
-    const auto is_within = [&](Vec3 point) {
-      return std::ranges::all_of(limits, [&](const detail::HalfSpaceM& limit) {
-        return dot(limit.normal, point) <= limit.offset_m;
-      });
-    };
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
-      if (FacetId{f} == moving_) continue;
-      const Facet& facet = solid_.facets[at(f)];
-      bool is_beside = false, has_point_within = false;
-      for (const Loop& loop : facet.loops)
-        for (const int v : loop) {
-          is_beside = is_beside || moved_.contains(v);
-          has_point_within = has_point_within || (!moved_.contains(v) && is_within(before(v)));
-        }
-      if (has_point_within) return true;
-      const Vec3 normal = solid_.planes[facet.plane.index()].normal;
-      if (!is_beside &&
-          detail::area_within(solid_.vertices, facet, normal, limits) > detail::kTouch_m2)
-        return true;
-    }
     return false;
   }
 

@@ -1,5 +1,6 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/support/shared.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,29 @@ double distance_um(const json& p, const json& q) {
   return std::hypot(p[0].get<double>() - q[0].get<double>(),
                     p[1].get<double>() - q[1].get<double>(),
                     p[2].get<double>() - q[2].get<double>());
+}
+
+/// A cube of 4 m with a chimney of 1 m at its edge, against the wall of a neighbour of 8 m.
+json with_neighbour() {
+  json city = cubes({"a", "b"});
+  for (std::size_t v = 8; v < 16; ++v) {
+    json& point = city["vertices"][v];
+    point = {point[0].get<int>() - 6000, point[1], 2 * point[2].get<int>()};
+  }
+  for (const int z : {4000, 5000})  // vertices 16 to 19 at the foot, 20 to 23 at the top
+    for (const auto& [x, y] :
+         std::vector<std::pair<int, int>>{{3000, 1000}, {4000, 1000}, {4000, 2000}, {3000, 2000}})
+      city["vertices"].push_back({x, y, z});
+  const std::vector<std::vector<int>> rings{{0, 2, 3, 1},     {4, 5, 17, 16, 19, 18, 7, 6},
+                                            {0, 1, 5, 4},     {1, 3, 7, 18, 17, 5},
+                                            {3, 2, 6, 7},     {2, 0, 4, 6},
+                                            {20, 21, 22, 23}, {16, 17, 21, 20},
+                                            {17, 18, 22, 21}, {18, 19, 23, 22},
+                                            {19, 16, 20, 23}};
+  json shell = json::array();
+  for (const std::vector<int>& ring : rings) shell.push_back(json::array({ring}));
+  city["CityObjects"]["a"]["geometry"][0]["boundaries"] = json::array({shell});
+  return city;
 }
 
 }  // namespace
@@ -152,6 +176,61 @@ TEST_SUITE("cli") {
     for (const auto& [edge, count] : balance) CHECK(count == 0);
   }
 
+  TEST_CASE("what a pack says must not change does not, with and without a profile") {
+    const Folder folder;
+    const std::string pack =
+        folder.write("strict.yaml",
+                     "schema: oriel/1\npack: {name: strict, version: 1.0.0}\nextends: "
+                     "residential\ninvariants: {volume-pct: 0.001}\n");
+    const auto made = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments{"generalise", sample("house"), "--scale", "1:10000", "-o",
+                                         "-"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return run(arguments);
+    };
+    CHECK_FALSE(made({}).says("G405"));
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"--profile", "map"}}) {
+      std::vector<std::string> with_pack{"--rules", pack};
+      with_pack.insert(with_pack.end(), more.begin(), more.end());
+      const Outcome kept = made(with_pack);
+      CHECK(kept.exit == 0);
+      CHECK(kept.says("G405 is not omitted at 1:10000: the volume would change by"));
+    }
+  }
+
+  TEST_CASE("the finer a level of PLATEAU the more openings stay") {
+    std::vector<std::size_t> sizes;
+    for (const std::string level : {"3.0", "3.1", "3.2", "3.3"}) {
+      const Outcome made =
+          run({"generalise", sample("house"), "--profile", "plateau:" + level, "-o", "-"});
+      REQUIRE(made.exit == 0);
+      const json city = json::parse(made.out);
+      CHECK(lods_of(city, "house") == std::multiset<std::string>{level});
+      sizes.push_back(city["CityObjects"]["house"]["geometry"][0]["boundaries"][0].size());
+    }
+    CHECK(std::ranges::is_sorted(sizes));
+    CHECK(sizes[0] < sizes[2]);
+  }
+
+  TEST_CASE("what stands against a neighbour stays where a profile says so") {
+    const Folder folder;
+    const std::string city = folder.write("city.json", with_neighbour().dump());
+    const auto made = [&](const std::string& invariants) {
+      const std::string profile = folder.write(
+          "p.yaml",
+          "schema: oriel-profile/1\nprofile: {name: p, version: 1.0.0}\nlevels:\n  any:\n" +
+              std::string("    form: as-is\n    map-mm: 0.5\n    verdicts: {point: omit}\n") +
+              invariants);
+      return run({"generalise", city, "--scale", "1:3000", "--profile", profile, "-o", "-"});
+    };
+    const Outcome free = made(""), bound = made("    invariants: {party-walls-pct: 1}\n");
+    CHECK(free.says("1 chimney left out"));
+    CHECK_FALSE(free.says("G405"));
+    CHECK(bound.says("G405 is not omitted at 1:3000: its party walls would change by 5.88 %"));
+    CHECK_FALSE(bound.says("left out"));
+  }
+
   TEST_CASE("the least edge of a profile is a parameter") {
     const Outcome fine =
         run({"generalise", sample("house"), "--profile", "cfd", "--edge-min", "0.01", "-o", "-"});
@@ -186,7 +265,45 @@ TEST_SUITE("cli") {
       return run(arguments);
     };
     const Outcome without = told({}), with = told({"--profile", "map"});
-    CHECK(without.says("note: hip: G415 has "));
-    CHECK(with.says("note: hip: G415 has "));
+    const std::string text =
+        "note: hip: G415 has 1 edges below 6.25 m of parts that stay as they were";
+    CHECK(without.says(text));
+    CHECK(with.says(text));
+  }
+
+  TEST_CASE("edges of blocks are told with the reason why they stay") {
+    const Outcome made = run({"generalise", sample("hip"), "--to-lod", "1.2", "-o", "-", "-v"});
+    CHECK(made.exit == 0);
+    CHECK(made.says("note: hip: G415 has 28 edges below 2 m left"));
+    CHECK(made.says(": blocks keep the footprint and the heights of the roof"));
+  }
+
+  TEST_CASE(
+      "a strip that is laid bare on a surveyed roof goes, or the reason why it stays is told") {
+    ORIEL_NEEDS_SHARED(shared);
+    const std::string tile = (shared / "data/3dbag/tile_5910.city.jsonl").string();
+    const auto made = [&](const std::string& id) {
+      return run({"generalise", tile, "--lod", "2.2", "--id", "NL.IMBAG.Pand." + id + "-0",
+                  "--scale", "1:10000", "-v", "-o", "-"});
+    };
+    const Outcome cleared = made("0503100000019700");
+    REQUIRE(cleared.exit == 0);
+    CHECK(cleared.says("1 of 1 buildings"));
+    CHECK_FALSE(cleared.says("G415"));
+    CHECK(
+        run({"validate", "-", "--from", "cityjsonseq", "--lod", "2.2"}, {.in = cleared.out}).exit ==
+        0);
+    const Outcome left = made("0503100000025030");
+    REQUIRE(left.exit == 0);
+    CHECK(left.says("G415 has 1 edges below 1.25 m left, "));
+    std::istringstream lines(left.err);
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_left = line.find("G415 has ") != std::string::npos &&
+                           line.find(" m left, ") != std::string::npos;
+      if (!is_left) continue;
+      const bool is_refused = line.find("): it was refused, ") != std::string::npos;
+      CHECK((is_refused || line.find("): a facet at it cannot go: ") != std::string::npos));
+      CHECK(line.starts_with(is_refused ? "note: " : "warning: "));
+    }
   }
 }

@@ -85,6 +85,15 @@ TEST_SUITE("interpret") {
     CHECK(labels(packs.load("removed.yaml"), two()) == Labels{"-", "window"});
   }
 
+  TEST_CASE("invariants are replaced one by one") {
+    const Packs packs;
+    packs.write("base.yaml", kBase + "invariants: {eaves-m: 0.5, volume-pct: 5}\n");
+    packs.write("same.yaml", header("base.yaml"));
+    CHECK(packs.load("same.yaml").limits() == Limits{.volume_pct = 5, .eaves_m = 0.5});
+    packs.write("upper.yaml", header("base.yaml") + "invariants: {eaves-m: 1, ridge-m: 2}\n");
+    CHECK(packs.load("upper.yaml").limits() == Limits{.volume_pct = 5, .ridge_m = 2, .eaves_m = 1});
+  }
+
   TEST_CASE("the range of a param holds for who overrides it") {
     const Packs packs;
     packs.write("base.yaml", kBase);

@@ -41,7 +41,7 @@ TEST_SUITE("interpret") {
     CHECK(line_fault("clases: {}") ==
           "t.yaml:4:1: R209 unknown key 'clases' in a pack; did you mean 'classes'? (keys: schema, "
           "pack, extends, params, hosts, classes, relations, macros, rules, decide, iterate, "
-          "groups, emit, surfaces, generalise)\n"
+          "groups, emit, surfaces, generalise, invariants)\n"
           "clases: {}\n"
           "^~~~~~\n");
   }
@@ -106,6 +106,18 @@ TEST_SUITE("interpret") {
     CHECK(fault_in_rule("  - id: w\n    label: window\n    require: sense = hole\n"
                         "    score: [a: {rise: 0 m .. 2 m, fall: 1 m .. 3 m}]\n")
               .starts_with("t.yaml:8:16: R212 the fall begins before the rise has ended\n"));
+  }
+
+  TEST_CASE("invariants of a pack are numbers above 0 that it knows") {
+    const auto loaded =
+        load_pack(pack_with("invariants: {eaves-m: 0.5, volume-pct: 5}\nrules: []\n"), "t.yaml");
+    REQUIRE(loaded.value);
+    CHECK(loaded.value->limits() == Limits{.volume_pct = 5, .eaves_m = 0.5});
+    CHECK(load_pack(pack_with("rules: []\n"), "t.yaml").value->limits() == Limits{});
+    CHECK(line_fault("invariants: {eaves-m: -1}")
+              .starts_with("t.yaml:4:23: R211 'eaves-m' is more than 0\n"));
+    CHECK(line_fault("invariants: {eaves: 1}").starts_with("t.yaml:4:14: R209 "));
+    CHECK(line_fault("invariants: [1]").starts_with("t.yaml:4:13: R211 "));
   }
 
   TEST_CASE("entries for groups name one that is declared") {

@@ -98,12 +98,12 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("a byte order mark and carriage returns do no harm") {
     CHECK(findings("\xEF\xBB\xBF" + pack_requiring({"sense = hole"})).empty());
-    CHECK(
-        findings("schema: oriel/1\r\npack: {name: t, version: 1.0.0}\r\nrules: []\r\nx: 1\r\n") ==
-        "t.yaml:4:1: R209 unknown key 'x' in a pack (keys: schema, pack, extends, params, hosts, "
-        "classes, relations, macros, rules, decide, iterate, groups, emit, surfaces, generalise)\n"
-        "x: 1\n"
-        "^\n");
+    CHECK(findings("schema: oriel/1\r\npack: {name: t, version: 1.0.0}\r\nrules: []\r\nx: 1\r\n") ==
+          "t.yaml:4:1: R209 unknown key 'x' in a pack (keys: schema, pack, extends, params, hosts, "
+          "classes, relations, macros, rules, decide, iterate, groups, emit, surfaces, generalise, "
+          "invariants)\n"
+          "x: 1\n"
+          "^\n");
   }
 
   TEST_CASE("columns count characters and not bytes") {

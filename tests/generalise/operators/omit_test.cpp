@@ -350,7 +350,7 @@ TEST_SUITE("generalise") {
     Measures after = before;
     after.overhang_m2 = 0.2;
     CHECK_FALSE(violation(before, after, invariants));
-    invariants.overhang_pct = 0.1;
+    invariants.limits.overhang_pct = 0.1;
     CHECK(violation(before, after, invariants)->code == "G411");
     after = before;
     after.box.max.z = 6.005;

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kernel/model/solid.h"
+
+#include <map>
+
+namespace oriel::detail {
+
+/// Edges of a result are no shorter: what is nearer becomes one vertex when it is read again.
+inline constexpr double kLeastEdge_m = 0.001;
+
+/// By vertex of a facet where it goes.
+using Moves = std::map<int, Vec3>;
+
+/// Something lies in the way of a facet whose vertices move: another vertex, or a part of a facet
+/// that has none of them, in the box in the facet's own axes around where they are and where they
+/// go.
+bool is_in_the_way(const Solid& solid, FacetId facet, const Moves& moves);
+
+}  // namespace oriel::detail
