@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,6 +15,11 @@ constexpr double kBoxSlack_m = 0.01;
 
 double change_pct(double before, double after) {
   return before > 0 ? 100 * std::abs(after - before) / before : 0;
+}
+
+/// `what`: "the volume would change".
+Violation beyond_limit(std::string_view what, double by, double limit, std::string_view unit) {
+  return {"G405", fmt::format("{} by {:.3g} {}, more than {:g} {}", what, by, unit, limit, unit)};
 }
 
 /// Of the lines at their main height less than half is left there.
@@ -57,7 +62,6 @@ Measures measures_of(const Solid& solid, const Invariants& invariants) {
 std::optional<Violation> violation(const Measures& before, const Measures& after,
                                    const Invariants& invariants) {
   const Limits& limits = invariants.limits;
-  const auto broken = [](std::string sentence) { return Violation{"G405", std::move(sentence)}; };
   if (after.lumps > before.lumps) return Violation{"G411", "the building would fall apart"};
   const double hanging_m2 = after.overhang_m2 - before.overhang_m2;
   if (limits.overhang_pct && hanging_m2 > *limits.overhang_pct / 100 * before.footprint_m2)
@@ -66,20 +70,22 @@ std::optional<Violation> violation(const Measures& before, const Measures& after
     return Violation{"G412", "the building would reach further than it did"};
   const double footprint = change_pct(before.footprint_m2, after.footprint_m2);
   if (limits.footprint_pct && footprint > *limits.footprint_pct)
-    return broken(fmt::format("the footprint would change by {:.2f} %", footprint));
+    return beyond_limit("the footprint would change", footprint, *limits.footprint_pct, "%");
   const double volume = change_pct(before.volume_m3, after.volume_m3);
   if (limits.volume_pct && volume > *limits.volume_pct)
-    return broken(fmt::format("the volume would change by {:.2f} %", volume));
+    return beyond_limit("the volume would change", volume, *limits.volume_pct, "%");
   const double party_walls = change_pct(before.party_walls_m2, after.party_walls_m2);
   if (limits.party_walls_pct && party_walls > *limits.party_walls_pct)
-    return broken(fmt::format("its party walls would change by {:.2f} %", party_walls));
+    return beyond_limit("its party walls would change", party_walls, *limits.party_walls_pct, "%");
   const double top_m = std::abs(after.box.max.z - before.box.max.z);
   if (limits.top_m && top_m > *limits.top_m)
-    return broken(fmt::format("its highest point would move by {:.2f} m", top_m));
+    return beyond_limit("its highest point would move", top_m, *limits.top_m, "m");
   if (limits.ridge_m && loses(before.roof.ridges, after.roof.ridges, *limits.ridge_m))
-    return broken(fmt::format("its ridge would move by more than {} m", *limits.ridge_m));
+    return Violation{"G405",
+                     fmt::format("its ridge would move by more than {} m", *limits.ridge_m)};
   if (limits.eaves_m && loses(before.roof.eaves, after.roof.eaves, *limits.eaves_m))
-    return broken(fmt::format("its eaves would move by more than {} m", *limits.eaves_m));
+    return Violation{"G405",
+                     fmt::format("its eaves would move by more than {} m", *limits.eaves_m)};
   return std::nullopt;
 }
 

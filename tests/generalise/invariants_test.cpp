@@ -96,7 +96,15 @@ TEST_SUITE("generalise") {
   TEST_CASE("the ridge stays where what is higher goes") {
     CHECK(broken(house(0, true), house(), limited({.ridge_m = 0.1, .eaves_m = 0.1})) == "");
     CHECK(broken(house(0, true), house(), limited({.top_m = 0.1})) ==
-          "G405 its highest point would move by 3.00 m");
+          "G405 its highest point would move by 3 m, more than 0.1 m");
+  }
+
+  TEST_CASE("a change that is small but too large is told in digits that show it") {
+    const Solid before = solid_of(BoxBody().add({0, 0, 0}, {10, 10, 10}).build());
+    const Solid after = solid_of(
+        BoxBody().add({0, 0, 0}, {10, 10, 10}).remove({9, 9, 9.957}, {10, 10, 10}).build());
+    CHECK(broken(before, after, limited({.volume_pct = 0.001})) ==
+          "G405 the volume would change by 0.0043 %, more than 0.001 %");
   }
 
   TEST_CASE("walls against other buildings are found, and those lost or gained are told") {
@@ -113,10 +121,12 @@ TEST_SUITE("generalise") {
     CHECK(shared_m2(solid, invariants.party_walls) == doctest::Approx(24));
     const Solid cut =
         solid_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).remove({8, 4, 3}, {10, 8, 6}).build());
-    CHECK(broken(solid, cut, invariants) == "G405 its party walls would change by 16.67 %");
+    CHECK(broken(solid, cut, invariants) ==
+          "G405 its party walls would change by 16.7 %, more than 10 %");
     invariants.limits.party_walls_pct = 17;
     CHECK(broken(solid, cut, invariants) == "");
-    CHECK(broken(cut, solid, invariants) == "G405 its party walls would change by 20.00 %");
+    CHECK(broken(cut, solid, invariants) ==
+          "G405 its party walls would change by 20 %, more than 17 %");
   }
 
   TEST_CASE("a wall with a hole in it is no party wall there") {
