@@ -11,8 +11,10 @@ NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& plane
       world_(body.world()),
       planes_(planes),
       free_side_(free_side),
-      answers_(2 * planes.size(), 0) {
+      answers_(2 * planes.size(), 0),
+      entries_(at(world_.planes.size()), -1) {
   for (std::size_t i = 0; i < planes.size(); ++i) {
+    entries_[at(planes[i])] = static_cast<int>(i);
     const int k = world_.planes.class_of(planes[i]);
     if (classes_.empty() || classes_.back().number != k) classes_.push_back({k, i, i});
     ++classes_.back().last;
@@ -57,23 +59,27 @@ void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
   const auto ranks = world_.points.ranks(c.number);
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
   steps_.clear();
-  leaving_.resize(ranks.size(), 0);
-  entering_.resize(ranks.size(), 0);
+  Scratch& scratch = world_.scratch;
+  if (scratch.leaving.size() < ranks.size()) {
+    scratch.leaving.resize(ranks.size(), 0);
+    scratch.entering.resize(ranks.size(), 0);
+  }
   for (const Edge& edge : edges) {
     const int rank = ranks[at(edge.from)];
     if ((rank & 1) == 0 || ranks[at(edge.to)] != rank) continue;
     // Mostly one of the facets lies in the plane and the other one does not.
     const int plane = planes[at(rank / 2)];
     if (edge.plane == plane && edge.twin_plane == plane) continue;
-    const auto entry = entry_of(c, plane);
-    if (!entry) continue;
-    if (edge.plane != plane) add_step(*entry, normal, ranks, edge.half);
-    if (edge.twin_plane != plane) add_step(*entry, normal, ranks, edge.twin);
+    const int entry = entries_[at(plane)];
+    if (entry < 0) continue;
+    if (edge.plane != plane) add_step(entry, normal, ranks, edge.half, edge.from, edge.to);
+    if (edge.twin_plane != plane) add_step(entry, normal, ranks, edge.twin, edge.to, edge.from);
   }
   sort_steps(c);
   for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) {
-    const std::size_t first = ends_[slot - 2 * c.first], last = ends_[slot - 2 * c.first + 1];
-    answers_[slot] = first < last && has_chain({sorted_.data() + first, last - first}) ? 1 : 0;
+    const int first = ends_[slot - 2 * c.first], last = ends_[slot - 2 * c.first + 1];
+    answers_[slot] =
+        first < last && has_chain(std::span(sorted_).subspan(at(first), at(last - first))) ? 1 : 0;
   }
 }
 
@@ -83,41 +89,33 @@ void NaturalChains::sort_steps(const Class& c) {
   const std::size_t slots = 2 * (c.last - c.first);
   ends_.assign(slots + 2, 0);
   // A place on, as each end moves from the first of its steps to the last.
-  for (const Step& step : steps_) ++ends_[step.slot - 2 * c.first + 2];
+  int* const ends = ends_.data() - 2 * c.first + 1;
+  for (const Step& step : steps_) ++ends[step.slot + 1];
   for (std::size_t i = 2; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
   sorted_.resize(steps_.size());
-  for (const Step& step : steps_) sorted_[ends_[step.slot - 2 * c.first + 1]++] = step;
+  for (const Step& step : steps_) sorted_[at(ends[step.slot]++)] = step;
 }
 
-void NaturalChains::add_step(std::size_t entry, Vec3 normal, std::span<const int> ranks, int e) {
-  const int direction = direction_of(e, ranks);
-  if (direction == 0 || hangs_below(e, direction * normal)) return;
-  const std::size_t slot = 2 * entry + (direction > 0 ? 0 : 1);
-  steps_.push_back({slot, body_.origin(e), body_.target(e)});
-}
-
-/// Where a plane of the class stands among the split planes: mostly none of them is missing.
-std::optional<std::size_t> NaturalChains::entry_of(const Class& c, int plane) const {
-  const auto guess = c.first + at(plane - planes_[c.first]);
-  if (plane >= planes_[c.first] && guess < c.last && planes_[guess] == plane) return guess;
-  const auto begin = planes_.begin() + static_cast<std::ptrdiff_t>(c.first),
-             end = planes_.begin() + static_cast<std::ptrdiff_t>(c.last);
-  const auto found = std::lower_bound(begin, end, plane);
-  if (found == end || *found != plane) return std::nullopt;
-  return static_cast<std::size_t>(found - planes_.begin());
+void NaturalChains::add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from,
+                             int to) {
+  const int direction = direction_of(e, ranks, ranks[at(from)]);
+  if (direction == 0) return;
+  if (may_hang(e) && hangs_below(e, from, to, direction * normal)) return;
+  steps_.push_back({2 * entry + (direction > 0 ? 0 : 1), from, to});
 }
 
 /// +1 or -1 if the facet's outline comes to the plane that `e` lies in from that side, runs in it
 /// along `e` and goes back to the same side; 0 if it goes through the plane or lies in it.
-int NaturalChains::direction_of(int e, std::span<const int> ranks) const {
-  const int rank = ranks[at(body_.origin(e))];
-  int before = body_.prev(e), after = body_.next(body_.next(e));
-  int from = ranks[at(body_.origin(before))], to = ranks[at(body_.origin(after))];
+int NaturalChains::direction_of(int e, std::span<const int> ranks, int rank) const {
+  int before = body_.prev(e);
+  int from = ranks[at(body_.origin(before))];
   while (before != e && from == rank) {
     before = body_.prev(before);
     from = ranks[at(body_.origin(before))];
   }
   if (before == e) return 0;
+  int after = body_.next(body_.next(e));
+  int to = ranks[at(body_.origin(after))];
   while (to == rank) {
     after = body_.next(after);
     to = ranks[at(body_.origin(after))];
@@ -126,10 +124,16 @@ int NaturalChains::direction_of(int e, std::span<const int> ranks) const {
   return from > rank ? 1 : -1;
 }
 
+/// The outlines of triangles and quadrangles surround what they run around, holes do not.
+bool NaturalChains::may_hang(int e) const {
+  if (body_.loop(body_.edge(e).loop).is_hole) return true;
+  const int before = body_.prev(e), after = body_.next(body_.next(e));
+  return after != before && body_.next(after) != before;
+}
+
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
 /// only of edges between points where their planes meet.
-bool NaturalChains::hangs_below(int e, Vec3 up) const {
-  const int from = body_.origin(e), to = body_.target(e);
+bool NaturalChains::hangs_below(int e, int from, int to, Vec3 up) const {
   if (!world_.points.is_meeting(from) || !world_.points.is_meeting(to)) return false;
   const Vec3 along = world_.points.at(to) - world_.points.at(from);
   const double inward = dot(cross(world_.planes.normal(body_.side_of_edge(e)), along), up);
@@ -144,16 +148,17 @@ bool NaturalChains::is_free(int point) const {
 /// Takes away what comes from nowhere or leads to nowhere, again and again, and tells whether
 /// something is left. Gives up after some rounds: then there may be a chain.
 bool NaturalChains::has_chain(std::span<Step> steps) {
+  std::vector<int>&leaving = world_.scratch.leaving, &entering = world_.scratch.entering;
   for (const Step& step : steps) {
-    ++leaving_[at(step.from)];
-    ++entering_[at(step.to)];
+    ++leaving[at(step.from)];
+    ++entering[at(step.to)];
   }
   const auto is_loose = [&](const Step& step) {
-    const bool is = (entering_[at(step.from)] == 0 && !is_free(step.from)) ||
-                    (leaving_[at(step.to)] == 0 && !is_free(step.to));
+    const bool is = (entering[at(step.from)] == 0 && !is_free(step.from)) ||
+                    (leaving[at(step.to)] == 0 && !is_free(step.to));
     if (is) {
-      --leaving_[at(step.from)];
-      --entering_[at(step.to)];
+      --leaving[at(step.from)];
+      --entering[at(step.to)];
     }
     return is;
   };
@@ -166,7 +171,7 @@ bool NaturalChains::has_chain(std::span<Step> steps) {
     if (now == left) break;
     left = now;
   }
-  for (const Step& step : steps.first(left)) leaving_[at(step.from)] = entering_[at(step.to)] = 0;
+  for (const Step& step : steps.first(left)) leaving[at(step.from)] = entering[at(step.to)] = 0;
   return left > 0;
 }
 

@@ -2,7 +2,6 @@
 
 #include "kernel/segment/detail/boundary.h"
 
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,7 +33,7 @@ class NaturalChains {
  private:
   /// A half-edge in a plane, of a facet that is on one side of it there.
   struct Step {
-    std::size_t slot;
+    int slot;
     int from, to;
   };
   /// The planes of one class: planes_[first…last).
@@ -56,10 +55,10 @@ class NaturalChains {
   void look(const Class& c, std::span<const Edge> edges);
   void sort_steps(const Class& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
-  void add_step(std::size_t entry, Vec3 normal, std::span<const int> ranks, int e);
-  [[nodiscard]] std::optional<std::size_t> entry_of(const Class& c, int plane) const;
-  [[nodiscard]] int direction_of(int e, std::span<const int> ranks) const;
-  [[nodiscard]] bool hangs_below(int e, Vec3 up) const;
+  void add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from, int to);
+  [[nodiscard]] int direction_of(int e, std::span<const int> ranks, int rank) const;
+  [[nodiscard]] bool may_hang(int e) const;
+  [[nodiscard]] bool hangs_below(int e, int from, int to, Vec3 up) const;
   bool has_chain(std::span<Step> steps);
   [[nodiscard]] bool is_free(int point) const;
 
@@ -70,9 +69,10 @@ class NaturalChains {
   std::vector<Class> classes_;
   std::vector<char> answers_;  ///< by slot
 
+  std::vector<int> entries_;  ///< by plane of the world, where it is in planes_; -1: nowhere
+
   std::vector<Step> steps_, sorted_;
-  std::vector<std::size_t> ends_;
-  std::vector<int> leaving_, entering_;  ///< steps of the slot at hand, by point; else 0
+  std::vector<int> ends_;
 };
 
 }  // namespace oriel::detail

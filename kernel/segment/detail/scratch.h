@@ -102,6 +102,9 @@ struct Scratch {
     return here;
   }
 
+  // Chains of edges. By point: how many steps lead from it, and to it; 0 between two uses.
+  std::vector<int> leaving, entering;
+
   // Floods.
   StampSet flooded_edges, flooded_facets;
   StampSet facets_with_chord;
