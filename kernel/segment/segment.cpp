@@ -95,6 +95,7 @@ class Segmenter {
 
   /// Splits one body down to its leaf: each round is a node of the tree.
   void split(Task task) {
+    if (task.leaf) return add_leaf(std::move(task));
     if (!task.has_one_shell) take_out_cavities(task);
     std::optional<detail::Chooser> chooser;
     std::set<std::pair<detail::BodyState, detail::CutKey>> seen;
@@ -224,9 +225,11 @@ class Segmenter {
     const std::vector<std::size_t> models = models_of(choice);
     for (std::size_t i = 0; i < choice.lumps.size(); ++i) {
       const detail::Lump& lump = choice.lumps[i];
-      if (!models.empty() && models[i] != i) {
+      const bool is_copy = !models.empty() && models[i] != i;
+      if (is_copy || is_leaf(choice, lump, models)) {
         is_body_changed_ = true;
-        changes.push_back(take_off_copy(task, choice, lump, choice.lumps[models[i]]));
+        changes.push_back(
+            take_off_pocket(task, choice, lump, is_copy ? &choice.lumps[models[i]] : nullptr));
         continue;
       }
       std::vector<int> touched;
@@ -283,12 +286,25 @@ class Segmenter {
     return change;
   }
 
-  /// Takes off a pocket that needs no body of its own: it gets a copy of what becomes of `model`.
-  detail::Change take_off_copy(Task& task, const Choice& choice, const detail::Lump& lump,
-                               const detail::Lump& model) {
+  /// A lump of a natural choice that comes off without a body, as the leaf that it is.
+  static bool is_leaf(const Choice& choice, const detail::Lump& lump,
+                      const std::vector<std::size_t>& models) {
+    return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
+           choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
+  }
+
+  /// Takes off a pocket that needs no body of its own: it gets a copy of what becomes of `model`,
+  /// or, if there is none, is a leaf.
+  detail::Change take_off_pocket(Task& task, const Choice& choice, const detail::Lump& lump,
+                                 const detail::Lump* model) {
     std::vector<detail::Cap> caps;
     caps.push_back(choice.pockets->cap_of(lump.pocket));
-    auto how = choice.pockets->congruence(model.pocket, lump.pocket);
+    std::optional<detail::Congruence> how;
+    std::optional<detail::Leaf> leaf;
+    if (model != nullptr)
+      how = choice.pockets->congruence(model->pocket, lump.pocket);
+    else
+      leaf = choice.pockets->leaf_of(lump.pocket, choice.is_hole);
     std::vector<int> points = choice.pockets->points_of(lump.pocket);
     const auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),
                                     choice.is_hole, next_feature());
@@ -297,9 +313,11 @@ class Segmenter {
     feature.surface_m2 = filled.surface;
     feature.volume_m3 = filled.volume;
     feature.vertices = points;
+    if (leaf) leaf->volume = filled.volume;
     const int sign = sign_of(feature);
     add_part(task, Boundary(world_), sign, std::move(feature), {});
     tasks_.back().copy_of_model = std::move(how);
+    tasks_.back().leaf = std::move(leaf);
     detail::Change change{std::move(points), {}, {}, true, true, {}, false};
     change.rim.reserve(caps[0].loops[0].edges.size());
     for (const detail::CapEdge& edge : caps[0].loops[0].edges)
@@ -356,6 +374,10 @@ class Segmenter {
           fmt::format("the work budget of {} half-edges is used up; the rest stays unsplit",
                       options_.budget)));
     }
+  }
+
+  void add_leaf(Task task) {
+    node(task.node).cell = cells_.add(std::move(*task.leaf), task.node, task.sign, task.feature);
   }
 
   void finish() {

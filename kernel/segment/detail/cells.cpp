@@ -106,6 +106,23 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
   return id;
 }
 
+CellId CellWriter::add(Leaf leaf, NodeId node, int sign, FeatureId feature) {
+  const CellId id{static_cast<int>(out_.cells.size())};
+  Cell& cell = out_.cells.emplace_back();
+  cell.sign = sign;
+  cell.volume_m3 = leaf.volume;
+  cell.node = node;
+  cell.feature = feature;
+  cell.facets.reserve(leaf.faces.size());
+  for (Leaf::Face& face : leaf.faces) {
+    Facet& facet = cell.facets.emplace_back();
+    facet.plane = plane_id(face.side);
+    facet.loops.push_back(std::move(face.loop));
+  }
+  for (const auto& [source, face] : leaf.sources) made_of(source).push_back({id, face});
+  return id;
+}
+
 void CellWriter::finish(const Building& building, const Solid& solid) {
   for (int p = 0; p < world_.points.size(); ++p)
     out_.vertices.push_back({world_.points.at(p), world_.points.is_meeting(p)});

@@ -5,6 +5,7 @@
 #include "kernel/segment/detail/boundary.h"
 #include "kernel/segment/detail/congruence.h"
 #include "kernel/segment/detail/few.h"
+#include "kernel/segment/detail/leaf.h"
 
 #include <cstddef>
 #include <span>
@@ -25,6 +26,7 @@ class CellWriter {
   /// Adds a leaf that lies in `feature` (invalid: in no feature).
   CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
              FeatureId feature);
+  CellId add(Leaf leaf, NodeId node, int sign, FeatureId feature);
 
   /// The side that such an id stands for.
   [[nodiscard]] Side side_of(PlaneId id) const;

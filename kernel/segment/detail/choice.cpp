@@ -137,28 +137,46 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
   return order(p) > order(q);
 }
 
-/// The lump in front of a candidate. Of pockets of one kind the first is flooded; a lump that is
-/// alone is none of a kind.
-Lump Chooser::lump_at(const Candidate& candidate, LumpFinder& finder, bool is_alone) {
-  const int pocket = is_alone ? -1 : pockets_.find(candidate.slot->section, candidate.region);
-  if (pocket < 0) {
-    Lump lump = finder.find(candidate.region);
-    lump.is_alone = is_alone;
-    return lump;
-  }
-  const int kind = pockets_.kind_of(pocket);
-  if (kind >= std::ssize(lump_of_kind_)) lump_of_kind_.resize(at(kind) + 1, -1);
-  if (lump_of_kind_[at(kind)] < 0) {
+/// The lump in front of a candidate. What only floods can tell is flooded, of pockets of one kind
+/// the first; a lump that is alone is none of a kind.
+Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
+  const Section& section = candidate.slot->section;
+  const int pocket = pockets_.find(section, candidate.region, is_alone);
+  if (pocket >= 0 && !is_alone) {
+    const int kind = pockets_.kind_of(pocket);
+    if (kind >= std::ssize(lump_of_kind_)) lump_of_kind_.resize(at(kind) + 1, -1);
+    if (const int first = lump_of_kind_[at(kind)]; first >= 0) {
+      Lump same = lumps_[at(first)];
+      same.regions = {candidate.region};
+      same.new_area = section.regions[at(candidate.region)].new_area;
+      same.pocket = pocket;
+      return same;
+    }
     lump_of_kind_[at(kind)] = static_cast<int>(lumps_.size());
-    Lump first = finder.find(candidate.region);
-    first.pocket = pocket;
-    return first;
   }
-  Lump same = lumps_[at(lump_of_kind_[at(kind)])];
-  same.regions = {candidate.region};
-  same.new_area = candidate.slot->section.regions[at(candidate.region)].new_area;
-  same.pocket = pocket;
-  return same;
+  Lump lump = pocket < 0 ? flood(candidate) : lump_of(pocket, candidate);
+  lump.is_alone = is_alone;
+  lump.pocket = pocket;
+  return lump;
+}
+
+Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
+  const Section& section = candidate.slot->section;
+  const Region& region = section.regions[at(candidate.region)];
+  const auto flooded = pockets_.flooded(pocket, section, region);
+  if (!flooded) return flood(candidate);
+  Lump lump;
+  lump.regions.push_back(candidate.region);
+  lump.new_area = region.new_area;
+  lump.volume = flooded->volume;
+  lump.has_bend = flooded->has_bend;
+  return lump;
+}
+
+Lump Chooser::flood(const Candidate& candidate) {
+  if (candidate.slot != flooded_) finder_.emplace(body_, candidate.slot->section);
+  flooded_ = candidate.slot;
+  return finder_->find(candidate.region);
 }
 
 std::optional<double> Chooser::key_of(Pass pass, const Region& region, double new_area,
@@ -177,10 +195,10 @@ std::optional<double> Chooser::key_of(Pass pass, const Region& region, double ne
 
 /// Gives a candidate its lump, and the key of that as a whole. False if it is no feature, or none
 /// of the pass.
-bool Chooser::check(Candidate& candidate, Pass pass, LumpFinder& finder, bool is_alone) {
+bool Chooser::check(Candidate& candidate, Pass pass, bool is_alone) {
   const Section& section = candidate.slot->section;
   const Region& region = section.regions[at(candidate.region)];
-  Lump found = lump_at(candidate, finder, is_alone);
+  Lump found = lump_at(candidate, is_alone);
   candidate.lump = static_cast<int>(lumps_.size());
   lumps_.push_back(std::move(found));
   const Lump& lump = lumps_.back();
@@ -263,13 +281,9 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
     if (keys.empty()) return;
     std::ranges::sort(keys);
     // Candidates of one slot stand together, so one finder at a time does.
-    const Slot* found_in = nullptr;
-    std::optional<LumpFinder> finder;
+    flooded_ = nullptr;
     std::erase_if(candidates, [&](Candidate& c) {
-      if (!leads(c)) return false;
-      if (c.slot != found_in) finder.emplace(body_, c.slot->section);
-      found_in = c.slot;
-      return !check(c, pass, *finder, is_alone_in(keys, c.key));
+      return leads(c) && !check(c, pass, is_alone_in(keys, c.key));
     });
   }
 }

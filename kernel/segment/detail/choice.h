@@ -93,8 +93,10 @@ class Chooser {
   template <class Visit>
   void for_each_candidate(const Slot& slot, Pass pass, Visit visit) const;
   void check_leaders(std::vector<Candidate>& candidates, Pass pass);
-  bool check(Candidate& candidate, Pass pass, LumpFinder& finder, bool is_alone);
-  Lump lump_at(const Candidate& candidate, LumpFinder& finder, bool is_alone);
+  bool check(Candidate& candidate, Pass pass, bool is_alone);
+  Lump lump_at(const Candidate& candidate, bool is_alone);
+  Lump lump_of(int pocket, const Candidate& candidate);
+  Lump flood(const Candidate& candidate);
   std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
   Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
@@ -126,6 +128,8 @@ class Chooser {
   /// Slots by the least key of what was not taken of them, a heap.
   std::vector<std::pair<double, std::size_t>> waiting_;
   std::vector<Lump> lumps_;
+  const Slot* flooded_ = nullptr;  ///< the slot that finder_ is for
+  std::optional<LumpFinder> finder_;
   std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/segment/detail/instance.h"
+#include "kernel/segment/detail/leaf.h"
 
 #include <optional>
 #include <vector>
@@ -17,6 +18,7 @@ struct Task {
   bool has_one_shell = false;   ///< for certain, so it has no cavities
   int model = -1;               ///< others wait for what becomes of it, or it waits itself
   std::optional<Congruence> copy_of_model = std::nullopt;
+  std::optional<Leaf> leaf = std::nullopt;  ///< what the body is, which is not made then
 };
 
 /// Which bodies others are congruent to, so that those get copies of what becomes of them. Tasks

@@ -59,13 +59,13 @@ int Pockets::find_known(const Section& section, const Region& region) const {
   return is_of_section ? known : -1;
 }
 
-int Pockets::find(const Section& section, int region) {
+int Pockets::find(const Section& section, int region, bool is_alone) {
   const Region& here = section.regions[at(region)];
   if (const int known = find_known(section, here); known >= 0) return known;
   if (!trace_rim(section, here)) return -1;
   Pocket pocket;
   const Side cap = section.split_side(here);
-  for (int k = 0; k < std::ssize(kinds_) && pocket.kind < 0; ++k)
+  for (int k = 0; !is_alone && k < std::ssize(kinds_) && pocket.kind < 0; ++k)
     if (kinds_[at(k)].cap == cap && kinds_[at(k)].direction == section.direction &&
         is_like(kinds_[at(k)], pocket, section))
       pocket.kind = k;
@@ -263,13 +263,27 @@ int Pockets::new_kind(const Section& section, const Region& region) {
   kind.first = static_cast<int>(pockets_.size());
   kind.corner = corner_;
   kind.rim = static_cast<int>(rim_.size());
+  list_facets(kind);
+  list_corners(kind);
+  kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
+  judge(kind, !region.is_material);
+  kinds_.push_back(std::move(kind));
+  return static_cast<int>(kinds_.size()) - 1;
+}
+
+void Pockets::list_facets(Kind& kind) {
   StampSet& is_met = body_.world().scratch.facets_of_piece;
+  StampMap& place = body_.world().scratch.place_in_walk;
   is_met.start(body_.facet_count());
   is_met.insert(wall_);
+  place.start(body_.half_edge_count());
   walk_.clear();
+  kind.sizes.reserve(facets_.size());
+  kind.entries.reserve(facets_.size());
   const auto list = [&](int first) {
     int e = first, size = 0;
     do {
+      place.set(e, static_cast<int>(walk_.size()));
       walk_.push_back(e);
       ++size;
       e = body_.next(e);
@@ -284,26 +298,78 @@ int Pockets::new_kind(const Section& section, const Region& region) {
     kind.entries.push_back(static_cast<int>(i));
     list(twin);
   }
-  for (const int e : walk_) {
-    const auto twin = std::ranges::find(walk_, body_.twin(e));
-    kind.twins.push_back(twin == walk_.end() ? -1 : static_cast<int>(twin - walk_.begin()));
-  }
+  kind.twins.reserve(walk_.size());
+  for (const int e : walk_) kind.twins.push_back(place.find(body_.twin(e)));
+}
+
+void Pockets::list_corners(Kind& kind) {
+  StampMap& corner_at = body_.world().scratch.corner_at_point;
+  corner_at.start(body_.world().points.size());
+  kind.corners.reserve(walk_.size() / 2);  // no fewer half-edges begin at a vertex
   for (int i = 0; i < std::ssize(walk_); ++i) {
-    const int e = walk_[at(i)];
-    if (std::ranges::none_of(kind.corners, [&](const Corner& corner) {
-          return body_.origin(walk_[at(corner.edge)]) == body_.origin(e);
-        }))
+    const int e = walk_[at(i)], point = body_.origin(e);
+    int number = corner_at.find(point);
+    if (number < 0) {
+      number = static_cast<int>(kind.corners.size());
+      corner_at.set(point, number);
       kind.corners.push_back({i, is_rim(e) || is_rim(body_.prev(e))});
+    }
+    ++kind.corners[at(number)].facets;
   }
-  kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
-  kinds_.push_back(std::move(kind));
-  return static_cast<int>(kinds_.size()) - 1;
+}
+
+/// What its lump and its leaf ask for, beside convexity.
+void Pockets::judge(Kind& kind, bool is_hole) const {
+  const StampMap& corner_at = body_.world().scratch.corner_at_point;
+  const auto is_on_rim = [&](int point) {
+    return kind.corners[at(corner_at.find(point))].is_on_rim;
+  };
+  // The edges of a convex one bend all one way.
+  kind.has_bend = is_hole && kind.is_convex &&
+                  std::ranges::any_of(kind.twins, [](int twin) { return twin >= 0; });
+  kind.is_leaf = kind.is_convex && std::ranges::all_of(kind.corners, [](const Corner& corner) {
+                   return corner.facets + (corner.is_on_rim ? 1 : 0) > 2;
+                 });
+  std::size_t i = 0;
+  for (const int size : kind.sizes) {
+    int chords = 0;
+    for (const std::size_t last = i + at(size); i < last; ++i) {
+      const int e = walk_[i];
+      if (kind.twins[i] < 0) {
+        ++chords;
+        continue;
+      }
+      kind.has_bend = kind.has_bend || (!kind.is_convex && body_.is_reflex(e));
+      kind.is_unclear |= is_on_rim(body_.origin(e)) && is_on_rim(body_.target(e));
+    }
+    // Of one chord alone, and with area on its side for certain, the pieces are sound.
+    kind.is_unclear |= chords > 1 || body_.area(body_.facet_of(walk_[i - 1])) <= kThin_m;
+  }
+}
+
+std::optional<Pockets::Flooded> Pockets::flooded(int pocket, const Section& section,
+                                                 const Region& region) const {
+  const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+  if (kind.is_unclear) return std::nullopt;
+  const auto& planes = body_.world().planes;
+  const auto edges = edges_of(pockets_[at(pocket)]);
+  double sum = 0;
+  std::size_t first = 0;
+  for (const int size : kind.sizes) {
+    const int f = body_.facet_of(edges[first]);
+    sum += planes.offset_m(body_.facet(f).side) * body_.area(f);
+    first += at(size);
+  }
+  const double cap = planes.offset_m(section.looking()) * region.area;
+  return Flooded{((region.is_material ? sum : -sum) - cap) / 3, kind.has_bend};
 }
 
 bool Pockets::is_convex_pocket(const Kind& kind, std::span<const int> edges, bool is_hole) const {
   constexpr double kHardly = 0.02;  // sine: flatter edges are left to Boundary::is_reflex
   const auto& planes = body_.world().planes;
   for (std::size_t i = 0; i < edges.size(); ++i) {
+    // One answer for both half-edges of an edge.
+    if (kind.twins[i] >= 0 && at(kind.twins[i]) < i) continue;
     const int e = edges[i];
     const Vec3 mine = planes.normal(body_.side_of_edge(e));
     const Vec3 along = normalised(body_.world().points.at(body_.target(e)) - body_.at(e));
@@ -325,6 +391,34 @@ Cap Pockets::cap_of(int pocket) const {
   for (const int e : std::span(rims_).subspan(at(here.first_rim), at(kind.rim)))
     loop.edges.push_back({e, body_.origin(e), body_.target(e)});
   return cap;
+}
+
+Leaf Pockets::leaf_of(int pocket, bool is_hole) const {
+  // Facet by facet and edge by edge as take_off() makes a body of it.
+  const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+  const int flip = is_hole ? 1 : 0;
+  Leaf leaf;
+  leaf.faces.reserve(kind.sizes.size() + 1);
+  leaf.sources.reserve(kind.sizes.size());
+  for (const int f : facets_of(pocket)) {
+    const auto& facet = body_.facet(f);
+    for (const int source : facet.sources)
+      leaf.sources.push_back({source, static_cast<int>(leaf.faces.size())});
+    Leaf::Face& face = leaf.faces.emplace_back(facet.side ^ flip, Loop{});
+    const int first = body_.loop(facet.loops[0]).first;
+    face.loop.reserve(4);  // mostly
+    int e = first;
+    do {
+      face.loop.push_back(is_hole ? body_.target(e) : body_.origin(e));
+      e = is_hole ? body_.prev(e) : body_.next(e);
+    } while (e != first);
+  }
+  const auto rim = std::span(rims_).subspan(at(pockets_[at(pocket)].first_rim), at(kind.rim));
+  Leaf::Face& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
+  cap.loop.reserve(rim.size());
+  for (const int e : rim) cap.loop.push_back(is_hole ? body_.origin(e) : body_.target(e));
+  if (!is_hole) std::ranges::reverse(cap.loop);
+  return leaf;
 }
 
 std::vector<int> Pockets::points_of(int pocket) const {

@@ -2,12 +2,14 @@
 
 #include "kernel/segment/detail/carve.h"
 #include "kernel/segment/detail/congruence.h"
+#include "kernel/segment/detail/leaf.h"
 #include "kernel/segment/detail/section.h"
 #include "kernel/segment/detail/slots.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,8 +32,17 @@ class Pockets {
   /// point of stay known, with their numbers.
   void changed(const std::vector<Change>& changes);
 
-  /// The number of the pocket in front of a region; -1 if the lump there is none.
-  int find(const Section& section, int region);
+  /// The number of the pocket in front of a region; -1 if the lump there is none. Of one that
+  /// `is_alone` it is not asked whether it is of a kind that is known.
+  int find(const Section& section, int region, bool is_alone);
+  /// What a flood from the region of a pocket finds, which is sound and finite; nothing if only a
+  /// flood can tell.
+  struct Flooded {
+    double volume;
+    bool has_bend;
+  };
+  [[nodiscard]] std::optional<Flooded> flooded(int pocket, const Section& section,
+                                               const Region& region) const;
 
   [[nodiscard]] int kind_count() const { return static_cast<int>(kinds_.size()); }
   /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
@@ -40,6 +51,11 @@ class Pockets {
   /// As a body of its own it has no reflex edge for certain.
   [[nodiscard]] bool is_convex(int kind) const { return kinds_[index(kind)].is_convex; }
 
+  /// And more than two facets meet in all its vertices: leaf_of() tells what it becomes.
+  [[nodiscard]] bool is_leaf(int kind) const { return kinds_[index(kind)].is_leaf; }
+
+  /// What a pocket that is_leaf() becomes, but for its volume; needs the body as it was.
+  [[nodiscard]] Leaf leaf_of(int pocket, bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
   [[nodiscard]] std::vector<int> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
@@ -59,13 +75,16 @@ class Pockets {
   struct Corner {
     int edge;
     bool is_on_rim;
+    int facets = 0;  ///< of the pocket, that meet there
   };
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
   /// listed facet by facet, in the order in which these are met.
   struct Kind {
     Side cap = -1;  ///< -1: the first has gone, and with it the kind
     int direction = 0;
-    bool is_convex = false;
+    bool is_convex = false, is_leaf = false;
+    /// Its lump has a bend, and has to be flooded.
+    bool has_bend = false, is_unclear = false;
     int first = -1;            ///< the first pocket
     Vec3 corner;               ///< the lowest of the box of its rim
     std::vector<int> sizes;    ///< of the facets, in half-edges
@@ -95,6 +114,9 @@ class Pockets {
   [[nodiscard]] bool has_own_sources();
   [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
   int new_kind(const Section& section, const Region& region);
+  void list_facets(Kind& kind);
+  void list_corners(Kind& kind);
+  void judge(Kind& kind, bool is_hole) const;
   [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
                                       bool is_hole) const;
   [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;

@@ -113,6 +113,8 @@ struct Scratch {
 
   // Pockets.
   StampSet rim_edges;
+  StampMap place_in_walk;    ///< by half-edge
+  StampMap corner_at_point;  ///< by point
 
   // Cuts.
   StampSet facets_of_lump, facets_of_piece;
