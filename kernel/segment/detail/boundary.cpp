@@ -134,14 +134,15 @@ int Boundary::number_side(Side side) {
   return number;
 }
 
-int Boundary::add_facet_on(int number, Side side, Sources sources, std::vector<CapMark> marks) {
+int Boundary::add_facet_on(int number, Side side, const Sources& sources,
+                           std::vector<CapMark> marks) {
   const int f = facet_count();
   OnSide& on = on_side_[index(number)];
   on.facets.push_back(f);
   ++on.living;
   FacetRecord& facet = facets_.emplace_back();
   facet.side = side;
-  facet.sources = std::move(sources);
+  facet.sources.assign(sources.begin(), sources.end());
   facet.marks = std::move(marks);
   facet.on_side = number;
   return f;
@@ -150,19 +151,22 @@ int Boundary::add_facet_on(int number, Side side, Sources sources, std::vector<C
 int Boundary::add_cycle(std::span<const int> origins, int f, bool is_backward) {
   const int first = half_edge_count(), last = first + static_cast<int>(origins.size()) - 1;
   const int l = static_cast<int>(loops_.size());
-  half_edges_.resize(half_edges_.size() + origins.size());
   const int step = is_backward ? -1 : 1;
   for (int e = first; const int origin : origins) {
-    HalfEdge& edge = half_edges_[index(e)];
-    edge.origin = origin;
-    edge.next = e + step;
-    edge.prev = e - step;
-    edge.loop = l;
+    half_edges_.push_back({origin, e + step, e - step, -1, l, f});
     ++e;
   }
   is_backward ? link(first, last) : link(last, first);
-  loops_.push_back({first, f, 0});
-  attach(l, f);
+  // The sum of attach(), from the first half-edge on along the loop.
+  const Vec3 start = world_->points.at(origins[0]);
+  Vec3 sum, from;
+  for (std::size_t i = 1; i < origins.size(); ++i) {
+    const Vec3 to = world_->points.at(origins[is_backward ? origins.size() - i : i]) - start;
+    sum = sum + cross(from, to);
+    from = to;
+  }
+  loops_.push_back({first, f});
+  join(l, f, dot(sum, world_->planes.normal(facet(f).side)) / 2);
   return first;
 }
 
@@ -201,7 +205,13 @@ void Boundary::attach(int l, int f) {
     from = to;
   }
   record.facet = f;
-  record.area = dot(sum, world_->planes.normal(facet(f).side)) / 2;
+  join(l, f, dot(sum, world_->planes.normal(facet(f).side)) / 2);
+}
+
+/// Counts a loop among those of its facet.
+void Boundary::join(int l, int f, double area) {
+  LoopRecord& record = loops_[index(l)];
+  record.area = area;
   // A loop of no width is the outer loop of a sliver: no hole is so thin.
   record.is_hole = record.area < 0 && -record.area > kThin_m * perimeter(l);
   facets_[index(f)].loops.push_back(l);

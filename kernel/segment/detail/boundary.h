@@ -131,10 +131,10 @@ class Boundary {
     half_edges_[index(f)].twin = e;
     half_edges_[index(e)].bend = half_edges_[index(f)].bend = kUnknown;
   }
-  /// A facet without loops.
+  /// A facet without loops. `sources`: none that a facet of this boundary holds.
   int add_facet(Side side, const Sources& sources = {}, std::vector<CapMark> marks = {});
   /// The same with the number that number_side() has for the side.
-  int add_facet_on(int number, Side side, Sources sources, std::vector<CapMark> marks);
+  int add_facet_on(int number, Side side, const Sources& sources, std::vector<CapMark> marks);
   /// A number for what lies on a side, for as long as the boundary lives.
   int number_side(Side side);
   /// Room for that many half-edges and facets.
@@ -189,6 +189,7 @@ class Boundary {
     ++dead_edges_;
   }
   void attach(int l, int f);
+  void join(int l, int f, double area);
   void detach(int l);
   void kill_facet(int f);
   void merge(int target, int f);

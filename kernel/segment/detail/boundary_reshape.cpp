@@ -36,8 +36,9 @@ void Boundary::part(int f, const std::vector<int>& outer, const std::vector<int>
   std::vector<Outline> shapes;
   for (const int l : outer) shapes.push_back(outline(l));
   const std::vector<CapMark> marks = std::exchange(facets_[index(f)].marks, {});
+  const Sources sources = facet(f).sources;
   for (std::size_t i = 1; i < outer.size(); ++i) {
-    const int piece = add_facet(facet(f).side, facet(f).sources);
+    const int piece = add_facet(facet(f).side, sources);
     detach(outer[i]);
     attach(outer[i], piece);
     pieces.push_back(piece);

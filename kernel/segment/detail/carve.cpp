@@ -71,6 +71,9 @@ class Remover {
         for (const CapEdge& edge : loop.edges)
           if (edge.rim >= 0) twin_of_rim_.emplace_back(edge.rim, body.twin(edge.rim));
     std::ranges::sort(twin_of_rim_);
+    StampMap& twins = body.world().scratch.twin_of_rim;
+    twins.start(body.half_edge_count());
+    for (const auto& [rim, twin] : twin_of_rim_) twins.set(rim, twin);
     is_ring_ = is_hole_of_facet(body, caps);
     find_lump();
   }
@@ -96,7 +99,9 @@ class Remover {
   }
 
  private:
-  [[nodiscard]] bool is_rim(int e) const { return find_in(twin_of_rim_, e).has_value(); }
+  [[nodiscard]] bool is_rim(int e) const { return twin_of(e) >= 0; }
+  /// The twin that a half-edge of the rim had before the cut; -1: it is none.
+  [[nodiscard]] int twin_of(int rim) const { return body_.world().scratch.twin_of_rim.find(rim); }
 
   /// The facets inside the rims, ascending.
   void find_lump() {
@@ -187,7 +192,7 @@ class Remover {
       facets.push_back(add_cap(body_, cap, cap.side, false, free, of_rim));
     std::ranges::sort(of_rim);
     for (const auto& [rim, e] : of_rim) {
-      const int beyond = *find_in(twin_of_rim_, rim);
+      const int beyond = twin_of(rim);
       body_.pair(e, find_in(of_rim, beyond).value_or(beyond));
     }
     for (std::size_t i = 0; i < caps_.size(); ++i) {
@@ -214,7 +219,7 @@ class Remover {
   [[nodiscard]] int facet_beyond(const Cap& cap) const {
     for (const CapLoop& loop : cap.loops)
       for (const CapEdge& edge : loop.edges)
-        if (edge.rim >= 0) return body_.facet_of(*find_in(twin_of_rim_, edge.rim));
+        if (edge.rim >= 0) return body_.facet_of(twin_of(edge.rim));
     throw GeometryError("a cap without a rim");
   }
 
@@ -256,10 +261,10 @@ double area_on_lump(const CapLoop& loop, const PointTable& points, bool is_hole,
   return signed_area(room, normal);
 }
 
-/// signed_area() of a facet of one loop, turned round if it is of air.
-double area_of_facet(const Boundary& body, int f, bool is_hole, Vec3 normal) {
+/// signed_area() of a loop of a facet, turned round if it is of air.
+double area_of_loop(const Boundary& body, int l, bool is_hole, Vec3 normal) {
   const PointTable& points = body.world().points;
-  const int first = body.loop(body.facet(f).loops[0]).first;
+  const int first = body.loop(l).first;
   const Vec3 start = points.at(is_hole ? body.target(first) : body.origin(first));
   Vec3 sum, from;
   for (int e = first;;) {
@@ -287,7 +292,9 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   filled.surface = -area_on_lump(cap.loops[0], points, true, planes.normal(cap.side), room);
   for (const int f : facets) {
     const Side side = body.facet(f).side ^ flip;
-    const double facet_area = area_of_facet(body, f, is_hole, planes.normal(side));
+    double facet_area = 0;
+    for (const int l : body.facet(f).loops)
+      facet_area += area_of_loop(body, l, is_hole, planes.normal(side));
     filled.volume += planes.offset_m(side) * facet_area;
     filled.surface += facet_area;
   }

@@ -2,6 +2,7 @@
 
 #include "kernel/segment/detail/boundary.h"
 
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
@@ -15,18 +16,20 @@ class FacetCopier {
 
   void add(const std::vector<int>& facets);
 
-  [[nodiscard]] int copy_of(int e) const { return scratch_.copy_of[static_cast<std::size_t>(e)]; }
+  /// Of a half-edge of the facets.
+  [[nodiscard]] int copy_of(int e) const { return scratch_.copy_of.find(e); }
   Boundary& boundary() { return to_; }
 
  private:
   void add(int f);
-  void pair_twins(int f);
 
   const Boundary& from_;
   Boundary to_;
   Scratch& scratch_;
   bool is_turned_;
-  std::vector<int> origins_;  ///< of the loop at hand
+  // Of the loop at hand.
+  std::vector<int> origins_;
+  std::vector<std::pair<int, int>> pairs_;  ///< copies of both sides of edges
 };
 
 }  // namespace oriel::detail

@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/models.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/model/issue.h"
 
 #include <cmath>
 
@@ -65,8 +66,11 @@ void Models::close(std::size_t waiting) {
 bool Models::copy(const Task& task) {
   if (!task.copy_of_model) return false;
   const Subtree& model = models_[at(task.model)].subtree;
-  if (!copy_subtree(model, *task.copy_of_model, task.node, task.feature, world_, cells_, out_))
+  if (!copy_subtree(model, *task.copy_of_model, task.node, task.feature, world_, cells_, out_)) {
+    // No cut has a plane that its body has not, so a pocket's copy is always made.
+    if (task.body.half_edge_count() == 0) throw GeometryError("a copy of a pocket has lost planes");
     return false;
+  }
   ++out_.stats.instanced;
   return true;
 }

@@ -32,7 +32,6 @@ std::vector<std::size_t> models_of(const Choice& choice) {
     if (lumps[i].is_alone) continue;
     if (lumps[i].pocket < 0) return {};
     const int kind = choice.pockets->kind_of(lumps[i].pocket);
-    if (!choice.pockets->is_convex(kind)) return {};
     last_of_kind[kind] = i;
   }
   std::vector<std::size_t> models;

@@ -9,7 +9,7 @@
 
 namespace oriel::detail {
 
-/// Of each lump of a choice the last one that is the same convex pocket, moved: what becomes of
+/// Of each lump of a choice the last one that is the same pocket, moved: what becomes of
 /// the one is known from the other. Itself, if there is none; nothing if that is not known of one.
 std::vector<std::size_t> models_of(const Choice& choice);
 

@@ -10,7 +10,7 @@ namespace oriel::detail {
 namespace {
 
 /// What has more facets is flooded and cut by itself.
-constexpr std::size_t kMostPocketFacets = 24;
+constexpr std::size_t kMostPocketFacets = 64;
 
 /// Points that are moved alike differ by no more than rounding.
 bool is_same_place(Vec3 difference) {
@@ -72,6 +72,7 @@ int Pockets::find(const Section& section, int region, bool is_alone) {
   if (pocket.kind < 0) {
     if (!find_facets(section)) return -1;
     pocket.kind = new_kind(section, here);
+    pocket.shift = {};
   }
   pocket.first_edge = static_cast<int>(edges_.size());
   pocket.first_rim = static_cast<int>(rims_.size());
@@ -132,17 +133,17 @@ bool Pockets::find_facets(const Section& section) {
   for (const int e : rim_) meet(body_.facet_of(e));
   for (std::size_t i = 0; i < facets_.size(); ++i) {
     const auto& facet = body_.facet(facets_[i]);
-    if (facet.loops.size() != 1 || !facet.marks.empty() || i == kMostPocketFacets) return false;
-    const int first = body_.loop(facet.loops[0]).first;
-    int e = first;
-    do {
+    if (!facet.marks.empty() || i == kMostPocketFacets) return false;
+    const bool has_holes = facet.loops.size() != 1;
+    bool is_inside = true;
+    body_.for_each_edge(facets_[i], [&](int e) {
       const int beyond = body_.facet_of(body_.twin(e));
       const int above = (ranks[at(body_.origin(e))] - rank) * section.direction;
-      if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
-      if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
+      is_inside &= above > 0 || (above == 0 && !has_holes && (is_rim(e) || is_rim(body_.prev(e))));
+      is_inside &= beyond != wall_ || (above == 0 && is_rim(e));
       meet(beyond);
-      e = body_.next(e);
-    } while (e != first);
+    });
+    if (!is_inside) return false;
   }
   return has_own_sources();
 }
@@ -176,25 +177,25 @@ bool Pockets::is_like(const Kind& kind, Pocket& pocket, const Section& section) 
   const Vec3 from = body_.at(edges_[at(pockets_[at(kind.first)].first_edge)]) + shift;
   const auto start =
       std::ranges::find_if(rim_, [&](int e) { return is_same_place(body_.at(e) - from); });
-  return start != rim_.end() && walk_like(kind, *start) && are_corners_like(kind, shift, section) &&
-         are_facets_like(kind, pocket) && has_own_sources();
+  return start != rim_.end() && walk_like(kind, *start, shift) &&
+         are_corners_like(kind, shift, section) && are_facets_like(kind, pocket) &&
+         has_own_sources();
 }
 
 /// Lists the half-edges of the pocket at hand from `start` on as those of the kind are listed.
 /// False if its facets hang together otherwise.
-bool Pockets::walk_like(const Kind& kind, int start) {
+bool Pockets::walk_like(const Kind& kind, int start, Vec3 shift) {
   StampSet& is_found = body_.world().scratch.facets_of_lump;
   is_found.start(body_.facet_count());
   is_found.insert(wall_);
-  walk_.resize(kind.twins.size());
+  walk_.clear();
   facets_.clear();
-  std::size_t first = 0;
+  const auto model = edges_of(pockets_[at(kind.first)]);
+  std::span<const int> loops = kind.loops;
   for (std::size_t f = 0; f < kind.sizes.size(); ++f) {
     const int e = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
     if (!is_found.insert(body_.facet_of(e))) return false;
-    const auto room = std::span(walk_).subspan(first, at(kind.sizes[f]));
-    if (!walk_facet(e, room)) return false;
-    first += room.size();
+    if (!walk_facet(e, model.subspan(walk_.size(), at(kind.sizes[f])), loops, shift)) return false;
   }
   for (std::size_t i = 0; i < walk_.size(); ++i) {
     const int twin = kind.twins[i];
@@ -203,19 +204,41 @@ bool Pockets::walk_like(const Kind& kind, int start) {
   return true;
 }
 
-/// Lists the half-edges of a facet. False if they are more or fewer than there is room for, or the
-/// facet has more loops or marks.
-bool Pockets::walk_facet(int first, std::span<int> walk) {
+/// Lists the half-edges of a facet loop by loop, as those of the model's facet are listed. False if
+/// its loops, the first of `loops`, which are taken from there, are others, or if it has marks.
+bool Pockets::walk_facet(int first, std::span<const int> model, std::span<const int>& loops,
+                         Vec3 shift) {
   const int f = body_.facet_of(first);
-  if (body_.facet(f).loops.size() != 1 || !body_.facet(f).marks.empty()) return false;
+  if (!body_.facet(f).marks.empty()) return false;
   facets_.push_back(f);
-  int e = first;
-  for (int& step : walk) {
-    step = e;
-    e = body_.next(e);
-    if (e == first) return &step == &walk.back();
+  std::size_t listed = 0, count = 0;
+  for (; listed < model.size(); ++count) {
+    const auto start = count == 0 ? first : find_in_facet(f, body_.at(model[listed]) + shift);
+    if (!start || !walk_loop(*start, loops[count])) return false;
+    listed += at(loops[count]);
   }
-  return false;
+  loops = loops.subspan(count);
+  return body_.facet(f).loops.size() == count;
+}
+
+/// Lists the half-edges of a loop. False if they are more or fewer.
+bool Pockets::walk_loop(int first, int size) {
+  int e = first;
+  for (; size > 0; --size) {
+    walk_.push_back(e);
+    e = body_.next(e);
+    if (e == first) break;
+  }
+  return size == 1;
+}
+
+/// A half-edge of a facet that begins at a place.
+std::optional<int> Pockets::find_in_facet(int f, Vec3 place) const {
+  std::optional<int> found;
+  body_.for_each_edge(f, [&](int e) {
+    if (!found && is_same_place(body_.at(e) - place)) found = e;
+  });
+  return found;
 }
 
 /// Vertices are those of the kind, moved; and those beside the rim are in front of the section.
@@ -279,8 +302,9 @@ void Pockets::list_facets(Kind& kind) {
   place.start(body_.half_edge_count());
   walk_.clear();
   kind.sizes.reserve(facets_.size());
+  kind.loops.reserve(facets_.size());
   kind.entries.reserve(facets_.size());
-  const auto list = [&](int first) {
+  const auto list_loop = [&](int first) {
     int e = first, size = 0;
     do {
       place.set(e, static_cast<int>(walk_.size()));
@@ -288,8 +312,16 @@ void Pockets::list_facets(Kind& kind) {
       ++size;
       e = body_.next(e);
     } while (e != first);
-    kind.sizes.push_back(size);
-    is_met.insert(body_.facet_of(first));
+    kind.loops.push_back(size);
+    kind.sizes.back() += size;
+  };
+  const auto list = [&](int first) {
+    const int f = body_.facet_of(first), loop = body_.edge(first).loop;
+    is_met.insert(f);
+    kind.sizes.push_back(0);
+    list_loop(first);
+    for (const int l : body_.facet(f).loops)
+      if (l != loop) list_loop(body_.loop(l).first);
   };
   list(rim_[0]);
   for (std::size_t i = 0; i < walk_.size(); ++i) {
@@ -327,7 +359,8 @@ void Pockets::judge(Kind& kind, bool is_hole) const {
   // The edges of a convex one bend all one way.
   kind.has_bend = is_hole && kind.is_convex &&
                   std::ranges::any_of(kind.twins, [](int twin) { return twin >= 0; });
-  kind.is_leaf = kind.is_convex && std::ranges::all_of(kind.corners, [](const Corner& corner) {
+  kind.is_leaf = kind.is_convex && kind.loops.size() == kind.sizes.size() &&
+                 std::ranges::all_of(kind.corners, [](const Corner& corner) {
                    return corner.facets + (corner.is_on_rim ? 1 : 0) > 2;
                  });
   std::size_t i = 0;

@@ -21,8 +21,8 @@ namespace oriel::detail {
 /// one is made a body; of the others it is known what would become of them.
 ///
 /// A pocket has one region of its section, whose chords are edges, one each, around a hole of one
-/// facet; what lies before them are facets of one loop without marks, and made of different facets
-/// of the solid.
+/// facet; what lies before them are facets without marks, made of different facets of the solid,
+/// and those beside the rim have one loop.
 class Pockets {
  public:
   /// `ground`: the side of the ground, -1: none.
@@ -48,10 +48,8 @@ class Pockets {
   /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
   /// asks for (find_congruence).
   [[nodiscard]] int kind_of(int pocket) const { return pockets_[index(pocket)].kind; }
-  /// As a body of its own it has no reflex edge for certain.
-  [[nodiscard]] bool is_convex(int kind) const { return kinds_[index(kind)].is_convex; }
-
-  /// And more than two facets meet in all its vertices: leaf_of() tells what it becomes.
+  /// As a body of its own it has no reflex edge for certain, and more than two facets meet in all
+  /// its vertices: leaf_of() tells what it becomes.
   [[nodiscard]] bool is_leaf(int kind) const { return kinds_[index(kind)].is_leaf; }
 
   /// What a pocket that is_leaf() becomes, but for its volume; needs the body as it was.
@@ -88,6 +86,7 @@ class Pockets {
     int first = -1;            ///< the first pocket
     Vec3 corner;               ///< the lowest of the box of its rim
     std::vector<int> sizes;    ///< of the facets, in half-edges
+    std::vector<int> loops;    ///< the same of their loops
     std::vector<int> entries;  ///< of each facet but the first: the half-edge over which it is met
     std::vector<int> twins;    ///< by half-edge; -1: of the rim
     std::vector<Corner> corners;  ///< one for each vertex
@@ -107,8 +106,10 @@ class Pockets {
   bool find_facets(const Section& section);
   [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
   [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket, const Section& section);
-  bool walk_like(const Kind& kind, int start);
-  bool walk_facet(int first, std::span<int> walk);
+  bool walk_like(const Kind& kind, int start, Vec3 shift);
+  bool walk_facet(int first, std::span<const int> model, std::span<const int>& loops, Vec3 shift);
+  bool walk_loop(int first, int size);
+  [[nodiscard]] std::optional<int> find_in_facet(int f, Vec3 place) const;
   [[nodiscard]] bool are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const;
   [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket);
   [[nodiscard]] bool has_own_sources();

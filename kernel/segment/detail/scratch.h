@@ -118,8 +118,8 @@ struct Scratch {
 
   // Cuts.
   StampSet facets_of_lump, facets_of_piece;
-  std::vector<int> copy_of;  ///< by half-edge
-  StampSet copied_edges;
+  StampMap copy_of;      ///< by half-edge
+  StampMap twin_of_rim;  ///< by half-edge, as they were before the cut
   Outline outline;
   StampSet met_points;
 
