@@ -38,6 +38,7 @@ std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
   const auto middle = interior_point(polygon, normal);
   if (!middle) return {};
   std::vector<Vec3> samples{*middle};
+  const auto may_hold = [&](Vec3 p) { return may_overlap(Box{p, p}, box, normal); };
   const Vec3 any = std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = normalised(cross(any, normal)), v = cross(normal, u);
   const double reach = length(box.max - box.min);
@@ -45,7 +46,7 @@ std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
   for (int i = -kSteps; i <= kSteps; ++i)
     for (int j = -kSteps; j <= kSteps; ++j) {
       const Vec3 p = *middle + (reach * i / kSteps) * u + (reach * j / kSteps) * v;
-      if (contains(polygon, normal, p)) samples.push_back(p);
+      if (may_hold(p) && contains(polygon, normal, p)) samples.push_back(p);
     }
   return samples;
 }
@@ -155,7 +156,9 @@ std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon
   if (near.size() == 1) return near[0];
   std::vector<int> hits(shapes.size(), 0);
   for (const Vec3 p : samples_of(rings, normal))
-    for (const std::size_t i : near) hits[i] += contains(shapes[i].outlines, normal, p) ? 1 : 0;
+    for (const std::size_t i : near)
+      if (may_overlap(Box{p, p}, shapes[i].box, normal) && contains(shapes[i].outlines, normal, p))
+        ++hits[i];
   return static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
 }
 

@@ -80,8 +80,7 @@ void EdgeIndex::update() {
     std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
     edges_.make(std::span(sizes).first(gaps_));
   }
-  for (const Run& run : runs)
-    for (int gap = run.first; gap <= run.last; ++gap) edges_.push_back(at(gap), run.half);
+  for (const Run& run : runs) edges_.push_back(at(run.first), at(run.last), run.half);
   known_ = body_.half_edge_count();
 }
 

@@ -27,10 +27,14 @@ class GrowingLists {
     return std::span(numbers_).subspan(lists_[i].begin, lists_[i].size);
   }
 
-  void push_back(std::size_t i, int number) {
-    List& list = lists_[i];
-    if (list.size == list.room) move_to_end(list);
-    numbers_[list.begin + list.size++] = number;
+  void push_back(std::size_t i, int number) { push_back(i, i, number); }
+  /// To the lists from `first` to `last`.
+  void push_back(std::size_t first, std::size_t last, int number) {
+    for (std::size_t i = first; i <= last; ++i) {
+      List& list = lists_[i];
+      if (list.size == list.room) move_to_end(list);
+      numbers_[list.begin + list.size++] = number;
+    }
   }
 
  private:

@@ -96,39 +96,29 @@ void NaturalChains::sort_steps(const Class& c) {
   for (const Step& step : steps_) sorted_[at(ends[step.slot]++)] = step;
 }
 
+/// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
+/// it along `e` and goes back; none if it goes through the plane or lies in it.
 void NaturalChains::add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from,
                              int to) {
-  const int direction = direction_of(e, ranks, ranks[at(from)]);
-  if (direction == 0) return;
-  if (may_hang(e) && hangs_below(e, from, to, direction * normal)) return;
-  steps_.push_back({2 * entry + (direction > 0 ? 0 : 1), from, to});
-}
-
-/// +1 or -1 if the facet's outline comes to the plane that `e` lies in from that side, runs in it
-/// along `e` and goes back to the same side; 0 if it goes through the plane or lies in it.
-int NaturalChains::direction_of(int e, std::span<const int> ranks, int rank) const {
-  int before = body_.prev(e);
-  int from = ranks[at(body_.origin(before))];
-  while (before != e && from == rank) {
+  const int rank = ranks[at(from)];
+  int before = body_.prev(e), after = body_.next(body_.next(e));
+  int rank_before = ranks[at(body_.origin(before))], rank_after = ranks[at(body_.origin(after))];
+  // The outlines of triangles and quadrangles surround what they run around, holes do not.
+  const bool may_hang =
+      body_.loop(body_.edge(e).loop).is_hole || (after != before && body_.next(after) != before);
+  while (before != e && rank_before == rank) {
     before = body_.prev(before);
-    from = ranks[at(body_.origin(before))];
+    rank_before = ranks[at(body_.origin(before))];
   }
-  if (before == e) return 0;
-  int after = body_.next(body_.next(e));
-  int to = ranks[at(body_.origin(after))];
-  while (to == rank) {
+  if (before == e) return;
+  while (rank_after == rank) {
     after = body_.next(after);
-    to = ranks[at(body_.origin(after))];
+    rank_after = ranks[at(body_.origin(after))];
   }
-  if ((from > rank) != (to > rank)) return 0;
-  return from > rank ? 1 : -1;
-}
-
-/// The outlines of triangles and quadrangles surround what they run around, holes do not.
-bool NaturalChains::may_hang(int e) const {
-  if (body_.loop(body_.edge(e).loop).is_hole) return true;
-  const int before = body_.prev(e), after = body_.next(body_.next(e));
-  return after != before && body_.next(after) != before;
+  const bool is_up = rank_before > rank;
+  if (is_up != (rank_after > rank)) return;
+  if (may_hang && hangs_below(e, from, to, is_up ? normal : -normal)) return;
+  steps_.push_back({2 * entry + (is_up ? 0 : 1), from, to});
 }
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told

@@ -56,8 +56,6 @@ class NaturalChains {
   void sort_steps(const Class& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
   void add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from, int to);
-  [[nodiscard]] int direction_of(int e, std::span<const int> ranks, int rank) const;
-  [[nodiscard]] bool may_hang(int e) const;
   [[nodiscard]] bool hangs_below(int e, int from, int to, Vec3 up) const;
   bool has_chain(std::span<Step> steps);
   [[nodiscard]] bool is_free(int point) const;
