@@ -70,8 +70,8 @@ int Pockets::find(const Section& section, int region, bool is_alone) {
         is_like(kinds_[at(k)], pocket, section))
       pocket.kind = k;
   if (pocket.kind < 0) {
-    if (!find_facets(section)) return -1;
     pocket.kind = new_kind(section, here);
+    if (pocket.kind < 0) return -1;
     pocket.shift = {};
   }
   pocket.first_edge = static_cast<int>(edges_.size());
@@ -117,35 +117,62 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
          body_.facet(wall_).side == section.split_side(region);
 }
 
-/// What hangs together inside the rim. False if it is no pocket: its half-edges begin in front of
-/// the section or on the rim, and to the wall there are edges of the rim only.
-bool Pockets::find_facets(const Section& section) {
-  StampSet& is_found = body_.world().scratch.facets_of_lump;
-  is_found.start(body_.facet_count());
-  facets_.clear();
-  is_found.insert(wall_);
+/// Lists what hangs together inside the rim. False if it is no pocket: its half-edges begin in
+/// front of the section or on the rim, and to the wall there are edges of the rim only.
+bool Pockets::list_facets(const Section& section, Kind& kind) {
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
-  const int rank = planes.rank_of(section.plane);
-  const auto meet = [&](int f) {
-    if (is_found.insert(f)) facets_.push_back(f);
-  };
-  for (const int e : rim_) meet(body_.facet_of(e));
-  for (std::size_t i = 0; i < facets_.size(); ++i) {
-    const auto& facet = body_.facet(facets_[i]);
-    if (!facet.marks.empty() || i == kMostPocketFacets) return false;
-    const bool has_holes = facet.loops.size() != 1;
-    bool is_inside = true;
-    body_.for_each_edge(facets_[i], [&](int e) {
-      const int beyond = body_.facet_of(body_.twin(e));
-      const int above = (ranks[at(body_.origin(e))] - rank) * section.direction;
-      is_inside &= above > 0 || (above == 0 && !has_holes && (is_rim(e) || is_rim(body_.prev(e))));
-      is_inside &= beyond != wall_ || (above == 0 && is_rim(e));
-      meet(beyond);
-    });
-    if (!is_inside) return false;
+  const int limit = planes.rank_of(section.plane) * section.direction;
+  StampSet& is_met = body_.world().scratch.facets_of_lump;
+  StampMap& place = body_.world().scratch.place_in_walk;
+  is_met.start(body_.facet_count());
+  is_met.insert(wall_);
+  place.start(body_.half_edge_count());
+  walk_.clear();
+  facets_.clear();
+  if (!list_facet(kind, rim_[0])) return false;
+  for (std::size_t i = 0; i < walk_.size(); ++i) {
+    const int e = walk_[i], twin = body_.twin(e), beyond = body_.facet_of(twin);
+    const int above = ranks[at(body_.origin(e))] * section.direction - limit;
+    if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
+    if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
+    if (!is_met.contains(beyond)) {
+      kind.entries.push_back(static_cast<int>(i));
+      if (!list_facet(kind, twin)) return false;
+    }
+    kind.twins.push_back(place.find(twin));
   }
   return has_own_sources();
+}
+
+/// False if it is none of a pocket.
+bool Pockets::list_facet(Kind& kind, int first) {
+  const int f = body_.facet_of(first), loop = body_.edge(first).loop;
+  const auto& facet = body_.facet(f);
+  if (!facet.marks.empty() || facets_.size() == kMostPocketFacets) return false;
+  body_.world().scratch.facets_of_lump.insert(f);
+  facets_.push_back(f);
+  kind.sizes.push_back(0);
+  list_loop(kind, first);
+  if (facet.loops.size() == 1) return true;
+  for (const int l : facet.loops)
+    if (l != loop) list_loop(kind, body_.loop(l).first);
+  bool has_rim = false;
+  body_.for_each_edge(f, [&](int e) { has_rim |= is_rim(e) || is_rim(body_.prev(e)); });
+  return !has_rim;
+}
+
+void Pockets::list_loop(Kind& kind, int first) {
+  StampMap& place = body_.world().scratch.place_in_walk;
+  const int before = static_cast<int>(walk_.size());
+  int e = first;
+  do {
+    place.set(e, static_cast<int>(walk_.size()));
+    walk_.push_back(e);
+    e = body_.next(e);
+  } while (e != first);
+  kind.loops.push_back(static_cast<int>(walk_.size()) - before);
+  kind.sizes.back() += kind.loops.back();
 }
 
 /// No two of its facets are made of one facet of the solid.
@@ -164,7 +191,7 @@ std::span<const int> Pockets::edges_of(const Pocket& pocket) const {
 }
 
 /// Whether the pocket at hand is of a kind. If so its half-edges are in walk_, in the kind's order,
-/// and all that find_facets() asks for is known to hold: nothing is asked for that the kind has
+/// and all that list_facets() asks for is known to hold: nothing is asked for that the kind has
 /// not.
 bool Pockets::is_like(const Kind& kind, Pocket& pocket, const Section& section) {
   if (std::ssize(rim_) != kind.rim) return false;
@@ -278,60 +305,25 @@ bool Pockets::is_moved(Side from, Side to, const std::array<std::int64_t, 3>& sh
   return from == to || (from >> 1 != ground_plane_ && to >> 1 != ground_plane_);
 }
 
-/// The pocket at hand is the first of its kind.
+/// The pocket at hand is the first of its kind; -1 if it is none.
 int Pockets::new_kind(const Section& section, const Region& region) {
   Kind kind;
+  constexpr std::size_t kFacets = 8;  // a window has no more, mostly
+  kind.sizes.reserve(kFacets);
+  kind.loops.reserve(kFacets);
+  kind.entries.reserve(kFacets);
+  kind.twins.reserve(4 * kFacets);
+  if (!list_facets(section, kind)) return -1;
   kind.cap = section.split_side(region);
   kind.direction = section.direction;
   kind.first = static_cast<int>(pockets_.size());
   kind.corner = corner_;
   kind.rim = static_cast<int>(rim_.size());
-  list_facets(kind);
   list_corners(kind);
   kind.is_convex = is_convex_pocket(kind, walk_, !region.is_material);
   judge(kind, !region.is_material);
   kinds_.push_back(std::move(kind));
   return static_cast<int>(kinds_.size()) - 1;
-}
-
-void Pockets::list_facets(Kind& kind) {
-  StampSet& is_met = body_.world().scratch.facets_of_piece;
-  StampMap& place = body_.world().scratch.place_in_walk;
-  is_met.start(body_.facet_count());
-  is_met.insert(wall_);
-  place.start(body_.half_edge_count());
-  walk_.clear();
-  kind.sizes.reserve(facets_.size());
-  kind.loops.reserve(facets_.size());
-  kind.entries.reserve(facets_.size());
-  const auto list_loop = [&](int first) {
-    int e = first, size = 0;
-    do {
-      place.set(e, static_cast<int>(walk_.size()));
-      walk_.push_back(e);
-      ++size;
-      e = body_.next(e);
-    } while (e != first);
-    kind.loops.push_back(size);
-    kind.sizes.back() += size;
-  };
-  const auto list = [&](int first) {
-    const int f = body_.facet_of(first), loop = body_.edge(first).loop;
-    is_met.insert(f);
-    kind.sizes.push_back(0);
-    list_loop(first);
-    for (const int l : body_.facet(f).loops)
-      if (l != loop) list_loop(body_.loop(l).first);
-  };
-  list(rim_[0]);
-  for (std::size_t i = 0; i < walk_.size(); ++i) {
-    const int twin = body_.twin(walk_[i]);
-    if (is_met.contains(body_.facet_of(twin))) continue;
-    kind.entries.push_back(static_cast<int>(i));
-    list(twin);
-  }
-  kind.twins.reserve(walk_.size());
-  for (const int e : walk_) kind.twins.push_back(place.find(body_.twin(e)));
 }
 
 void Pockets::list_corners(Kind& kind) {

@@ -103,7 +103,6 @@ class Pockets {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] int find_known(const Section& section, const Region& region) const;
   bool trace_rim(const Section& section, const Region& region);
-  bool find_facets(const Section& section);
   [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
   [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket, const Section& section);
   bool walk_like(const Kind& kind, int start, Vec3 shift);
@@ -115,7 +114,9 @@ class Pockets {
   [[nodiscard]] bool has_own_sources();
   [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
   int new_kind(const Section& section, const Region& region);
-  void list_facets(Kind& kind);
+  bool list_facets(const Section& section, Kind& kind);
+  bool list_facet(Kind& kind, int first);
+  void list_loop(Kind& kind, int first);
   void list_corners(Kind& kind);
   void judge(Kind& kind, bool is_hole) const;
   [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
