@@ -1,6 +1,7 @@
 #include "kernel/io/detail/cityjson_geometry.h"
 
 #include "kernel/io/detail/rings.h"
+#include "kernel/model/detail/index.h"
 
 #include <cmath>
 #include <utility>
@@ -36,8 +37,18 @@ std::optional<GeometryKind> kind_of_geometry(std::string_view type) {
   return std::nullopt;
 }
 
+std::size_t number_of_array(dom::element element) {
+  while (const auto array = as_array(element)) element = *array->begin();
+  return static_cast<std::size_t>(*as_integer(element));
+}
+
 GeometryReader::GeometryReader(const std::vector<Vec3>& stored, const Transform& transform)
     : stored_(stored), transform_(transform), local_of_(stored.size(), -1) {}
+
+void GeometryReader::use(const PlainArrays& plain, std::string_view text) {
+  plain_ = &plain;
+  text_ = text;
+}
 
 std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kind,
                                           Building& building) {
@@ -46,10 +57,13 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   warnings_.clear();
   fault_.reset();
   repeats_.clear();
+  for (auto& level : ends_) level.clear();
+  body_ = 0;
+  shell_ = 0;
   const auto boundaries = member(geometry, "boundaries");
   if (!boundaries) {
     fail("E201", "the geometry has no 'boundaries'");
-  } else if (read_bodies(*boundaries, kind) && place_vertices(building)) {
+  } else if (read_boundaries(*boundaries, kind) && place_vertices(building)) {
     building.is_solid = kind.is_solid;
     building.is_composite = kind.is_composite;
   }
@@ -59,7 +73,7 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
 
   const auto semantics = member(geometry, "semantics");
   if (const auto object = as_object(semantics))
-    read_hints(*object, *boundaries, kind);
+    read_hints(*object, kind);
   else if (semantics && !semantics->is_null())
     warnings_.push_back({"E208", fmt::format("'semantics' is {}; expected an object, so none are "
                                              "read",
@@ -79,9 +93,46 @@ bool GeometryReader::fail(std::string code, std::string sentence) {
   return false;
 }
 
+bool GeometryReader::read_boundaries(dom::element boundaries, GeometryKind kind) {
+  if (plain_ == nullptr) return read_bodies(boundaries, kind);
+  const std::size_t array = number_of_array(boundaries);
+  const NestedNumbers& nested = plain_->boundaries(array);
+  // Arrays of surfaces, of rings and of numbers are below those that the kind says.
+  if (nested.depth == kind.depth + 3) return read_plain(nested);
+  const auto [begin, end] = plain_->place(array);
+  return read_bodies(parser_.parse(text_.data() + begin, end - begin), kind);
+}
+
+bool GeometryReader::read_plain(const NestedNumbers& nested) {
+  const auto& [rings, surfaces, shells, bodies, all] = nested.ends;
+  ends_ = {shells, bodies};
+  polygons_.reserve(surfaces.size());
+  std::size_t ring = 0, shell = 0;
+  for (const int end : surfaces) {
+    const int number = static_cast<int>(polygons_.size());
+    if (number == shells[shell]) {
+      ++shell;
+      ++shell_;
+      if (static_cast<int>(shell) == bodies[at(body_)]) {
+        ++body_;
+        shell_ = 0;
+      }
+    }
+    begin_polygon().rings.reserve(at(end) - ring);
+    for (; ring < at(end); ++ring) {
+      const std::size_t first = ring > 0 ? at(rings[ring - 1]) : 0;
+      std::vector<int> vertices(at(rings[ring]) - first);
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        vertices[i] = local_vertex(nested.numbers[first + i]);
+        if (vertices[i] < 0) return false;
+      }
+      append_ring(std::move(vertices));
+    }
+  }
+  return true;
+}
+
 bool GeometryReader::read_bodies(dom::element boundaries, GeometryKind kind) {
-  body_ = 0;
-  shell_ = 0;
   if (kind.depth == 0) {
     if (!read_surfaces(boundaries)) return false;
   } else if (kind.depth == 1) {
@@ -111,6 +162,7 @@ bool GeometryReader::read_shells(dom::element body) {
     if (!read_surfaces(shell)) return false;
     ++shell_;
   }
+  ends_[1].push_back(static_cast<int>(ends_[0].size()));
   return true;
 }
 
@@ -125,10 +177,11 @@ bool GeometryReader::read_surfaces(dom::element shell) {
     if (!rings)
       return fail("E202", fmt::format("polygon {} is {}; expected an array of rings", number,
                                       found_kind(surface)));
-    polygons_.push_back({{}, static_cast<int>(number), body_, shell_, ""});
+    begin_polygon();
     for (const dom::element ring : *rings)
       if (!read_ring(ring)) return false;
   }
+  ends_[0].push_back(static_cast<int>(polygons_.size()));
   return true;
 }
 
@@ -146,30 +199,52 @@ bool GeometryReader::read_ring(dom::element element) {
     if (!number)
       return fail("E202", fmt::format("a ring of polygon {} holds {}; expected a whole number",
                                       polygon, found_kind(value)));
-    if (*number < 0 || static_cast<std::size_t>(*number) >= stored_.size())
-      return fail("E203", fmt::format("polygon {} uses vertex {}; there are {} vertices, counted "
-                                      "from 0",
-                                      polygon, *number, stored_.size()));
-    const auto index = static_cast<std::size_t>(*number);
-    if (std::isnan(stored_[index].x))
-      return fail("E202", fmt::format("polygon {} uses vertex {}, which is not an array of three "
-                                      "whole numbers",
-                                      polygon, index));
-    ring.push_back(local_vertex(index));
+    const int vertex = local_vertex(*number);
+    if (vertex < 0) return false;
+    ring.push_back(vertex);
   }
-  auto& rings = polygons_.back().rings;
-  rings.push_back(without_repeats(std::move(ring), static_cast<int>(polygon),
-                                  static_cast<int>(rings.size()), repeats_));
+  append_ring(std::move(ring));
   return true;
 }
 
-int GeometryReader::local_vertex(std::size_t number) {
-  int& local = local_of_[number];
-  if (local < 0) {
-    local = static_cast<int>(used_.size());
-    used_.push_back(number);
+/// -1 if there is none; then fault_ says why.
+inline int GeometryReader::local_vertex(std::int64_t number) {
+  const auto index = static_cast<std::uint64_t>(number);
+  if (index < local_of_.size() && local_of_[index] >= 0) return local_of_[index];
+  return new_vertex(number);
+}
+
+int GeometryReader::new_vertex(std::int64_t number) {
+  const std::size_t polygon = polygons_.size() - 1;
+  if (number < 0 || static_cast<std::size_t>(number) >= stored_.size()) {
+    fail("E203", fmt::format("polygon {} uses vertex {}; there are {} vertices, counted from 0",
+                             polygon, number, stored_.size()));
+    return -1;
   }
-  return local;
+  const auto index = static_cast<std::size_t>(number);
+  if (std::isnan(stored_[index].x)) {
+    fail("E202", fmt::format("polygon {} uses vertex {}, which is not an array of three whole "
+                             "numbers",
+                             polygon, index));
+    return -1;
+  }
+  local_of_[index] = static_cast<int>(used_.size());
+  used_.push_back(index);
+  return local_of_[index];
+}
+
+Polygon& GeometryReader::begin_polygon() {
+  Polygon& polygon = polygons_.emplace_back();
+  polygon.source = static_cast<int>(polygons_.size()) - 1;
+  polygon.body = body_;
+  polygon.shell = shell_;
+  return polygon;
+}
+
+void GeometryReader::append_ring(std::vector<int> ring) {
+  auto& rings = polygons_.back().rings;
+  rings.push_back(without_repeats(std::move(ring), static_cast<int>(polygons_.size()) - 1,
+                                  static_cast<int>(rings.size()), repeats_));
 }
 
 bool GeometryReader::place_vertices(Building& building) {
@@ -194,7 +269,7 @@ bool GeometryReader::place_vertices(Building& building) {
   return true;
 }
 
-void GeometryReader::read_hints(dom::object semantics, dom::element boundaries, GeometryKind kind) {
+void GeometryReader::read_hints(dom::object semantics, GeometryKind kind) {
   std::vector<std::string_view> types;
   const auto surfaces = as_array(member(semantics, "surfaces"));
   if (surfaces)
@@ -203,23 +278,23 @@ void GeometryReader::read_hints(dom::object semantics, dom::element boundaries, 
       const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
       types.push_back(type.value_or(std::string_view()));
     }
-  std::size_t next = 0;
-  const bool fits = flatten(boundaries, member(semantics, "values"), kind.depth, types, next);
+  const std::size_t count = kind.depth > 0 ? ends_[at(kind.depth) - 1].size() : polygons_.size();
+  const bool fits = flatten(0, count, member(semantics, "values"), kind.depth, types);
   if (!surfaces || !fits)
     warnings_.push_back({"E208",
                          "the semantics do not fit the geometry: 'values' must repeat the shape of "
                          "'boundaries' with numbers of 'surfaces' or null; what fits is read"});
 }
 
-bool GeometryReader::flatten(dom::element boundaries, const std::optional<dom::element>& values,
-                             int depth, const std::vector<std::string_view>& types,
-                             std::size_t& next) {
+/// The values of parts: polygons, above them shells, above them solids.
+bool GeometryReader::flatten(std::size_t begin, std::size_t end,
+                             const std::optional<dom::element>& values, int depth,
+                             const std::vector<std::string_view>& types) {
   const auto entries = as_array(values);
   bool fits = entries || !values || values->is_null();
   std::optional<dom::array::iterator> entry;
   if (entries) entry = entries->begin();
-  const auto parts = as_array(boundaries);  // read before, so it is one
-  for (const dom::element part : *parts) {
+  for (std::size_t part = begin; part < end; ++part) {
     std::optional<dom::element> value;
     if (entry && *entry != entries->end()) {
       value = **entry;
@@ -228,15 +303,16 @@ bool GeometryReader::flatten(dom::element boundaries, const std::optional<dom::e
       fits = false;
     }
     if (depth > 0) {
-      fits = flatten(part, value, depth - 1, types, next) && fits;
+      const std::vector<int>& ends = ends_[at(depth) - 1];
+      const std::size_t first = part > 0 ? at(ends[part - 1]) : 0;
+      fits = flatten(first, at(ends[part]), value, depth - 1, types) && fits;
       continue;
     }
     const auto number = as_integer(value);
     const bool is_known =
         number && *number >= 0 && static_cast<std::size_t>(*number) < types.size();
-    if (is_known) polygons_[next].hint = types[static_cast<std::size_t>(*number)];
+    if (is_known) polygons_[part].hint = types[static_cast<std::size_t>(*number)];
     fits = fits && (is_known || !value || value->is_null());
-    ++next;
   }
   return fits && !(entry && *entry != entries->end());
 }

@@ -2,9 +2,12 @@
 
 #include "kernel/io/detail/cityjson_source.h"
 #include "kernel/io/detail/dom.h"
+#include "kernel/io/detail/plain_arrays.h"
 #include "kernel/io/detail/text.h"
 #include "kernel/model/building.h"
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -25,12 +28,19 @@ struct GeometryKind {
 /// CompositeSolid. Nothing for others.
 std::optional<GeometryKind> kind_of_geometry(std::string_view type);
 
+/// The array for which `element` stands in PlainArrays::rest.
+std::size_t number_of_array(dom::element element);
+
 /// Turns geometries of one file into polygons of buildings.
 class GeometryReader {
  public:
   /// `stored` are the file's vertices as they stand there (whole numbers, NaN where the file has
   /// none); it and `transform` must outlive the reader.
   GeometryReader(const std::vector<Vec3>& stored, const Transform& transform);
+
+  /// The geometries that follow are of PlainArrays::rest; `text` is what `plain` has read. Both
+  /// must outlive the reader.
+  void use(const PlainArrays& plain, std::string_view text);
 
   /// Fills the frame, solidity, vertices and polygons of `building` from a geometry of a kind that
   /// is read. Local coordinates are (translate - origin) + scale × integer, so that they keep the
@@ -41,19 +51,28 @@ class GeometryReader {
   [[nodiscard]] const std::vector<Fault>& warnings() const { return warnings_; }
 
  private:
+  bool read_boundaries(dom::element boundaries, GeometryKind kind);
+  bool read_plain(const NestedNumbers& nested);
   bool read_bodies(dom::element boundaries, GeometryKind kind);
   bool read_shells(dom::element body);
   bool read_surfaces(dom::element shell);
   bool read_ring(dom::element element);
-  int local_vertex(std::size_t number);
+  int local_vertex(std::int64_t number);
+  int new_vertex(std::int64_t number);
+  Polygon& begin_polygon();
+  void append_ring(std::vector<int> ring);
   bool place_vertices(Building& building);
-  void read_hints(dom::object semantics, dom::element boundaries, GeometryKind kind);
-  bool flatten(dom::element boundaries, const std::optional<dom::element>& values, int depth,
-               const std::vector<std::string_view>& types, std::size_t& next);
+  void read_hints(dom::object semantics, GeometryKind kind);
+  bool flatten(std::size_t begin, std::size_t end, const std::optional<dom::element>& values,
+               int depth, const std::vector<std::string_view>& types);
   bool fail(std::string code, std::string sentence);
 
   const std::vector<Vec3>& stored_;
   const Transform& transform_;
+  const PlainArrays* plain_ = nullptr;
+  std::string_view text_;
+  /// Of boundaries that are plain, but not as deep as their geometry has to be.
+  dom::parser parser_;
   /// The building's vertex for each of the file's, -1 where it has none yet.
   std::vector<int> local_of_;
   /// The file's vertex for each of the building's.
@@ -61,6 +80,8 @@ class GeometryReader {
   std::vector<Polygon> polygons_;
   int body_ = 0;
   int shell_ = 0;
+  /// Of each shell the end of its polygons, of each solid the end of its shells.
+  std::array<std::vector<int>, 2> ends_;
   std::vector<RepeatedVertex> repeats_;
   std::optional<Fault> fault_;
   std::vector<Fault> warnings_;

@@ -5,6 +5,7 @@
 #include "kernel/io/detail/dom.h"
 #include "kernel/io/detail/id_set.h"
 #include "kernel/io/detail/json_check.h"
+#include "kernel/io/detail/plain_arrays.h"
 #include "kernel/io/stream_header.h"
 
 #include <array>
@@ -96,10 +97,13 @@ SequenceHeader read_header(dom::object root, const std::string& text) {
 /// The members that hold the model.
 struct Model {
   dom::object objects;
-  std::vector<Vec3> vertices;
+  /// As GeometryReader wants them: of `plain`, or `own`.
+  const std::vector<Vec3>* vertices = nullptr;
+  std::vector<Vec3> own;
 };
 
-std::optional<Fault> read_model(dom::object root, Model& model) {
+/// `plain` is given if the root is that of PlainArrays::rest.
+std::optional<Fault> read_model(dom::object root, const PlainArrays* plain, Model& model) {
   const auto objects = member(root, "CityObjects");
   const auto vertices = member(root, "vertices");
   for (const auto& [name, element] : {std::pair("CityObjects", objects), {"vertices", vertices}})
@@ -110,7 +114,8 @@ std::optional<Fault> read_model(dom::object root, Model& model) {
   if (!vertices->is_array())
     return Fault{"E202", fmt::format("'vertices' is {}; expected an array", found_kind(vertices))};
   model.objects = *as_object(objects);
-  model.vertices = read_vertices(*as_array(vertices));
+  if (plain == nullptr) model.own = read_vertices(*as_array(vertices));
+  model.vertices = plain != nullptr ? &plain->vertices(number_of_array(*vertices)) : &model.own;
   return std::nullopt;
 }
 
@@ -125,6 +130,8 @@ std::string type_of(dom::object objects, std::string_view id) {
 
 struct CityJsonReader::State {
   dom::parser parser;
+  PlainArrays plain;
+  bool is_plain = false;  ///< what was parsed is plain.rest()
   std::optional<std::string> lod;
   SequenceHeader header;
   std::string refused;
@@ -133,9 +140,10 @@ struct CityJsonReader::State {
 
   std::optional<Fault> check_feature(dom::object root, const SequenceHeader& of);
   std::optional<Fault> check_header(const std::string& text, const SequenceHeader& of);
+  bool parse_plain(dom::object& root);
   std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
-  void read_buildings(const Model& model, const TextName& name, Document& document,
-                      CityJsonSource& source, std::vector<Issue>& issues) const;
+  void read_buildings(const Model& model, const std::string& text, const TextName& name,
+                      Document& document, CityJsonSource& source, std::vector<Issue>& issues) const;
 };
 
 CityJsonReader::CityJsonReader(std::optional<std::string> lod) : state_(std::make_unique<State>()) {
@@ -148,8 +156,16 @@ const std::string& CityJsonReader::refused() const { return state_->refused; }
 
 const SequenceHeader& CityJsonReader::header() const { return state_->header; }
 
+bool CityJsonReader::State::parse_plain(dom::object& root) {
+  dom::element element;
+  return parser.parse(plain.rest()).get(element) == simdjson::SUCCESS &&
+         element.get(root) == simdjson::SUCCESS;
+}
+
 std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const TextName& name,
                                                   dom::object& root) {
+  is_plain = plain.read(text) && parse_plain(root);
+  if (is_plain) return std::nullopt;
   const bool has_padding = text.capacity() - text.size() >= simdjson::SIMDJSON_PADDING;
   dom::element element;
   const auto error = parser.parse(text.data(), text.size(), !has_padding).get(element);
@@ -159,12 +175,14 @@ std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const
                   {"E104", fmt::format("not valid JSON: {}", simdjson::error_message(error))});
 }
 
-void CityJsonReader::State::read_buildings(const Model& model, const TextName& name,
-                                           Document& document, CityJsonSource& source,
+void CityJsonReader::State::read_buildings(const Model& model, const std::string& text,
+                                           const TextName& name, Document& document,
+                                           CityJsonSource& source,
                                            std::vector<Issue>& issues) const {
   const std::vector<ObjectEntry> entries = list_objects(model.objects);
   const std::vector<GeometryChoice> choices = choose_geometries(entries, lod);
-  GeometryReader geometries(model.vertices, source.transform);
+  GeometryReader geometries(*model.vertices, source.transform);
+  if (is_plain) geometries.use(plain, text);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const ObjectEntry& entry = entries[i];
     const auto report = [&](Severity severity, const Fault& fault) {
@@ -250,7 +268,8 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
   if (!header)
     if (const auto fault = read_transform(root, state_->header.transform)) return refuse(*fault);
   Model model;
-  if (const auto fault = read_model(root, model)) return refuse(*fault);
+  if (const auto fault = read_model(root, state_->is_plain ? &state_->plain : nullptr, model))
+    return refuse(*fault);
 
   auto source = std::make_shared<CityJsonSource>();
   source->transform = state_->header.transform;
@@ -262,7 +281,7 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
     document.feature_id = id;
     document.feature_type = type_of(model.objects, id);
   }
-  state_->read_buildings(model, name, document, *source, result.issues);
+  state_->read_buildings(model, text, name, document, *source, result.issues);
   source->text = std::move(text);
   document.source = std::move(source);
   result.value = std::move(document);

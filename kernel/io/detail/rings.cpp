@@ -22,6 +22,9 @@ bool has_three_points(const std::vector<int>& ring, const std::vector<Vec3>& poi
 
 std::vector<int> without_repeats(std::vector<int> ring, int polygon, int number,
                                  std::vector<RepeatedVertex>& repeats) {
+  if (std::ranges::adjacent_find(ring) == ring.end() &&
+      (ring.size() < 2 || ring.front() != ring.back()))
+    return ring;
   std::size_t kept = 0;
   for (const int vertex : ring) {
     if (kept > 0 && ring[kept - 1] == vertex)
