@@ -95,7 +95,7 @@ struct CarriedLabelReader::State {
   }
 
   void read_installation(std::string_view object,
-                         const std::unordered_map<std::string, int>& polygon_of,
+                         const std::unordered_map<std::string_view, int>& polygon_of,
                          CarriedLabels& labels) const;
 
   const Document& document;
@@ -109,7 +109,7 @@ CarriedLabelReader::~CarriedLabelReader() = default;
 
 /// Its polygons are those of the building with the same corners, in the same order.
 void CarriedLabelReader::State::read_installation(
-    std::string_view object, const std::unordered_map<std::string, int>& polygon_of,
+    std::string_view object, const std::unordered_map<std::string_view, int>& polygon_of,
     CarriedLabels& labels) const {
   if (!RawNode::is_object(object)) return;
   const RawNode installation(object);
@@ -119,7 +119,7 @@ void CarriedLabelReader::State::read_installation(
   if (!feature) return;
   for (const std::string_view geometry : detail::elements_of(installation.value_of("geometry"))) {
     if (!RawNode::is_object(geometry)) continue;
-    for (const std::string& polygon : shape_of(RawNode(geometry)).text.polygons)
+    for (const std::string_view polygon : shape_of(RawNode(geometry)).text.polygons)
       if (const auto found = polygon_of.find(polygon); found != polygon_of.end())
         feature->polygons.push_back(found->second);
   }
@@ -138,7 +138,7 @@ std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building)
   const Shape shape = shape_of(RawNode(geometries.at(place.geometry)));
   CarriedLabels labels;
   read_surfaces(shape, labels);
-  std::unordered_map<std::string, int> polygon_of;
+  std::unordered_map<std::string_view, int> polygon_of;
   for (std::size_t i = 0; i < shape.text.polygons.size(); ++i)
     polygon_of.try_emplace(shape.text.polygons[i], static_cast<int>(i));
   for (const std::string_view child : detail::elements_of(object.value_of("children"))) {

@@ -86,6 +86,13 @@ bool remove_ids(RawNode& node, std::string_view key, const std::unordered_set<st
   return removed > 0;
 }
 
+std::vector<std::string_view> arrays_of(const detail::CityJsonSource& source) {
+  std::vector<std::string_view> arrays;
+  for (const auto [begin, end] : source.arrays)
+    arrays.push_back(std::string_view(source.text).substr(begin, end - begin));
+  return arrays;
+}
+
 class CityJsonWriter {
  public:
   CityJsonWriter(const detail::CityJsonSource& source, const Document& document,
@@ -94,8 +101,9 @@ class CityJsonWriter {
         least_digits_(options.finer_digits),
         source_(source),
         document_(document),
-        root_(root_of(source.text)),
-        objects_(root_.value_of("CityObjects")) {
+        arrays_(arrays_of(source)),
+        root_(root_of(source.text), arrays_),
+        objects_(root_.value_of("CityObjects"), arrays_) {
     for (std::size_t i = 0; i < document.buildings.size(); ++i)
       building_of_.try_emplace(document.buildings[i].id, i);
   }
@@ -110,8 +118,9 @@ class CityJsonWriter {
     const std::string_view text = source_.text;
     const std::string_view root = root_of(text);
     const auto start = static_cast<std::size_t>(root.data() - text.data());
-    std::string result(text.substr(0, start));
-    result += root_.text();
+    std::string result;
+    result += text.substr(0, start);
+    root_.append_text(result);
     result += text.substr(start + root.size());
     if (document_.format == Format::cityjson_seq || document_.format == Format::citygml)
       result += '\n';
@@ -145,15 +154,24 @@ class CityJsonWriter {
   void relabel(const LabelledBuilding& labelled) {
     const std::size_t index = building_index(labelled.building);
     const detail::GeometryPlace place = source_.places[index];
-    RawNode object(objects_.value(place.object));
-    RawNode geometries(object.value_of("geometry"));
+    RawNode object(objects_.value(place.object), arrays_);
+    RawNode geometries(object.value_of("geometry"), arrays_);
     const std::size_t number = make_room(geometries, place, labelled);
-    RawNode geometry(geometries.value(number));
-    const std::vector<std::string> polygons =
-        labelled.geometry ? replace_geometry(geometry, labelled, document_.buildings[index].frame)
-                          : fill_geometry(geometry, labelled);
+    RawNode geometry(geometries.value(number), arrays_);
+    std::vector<std::string> facets;
+    std::vector<std::string_view> polygons;
+    if (labelled.geometry) {
+      facets = replace_geometry(geometry, labelled, document_.buildings[index].frame);
+      polygons.assign(facets.begin(), facets.end());
+    } else {
+      polygons = fill_geometry(geometry, labelled);
+    }
     if (!labelled.lod.empty()) geometry.set("lod", '"' + labelled.lod + '"');
-    const std::string lod(geometry.value_of("lod"));
+    // While what `polygons` are slices of is there.
+    std::vector<std::string> installations;
+    for (const Installation& installation : labelled.installations)
+      installations.push_back(
+          installation_text(installation, labelled, polygons, geometry.value_of("lod")));
     geometries.set(number, geometry.text());
     object.set("geometry", geometries.text());
     if (labelled.geometry) object.erase("geographicalExtent");
@@ -161,8 +179,8 @@ class CityJsonWriter {
     set_members(object, "attributes", labelled.attributes);
     add_ids(object, "children", labelled.installations);
     objects_.set(place.object, object.text());
-    for (const Installation& installation : labelled.installations)
-      put_object(installation.id, installation_text(installation, labelled, polygons, lod));
+    for (std::size_t i = 0; i < installations.size(); ++i)
+      put_object(labelled.installations[i].id, std::move(installations[i]));
   }
 
   /// Which element of "geometry" a labelled building is written to. Geometries that have its level
@@ -186,8 +204,8 @@ class CityJsonWriter {
 
   /// Adds the labels to a geometry that stays. Returns the texts of its polygons if an installation
   /// shares them.
-  [[nodiscard]] std::vector<std::string> fill_geometry(RawNode& geometry,
-                                                       const LabelledBuilding& labelled) const {
+  [[nodiscard]] std::vector<std::string_view> fill_geometry(
+      RawNode& geometry, const LabelledBuilding& labelled) const {
     const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
     auto [shape, polygons] = detail::geometry_of(geometry.value_of("boundaries"), kind->depth,
                                                  !labelled.installations.empty());
@@ -240,14 +258,16 @@ class CityJsonWriter {
 
   static std::string installation_text(const Installation& installation,
                                        const LabelledBuilding& labelled,
-                                       const std::vector<std::string>& polygons,
-                                       const std::string& lod) {
+                                       const std::vector<std::string_view>& polygons,
+                                       std::string_view lod) {
     std::string boundaries = "[";
     std::vector<int> surfaces;
     for (std::size_t i = 0; i < installation.polygons.size(); ++i) {
-      const std::string& polygon = polygons.at(static_cast<std::size_t>(installation.polygons[i]));
+      const std::string_view polygon =
+          polygons.at(static_cast<std::size_t>(installation.polygons[i]));
       if (polygon.empty()) continue;
-      boundaries += (boundaries.size() > 1 ? "," : "") + polygon;
+      if (boundaries.size() > 1) boundaries += ',';
+      boundaries += polygon;
       surfaces.push_back(i < installation.surfaces.size() ? installation.surfaces[i] : -1);
     }
     const detail::GeometryShape shape{0, {{static_cast<int>(surfaces.size())}}};
@@ -260,10 +280,17 @@ class CityJsonWriter {
     detail::append_members(text, attributes);
     text += R"(},"parents":[)";
     append_json(text, std::string_view(labelled.building));
-    text += R"(],"geometry":[{"type":"MultiSurface","lod":)" + lod;
-    text += R"(,"boundaries":)" + boundaries + "]";
-    if (!semantics.empty()) text += R"(,"semantics":)" + semantics;
-    return text + "}]}";
+    text += R"(],"geometry":[{"type":"MultiSurface","lod":)";
+    text += lod;
+    text += R"(,"boundaries":)";
+    text += boundaries;
+    text += ']';
+    if (!semantics.empty()) {
+      text += R"(,"semantics":)";
+      text += semantics;
+    }
+    text += "}]}";
+    return text;
   }
 
   /// Replaces the CityObject `id`, or appends it.
@@ -314,6 +341,8 @@ class CityJsonWriter {
   int least_digits_ = 0;
   const detail::CityJsonSource& source_;
   const Document& document_;
+  /// Slices of the source's text that are long, for RawNode.
+  std::vector<std::string_view> arrays_;
   RawNode root_;
   RawNode objects_;
   /// Buildings whose chosen geometry was replaced by one with a level of detail of its own.

@@ -274,6 +274,9 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
   auto source = std::make_shared<CityJsonSource>();
   source->transform = state_->header.transform;
   source->is_feature = header.has_value();
+  if (state_->is_plain)
+    for (std::size_t i = 0; i < state_->plain.size(); ++i)
+      source->arrays.push_back(state_->plain.place(i));
   Document document;
   document.name = name.line > 0 ? fmt::format("{}:{}", name.file, name.line) : name.file;
   document.format = name.line > 0 ? Format::cityjson_seq : Format::cityjson;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/io/detail/json_scan.h"
 #include "kernel/model/vec3.h"
 
 #include <cstddef>
@@ -29,6 +30,8 @@ struct CityJsonSource {
   Transform transform;
   /// True for a line of a CityJSONSeq, which takes its transform from the header line.
   bool is_feature = false;
+  /// Where arrays of numbers stand in the text, ascending; none has to be there.
+  std::vector<TextRange> arrays;
   /// Parallel to Document::buildings.
   std::vector<GeometryPlace> places;
 };

@@ -16,8 +16,8 @@ namespace oriel::detail {
 /// The text of a geometry's polygons, and how they are nested.
 struct GeometryText {
   GeometryShape shape;
-  /// The text of each polygon, an array of rings.
-  std::vector<std::string> polygons;
+  /// The text of each polygon, an array of rings: slices of the boundaries.
+  std::vector<std::string_view> polygons;
 };
 
 /// The polygons in "boundaries" of a geometry that is nested `depth` deep, numbered in reading

@@ -1,8 +1,10 @@
 #include "kernel/io/detail/json_scan.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -111,25 +113,46 @@ class DepthCounter {
   int depth_ = 0;
 };
 
-/// The offset behind the object or array whose opening bracket is `text[at]`.
-std::size_t end_of_container(std::string_view text, std::size_t at) {
-  DepthCounter counter;
-  while (at + kBlockSize <= text.size()) {
+/// From `at` to `stop`, which is in no string. True if the last bracket is there; then `at` is
+/// behind it.
+bool close_before(std::string_view text, std::size_t& at, std::size_t stop, DepthCounter& counter) {
+  while (at + kBlockSize <= stop) {
     const Marks marks = marks_of(&text[at]);
-    if (counter.close_in(marks)) return at + static_cast<std::size_t>(counter.last) + 1;
+    if (counter.close_in(marks)) {
+      at += static_cast<std::size_t>(counter.last) + 1;
+      return true;
+    }
     if (marks.quotes == 0)
       at += kBlockSize;
     else
       at = end_of_string(text, at + static_cast<std::size_t>(std::countr_zero(marks.quotes)));
   }
-  for (; at < text.size(); ++at) {
+  for (; at < stop; ++at) {
     const ByteKind kind = kind_of(text[at]);
-    if (kind == quote)
-      at = end_of_string(text, at) - 1;
-    else if ((kind == open || kind == close) && counter.close_at(kind == open))
-      return at + 1;
+    if (kind == quote) at = end_of_string(text, at) - 1;
+    if ((kind == open || kind == close) && counter.close_at(kind == open)) {
+      ++at;
+      return true;
+    }
   }
-  return text.size();
+  return false;
+}
+
+/// The offset behind the object or array whose opening bracket is `text[at]`.
+std::size_t end_of_container(std::string_view text, std::size_t at,
+                             std::span<const std::string_view> known) {
+  constexpr std::less<const char*> comes_before;
+  const auto start = [](std::string_view array) { return array.data(); };
+  const char* const end = text.data() + text.size();
+  DepthCounter counter;
+  auto next = std::ranges::lower_bound(known, text.data() + at, comes_before, start);
+  for (; next != known.end() && comes_before(next->data(), end); ++next) {
+    const auto begin = static_cast<std::size_t>(next->data() - text.data());
+    if (begin == at) return at + next->size();
+    if (close_before(text, at, begin, counter)) return at;
+    at = begin + next->size();
+  }
+  return close_before(text, at, text.size(), counter) ? at : text.size();
 }
 
 }  // namespace
@@ -139,11 +162,12 @@ std::size_t skip_space(std::string_view text, std::size_t at) {
   return at;
 }
 
-std::size_t end_of_value(std::string_view text, std::size_t at) {
+std::size_t end_of_value(std::string_view text, std::size_t at,
+                         std::span<const std::string_view> known) {
   if (at >= text.size()) return text.size();
   const ByteKind kind = kind_of(text[at]);
   if (kind == quote) return end_of_string(text, at);
-  if (kind == open) return end_of_container(text, at);
+  if (kind == open) return end_of_container(text, at, known);
   while (at < text.size() && kind_of(text[at]) == other) ++at;
   return at;
 }

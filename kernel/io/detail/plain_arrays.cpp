@@ -1,6 +1,5 @@
 #include "kernel/io/detail/plain_arrays.h"
 
-#include "kernel/io/detail/json_scan.h"
 #include "kernel/io/detail/number_scan.h"
 #include "kernel/model/detail/index.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/io/detail/json_scan.h"
 #include "kernel/model/vec3.h"
 
 #include <array>
@@ -23,11 +24,6 @@ struct NestedNumbers {
   std::array<std::vector<int>, kMaxDepth> ends;
 
   void clear();
-};
-
-/// Where something stands in a text.
-struct TextRange {
-  std::size_t begin = 0, end = 0;
 };
 
 /// The arrays under the keys "vertices" and "boundaries" of a CityJSON text: nearly all of its

@@ -23,7 +23,8 @@ std::string decoded(std::string_view raw) {
   return value.is_string() ? value.get<std::string>() : std::string(inside);
 }
 
-RawNode::RawNode(std::string_view text) : close_(text.front() == '{' ? '}' : ']') {
+RawNode::RawNode(std::string_view text, std::span<const std::string_view> known)
+    : close_(text.front() == '{' ? '}' : ']') {
   std::size_t from = 1;
   std::size_t at = skip_space(text, from);
   inside_ = text.substr(from, at - from);
@@ -35,7 +36,7 @@ RawNode::RawNode(std::string_view text) : close_(text.front() == '{' ? '}' : ']'
       at = skip_space(text, std::min(skip_space(text, key_end) + 1, text.size()));
     }
     slot.before = text.substr(from, at - from);
-    const std::size_t value_end = end_of_value(text, at);
+    const std::size_t value_end = end_of_value(text, at, known);
     slot.value = text.substr(at, value_end - at);
     at = skip_space(text, value_end);
     slot.after = text.substr(value_end, at - value_end);
@@ -92,29 +93,33 @@ void RawNode::erase(std::string_view key) {
 }
 
 std::string RawNode::text() const {
+  std::string result;
+  append_text(result);
+  return result;
+}
+
+void RawNode::append_text(std::string& out) const {
   std::size_t size = inside_.size() + 2;
   for (std::size_t i = 0; i < slots_.size(); ++i)
     size += slots_[i].before.size() + slots_[i].added_key.size() + value(i).size() +
             slots_[i].after.size() + 4;
-  std::string result;
-  result.reserve(size);
-  result += close_ == '}' ? '{' : '[';
+  out.reserve(out.size() + size);
+  out += close_ == '}' ? '{' : '[';
   bool is_first = true;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     if (slot.is_erased) continue;
-    if (!std::exchange(is_first, false)) result += ',';
+    if (!std::exchange(is_first, false)) out += ',';
     if (!slot.added_key.empty()) {
-      append_json(result, std::string_view(slot.added_key));
-      result += ':';
+      append_json(out, std::string_view(slot.added_key));
+      out += ':';
     }
-    result += slot.before;
-    result += value(i);
-    result += slot.after;
+    out += slot.before;
+    out += value(i);
+    out += slot.after;
   }
-  if (slots_.empty()) result += inside_;
-  result += close_;
-  return result;
+  if (slots_.empty()) out += inside_;
+  out += close_;
 }
 
 void for_each_element(std::string_view text, const std::function<void(std::string_view)>& visit) {

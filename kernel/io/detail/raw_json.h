@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,8 @@ std::string decoded(std::string_view raw);
 /// node and be valid JSON.
 class RawNode {
  public:
-  /// `text` starts with '{' or '['.
-  explicit RawNode(std::string_view text);
+  /// `text` starts with '{' or '['; `known` as end_of_value takes it.
+  explicit RawNode(std::string_view text, std::span<const std::string_view> known = {});
 
   static bool is_object(std::string_view text) { return text.starts_with('{'); }
   static bool is_array(std::string_view text) { return text.starts_with('['); }
@@ -50,6 +51,8 @@ class RawNode {
 
   /// The object or array with its changes.
   [[nodiscard]] std::string text() const;
+  /// Appends it.
+  void append_text(std::string& out) const;
 
  private:
   /// One member: `before` is white space, key and colon, `after` white space up to the comma.

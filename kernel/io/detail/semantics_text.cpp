@@ -73,7 +73,11 @@ class Filling {
  public:
   Filling(std::string_view existing, const GeometryShape& shape,
           const std::vector<SemanticSurface>& surfaces, bool is_kept)
-      : shape_(shape), surfaces_(surfaces), is_kept_(is_kept), number_of_(surfaces.size(), -1) {
+      : shape_(shape),
+        surfaces_(surfaces),
+        is_kept_(is_kept),
+        number_of_(surfaces.size(), -1),
+        parent_of_(surfaces.size(), -1) {
     if (!RawNode::is_object(existing)) return;
     const RawNode semantics(existing);
     existing_ = elements_of(semantics.value_of("surfaces"));
@@ -114,7 +118,8 @@ class Filling {
       if (text.size() > 1) text += ',';
       append_surface(text, s);
     }
-    return text + "]";
+    text += ']';
+    return text;
   }
 
   [[nodiscard]] std::string values_text() const { return nested_values(flat_, shape_); }
@@ -208,15 +213,14 @@ class Filling {
   }
 
   void append_surface(std::string& text, std::size_t s) const {
-    text += '{';
-    append_json_key(text, "type");
+    text += R"({"type":)";
     append_json(text, surfaces_[s].type);
-    if (const auto parent = parent_of_.find(s); parent != parent_of_.end()) {
-      append_json_key(text, "parent");
-      append_json(text, parent->second);
+    if (parent_of_[s] >= 0) {
+      text += R"(,"parent":)";
+      append_json(text, parent_of_[s]);
     }
     if (const auto children = children_of_.find(number_of_[s]); children != children_of_.end()) {
-      append_json_key(text, "children");
+      text += R"(,"children":)";
       append_json_array(text, children->second);
     }
     append_members(text, surfaces_[s].members);
@@ -233,7 +237,8 @@ class Filling {
   std::vector<std::size_t> added_;
   /// The output's number of each of our surfaces, -1 if it is not added.
   std::vector<int> number_of_;
-  std::map<std::size_t, int> parent_of_;
+  /// The output's number of the parent of each of our surfaces, -1 for none.
+  std::vector<int> parent_of_;
   std::map<int, std::vector<int>> children_of_;
   /// What the rules say of the polygons of a surface that stays, each once.
   std::map<int, std::vector<std::string>> reasons_of_;

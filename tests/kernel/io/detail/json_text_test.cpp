@@ -25,6 +25,19 @@ TEST_SUITE("kernel/io") {
     CHECK(text == "\"a\xEF\xBF\xBDz\"");
   }
 
+  TEST_CASE("a byte that is escaped is found at every place of a text of any length") {
+    for (std::size_t size = 1; size < 20; ++size)
+      for (std::size_t place = 0; place < size; ++place)
+        for (const char c : {'"', '\\', '\n', '\0', '\x1f', '\x7f', ' ', '\x80', '\xff'}) {
+          std::string bytes(size, 'a');
+          bytes[place] = c;
+          std::string text;
+          append_json(text, std::string_view(bytes));
+          const auto parsed = nlohmann::json::parse(text).get<std::string>();
+          CHECK((parsed == bytes) == (static_cast<unsigned char>(c) < 0x80U));
+        }
+  }
+
   TEST_CASE("numbers read back to the same double and what is not finite is null") {
     CHECK(rc::check([](double number) {
       std::string text;

@@ -47,6 +47,24 @@ TEST_SUITE("kernel/io") {
     }));
   }
 
+  TEST_CASE("arrays whose ends are known are passed over and nothing else changes") {
+    const std::string text =
+        R"({"a":[[1,2],[3]] ,"b":{"c":"]","d":[ [4,5,6,7,8,9,10,11,12] ],"e":[]},"f":[13]})";
+    std::vector<std::string_view> known;
+    for (const std::string_view array : {"[[1,2],[3]]", "[4,5,6,7,8,9,10,11,12]", "[13]"})
+      known.push_back(std::string_view(text).substr(text.find(array), array.size()));
+    const RawNode node(text, known), plain(text);
+    REQUIRE(node.size() == plain.size());
+    for (std::size_t i = 0; i < node.size(); ++i) CHECK(node.value(i) == plain.value(i));
+    CHECK(node.text() == text);
+    const RawNode inner(node.value_of("b"), known);
+    CHECK(inner.value_of("d") == "[ [4,5,6,7,8,9,10,11,12] ]");
+    CHECK(inner.value_of("e") == "[]");
+    // Those of another text do not count.
+    const std::string other = text;
+    CHECK(RawNode(other, known).value_of("f") == "[13]");
+  }
+
   TEST_CASE("members are replaced and added and erased without touching the others") {
     RawNode node(R"({ "a" : 1.0 ,"b":[2],"a":3 })");
     CHECK(node.value_of("a") == "1.0");
