@@ -45,9 +45,7 @@ std::string surface_text(const RuleBase& rules, const Building& building, const 
 /// The smallest feature with a label that the polygon lies in, else the smallest; invalid: none.
 FeatureId feature_of(const Building& building, const OnLine& line, std::size_t polygon) {
   if (!line.is_done()) return {};
-  int last = 0;
-  for (const Polygon& p : building.polygons) last = std::max(last, p.source);
-  const auto owners = polygon_owners(*line.segmentation, static_cast<std::size_t>(last) + 1);
+  const auto owners = polygon_owners(*line.segmentation, building);
   const auto& features = owners[static_cast<std::size_t>(building.polygons[polygon].source)];
   if (features.empty()) return {};
   const auto labelled = std::ranges::find_if(features, [&](int feature) {

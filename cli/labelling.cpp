@@ -66,6 +66,7 @@ LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine&
   options.codelist = arguments_.codelist;
   options.has_reasons = arguments_.has_reasons;
   options.surfaces = line.named_surfaces;
+  if (line.owners) options.owners = &*line.owners;
   options.attributes.emplace_back("oriel_config_sha256", config_sha256_);
   return cli::annotated(building, line, rules_, options);
 }

@@ -8,6 +8,7 @@
 #include "kernel/model/building.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/issue.h"
+#include "kernel/model/polygon_owners.h"
 #include "kernel/model/repair.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
@@ -33,6 +34,8 @@ struct OnLine {
   SurfaceTable surfaces;
   /// What they are, where nothing else was asked of them; then `surfaces` is not complete.
   std::vector<SurfaceVerdict> named_surfaces;
+  /// Found with them.
+  std::optional<PolygonOwners> owners;
   std::vector<Issue> issues;
 
   /// It was not selected: nothing was done.

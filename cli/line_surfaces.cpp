@@ -67,10 +67,13 @@ void name_line_surfaces(const Building& building, const Tolerances& tolerances,
   static const Segmentation none;
   const Segmentation& segmentation = line.segmentation ? *line.segmentation : none;
   measured_describe(building, timings, line, [&] {
-    const auto rows = rows_to_name(building, segmentation, line.interpretation, rules);
-    SurfaceSurvey survey(building, tolerances, context_of(line), rows);
+    const PolygonOwners& owners = line.owners.emplace(polygon_owners(segmentation, building));
+    const auto rows = rows_to_name(building, owners, line.interpretation, rules);
+    SurfaceContext context = context_of(line);
+    context.owners = &owners;
+    SurfaceSurvey survey(building, tolerances, context, rows);
     SurfaceTable& table = survey.table();
-    table = with_parts(std::move(table), building, segmentation, line.interpretation, rules, rows);
+    table = with_parts(std::move(table), building, owners, line.interpretation, rules, rows);
     MeasuredWhenAsked more(survey);
     line.named_surfaces = interpret_surfaces(rules, table, rows, more);
     line.surfaces = std::move(table);

@@ -5,7 +5,6 @@
 #include "interpret/detail/role.h"
 #include "interpret/explain.h"
 #include "interpret/surfaces.h"
-#include "kernel/model/polygon_owners.h"
 #include "kernel/model/version.h"
 
 #include <algorithm>
@@ -67,7 +66,7 @@ class Annotator {
 
   /// Features that list a polygon, the smallest first.
   [[nodiscard]] std::span<const int> features_of(const Polygon& polygon) const {
-    return owners_[index(polygon.source)];
+    return (*owners_)[index(polygon.source)];
   }
   /// The smallest feature that lists the polygon and has a role, or -1.
   [[nodiscard]] int find_labelled(const Polygon& polygon) const;
@@ -90,7 +89,8 @@ class Annotator {
   std::vector<std::vector<std::string>> groups_;
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
-  PolygonOwners owners_;
+  PolygonOwners own_owners_;
+  const PolygonOwners* owners_ = nullptr;
   /// By row; reasons if they are asked for.
   std::vector<SurfaceVerdict> own_verdicts_;
   std::span<const SurfaceVerdict> verdicts_;
@@ -126,7 +126,14 @@ void Annotator::find_polygons() {
   for (const Polygon& polygon : building_.polygons) polygons_[index(polygon.source)] = &polygon;
 }
 
-void Annotator::find_owners() { owners_ = polygon_owners(segmentation_, polygons_.size()); }
+void Annotator::find_owners() {
+  if (options_.owners != nullptr) {
+    owners_ = options_.owners;
+    return;
+  }
+  own_owners_ = polygon_owners(segmentation_, polygons_.size());
+  owners_ = &own_owners_;
+}
 
 int Annotator::find_labelled(const Polygon& polygon) const {
   for (const int feature : features_of(polygon))
@@ -150,7 +157,7 @@ void Annotator::name_surfaces() {
 
 void Annotator::add_surfaces() {
   name_surfaces();
-  result_.surface_of_polygon.assign(owners_.polygons(), -1);
+  result_.surface_of_polygon.assign(owners_->polygons(), -1);
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
     const auto next = static_cast<int>(result_.surfaces.size());

@@ -7,6 +7,7 @@
 #include "kernel/model/feature_table.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/labelled_building.h"
+#include "kernel/model/polygon_owners.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/surface_table.h"
 
@@ -27,6 +28,8 @@ struct AnnotateOptions {
   bool has_reasons = false;
   /// What interpret_surfaces says of the rows_to_name(), if it is known already; else empty.
   std::span<const SurfaceVerdict> surfaces{};
+  /// polygon_owners of the segmentation and the building, if they are known already; else null.
+  const PolygonOwners* owners = nullptr;
 };
 
 /// What is to be written about a building whose features were labelled (docs/formats.md).

@@ -6,7 +6,6 @@
 #include "interpret/detail/role.h"
 #include "interpret/detail/surface_decider.h"
 #include "interpret/detail/surface_rules.h"
-#include "kernel/model/polygon_owners.h"
 
 #include <algorithm>
 #include <numeric>
@@ -33,12 +32,6 @@ const std::string* top_of(const Pack& pack, const std::string& label) {
     if (const auto& emission = pack.classes[static_cast<std::size_t>(id)].emission)
       return &emission->top;
   return nullptr;
-}
-
-std::size_t polygon_numbers(const Building& building) {
-  int count = 0;
-  for (const Polygon& polygon : building.polygons) count = std::max(count, polygon.source + 1);
-  return static_cast<std::size_t>(count);
 }
 
 std::string top_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
@@ -197,15 +190,15 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
                         const Segmentation& segmentation, const Interpretation& interpretation,
                         const RuleBase& base) {
   const auto rows = all_rows(table);
-  return with_parts(std::move(table), building, segmentation, interpretation, base, rows);
+  return with_parts(std::move(table), building, polygon_owners(segmentation, building),
+                    interpretation, base, rows);
 }
 
-SurfaceTable with_parts(SurfaceTable table, const Building& building,
-                        const Segmentation& segmentation, const Interpretation& interpretation,
-                        const RuleBase& base, std::span<const int> rows) {
+SurfaceTable with_parts(SurfaceTable table, const Building& building, const PolygonOwners& owners,
+                        const Interpretation& interpretation, const RuleBase& base,
+                        std::span<const int> rows) {
   static const std::size_t part_column = surface_column_of("part").value();
   if (interpretation.verdicts.empty()) return table;
-  const auto owners = polygon_owners(segmentation, polygon_numbers(building));
   std::vector<bool> is_emitted;
   for (const Verdict& verdict : interpretation.verdicts)
     is_emitted.push_back(top_of(base.pack(), verdict.label) != nullptr);
@@ -223,9 +216,8 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
   return table;
 }
 
-std::vector<int> rows_to_name(const Building& building, const Segmentation& segmentation,
+std::vector<int> rows_to_name(const Building& building, const PolygonOwners& owners,
                               const Interpretation& interpretation, const RuleBase& base) {
-  const auto owners = polygon_owners(segmentation, polygon_numbers(building));
   std::vector<rules::Role> roles;
   for (const Verdict& verdict : interpretation.verdicts)
     roles.push_back(rules::role_of(base.pack(), verdict.label));

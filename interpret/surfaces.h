@@ -3,6 +3,7 @@
 #include "interpret/rule_base.h"
 #include "kernel/model/building.h"
 #include "kernel/model/interpretation.h"
+#include "kernel/model/polygon_owners.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/surface_table.h"
 
@@ -28,10 +29,10 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
                         const Segmentation& segmentation, const Interpretation& interpretation,
                         const RuleBase& base);
 
-/// The same for some rows only.
-SurfaceTable with_parts(SurfaceTable table, const Building& building,
-                        const Segmentation& segmentation, const Interpretation& interpretation,
-                        const RuleBase& base, std::span<const int> rows);
+/// The same for some rows only, with the features of all polygons.
+SurfaceTable with_parts(SurfaceTable table, const Building& building, const PolygonOwners& owners,
+                        const Interpretation& interpretation, const RuleBase& base,
+                        std::span<const int> rows);
 
 /// Names every surface of a table, in its order. The first entry of the pack's `surfaces:` whose
 /// conditions all hold decides; a condition on a missing value does not hold. Where none does, the
@@ -42,7 +43,8 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
 std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table);
 
 /// The rows of the polygons that annotate() names by interpret_surfaces: those in no opening.
-std::vector<int> rows_to_name(const Building& building, const Segmentation& segmentation,
+/// `owners` are the features of all polygons.
+std::vector<int> rows_to_name(const Building& building, const PolygonOwners& owners,
                               const Interpretation& interpretation, const RuleBase& base);
 
 /// Numbers of a table that are measured when they are asked for.

@@ -260,10 +260,9 @@ std::vector<bool> take_facing(const Solid& solid, const SurfaceFaces& faces,
 }
 
 /// The smallest feature that lists each polygon.
-void add_features(const SurfaceContext& context, const Building& building, std::size_t polygons,
-                  std::span<const int> rows, SurfaceTable& table) {
+void add_features(const SurfaceContext& context, const PolygonOwners& owners,
+                  const Building& building, std::span<const int> rows, SurfaceTable& table) {
   static const std::size_t host_inclination = column_of("host_inclination").value();
-  const auto owners = polygon_owners(*context.segmentation, polygons);
   for (const int row : rows) {
     const int source = building.polygons[at(row)].source;
     if (source < 0 || owners[at(source)].empty()) continue;
@@ -313,8 +312,12 @@ SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& toleran
     state_->describe(at(row));
     state_->table.set(at(row), surface_columns().synthetic, 0.0);
   }
-  if (context.segmentation != nullptr && context.features != nullptr)
-    add_features(context, building, by_source.size(), rows, state_->table);
+  if (context.segmentation == nullptr || context.features == nullptr) return;
+  SurfaceTable& table = state_->table;
+  if (context.owners != nullptr)
+    add_features(context, *context.owners, building, rows, table);
+  else
+    add_features(context, polygon_owners(*context.segmentation, building), building, rows, table);
 }
 
 SurfaceSurvey::SurfaceSurvey(const Solid& solid, const Tolerances& tolerances)

@@ -2,6 +2,7 @@
 
 #include "kernel/model/building.h"
 #include "kernel/model/feature_table.h"
+#include "kernel/model/polygon_owners.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/surface_table.h"
@@ -21,6 +22,8 @@ struct SurfaceContext {
   /// The features, both or none: which of them a polygon belongs to.
   const Segmentation* segmentation = nullptr;
   const FeatureTable* features = nullptr;
+  /// polygon_owners of the segmentation and the building, if they are known already.
+  const PolygonOwners* owners = nullptr;
 };
 
 /// What is costly to measure of a surface, the cheaper first.

@@ -143,10 +143,7 @@ double signed_area(const Outline& outline, Vec3 normal) {
 }
 
 void start_at_least(Outline& outline) {
-  const auto is_less = [](Vec3 p, Vec3 q) {
-    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
-  };
-  const auto least = std::ranges::min_element(outline, is_less);
+  const auto least = std::ranges::min_element(outline, is_lesser);
   if (least != outline.begin()) std::ranges::rotate(outline, least);
 }
 

@@ -20,7 +20,12 @@ inline constexpr double kThin_m = 1e-9;
 /// The signed area of a closed outline about a unit normal: positive if counter-clockwise.
 double signed_area(const Outline& outline, Vec3 normal);
 
-/// Turns a closed outline so that it begins at its least point (x, then y, then z).
+/// Whether a point comes before another one: by x, then y, then z.
+constexpr bool is_lesser(Vec3 p, Vec3 q) {
+  return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+}
+
+/// Turns a closed outline so that it begins at its least point (is_lesser).
 void start_at_least(Outline& outline);
 
 /// The length of a closed outline.

@@ -54,4 +54,10 @@ PolygonOwners polygon_owners(const Segmentation& segmentation, std::size_t polyg
   return {std::move(first), std::move(owners)};
 }
 
+PolygonOwners polygon_owners(const Segmentation& segmentation, const Building& building) {
+  int count = 0;
+  for (const Polygon& polygon : building.polygons) count = std::max(count, polygon.source + 1);
+  return polygon_owners(segmentation, index(count));
+}
+
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 
 #include <cstddef>
@@ -33,5 +34,8 @@ class PolygonOwners {
 /// fewer polygons, which is the inner one, then the later one. Throws std::logic_error if a feature
 /// lists a polygon beyond.
 PolygonOwners polygon_owners(const Segmentation& segmentation, std::size_t polygons);
+
+/// The same for all polygons of a building.
+PolygonOwners polygon_owners(const Segmentation& segmentation, const Building& building);
 
 }  // namespace oriel

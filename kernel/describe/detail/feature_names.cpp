@@ -27,20 +27,21 @@ std::uint64_t hash_on(std::uint64_t hash, std::string_view text) {
 
 /// A hash in 13 characters of base 32.
 std::string written(std::uint64_t hash) {
-  std::string digits = "f";
-  for (int i = 0; i < 13; ++i, hash /= 32) digits += "0123456789abcdefghjkmnpqrstvwxyz"[hash % 32];
-  return digits;
+  std::array<char, 14> digits{'f'};
+  for (std::size_t i = 1; i < digits.size(); ++i, hash /= 32)
+    digits[i] = "0123456789abcdefghjkmnpqrstvwxyz"[hash % 32];
+  return {digits.data(), digits.size()};
 }
 
-/// Appends "|" and the millimetres.
-void append_millimetres(std::string& text, std::initializer_list<double> metres) {
+/// The hash gone on with by "|" and the millimetres of each.
+std::uint64_t hash_on_millimetres(std::uint64_t hash, std::initializer_list<double> metres) {
   for (const double m : metres) {
-    std::array<char, 24> digits;
+    std::array<char, 24> text{'|'};
     const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), std::llround(m * 1000)).ptr;
-    text += '|';
-    text.append(digits.data(), end);
+        std::to_chars(text.data() + 1, text.data() + text.size(), std::llround(m * 1000)).ptr;
+    hash = hash_on(hash, {text.data(), end});
   }
+  return hash;
 }
 
 }  // namespace
@@ -51,18 +52,17 @@ void name_features(FeatureTable& table, const Building& building,
   uses.reserve(segmentation.features.size());
   const std::uint64_t start =
       hash_on(kHashOfNothing, fmt::format("{}|{}|", building.id, building.lod));
-  std::string content;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     const Feature& f = segmentation.features[i];
     const Box box = f.box.moved(building.frame.origin_m);
-    content = to_string(f.sense);
-    append_millimetres(content, {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
+    std::uint64_t hash =
+        hash_on_millimetres(hash_on(start, to_string(f.sense)),
+                            {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
     if (!f.planes.empty()) {
       const Vec3 n = segmentation.planes[f.planes.front().index()].normal;
-      append_millimetres(content, {n.x, n.y, n.z});
+      hash = hash_on_millimetres(hash, {n.x, n.y, n.z});
     }
     // Features that agree in all this (parts of one box) are told apart by their order.
-    std::uint64_t hash = hash_on(start, content);
     const int use = uses[hash]++;
     if (use > 0) hash = hash_on(hash, fmt::format("|{}", use));
     table.set_id(FeatureId{static_cast<int>(i)}, written(hash));

@@ -13,26 +13,18 @@ namespace oriel::detail {
 Panes::Panes(const Building& building, double grid_m) {
   corners_.reserve(building.vertices.size());
   for (const Vec3 vertex : building.vertices) corners_.push_back(exact::on_grid(vertex, grid_m));
-  Outline outline;
   for (const Polygon& polygon : building.polygons) {
     if (polygon.source < 0 || polygon.rings.empty()) continue;
     if (std::ssize(panes_) <= polygon.source) panes_.resize(at(polygon.source) + 1);
-    Pane& pane = panes_[at(polygon.source)];
-    for (const auto& ring : polygon.rings) {
-      take_outline(ring, outline);
-      for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-        pane.area = pane.area + 0.5 * cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-      if (&ring != &polygon.rings[0]) continue;
-      const double share = 1.0 / static_cast<double>(outline.size());
-      for (const Vec3 p : outline) pane.middle = pane.middle + share * p;
-    }
+    panes_[at(polygon.source)].polygon = &polygon;
   }
 }
 
 std::optional<double> Panes::level_in(const Feature& feature, const Plane& plane) const {
   std::vector<ParallelArea> parallel;
   for (const int source : feature.source_polygons) {
-    const Pane& pane = panes_[at(source)];
+    Pane& pane = panes_[at(source)];
+    if (!pane.is_measured) measure(pane);
     const double across_m2 = std::abs(dot(pane.area, plane.normal));
     if (across_m2 > std::sqrt(0.5) * length(pane.area))  // by 45 degrees or less
       parallel.push_back({dot(pane.middle, plane.normal) - plane.offset_m, across_m2});
@@ -40,11 +32,30 @@ std::optional<double> Panes::level_in(const Feature& feature, const Plane& plane
   return visible_level(std::move(parallel), feature.new_area_m2);
 }
 
+void Panes::measure(Pane& pane) const {
+  pane.is_measured = true;
+  if (pane.polygon == nullptr) return;
+  for (const auto& ring : pane.polygon->rings) {
+    take_outline(ring);
+    const bool is_outer = &ring == &pane.polygon->rings[0];
+    const double share = 1.0 / static_cast<double>(outline_.size());
+    Vec3 before;
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+      const Vec3 here = outline_[i] - outline_[0];
+      if (i > 1) pane.area = pane.area + 0.5 * cross(before, here);
+      before = here;
+      if (is_outer) pane.middle = pane.middle + share * outline_[i];
+    }
+  }
+}
+
 /// The corners of a ring from the least one on.
-void Panes::take_outline(const std::vector<int>& ring, Outline& outline) const {
-  outline.clear();
-  for (const int v : ring) outline.push_back(corners_[at(v)]);
-  start_at_least(outline);
+void Panes::take_outline(const std::vector<int>& ring) const {
+  const auto corner = [&](int v) { return corners_[at(v)]; };
+  const auto least = std::ranges::min_element(ring, is_lesser, corner);
+  outline_.clear();
+  for (auto v = least; v != ring.end(); ++v) outline_.push_back(corner(*v));
+  for (auto v = ring.begin(); v != least; ++v) outline_.push_back(corner(*v));
 }
 
 }  // namespace oriel::detail

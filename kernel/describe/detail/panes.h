@@ -9,7 +9,7 @@
 
 namespace oriel::detail {
 
-/// Input polygons as what is parallel to a plane.
+/// Input polygons as what is parallel to a plane. Refers to the building, which must outlive it.
 class Panes {
  public:
   /// On a grid of `grid_m` (exact::on_grid).
@@ -20,12 +20,17 @@ class Panes {
 
  private:
   struct Pane {
+    const Polygon* polygon = nullptr;
+    bool is_measured = false;
     Vec3 area, middle;
   };
-  void take_outline(const std::vector<int>& ring, Outline& outline) const;
+  void measure(Pane& pane) const;
+  void take_outline(const std::vector<int>& ring) const;
 
   std::vector<Vec3> corners_;  ///< by vertex, on the grid
-  std::vector<Pane> panes_;    ///< by Polygon::source
+  /// By Polygon::source; measured when they are asked for, as many lie in no feature.
+  mutable std::vector<Pane> panes_;
+  mutable Outline outline_;  ///< that is being measured
 };
 
 }  // namespace oriel::detail

@@ -167,7 +167,7 @@ TEST_SUITE("kernel/describe") {
     const Building building = block();
     const auto solid = solidify(building, {});
     REQUIRE(solid.value);
-    const SurfaceContext context{&*solid.value, nullptr, nullptr};
+    const SurfaceContext context{&*solid.value, nullptr, nullptr, nullptr};
     SurfaceSurvey all(building, {}, context);
     for (int row = 0; row < static_cast<int>(all.table().rows()); ++row) {
       SurfaceSurvey one(building, {}, context, std::span(&row, 1));
