@@ -21,6 +21,9 @@ class NumberScan {
     return true;
   }
 
+  /// A digit comes next, without white space before it.
+  [[nodiscard]] bool is_at_digit() const { return is_digit(*at_); }
+
   /// Passes the digits of a whole number of JSON and white space before them. False if there is
   /// none, or one of more than 16 digits.
   bool take_digits(std::uint64_t& number) {

@@ -14,7 +14,7 @@ constexpr std::uint64_t kMostBoundary = 999'999'999;
 bool take_coordinate(NumberScan& scan, double& coordinate) {
   const bool is_negative = scan.take('-');
   std::uint64_t digits = 0;
-  if (!scan.take_digits(digits)) return false;
+  if ((is_negative && !scan.is_at_digit()) || !scan.take_digits(digits)) return false;
   const auto number = static_cast<std::int64_t>(digits);
   coordinate = static_cast<double>(is_negative ? -number : number);
   return true;
