@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace oriel {
@@ -53,9 +54,7 @@ class FeatureRemover {
     wanted_.assign(segmentation_.features.size(), 0);
     for (const FeatureId id : asked) wanted_[id.index()] = 1;
     lodgers_.resize(segmentation_.features.size());
-    for (int i = 0; i < std::ssize(segmentation_.features); ++i)
-      if (const FeatureId host = feature(FeatureId{i}).host; host.is_valid())
-        lodgers_[host.index()].push_back(FeatureId{i});
+    for (int i = 0; i < std::ssize(segmentation_.features); ++i) enter(FeatureId{i});
     const std::vector<Boundary> untouched = bodies_;
     while (!try_all()) bodies_ = untouched;
     for (int i = 0; i < std::ssize(segmentation_.features); ++i)
@@ -67,6 +66,17 @@ class FeatureRemover {
  private:
   [[nodiscard]] const Feature& feature(FeatureId id) const {
     return segmentation_.features[id.index()];
+  }
+
+  /// Where others are looked for by it.
+  void enter(FeatureId id) {
+    const Feature& f = feature(id);
+    if (f.host.is_valid()) lodgers_[f.host.index()].push_back(id);
+    if (f.sense == Sense::cavity) cavities_.push_back(id);
+    if (f.source_polygons.empty()) return;
+    const std::size_t first = at(f.source_polygons.front());
+    if (first >= starting_at_.size()) starting_at_.resize(first + 1);
+    starting_at_[first].push_back(id);
   }
 
   /// Removes all that is wanted, one after the other. False if something was refused after what
@@ -280,18 +290,35 @@ class FeatureRemover {
   /// A feature that is to stay would lose all its surface with the lump, or lies inside it.
   [[nodiscard]] bool takes_others_along(const Boundary& lump, const Boundary& rest,
                                         const Feature& f) const {
+    if (f.sense == Sense::protrusion && holds_cavity(lump)) return true;
     std::set<int> lost = polygons_of(lump);
+    std::vector<const Feature*> endangered;  // nearly always none, so the rest is seldom asked
+    for (const int polygon : lost)
+      for (const FeatureId id : starting_at(polygon))
+        if (!go_[id.index()] && !carries(feature(id), f) && has_all(lost, feature(id)))
+          endangered.push_back(&feature(id));
+    if (endangered.empty()) return false;
     for_each_polygon(rest, [&](int polygon) { lost.erase(polygon); });
-    for (std::size_t i = 0; i < segmentation_.features.size(); ++i) {
-      const Feature& other = segmentation_.features[i];
-      if (!go_[i] && other.sense == Sense::cavity && f.sense == Sense::protrusion &&
-          is_inside(lump, segmentation_.vertices[at(other.vertices.front())].point))
-        return true;
-      if (go_[i] || other.source_polygons.empty() || carries(other, f)) continue;
-      if (std::ranges::all_of(other.source_polygons, [&](int p) { return lost.contains(p); }))
-        return true;
-    }
-    return false;
+    return std::ranges::any_of(endangered,
+                               [&](const Feature* other) { return has_all(lost, *other); });
+  }
+
+  /// A cavity that is to stay lies inside the lump.
+  [[nodiscard]] bool holds_cavity(const Boundary& lump) const {
+    return std::ranges::any_of(cavities_, [&](FeatureId id) {
+      return !go_[id.index()] &&
+             is_inside(lump, segmentation_.vertices[at(feature(id).vertices.front())].point);
+    });
+  }
+
+  /// The features whose first polygon it is.
+  [[nodiscard]] std::span<const FeatureId> starting_at(int polygon) const {
+    if (polygon >= std::ssize(starting_at_)) return {};
+    return starting_at_[at(polygon)];
+  }
+
+  static bool has_all(const std::set<int>& polygons, const Feature& f) {
+    return std::ranges::all_of(f.source_polygons, [&](int p) { return polygons.contains(p); });
   }
 
   [[nodiscard]] static bool is_inside(const Boundary& body, Vec3 point) {
@@ -325,9 +352,11 @@ class FeatureRemover {
   detail::World world_;
   std::vector<Boundary> bodies_;
   std::optional<Boundary> trial_;
-  std::vector<char> wanted_;                     ///< by feature: asked for and not refused
-  std::vector<char> go_;                         ///< by feature: wanted, or sits on what is
-  std::vector<std::vector<FeatureId>> lodgers_;  ///< by feature: what it is the host of
+  std::vector<char> wanted_;                         ///< by feature: asked for and not refused
+  std::vector<char> go_;                             ///< by feature: wanted, or sits on what is
+  std::vector<std::vector<FeatureId>> lodgers_;      ///< by feature: what it is the host of
+  std::vector<std::vector<FeatureId>> starting_at_;  ///< by their first polygon
+  std::vector<FeatureId> cavities_;
   Remainder out_;
 };
 
