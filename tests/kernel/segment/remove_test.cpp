@@ -139,6 +139,18 @@ TEST_SUITE("kernel/segment") {
           Approx(volume_m3(s.solid) + s.segmentation.features[1].volume_m3).epsilon(1e-9));
   }
 
+  TEST_CASE(
+      "a part is refused if something would go with it that does not sit on it and is to stay") {
+    Segmented s = segmented(test::dormer_with_window());
+    const FeatureId dormer{0}, window{1};
+    Feature& alone = s.segmentation.features[window.index()];
+    alone.host = alone.parent = {};
+    const Remainder refused = removed(s, {dormer});
+    REQUIRE(refused.refused.size() == 1);
+    CHECK(refused.refused[0].reason == "a feature that stays would go with it");
+    CHECK(volume_m3(refused.solid) == Approx(volume_m3(s.solid)));
+  }
+
   TEST_CASE("a filled terrace takes the block on its floor along and a removed block leaves it") {
     const Segmented s = segmented(test::terrace_with_block());
     const FeatureId terrace = test::feature_in(s.segmentation, {2, 2, 4}, {8, 6, 6});
