@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -48,15 +49,17 @@ PlanHull hull_in_plan(const std::vector<Vec3>& of) {
   return hull;
 }
 
-/// The extent of points in plan along a direction.
-double size_along(const PlanHull& points, InPlan direction) {
-  Extent extent;
+/// The extents of points in plan along a direction and across it.
+std::pair<double, double> sizes_along(const PlanHull& points, InPlan u) {
+  Extent along, across;
   for (const InPlan p : points) {
-    const double along = p.x * direction.x + p.y * direction.y;
-    extent.low = std::min(extent.low, along);
-    extent.high = std::max(extent.high, along);
+    const double s = p.x * u.x + p.y * u.y, t = p.x * -u.y + p.y * u.x;
+    along.low = std::min(along.low, s);
+    along.high = std::max(along.high, s);
+    across.low = std::min(across.low, t);
+    across.high = std::max(across.high, t);
   }
-  return extent.size();
+  return {along.size(), across.size()};
 }
 
 }  // namespace
@@ -78,7 +81,7 @@ StandingBox standing_box(const std::vector<Vec3>& points) {
     const InPlan side = hull[i + 1 < hull.size() ? i + 1 : 0] - hull[i];
     if (side.x == 0 && side.y == 0) continue;
     const Vec3 u = normalised({side.x, side.y, 0}), v{-u.y, u.x, 0};
-    const double along = size_along(hull, {u.x, u.y}), across = size_along(hull, {v.x, v.y});
+    const auto [along, across] = sizes_along(hull, {u.x, u.y});
     if (along * across >= least) continue;
     least = along * across;
     best.length = std::max(along, across);

@@ -35,7 +35,7 @@ VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
     box_.grow(faces[f].box);
   }
   std::ranges::sort(entries_, {}, [](const Entry& e) { return std::pair(e.z0, e.face); });
-  side_ = std::clamp(static_cast<int>(2 * std::sqrt(static_cast<double>(entries_.size()))), 1,
+  side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(entries_.size()))), 1,
                      kLargestSide);
   met_.resize(entries_.size());
   fill_cells();

@@ -53,6 +53,23 @@ bool holds_numbers(std::string_view array) {
   return array.find_first_not_of("[]-0123456789, \t\r\n") == std::string_view::npos;
 }
 
+/// As for_each_element. Polygons are short, and without a string brackets need no more than to be
+/// counted.
+template <class Visit>
+void for_each_polygon(std::string_view shell, Visit visit) {
+  if (!RawNode::is_array(shell) || shell.find('"') != std::string_view::npos) {
+    for_each_element(shell, visit);
+    return;
+  }
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t at = 0; at < shell.size(); ++at) {
+    const char c = shell[at];
+    if (c == '[' && ++depth == 2) begin = at;
+    if (c == ']' && --depth == 1) visit(shell.substr(begin, at + 1 - begin));
+  }
+}
+
 }  // namespace
 
 GeometryText geometry_of(std::string_view boundaries, int depth, bool with_polygons) {
@@ -60,7 +77,7 @@ GeometryText geometry_of(std::string_view boundaries, int depth, bool with_polyg
   geometry.shape.depth = depth;
   const auto read_shell = [&](std::string_view shell) {
     int count = 0;
-    for_each_element(shell, [&](std::string_view polygon) {
+    for_each_polygon(shell, [&](std::string_view polygon) {
       ++count;
       if (with_polygons) geometry.polygons.emplace_back(polygon);
     });

@@ -5,7 +5,10 @@
 #include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -90,6 +93,21 @@ class Snapper {
   }
 
  private:
+  /// Which axis a plane stands across, and where; axis 3: none.
+  struct Across {
+    std::size_t axis = 3;
+    double level_m = 0;
+  };
+  [[nodiscard]] Across across(const Plane& turned) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<std::int64_t, 3> along{};
+      along[axis] = 1;
+      if (turned.coefficients == along)
+        return {axis, static_cast<double>(turned.offset) * soup_.grid_m};
+    }
+    return {};
+  }
+
   /// Numbers the planes so that both ways round of one have the same number.
   void number_planes() {
     std::unordered_map<Plane, int, PlaneHash, IsSamePlane> numbers;
@@ -97,7 +115,10 @@ class Snapper {
       const Plane turned = unoriented(plane);
       const int next = static_cast<int>(planes_.size());
       const auto [entry, is_new] = numbers.try_emplace(turned, next);
-      if (is_new) planes_.push_back(turned);
+      if (is_new) {
+        planes_.push_back(turned);
+        across_.push_back(across(turned));
+      }
       number_of_.push_back(entry->second);
     }
   }
@@ -134,19 +155,31 @@ class Snapper {
     const Vec3 start = exact::to_metres(soup_.points[at(mesh_.point_of[at(v)])], soup_.grid_m);
     const double reach = 4 * tolerances_.plane_offset_m;
     if (planes.size() == 3) {
-      const auto meeting =
-          exact::meet(planes_[at(planes[0])], planes_[at(planes[1])], planes_[at(planes[2])]);
-      if (meeting) {
-        const Vec3 point = exact::to_metres(*meeting, soup_.grid_m);
-        if (length(point - start) <= reach) {
-          place_of_[at(v)] = {point, true};
-          return;
-        }
+      const auto point = meeting_of(planes[0], planes[1], planes[2]);
+      if (point && length(*point - start) <= reach) {
+        place_of_[at(v)] = {*point, true};
+        return;
       }
     }
     const Vec3 best = nearest_point(sorted_planes(planes), start, reach);
     place_of_[at(v)] = {exact::to_metres(exact::round_to_grid(best, soup_.grid_m), soup_.grid_m),
                         false};
+  }
+
+  /// Most meet at right angles, across the axes: where is no question then.
+  [[nodiscard]] std::optional<Vec3> meeting_of(int p, int q, int r) const {
+    std::array<double, 4> corner{};
+    unsigned axes = 0;
+    for (const int plane : {p, q, r}) {
+      const Across& here = across_[at(plane)];
+      corner[here.axis] = here.level_m;
+      axes |= 1U << here.axis;
+    }
+    constexpr unsigned kAllThree = 7;
+    if (axes == kAllThree) return Vec3{corner[0], corner[1], corner[2]};
+    const auto meeting = exact::meet(planes_[at(p)], planes_[at(q)], planes_[at(r)]);
+    if (!meeting) return std::nullopt;
+    return exact::to_metres(*meeting, soup_.grid_m);
   }
 
   /// In an order that their numbers have no part in.
@@ -164,17 +197,18 @@ class Snapper {
     for (std::size_t l = 0; l < draft_.loop_count(); ++l) {
       const auto loop = draft_.loop(l);
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const int v = merged_.find(loop[i]);
-        const int w = merged_.find(loop[i + 1 < loop.size() ? i + 1 : 0]);
+        const int v = united(loop[i]), w = united(loop[i + 1 < loop.size() ? i + 1 : 0]);
         if (v == w || length(place_of_[at(v)].point - place_of_[at(w)].point) >= tolerances_.weld_m)
           continue;
         unite(std::min(v, w), std::max(v, w));
-        has_changed = true;
+        has_united_ = has_changed = true;
       }
     }
-    has_united_ |= has_changed;
     return has_changed;
   }
+
+  /// The vertex that a vertex is by now.
+  [[nodiscard]] int united(int v) { return has_united_ ? merged_.find(v) : v; }
 
   /// The planes of the united vertex go to the end of the list.
   void unite(int first, int second) {
@@ -320,8 +354,9 @@ class Snapper {
   const ShellMesh& mesh_;
   FacetDraft draft_;
   const Tolerances& tolerances_;
-  std::vector<Plane> planes_;  ///< each once, one way round
-  Numbers number_of_;          ///< in planes_, by plane of the clusters
+  std::vector<Plane> planes_;   ///< each once, one way round
+  std::vector<Across> across_;  ///< of each plane
+  Numbers number_of_;           ///< in planes_, by plane of the clusters
   // The planes of vertex v: planes_at_[plane_begin_[v]] … planes_at_[plane_end_[v] - 1].
   Numbers plane_begin_, plane_end_, planes_at_;
   std::vector<Vertex> place_of_;
