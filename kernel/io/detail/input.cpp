@@ -82,6 +82,7 @@ bool Input::read_line(std::string& line) {
     is_begun = true;
     const std::size_t newline = buffer_.find('\n', at_);
     const std::size_t end = newline == std::string::npos ? buffer_.size() : newline;
+    line.reserve(line.size() + (end - at_) + kPadding);
     line.append(buffer_, at_, end - at_);
     check_size(path_, line.size());
     const std::size_t next = newline == std::string::npos ? end : end + 1;
@@ -90,7 +91,6 @@ bool Input::read_line(std::string& line) {
     if (newline != std::string::npos) break;
   }
   if (line.ends_with('\r')) line.pop_back();
-  line.reserve(line.size() + kPadding);
   return is_begun;
 }
 

@@ -56,12 +56,14 @@ std::optional<Fault> find_degenerate(const std::vector<Polygon>& polygons,
 }
 
 std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points) {
+  const auto is_beyond = [](double x) { return !(std::abs(x) <= kMaxCoordinate_m); };
   Box box;
   for (const Vec3 p : points) {
-    for (const double x : {p.x, p.y, p.z})
-      if (!(std::abs(x) <= kMaxCoordinate_m))
-        return Fault{"E506",
-                     fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
+    if (is_beyond(p.x) || is_beyond(p.y) || is_beyond(p.z)) {
+      const double x = is_beyond(p.x) ? p.x : is_beyond(p.y) ? p.y : p.z;
+      return Fault{"E506",
+                   fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
+    }
     box.grow(p);
   }
   const Vec3 size = box.max - box.min;
