@@ -158,6 +158,7 @@ void Annotator::name_surfaces() {
 void Annotator::add_surfaces() {
   name_surfaces();
   result_.surface_of_polygon.assign(owners_->polygons(), -1);
+  result_.surfaces.reserve(building_.polygons.size());
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
     const auto next = static_cast<int>(result_.surfaces.size());
@@ -165,7 +166,7 @@ void Annotator::add_surfaces() {
     const int feature = find_labelled(polygon);
     if (feature < 0 || !roles_[index(feature)].is_opening()) {
       surface = next;
-      result_.surfaces.push_back({verdicts_[row].type, -1, {}});
+      result_.surfaces.emplace_back().type = verdicts_[row].type;
       if (options_.has_reasons)
         result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons_[row]));
       continue;

@@ -1,11 +1,13 @@
 #include "kernel/describe/detail/panes.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/planar.h"
 #include "kernel/geometry/visible_level.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace oriel::detail {
@@ -13,6 +15,7 @@ namespace oriel::detail {
 Panes::Panes(const Building& building, double grid_m) {
   corners_.reserve(building.vertices.size());
   for (const Vec3 vertex : building.vertices) corners_.push_back(exact::on_grid(vertex, grid_m));
+  panes_.reserve(building.polygons.size());
   for (const Polygon& polygon : building.polygons) {
     if (polygon.source < 0 || polygon.rings.empty()) continue;
     if (std::ssize(panes_) <= polygon.source) panes_.resize(at(polygon.source) + 1);
@@ -32,30 +35,34 @@ std::optional<double> Panes::level_in(const Feature& feature, const Plane& plane
   return visible_level(std::move(parallel), feature.new_area_m2);
 }
 
+/// From the least corner on, so that it does not depend on where a ring begins.
 void Panes::measure(Pane& pane) const {
   pane.is_measured = true;
   if (pane.polygon == nullptr) return;
-  for (const auto& ring : pane.polygon->rings) {
-    take_outline(ring);
-    const bool is_outer = &ring == &pane.polygon->rings[0];
-    const double share = 1.0 / static_cast<double>(outline_.size());
-    Vec3 before;
-    for (std::size_t i = 0; i < outline_.size(); ++i) {
-      const Vec3 here = outline_[i] - outline_[0];
+  const auto& rings = pane.polygon->rings;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const auto& ring = rings[r];
+    const std::size_t size = ring.size();
+    const double share = 1.0 / static_cast<double>(size);
+    std::size_t corner = least_of(ring);
+    Vec3 origin, before;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Vec3 p = corners_[at(ring[corner])];
+      corner = corner + 1 < size ? corner + 1 : 0;
+      if (r == 0) pane.middle = pane.middle + share * p;
+      if (i == 0) origin = p;
+      const Vec3 here = p - origin;
       if (i > 1) pane.area = pane.area + 0.5 * cross(before, here);
       before = here;
-      if (is_outer) pane.middle = pane.middle + share * outline_[i];
     }
   }
 }
 
-/// The corners of a ring from the least one on.
-void Panes::take_outline(const std::vector<int>& ring) const {
-  const auto corner = [&](int v) { return corners_[at(v)]; };
-  const auto least = std::ranges::min_element(ring, is_lesser, corner);
-  outline_.clear();
-  for (auto v = least; v != ring.end(); ++v) outline_.push_back(corner(*v));
-  for (auto v = ring.begin(); v != least; ++v) outline_.push_back(corner(*v));
+std::size_t Panes::least_of(const std::vector<int>& ring) const {
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < ring.size(); ++i)
+    if (is_lesser(corners_[at(ring[i])], corners_[at(ring[least])])) least = i;
+  return least;
 }
 
 }  // namespace oriel::detail

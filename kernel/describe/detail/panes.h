@@ -1,9 +1,9 @@
 #pragma once
 
-#include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,12 +25,12 @@ class Panes {
     Vec3 area, middle;
   };
   void measure(Pane& pane) const;
-  void take_outline(const std::vector<int>& ring) const;
+  /// The place of its least corner (is_lesser).
+  [[nodiscard]] std::size_t least_of(const std::vector<int>& ring) const;
 
   std::vector<Vec3> corners_;  ///< by vertex, on the grid
   /// By Polygon::source; measured when they are asked for, as many lie in no feature.
   mutable std::vector<Pane> panes_;
-  mutable Outline outline_;  ///< that is being measured
 };
 
 }  // namespace oriel::detail

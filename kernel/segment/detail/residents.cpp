@@ -77,7 +77,7 @@ bool all_rings_have_residents(const Solid& solid, Residents& residents,
     const ReachAxes axes = axes_in(solid.planes[facet.plane.index()].normal);
     for (std::size_t l = 1; l < facet.loops.size(); ++l) {
       const Ring ring = ring_of(solid, FacetId{f}, facet.loops[l]);
-      if (!is_slit(ring, tolerances) && !residents.fills(facet.plane, axes.reach_of(ring.outline)))
+      if (!residents.fills(facet.plane, axes.reach_of(ring.outline)) && !is_slit(ring, tolerances))
         return false;
     }
   }
