@@ -61,8 +61,7 @@ std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points) {
   for (const Vec3 p : points) {
     if (is_beyond(p.x) || is_beyond(p.y) || is_beyond(p.z)) {
       const double x = is_beyond(p.x) ? p.x : is_beyond(p.y) ? p.y : p.z;
-      return Fault{"E506",
-                   fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
+      return Fault{"E506", fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
     }
     box.grow(p);
   }
