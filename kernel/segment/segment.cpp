@@ -233,7 +233,8 @@ class Segmenter {
         continue;
       }
       std::vector<int> touched;
-      const auto caps = imprint(task.body, *choice.section, lump, touched);
+      const auto caps = lump.pocket >= 0 ? std::vector{choice.pockets->cap_of(lump.pocket)}
+                                         : imprint(task.body, *choice.section, lump, touched);
       is_body_changed_ = is_body_changed_ || !touched.empty();
       if (caps.empty()) throw GeometryError("the section of a lump has no area");
       is_body_changed_ = true;

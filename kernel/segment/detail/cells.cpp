@@ -183,11 +183,14 @@ void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
   const auto add_to = [&](std::vector<int>& all) {
     constexpr std::size_t kFew = 8;  // a window has no more
     if (all.empty() && polygons.size() < kFew) all.reserve(kFew);
-    all.insert(all.end(), polygons.begin(), polygons.end());
+    for (const int polygon : polygons) all.push_back(polygon);
   };
   Cell& cell = out_.cells[home.cell.index()];
   auto& here = cell.facets[at(home.facet)].polygons;
-  here.insert(here.end(), polygons.begin(), polygons.end());
+  if (here.empty())
+    here = polygons;
+  else
+    here.insert(here.end(), polygons.begin(), polygons.end());
   for (const FeatureId id : features_around(cell.feature))
     add_to(out_.features[id.index()].source_polygons);
 }

@@ -26,6 +26,17 @@ TEST_SUITE("kernel/segment") {
       for (std::size_t i = 0; i < plain.size(); ++i) CHECK(std::ranges::equal(lists[i], plain[i]));
     }
   }
+
+  TEST_CASE("a number is put into a run of lists at once") {
+    detail::GrowingLists lists;
+    lists.make(std::vector<int>{2, 0, 1, 0});
+    for (int number = 0; number < 7; ++number) lists.push_back(1, 2, number);
+    const std::vector<int> all{0, 1, 2, 3, 4, 5, 6};
+    CHECK(lists[0].empty());
+    CHECK(std::ranges::equal(lists[1], all));
+    CHECK(std::ranges::equal(lists[2], all));
+    CHECK(lists[3].empty());
+  }
 }
 
 }  // namespace
