@@ -28,13 +28,10 @@ class PatchFinder {
       if (body_.is_alive(f)) surface_ += body_.area(f);
     Component alone, widened;
     for (int n = 0; n < std::ssize(grown_); ++n) {
-      widened_.assign(1, n);
-      make_component(widened_, alone);
+      start_with(n);
       offer(alone);
       for_fewer_sides(alone, [&](unsigned limits) {
-        if (!widen(n, limits)) return;
-        make_component(widened_, widened);
-        offer(widened);
+        if (widen(n, limits)) offer(widened);
       });
     }
     return std::move(patches_);
@@ -44,7 +41,11 @@ class PatchFinder {
   std::vector<Component> components() {
     grow_all();
     std::vector<Component> all;
-    for (int n = 0; n < std::ssize(grown_); ++n) make_component({n}, all.emplace_back());
+    for (int n = 0; n < std::ssize(grown_); ++n) {
+      start_with(n);
+      find_sides(all.emplace_back());
+      find_facets(all.back());
+    }
     return all;
   }
 
@@ -70,12 +71,13 @@ class PatchFinder {
     std::vector<Side> sides;  ///< of its own facets, ascending
     /// What lies across the rim: sides, and the groups they are of; sorted.
     std::vector<std::pair<Side, int>> beyond;
+    bool meets_ground = false;
   };
 
   /// Collects the facets that hang together with `start`.
   void grow(int start) {
     const int number = static_cast<int>(grown_.size());
-    Grown group{{start}, 0, {}, {}, {}};
+    Grown group{{start}, 0, {}, {}, {}, false};
     number_of_[at(start)] = number;
     for (std::size_t i = 0; i < group.facets.size(); ++i) {
       group.sides.push_back(body_.facet(group.facets[i]).side);
@@ -103,7 +105,10 @@ class PatchFinder {
     for (Grown& group : grown_) {
       for (const int e : group.rim) {
         const int g = body_.facet_of(body_.twin(e));
-        if (!is_ground(g)) group.beyond.emplace_back(body_.facet(g).side, number_of_[at(g)]);
+        if (is_ground(g))
+          group.meets_ground = true;
+        else
+          group.beyond.emplace_back(body_.facet(g).side, number_of_[at(g)]);
       }
       std::ranges::sort(group.beyond);
       group.beyond.erase(std::unique(group.beyond.begin(), group.beyond.end()), group.beyond.end());
@@ -111,28 +116,43 @@ class PatchFinder {
     group_stamps_.assign(grown_.size(), 0);
   }
 
-  /// Several groups as one component.
-  void make_component(const std::vector<int>& groups, Component& component) const {
-    component.facets.clear();
-    component.rim.clear();
+  /// One group alone.
+  void start_with(int n) {
+    widened_.assign(1, n);
+    group_stamps_[at(n)] = ++last_stamp_;
+  }
+  [[nodiscard]] bool is_widened(int n) const { return group_stamps_[at(n)] == last_stamp_; }
+
+  /// Of the groups at hand as one component: the sides on which its rim lies.
+  void find_sides(Component& component) const {
     component.sides.clear();
     component.ground = -1;
-    for (const int n : groups) {
+    for (const int n : widened_) {
+      const Grown& group = grown_[at(n)];
+      for (const auto& [side, other] : group.beyond)
+        if (!is_widened(other)) component.sides.push_back(side);
+      if (group.meets_ground) component.ground = options_.free_side;
+    }
+    if (component.ground >= 0) component.sides.push_back(component.ground);
+    std::ranges::sort(component.sides);
+    component.sides.erase(std::unique(component.sides.begin(), component.sides.end()),
+                          component.sides.end());
+  }
+
+  /// The same of its facets and its rim.
+  void find_facets(Component& component) const {
+    component.facets.clear();
+    component.rim.clear();
+    for (const int n : widened_) {
       const Grown& group = grown_[at(n)];
       component.facets.insert(component.facets.end(), group.facets.begin(), group.facets.end());
       for (const int e : group.rim) {
         const int g = body_.facet_of(body_.twin(e));
-        if (std::ranges::find(groups, number_of_[at(g)]) != groups.end()) continue;
-        component.rim.push_back(e);
-        component.sides.push_back(body_.facet(g).side);
-        if (is_ground(g)) component.ground = options_.free_side;
+        if (is_ground(g) || !is_widened(number_of_[at(g)])) component.rim.push_back(e);
       }
     }
     std::ranges::sort(component.facets);
     std::ranges::sort(component.rim);
-    std::ranges::sort(component.sides);
-    component.sides.erase(std::unique(component.sides.begin(), component.sides.end()),
-                          component.sides.end());
   }
 
   /// Visits the sets of two or more of a component's split planes that leave one out at least, as
@@ -175,8 +195,12 @@ class PatchFinder {
     return groups.size() > 1;
   }
 
-  void offer(const Component& component) {
-    if (!can_be_capped(component) || !seen_.insert(component.facets).second) return;
+  /// The groups at hand.
+  void offer(Component& component) {
+    find_sides(component);
+    if (!can_be_capped(component)) return;
+    find_facets(component);
+    if (!seen_.insert(component.facets).second) return;
     if (auto patch = cap_component(body_, is_hole_, component, work_))
       patches_.push_back(std::move(*patch));
   }
@@ -184,7 +208,8 @@ class PatchFinder {
   [[nodiscard]] bool can_be_capped(const Component& component) const {
     const auto& sides = component.sides;
     const std::ptrdiff_t order = std::ssize(sides) - (component.ground >= 0 ? 1 : 0);
-    if (component.facets.size() < 2 || order < 2 || order > options_.max_order) return false;
+    if (widened_.size() == 1 && grown_[at(widened_[0])].facets.size() < 2) return false;
+    if (order < 2 || order > options_.max_order) return false;
     if (component.ground >= 0 && order > 2) return false;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       if (std::ranges::find(options_.own_planes, sides[i] >> 1) != options_.own_planes.end())
