@@ -3,6 +3,7 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -78,8 +79,8 @@ void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
   sort_steps(c);
   for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) {
     const int first = ends_[slot - 2 * c.first], last = ends_[slot - 2 * c.first + 1];
-    answers_[slot] =
-        first < last && has_chain(std::span(sorted_).subspan(at(first), at(last - first))) ? 1 : 0;
+    const auto steps = std::span(sorted_).subspan(at(first), at(last - first));
+    answers_[slot] = !steps.empty() && has_chain(steps, slot) ? 1 : 0;
   }
 }
 
@@ -137,7 +138,7 @@ bool NaturalChains::is_free(int point) const {
 
 /// Takes away what comes from nowhere or leads to nowhere, again and again, and tells whether
 /// something is left. Gives up after some rounds: then there may be a chain.
-bool NaturalChains::has_chain(std::span<Step> steps) {
+bool NaturalChains::has_chain(std::span<Step> steps, std::size_t slot) {
   std::vector<int>&leaving = world_.scratch.leaving, &entering = world_.scratch.entering;
   for (const Step& step : steps) {
     ++leaving[at(step.from)];
@@ -161,8 +162,44 @@ bool NaturalChains::has_chain(std::span<Step> steps) {
     if (now == left) break;
     left = now;
   }
+  const bool has = left > 0 && may_bound(steps.first(left), slot);
   for (const Step& step : steps.first(left)) leaving[at(step.from)] = entering[at(step.to)] = 0;
-  return left > 0;
+  return has;
+}
+
+/// Whether one of the chains may be the outline of a region that can be cut: that runs
+/// counter-clockwise around material, for which the body has facets on the looked-at side, and
+/// clockwise around air, for which it has some on the other one. Told only of closed chains that do
+/// not touch.
+bool NaturalChains::may_bound(std::span<const Step> steps, std::size_t slot) {
+  const Side looking = 2 * planes_[slot / 2] + static_cast<int>(slot & 1);
+  const auto has_facets = body_.on_plane(looking >> 1).has_facets;
+  const bool has_material = has_facets[at(looking & 1)], has_air = has_facets[at(~looking & 1)];
+  if (has_material && has_air) return true;
+  Scratch& scratch = world_.scratch;
+  for (const Step& step : steps)
+    if (scratch.leaving[at(step.to)] != 1 || scratch.entering[at(step.from)] != 1 ||
+        scratch.leaving[at(step.from)] != 1 || is_free(step.from))
+      return true;
+  auto& after = scratch.after;
+  if (after.size() < scratch.leaving.size()) after.resize(scratch.leaving.size());
+  for (const Step& step : steps) after[at(step.from)] = step.to;
+  const Vec3 normal = world_.planes.normal(looking);
+  constexpr int kDone = -1;
+  return std::ranges::any_of(steps, [&](const Step& start) {
+    if (after[at(start.from)] == kDone) return false;
+    const Vec3 origin = world_.points.at(start.from);
+    Vec3 sum, from;
+    for (int p = start.from; after[at(p)] != kDone;) {
+      p = std::exchange(after[at(p)], kDone);
+      const Vec3 to = world_.points.at(p) - origin;
+      sum = sum + cross(from, to);
+      from = to;
+    }
+    constexpr double kHardly_m2 = 1e-6;  // what has less area may turn either way by rounding
+    const double doubled = dot(sum, normal);
+    return has_material ? doubled > -kHardly_m2 : has_air && doubled < kHardly_m2;
+  });
 }
 
 }  // namespace oriel::detail

@@ -11,9 +11,12 @@ namespace oriel::detail {
 /// For the split planes of a body, seen from both sides: whether a natural region may be found
 /// there. The outline of such a region follows edges of the body, so where the edges that lie in a
 /// plane and bound facets of that side form no closed chain there is none, and no section has to be
-/// made to know it. Chains may be closed in the ground, where outlines are free.
+/// made to know it. Chains may be closed in the ground, where outlines are free. And the body has
+/// facets in the plane that the cut would be compared with: for what chains run around, material or
+/// air, on one side or the other.
 ///
-/// Decided by ranks alone, for one class of normals at a time: a look at every edge.
+/// Decided by ranks and, what is inside of a chain, by its area, for one class of normals at a time:
+/// a look at every edge.
 class NaturalChains {
  public:
   /// `planes`: ascending. `free_side`: the ground, -1: none.
@@ -57,7 +60,8 @@ class NaturalChains {
   /// `entry`: of the plane that the half-edge `e` lies in.
   void add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from, int to);
   [[nodiscard]] bool hangs_below(int e, int from, int to, Vec3 up) const;
-  bool has_chain(std::span<Step> steps);
+  bool has_chain(std::span<Step> steps, std::size_t slot);
+  [[nodiscard]] bool may_bound(std::span<const Step> steps, std::size_t slot);
   [[nodiscard]] bool is_free(int point) const;
 
   const Boundary& body_;

@@ -104,6 +104,7 @@ struct Scratch {
 
   // Chains of edges. By point: how many steps lead from it, and to it; 0 between two uses.
   std::vector<int> leaving, entering;
+  std::vector<int> after;  ///< where the step from a point leads to
 
   // Floods.
   StampSet flooded_edges, flooded_facets;

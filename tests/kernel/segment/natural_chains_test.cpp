@@ -4,6 +4,7 @@
 #include "kernel/segment/detail/section.h"
 #include "tests/support/generated.h"
 #include "tests/support/houses.h"
+#include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 
 #include <algorithm>
@@ -53,6 +54,24 @@ TEST_SUITE("kernel/segment") {
       CAPTURE(std::string(body.name));
       CHECK(compare(body.make()).slots > 0);
     }
+  }
+
+  TEST_CASE("a chain counts only where it runs around what can be cut") {
+    // The outlines of the box run around material, and its facets look out, so air is all that can
+    // be cut at them; that of the pocket does so at its wall, and not at its back.
+    const Building building =
+        test::BoxBody().add({0, 0, 0}, {8, 6, 8}).remove({2, 0, 2}, {4, 1, 5}).build();
+    const Solid solid = test::solid_of(building, {});
+    World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+    const Boundary body = boundary_of(solid, 0, world);
+    std::vector<int> planes;
+    for (int plane = 0; plane < world.planes.size(); ++plane) planes.push_back(plane);
+    detail::NaturalChains chains(body, planes, -1);
+    CHECK(chains.refresh());
+    int natural = 0;
+    for (std::size_t slot = 0; slot < 2 * planes.size(); ++slot)
+      natural += chains.may_be_natural(slot) ? 1 : 0;
+    CHECK(natural == 1);
   }
 
   TEST_CASE("on houses chains say of most planes that nothing natural is there") {
