@@ -176,7 +176,7 @@ class FeatureRemover {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
-      const detail::EdgeIndex edges(body, {split >> 1});
+      detail::EdgeIndex edges(body, {split >> 1});
       detail::Section section{split >> 1, looks_along_class ? 1 : -1};
       section_at(body, section, edges.edges_at(0, section.direction),
                  {-1, options_.tolerances.weld_m});

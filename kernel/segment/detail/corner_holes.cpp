@@ -59,7 +59,7 @@ class CornerCutter {
 
   /// Makes the whole outline of the section just behind the plane edges of the body.
   bool imprint_all(Side side) {
-    const EdgeIndex edges(*body_, {side >> 1});
+    EdgeIndex edges(*body_, {side >> 1});
     const int behind = (side & 1) != 0 ? 1 : -1;
     Section section{side >> 1, behind};
     section_at(*body_, section, edges.edges_at(0, section.direction), {-1, weld_m_});

@@ -12,7 +12,8 @@ namespace oriel::detail {
 /// The edges that sections of a body may cross, so that a section costs what it meets and not what
 /// the body has. The split planes of a normal class leave gaps between them, and one before the
 /// first and behind the last; an edge is entered in each gap that it runs through, and the section
-/// at P ± 0 is that of the gap there.
+/// at P ± 0 is that of the gap there. Edges are entered class by class, when the first of a class
+/// are asked for: of many a class none is before nearly all of the body is cut off.
 class EdgeIndex {
  public:
   /// `planes`: those that will be asked for, ascending.
@@ -21,8 +22,11 @@ class EdgeIndex {
   /// A half-edge of every living edge that runs through the gap in front of a plane (`direction`
   /// +1, as its class has it), or behind it (-1); dead edges and some that were shortened since may
   /// be among them. `entry` counts in `planes`.
-  [[nodiscard]] std::span<const int> edges_at(std::size_t entry, int direction) const {
-    return edges_[first_gaps_[entry] + (direction > 0 ? 1 : 0)];
+  [[nodiscard]] std::span<const int> edges_at(std::size_t entry, int direction) {
+    const Place& place = places_[entry];
+    Class& c = classes_[place.number];
+    if (c.entered < edges_.size()) enter(c);
+    return c.lists[place.gap + (direction > 0 ? 1 : 0)];
   }
 
   /// Takes in the half-edges that were made since the last time.
@@ -36,26 +40,32 @@ class EdgeIndex {
   struct Class {
     int number;
     std::vector<int> ranks;  ///< of its planes, ascending
-    std::size_t first_gap;   ///< in edges_: the one before the first plane
     /// For each rank how many planes have a lesser one; empty if the class has many more planes
     /// than are asked for.
-    std::vector<int> before;
+    std::vector<int> before = {};
+    GrowingLists lists = {};  ///< half-edges by gap
+    std::size_t entered = 0;  ///< how many of edges_
     [[nodiscard]] std::size_t planes_before(int rank) const;
   };
-  void make_tables();
-  [[nodiscard]] std::vector<Edge> new_edges() const;
   /// A half-edge whose edge is not level, and the gaps that it runs through.
   struct Run {
-    int half, first, last;
+    int half;
+    std::size_t first, last;
   };
-  [[nodiscard]] std::vector<Run> runs_of(std::span<const Edge> edges) const;
+  /// The gap behind a plane.
+  struct Place {
+    std::size_t number;  ///< of its class
+    std::size_t gap;
+  };
+  void enter(Class& c);
+  void make_table(Class& c) const;
+  [[nodiscard]] std::vector<Run> new_runs(const Class& c) const;
 
   const Boundary& body_;
   std::vector<Class> classes_;
-  std::vector<std::size_t> first_gaps_;  ///< of each plane the gap behind it
-  std::size_t gaps_ = 0;
-  GrowingLists edges_;  ///< by gap
-  int known_ = 0;       ///< half-edges taken in
+  std::vector<Place> places_;  ///< by plane
+  std::vector<Edge> edges_;    ///< as they came
+  int known_ = 0;              ///< half-edges taken in
 };
 
 }  // namespace oriel::detail

@@ -45,7 +45,7 @@ GapCounts compare_gaps(const Building& building) {
   const detail::SectionOptions options{ground_side(solid, world.planes, 0.5), kWeld_m};
   std::vector<int> planes(static_cast<std::size_t>(world.planes.size()));
   std::iota(planes.begin(), planes.end(), 0);
-  const detail::EdgeIndex edges(body, planes);
+  detail::EdgeIndex edges(body, planes);
   GapCounts counts;
   for (std::size_t i = 0; i + 1 < planes.size(); ++i) {
     if (world.planes.class_of(planes[i]) != world.planes.class_of(planes[i + 1])) continue;
@@ -96,7 +96,7 @@ TEST_SUITE("kernel/segment") {
       // z = 0, 2 and 3: of the planes 0 and 3 alone the gap has the vertices at 2 in it.
       const auto& all = world.planes.normal_class(k).planes;
       REQUIRE(all.size() == 3);
-      const detail::EdgeIndex edges(boundary, {all[0], all[2]});
+      detail::EdgeIndex edges(boundary, {all[0], all[2]});
       Section section{all[0], 1};
       CHECK_FALSE(section_at(boundary, section, edges.edges_at(0, 1), {-1, kWeld_m}));
     }

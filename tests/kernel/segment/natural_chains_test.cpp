@@ -33,7 +33,7 @@ ChainCounts compare(const Building& building) {
   detail::NaturalChains chains(body, planes, ground);
   CHECK(chains.refresh());
   CHECK_FALSE(chains.refresh());
-  const detail::EdgeIndex edges(body, planes);
+  detail::EdgeIndex edges(body, planes);
   ChainCounts counts;
   for (std::size_t slot = 0; slot < 2 * planes.size(); ++slot) {
     detail::Section section{planes[slot / 2], slot % 2 == 0 ? 1 : -1};

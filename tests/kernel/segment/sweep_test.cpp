@@ -26,7 +26,7 @@ void compare(const Boundary& body, int plane, int direction, const std::optional
   ++counts.asked;
   if (!area) return;
   ++counts.answered;
-  const detail::EdgeIndex edges(body, {plane});
+  detail::EdgeIndex edges(body, {plane});
   detail::Section section{plane, direction};
   section_at(body, section, edges.edges_at(0, direction), {});
   REQUIRE(section.loops.size() == 1);
