@@ -45,6 +45,9 @@ Slots::Seen Slots::look_at(const Change& change) const {
 }
 
 void Slots::apply(const Class& c, std::span<const Seen> changes) {
+  // Of many a class no section was asked for yet.
+  const auto slots = std::span(slots_).subspan(2 * c.first, 2 * (c.last - c.first));
+  if (std::ranges::all_of(slots, &Slot::is_stale)) return;
   find_runs(c, changes);
   const auto is_plain = [](const Run& run) { return run.reach.is_plain(); };
   if (std::ranges::all_of(runs_, is_plain)) merge_runs();
