@@ -15,8 +15,8 @@ namespace oriel::detail {
 /// facets in the plane that the cut would be compared with: for what chains run around, material or
 /// air, on one side or the other.
 ///
-/// Decided by ranks and, what is inside of a chain, by its area, for one class of normals at a time:
-/// a look at every edge.
+/// Decided by ranks and, what is inside of a chain, by its area, for one class of normals at a
+/// time: a look at every edge.
 class NaturalChains {
  public:
   /// `planes`: ascending. `free_side`: the ground, -1: none.

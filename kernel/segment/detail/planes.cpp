@@ -3,50 +3,40 @@
 #include "kernel/geometry/exact.h"
 
 #include <algorithm>
-#include <tuple>
+#include <map>
+#include <utility>
 
 namespace oriel::detail {
 
 PlaneTable::PlaneTable(const std::vector<Plane>& oriented) : sides_(oriented.size()) {
-  // One entry per geometric plane, in the order of normals and offsets.
-  struct Given {
-    Plane plane;
-    int id;
-    int flip;
-    [[nodiscard]] auto key() const { return std::tie(plane.coefficients, plane.offset); }
-  };
-  std::vector<Given> given;
-  given.reserve(oriented.size());
-  for (const Plane& plane : oriented) {
+  // One entry per geometric plane, keyed so that classes and offsets come out sorted.
+  std::map<std::array<std::int64_t, 3>, std::map<std::int64_t, Entry>> by_normal;
+  for (std::size_t i = 0; i < oriented.size(); ++i) {
+    const Plane& given = oriented[i];
     const auto leading =
-        std::ranges::find_if(plane.coefficients, [](std::int64_t n) { return n != 0; });
+        std::ranges::find_if(given.coefficients, [](std::int64_t n) { return n != 0; });
     const bool is_flipped = *leading < 0;
-    given.push_back({is_flipped ? exact::opposite(plane) : plane, static_cast<int>(given.size()),
-                     is_flipped ? 1 : 0});
+    const Plane plane = is_flipped ? exact::opposite(given) : given;
+    Entry& entry = by_normal[plane.coefficients][plane.offset];
+    entry.plane = plane;
+    entry.ids[is_flipped ? 1 : 0] = PlaneId{static_cast<int>(i)};
   }
-  std::ranges::stable_sort(given, {}, &Given::key);
-  planes_.reserve(given.size());
-  const Given* last = nullptr;
-  for (const Given& next : given) {
-    const bool is_new_class =
-        last == nullptr || last->plane.coefficients != next.plane.coefficients;
-    if (is_new_class) classes_.emplace_back().normal = next.plane.normal;
-    if (is_new_class || last->plane.offset != next.plane.offset) add(next.plane);
-    planes_.back().ids[static_cast<std::size_t>(next.flip)] = PlaneId{next.id};
-    sides_[static_cast<std::size_t>(next.id)] = 2 * (size() - 1) + next.flip;
-    last = &next;
+  for (auto& [coefficients, offsets] : by_normal) {
+    Class c;
+    for (auto& [offset, entry] : offsets) {
+      const int plane = static_cast<int>(planes_.size());
+      entry.normal_class = static_cast<int>(classes_.size());
+      entry.rank = 2 * static_cast<int>(c.planes.size()) + 1;
+      for (int flip = 0; flip < 2; ++flip)
+        if (entry.ids[static_cast<std::size_t>(flip)].is_valid())
+          sides_[entry.ids[static_cast<std::size_t>(flip)].index()] = 2 * plane + flip;
+      c.normal = entry.plane.normal;
+      c.planes.push_back(plane);
+      c.offsets_m.push_back(entry.plane.offset_m);
+      planes_.push_back(entry);
+    }
+    classes_.push_back(std::move(c));
   }
-}
-
-/// To the last class.
-void PlaneTable::add(const Plane& plane) {
-  Class& c = classes_.back();
-  Entry& entry = planes_.emplace_back();
-  entry.plane = plane;
-  entry.normal_class = class_count() - 1;
-  entry.rank = 2 * static_cast<int>(c.planes.size()) + 1;
-  c.planes.push_back(size() - 1);
-  c.offsets_m.push_back(plane.offset_m);
 }
 
 std::optional<Side> PlaneTable::find(const Plane& plane) const {

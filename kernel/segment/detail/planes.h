@@ -57,7 +57,6 @@ class PlaneTable {
     int rank = 0;
     std::array<PlaneId, 2> ids;
   };
-  void add(const Plane& plane);
   [[nodiscard]] const Entry& entry(int plane) const {
     return planes_[static_cast<std::size_t>(plane)];
   }
