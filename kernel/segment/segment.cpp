@@ -287,13 +287,6 @@ class Segmenter {
     return change;
   }
 
-  /// A lump of a natural choice that comes off without a body, as the leaf that it is.
-  static bool is_leaf(const Choice& choice, const detail::Lump& lump,
-                      const std::vector<std::size_t>& models) {
-    return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
-           choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
-  }
-
   /// Takes off a pocket that needs no body of its own: it gets a copy of what becomes of `model`,
   /// or, if there is none, is a leaf.
   detail::Change take_off_pocket(Task& task, const Choice& choice, const detail::Lump& lump,
@@ -319,11 +312,7 @@ class Segmenter {
     add_part(task, Boundary(world_), sign, std::move(feature), {});
     tasks_.back().copy_of_model = std::move(how);
     tasks_.back().leaf = std::move(leaf);
-    detail::Change change{std::move(points), {}, {}, true, true, {}, false};
-    change.rim.reserve(caps[0].loops[0].edges.size());
-    for (const detail::CapEdge& edge : caps[0].loops[0].edges)
-      change.rim.emplace_back(edge.from, edge.to);
-    return change;
+    return change_of_pocket(caps[0], std::move(points));
   }
 
   [[nodiscard]] FeatureId next_feature() const {

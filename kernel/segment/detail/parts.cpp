@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <ranges>
+#include <utility>
 
 namespace oriel::detail {
 
@@ -41,6 +42,11 @@ std::vector<std::size_t> models_of(const Choice& choice) {
   return models;
 }
 
+bool is_leaf(const Choice& choice, const Lump& lump, const std::vector<std::size_t>& models) {
+  return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
+         choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
+}
+
 std::vector<int> points_of(const Boundary& body) {
   const auto edges = std::views::iota(0, body.half_edge_count());
   const auto is_alive = [&](int e) { return body.is_alive_edge(e); };
@@ -70,6 +76,13 @@ Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::
     for (const Cap& cap : caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges) change.new_edges.emplace_back(edge.from, edge.to);
+  return change;
+}
+
+Change change_of_pocket(const Cap& cap, std::vector<int> points) {
+  Change change{std::move(points), {}, {}, true, true, {}, false};
+  change.rim.reserve(cap.loops[0].edges.size());
+  for (const CapEdge& edge : cap.loops[0].edges) change.rim.emplace_back(edge.from, edge.to);
   return change;
 }
 

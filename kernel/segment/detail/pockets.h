@@ -122,6 +122,7 @@ class Pockets {
   [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
                                       bool is_hole) const;
   [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;
+  [[nodiscard]] Vec3 in_metres(const std::array<std::int64_t, 3>& shift) const;
   [[nodiscard]] Order order_of(int pocket) const;
 
   const Boundary& body_;
