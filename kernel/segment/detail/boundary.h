@@ -205,7 +205,7 @@ class Boundary {
   int dead_edges_ = 0;
   std::vector<LoopRecord> loops_;
   std::vector<FacetRecord> facets_;
-  std::vector<OnSide> on_side_;                       ///< in the order in which sides came up
+  std::vector<OnSide> on_side_;                       ///< in no order
   std::vector<std::pair<Side, int>> number_of_side_;  ///< in on_side_, sorted
 };
 

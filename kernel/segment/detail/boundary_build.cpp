@@ -40,6 +40,22 @@ void pair_twins(Boundary& boundary, int vertices) {
   if (open > 0) throw GeometryError("a shell is not closed");
 }
 
+/// By side: its number in the boundary, if a facet of the lump lies on it. In ascending order, so
+/// that each is entered at the end.
+std::vector<int> number_sides(const Solid& solid, int lump, Boundary& boundary) {
+  const PlaneTable& planes = boundary.world().planes;
+  std::vector<int> numbers(2 * static_cast<std::size_t>(planes.size()), -1);
+  for (const Shell& shell : solid.shells) {
+    if (shell.lump != lump) continue;
+    for (const FacetId id : shell.facets)
+      numbers[static_cast<std::size_t>(planes.side_of(solid.facets[id.index()].plane))] = 0;
+  }
+  for (Side side = 0; side < std::ssize(numbers); ++side)
+    if (int& number = numbers[static_cast<std::size_t>(side)]; number == 0)
+      number = boundary.number_side(side);
+  return numbers;
+}
+
 }  // namespace
 
 Boundary boundary_of(const Solid& solid, int lump, World& world) {
@@ -48,14 +64,13 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
   constexpr int kRoom = 8;  // one for so many
   const auto with_room = [](std::size_t size) { return static_cast<int>(size + size / kRoom); };
   boundary.reserve(with_room(4 * solid.vertices.size()), with_room(solid.facets.size()));
-  std::vector<int> numbers(2 * static_cast<std::size_t>(world.planes.size()), -1);  // by side
+  const std::vector<int> numbers = number_sides(solid, lump, boundary);
   for (const Shell& shell : solid.shells) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {
       const Facet& facet = solid.facets[id.index()];
       const Side side = world.planes.side_of(facet.plane);
-      int& number = numbers[static_cast<std::size_t>(side)];
-      if (number < 0) number = boundary.number_side(side);
+      const int number = numbers[static_cast<std::size_t>(side)];
       const int f = boundary.add_facet_on(number, side, {id.value}, {});
       for (const Loop& loop : facet.loops) boundary.add_cycle(loop, f);
     }
