@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace oriel {
@@ -22,7 +23,7 @@ enum class Side { none, falls, level, rises };
 
 /// How a roof facet goes on inwards from its edge from `p` to `q`; none: it is no roof.
 Side side_of(const Plane& plane, Vec3 p, Vec3 q) {
-  const double steepest_roof = std::cos(75 * 3.14159265358979323846 / 180);
+  const double steepest_roof = std::cos(75 * std::numbers::pi / 180);
   if (plane.normal.z <= steepest_roof) return Side::none;
   const double rise = cross(plane.normal, normalised(q - p)).z;
   return rise > kLevel ? Side::rises : rise < -kLevel ? Side::falls : Side::level;
