@@ -1,6 +1,7 @@
 #include "generalise/carry_out.h"
 
 #include "generalise/clear_edges.h"
+#include "generalise/detail/carries.h"
 #include "generalise/detail/stays.h"
 #include "generalise/detail/steps.h"
 #include "generalise/detail/tasks.h"
@@ -39,7 +40,7 @@ class Guard {
     while (true) {
       CarriedOut out = first(plan_.steps.size());
       const auto broken = violation(before_, measures_of(out.solid, invariants_), invariants_);
-      if (!broken && !undo_fine(out) && !undo_torn(out))
+      if (!broken && !undo_fine(out) && !undo_torn(out) && !undo_carrying(out))
         return with_undone(cleared(std::move(out)));
       if (!broken) continue;
       if (undone_.size() == plan_.steps.size()) return with_undone(std::move(out));
@@ -95,6 +96,20 @@ class Guard {
             !is_settled(step.feature) && is_torn(step.feature, edge))
           undone_.push_back({step.feature, "G418",
                              fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
+    return undone_.size() > count;
+  }
+
+  /// Takes back what leaves something hanging that the piece carried; false if nothing does.
+  bool undo_carrying(const CarriedOut& out) {
+    const std::size_t count = undone_.size();
+    for (const Step& step : plan_.steps) {
+      const FeatureId parent = segmentation_.features[step.feature.index()].parent;
+      if (std::ranges::binary_search(pieces_.may_stay, step.feature) && parent.is_valid() &&
+          std::ranges::binary_search(out.removed, step.feature) &&
+          !std::ranges::binary_search(out.removed, parent) && !is_settled(step.feature) &&
+          detail::carries_its_parent(segmentation_, step.feature))
+        undone_.push_back({step.feature, "G411", "what stands on it would hang in the air"});
+    }
     return undone_.size() > count;
   }
 

@@ -42,7 +42,8 @@ struct Pieces {
 /// Carries out the steps of a plan on its solid, one operator after the other, and takes back, one
 /// by one, the steps by which an invariant would break (G405), or something would
 /// hang in the air (G411). Which one that is, is found by halving: the last of the fewest first
-/// steps that break it. What an operator draws with an edge that is too short is taken back as well
+/// steps that break it. A piece that carries what it is a piece of does not go without that, if it
+/// may stay (G411). What an operator draws with an edge that is too short is taken back as well
 /// (G403), with all that it draws together. A piece is torn off what it runs on into if a new edge
 /// that is too short arises at it, no longer than the piece is thin, and belongs to something thin
 /// that stays or to what carries the piece, or if an edge of the body arises within it: then its

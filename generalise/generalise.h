@@ -63,9 +63,11 @@ struct Redrawn {
 };
 
 /// Carries the labels of the input polygons over to the facets of the generalised solid. A facet
-/// takes the semantic surface of the largest input polygon it is made of; one that no input polygon
-/// lies in is named by its slope. Installations keep the facets whose largest polygon is theirs;
-/// those that were removed go, with their ids listed. Imprints that stay are facets of their own.
+/// takes the semantic surface of the largest input polygon it is made of, of those that look the
+/// same way if there are any; one that no input polygon lies in is named by its slope.
+/// Installations keep the facets whose polygon is theirs, and get those without polygon that close
+/// the place of something that was on or in them; those that were removed go, with their ids
+/// listed. Imprints that stay are facets of their own.
 /// The building gets flat counts `oriel_removed_LABEL` and `oriel_removed_volume_m3`.
 ///
 /// If nothing is gone and the building came as a solid it stays as it is: `labelled`, which is what

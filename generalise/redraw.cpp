@@ -1,5 +1,7 @@
 #include "generalise/generalise.h"
 #include "generalise/removed.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/planar.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/segment/draw_imprints.h"
 
@@ -15,13 +17,14 @@ namespace oriel {
 
 namespace {
 
-double area_of(const Building& building, const Polygon& polygon) {
+/// Along the normal of a polygon, as long as its area without its holes.
+Vec3 area_vector(const Building& building, const Polygon& polygon) {
   Vec3 sum;
   const auto point = [&](int v) { return building.vertices[at(v)]; };
   for (const auto& ring : polygon.rings)
     for (std::size_t i = 1; i + 1 < ring.size(); ++i)
       sum = sum + cross(point(ring[i]) - point(ring[0]), point(ring[i + 1]) - point(ring[0]));
-  return length(sum) / 2;
+  return 0.5 * sum;
 }
 
 /// By slope alone: what a facet is that no input polygon lies in. 75 degrees is the default pack's
@@ -32,12 +35,18 @@ std::string type_by_slope(Vec3 normal) {
   return normal.z < -steepest_roof ? "OuterCeilingSurface" : "WallSurface";
 }
 
+/// What is drawn looks the way of a polygon within 45 degrees.
+constexpr double kSameWay = 0.7071;
+
 class Redrawer {
  public:
-  Redrawer(const Building& building, const LabelledBuilding& labelled, Generalised generalised)
-      : labelled_(labelled), generalised_(std::move(generalised)) {
+  Redrawer(const Building& building, const LabelledBuilding& labelled, Generalised generalised,
+           const Tolerances& tolerances)
+      : labelled_(labelled),
+        generalised_(std::move(generalised)),
+        reach_m_(tolerances.plane_offset_m + tolerances.weld_m) {
     for (const Polygon& polygon : building.polygons)
-      area_[polygon.source] = area_of(building, polygon);
+      area_[polygon.source] = area_vector(building, polygon);
     out_.labelled.building = labelled.building;
     out_.labelled.attributes = labelled.attributes;
   }
@@ -46,7 +55,7 @@ class Redrawer {
               const Interpretation& interpretation) {
     label_facets();
     tie_openings();
-    keep_installations(table);
+    keep_installations(table, heirs(segmentation, table));
     count_removed(generalised_.removed, segmentation, interpretation, out_);
     out_.labelled.geometry = std::move(generalised_.solid);
     return std::move(out_);
@@ -55,11 +64,17 @@ class Redrawer {
  private:
   [[nodiscard]] const std::vector<Facet>& facets() const { return generalised_.solid.facets; }
 
-  /// The largest input polygon of a facet, which says what the facet is; or -1.
+  /// The largest input polygon of a facet that looks where the facet does, or of all; it says what
+  /// the facet is. Or -1.
   [[nodiscard]] int main_polygon(const Facet& facet) const {
+    const Vec3 normal = generalised_.solid.planes[facet.plane.index()].normal;
+    const auto rank = [&](int polygon) {
+      const Vec3 area = area_.at(polygon);
+      return std::pair(dot(normal, area) > kSameWay * length(area), length(area));
+    };
     int best = -1;
     for (const int polygon : facet.polygons)
-      if (best < 0 || area_.at(polygon) > area_.at(best)) best = polygon;
+      if (best < 0 || rank(polygon) > rank(best)) best = polygon;
     return best;
   }
 
@@ -102,7 +117,41 @@ class Redrawer {
     }
   }
 
-  void keep_installations(const FeatureTable& table) {
+  /// Of facets in which no input polygon lies the ids of the features that they belong to now:
+  /// where something is gone, its host, and what that is a piece of.
+  [[nodiscard]] std::map<int, std::set<std::string>> heirs(const Segmentation& segmentation,
+                                                           const FeatureTable& table) const {
+    std::vector<int> bare;
+    for (int f = 0; f < std::ssize(facets()); ++f)
+      if (facets()[at(f)].polygons.empty()) bare.push_back(f);
+    std::map<int, std::set<std::string>> found;
+    for (const FeatureId id : generalised_.removed) {
+      const Feature& gone = segmentation.features[id.index()];
+      if (!gone.host.is_valid() || bare.empty()) continue;
+      const auto heir =
+          std::ranges::find_if(bare, [&](int f) { return closes(f, gone, segmentation); });
+      if (heir == bare.end()) continue;
+      for (FeatureId host = gone.host; host.is_valid();
+           host = segmentation.features[host.index()].parent)
+        found[*heir].insert(table.id(host));
+    }
+    return found;
+  }
+
+  /// The facet lies where the feature was cut off.
+  [[nodiscard]] bool closes(int f, const Feature& gone, const Segmentation& segmentation) const {
+    const Solid& solid = generalised_.solid;
+    const Facet& facet = facets()[at(f)];
+    const Plane& plane = solid.planes[facet.plane.index()];
+    return !gone.planes.empty() &&
+           std::abs(dot(plane.normal, gone.cap_point) - plane.offset_m) <= reach_m_ &&
+           dot(plane.normal, segmentation.planes[gone.planes[0].index()].normal) > 0.99 &&
+           detail::contains(detail::outlines_of(solid.vertices, facet.loops), plane.normal,
+                            gone.cap_point);
+  }
+
+  void keep_installations(const FeatureTable& table,
+                          const std::map<int, std::set<std::string>>& heirs) {
     std::set<std::string> gone;
     for (const FeatureId id : generalised_.removed) gone.insert(table.id(id));
     for (const Installation& installation : labelled_.installations) {
@@ -113,7 +162,9 @@ class Redrawer {
       Installation kept{installation.id, installation.attributes, {}, {}};
       const std::set<int> polygons(installation.polygons.begin(), installation.polygons.end());
       for (int f = 0; f < std::ssize(facets()); ++f) {
-        if (!polygons.contains(main_polygon(facets()[at(f)]))) continue;
+        const auto heir = heirs.find(f);
+        const bool is_heir = heir != heirs.end() && heir->second.contains(installation.id);
+        if (!is_heir && !polygons.contains(main_polygon(facets()[at(f)]))) continue;
         kept.polygons.push_back(f);
         kept.surfaces.push_back(out_.labelled.surface_of_polygon[at(f)]);
       }
@@ -126,7 +177,8 @@ class Redrawer {
 
   const LabelledBuilding& labelled_;
   Generalised generalised_;
-  std::map<int, double> area_;   ///< of input polygons
+  double reach_m_;
+  std::map<int, Vec3> area_;     ///< of input polygons
   std::map<int, int> number_;    ///< new number of a surface that was kept
   std::map<int, int> absorbed_;  ///< new number of the facet that took a surface's polygon in
   Redrawn out_;
@@ -148,7 +200,7 @@ Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
       imprints.push_back(FeatureId{i});
   generalised.solid =
       draw_imprints(std::move(generalised.solid), segmentation, imprints, tolerances);
-  return Redrawer(building, labelled, std::move(generalised))
+  return Redrawer(building, labelled, std::move(generalised), tolerances)
       .run(segmentation, table, interpretation);
 }
 

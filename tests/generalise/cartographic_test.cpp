@@ -22,20 +22,24 @@ const RuleBase& cartographic() {
 
 /// What the pack makes of a building at 1 : scale.
 struct Redraft {
+  Interpretation labels;
   Plan plan;
   Generalised generalised;
 };
 
 Redraft redraft(const Line& line, double scale, double least_edge_m = 0) {
   const auto& [table, graph] = line.description;
-  const Interpretation labels = interpret(cartographic(), table, graph);
+  Interpretation labels = interpret(cartographic(), table, graph);
   Plan asked = plan(cartographic(), table, graph, labels, scale);
   Invariants invariants;
   invariants.least_edge_m = least_edge_m;
+  invariants.judge.fitness_of = [](const Solid& solid) {
+    return is_closed(solid) ? Fitness::valid : Fitness::unfit;
+  };
   auto out = generalise(line.solid, line.segmentation, table, labels, asked, {}, invariants);
   REQUIRE(out.value);
   CHECK(is_closed(out.value->solid));
-  return {std::move(asked), std::move(*out.value)};
+  return {std::move(labels), std::move(asked), std::move(*out.value)};
 }
 
 /// How many features have become what by which operator at 1 : scale.
@@ -52,6 +56,33 @@ std::size_t short_edges_drawn(const Line& line, const Generalised& made, double 
   return short_edges_of_drawn(line.solid, made.solid, line.segmentation, made.changed, made.removed,
                               least_m)
       .size();
+}
+
+LabelledBuilding relabelled(const Line& line, double scale) {
+  const Redraft made = redraft(line, scale);
+  return redraw(line.building(), line.labelled, line.segmentation, line.table(), made.labels,
+                made.generalised)
+      .labelled;
+}
+
+/// How many facets of each type the installations with that label have.
+std::map<std::string, int> types_of(const LabelledBuilding& labelled, const std::string& label) {
+  std::map<std::string, int> counts;
+  for (const Installation& installation : labelled.installations) {
+    const auto& members = installation.attributes;
+    const auto its = std::ranges::find(members, "oriel_label", &Members::value_type::first);
+    if (its == members.end() || std::get<std::string>(its->second) != label) continue;
+    for (const int surface : installation.surfaces)
+      ++counts[labelled.surfaces[static_cast<std::size_t>(surface)].type];
+  }
+  return counts;
+}
+
+/// Facets that look down where there was nothing that did.
+int new_undersides(const Solid& solid) {
+  return static_cast<int>(std::ranges::count_if(solid.facets, [&](const Facet& facet) {
+    return facet.polygons.empty() && solid.planes[facet.plane.index()].normal.z < -0.26;
+  }));
 }
 
 }  // namespace
@@ -117,5 +148,50 @@ TEST_SUITE("generalise") {
     CHECK(made.changed.empty());
     CHECK(made.removed.empty());
     CHECK(made.refused.size() == 3);
+  }
+
+  TEST_CASE("a chimney across a ridge keeps what it stands on") {
+    const Line line = line_of_sample("house");
+    const Redraft made = redraft(line, 2500);
+    CHECK(new_undersides(made.generalised.solid) == 0);
+    const auto is_carried = [](const CarriedOut::Refused& refused) {
+      return refused.code == "G411" && refused.reason.starts_with("what stands on it");
+    };
+    const auto& refused = made.generalised.refused;
+    const auto piece = std::ranges::find_if(refused, is_carried);
+    REQUIRE(piece != refused.end());
+    CHECK(is_part(*piece, made.plan, made.labels));
+    FeatureId chimney = line.segmentation.features[piece->feature.index()].parent;
+    while (chimney.is_valid() && line.label(chimney) != "chimney")
+      chimney = line.segmentation.features[chimney.index()].parent;
+    REQUIRE(chimney.is_valid());
+    CHECK_FALSE(std::ranges::binary_search(made.generalised.removed, chimney));
+  }
+
+  TEST_CASE("what stays does not hang over what went") {
+    for (const std::string& name : samples())
+      for (const double scale : {500., 1000., 2500., 5000., 10000.}) {
+        CAPTURE(name);
+        CAPTURE(scale);
+        CHECK(new_undersides(redraft(line_of_sample(name), scale).generalised.solid) == 0);
+      }
+  }
+
+  TEST_CASE(
+      "the place of an omitted window belongs to the bay it was in, that of a flue to its "
+      "chimney") {
+    const Line row = line_of_sample("row");
+    const auto before = types_of(row.labelled, "bay");
+    const auto bays = types_of(relabelled(row, 4000), "bay");
+    CHECK(before.at("Window") > 0);
+    CHECK(bays.count("Window") == 0);
+    CHECK(bays.at("WallSurface") >= before.at("WallSurface"));
+    const auto chimney = types_of(relabelled(line_of_sample("house"), 2500), "chimney");
+    CHECK(chimney.at("RoofSurface") == 1);
+  }
+
+  TEST_CASE("the top of a chimney drawn as a block is a roof") {
+    const auto block = types_of(relabelled(line_of_sample("l-house"), 2500), "chimney");
+    CHECK(block == std::map<std::string, int>{{"RoofSurface", 1}, {"WallSurface", 4}});
   }
 }
