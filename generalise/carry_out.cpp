@@ -102,15 +102,25 @@ class Guard {
   /// Takes back what leaves something hanging that the piece carried; false if nothing does.
   bool undo_carrying(const CarriedOut& out) {
     const std::size_t count = undone_.size();
-    for (const Step& step : plan_.steps) {
-      const FeatureId parent = segmentation_.features[step.feature.index()].parent;
-      if (std::ranges::binary_search(pieces_.may_stay, step.feature) && parent.is_valid() &&
-          std::ranges::binary_search(out.removed, step.feature) &&
-          !std::ranges::binary_search(out.removed, parent) && !is_settled(step.feature) &&
+    for (const Step& step : plan_.steps)
+      if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
+          std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
+          !is_settled(step.feature) && stays_as_it_was(parent_of(step.feature), out) &&
           detail::carries_its_parent(segmentation_, step.feature))
         undone_.push_back({step.feature, "G411", "what stands on it would hang in the air"});
-    }
     return undone_.size() > count;
+  }
+
+  [[nodiscard]] FeatureId parent_of(FeatureId id) const {
+    return segmentation_.features[id.index()].parent;
+  }
+
+  /// Neither removed nor, with something around it, drawn anew, as a chimney that becomes a block.
+  [[nodiscard]] bool stays_as_it_was(FeatureId id, const CarriedOut& out) const {
+    if (!id.is_valid() || std::ranges::binary_search(out.removed, id)) return false;
+    for (; id.is_valid(); id = parent_of(id))
+      if (std::ranges::binary_search(out.changed, id)) return false;
+    return true;
   }
 
   /// The edge is where the piece was torn off what stays; of the body it is if the piece covered it
@@ -126,7 +136,7 @@ class Guard {
   }
 
   [[nodiscard]] bool carries(FeatureId carrier, FeatureId id) const {
-    while (id.is_valid() && id != carrier) id = segmentation_.features[id.index()].parent;
+    while (id.is_valid() && id != carrier) id = parent_of(id);
     return id.is_valid();
   }
 

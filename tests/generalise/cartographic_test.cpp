@@ -168,6 +168,19 @@ TEST_SUITE("generalise") {
     CHECK_FALSE(std::ranges::binary_search(made.generalised.removed, chimney));
   }
 
+  TEST_CASE("the shaft under the brim of a chimney goes where that is drawn as a block") {
+    BoxBody body;
+    body.add({0, 0, 0}, {12, 8, 6});
+    body.add({3, 3, 6}, {3.5, 3.5, 7});
+    body.add({2.9, 2.9, 7}, {3.6, 3.6, 7.1});
+    const Line line = line_of(body.build());
+    REQUIRE(line.features("chimney").size() == 1);
+    const Generalised made = redraft(line, 2500).generalised;
+    CHECK(made.changed == line.features("chimney"));
+    CHECK_FALSE(made.removed.empty());
+    CHECK(made.refused.empty());
+  }
+
   TEST_CASE("what stays does not hang over what went") {
     for (const std::string& name : samples())
       for (const double scale : {500., 1000., 2500., 5000., 10000.}) {
