@@ -89,15 +89,16 @@ class Grouper {
         sets_(soup.polygons.size()),
         origin_(soup.points.empty() ? Vec3{} : point(soup.points.front())) {}
 
-  CoplanarGroups run() {
+  std::optional<CoplanarGroups> run() {
     std::vector<Pair> pairs = likely_pairs();
-    if (!pairs.empty()) {
-      for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
-      unite_all(pairs, Fitting::areas);
-      unite_all(pairs, Fitting::corners);
-      take_in_slivers();
-    }
-    return numbered();
+    if (pairs.empty()) return std::nullopt;
+    for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
+    unite_all(pairs, Fitting::areas);
+    unite_all(pairs, Fitting::corners);
+    take_in_slivers();
+    CoplanarGroups groups = numbered();
+    if (groups.count == soup_.polygon_count()) return std::nullopt;
+    return groups;
   }
 
  private:
@@ -128,13 +129,13 @@ class Grouper {
   [[nodiscard]] std::vector<Pair> likely_pairs() const {
     std::vector<Pair> pairs;
     bool is_exact = true;
-    for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
-      const int twin = mesh_.twin[h];
-      if (twin < static_cast<int>(h)) continue;
-      const int p = mesh_.polygon_of[h], q = mesh_.polygon_of[at(twin)];
+    for (int h = 0; h < soup_.corner_count(); ++h) {
+      const int twin = mesh_.twin[at(h)];
+      if (twin < h) continue;
+      const int p = mesh_.polygon_of[at(h)], q = mesh_.polygon_of[at(twin)];
       const PolygonShape &a = shapes_[at(p)], &b = shapes_[at(q)];
-      if (p == q || !a.normal || !b.normal) continue;
-      if (dot(a.unit, b.unit) < kCosineOfMost) continue;
+      // Without area the unit normal is zero.
+      if (dot(a.unit, b.unit) < kCosineOfMost || p == q) continue;
       const double allowed = 2 * angle_ + a.uncertainty_rad(reach_) + b.uncertainty_rad(reach_);
       if (*a.normal != *b.normal && is_angle_above(a.unit, b.unit, allowed)) continue;
       pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
@@ -304,6 +305,7 @@ class Grouper {
 
   CoplanarGroups numbered() {
     CoplanarGroups out;
+    out.group_of.reserve(soup_.polygons.size());
     std::vector<int> number(soup_.polygons.size(), -1);
     for (int p = 0; p < soup_.polygon_count(); ++p) {
       const int set = sets_.find(p);
@@ -311,8 +313,7 @@ class Grouper {
       if (n < 0) {
         n = out.count++;
         out.fitted_normal.emplace_back();
-        if (!groups_.empty() && groups_[at(set)].is_fitted)
-          out.fitted_normal.back() = groups_[at(set)].plane.normal;
+        if (groups_[at(set)].is_fitted) out.fitted_normal.back() = groups_[at(set)].plane.normal;
       }
       out.group_of.push_back(n);
     }
@@ -331,8 +332,9 @@ class Grouper {
 
 }  // namespace
 
-CoplanarGroups group_coplanar(const Soup& soup, const std::vector<PolygonShape>& shapes,
-                              const ShellMesh& mesh, const Tolerances& tolerances) {
+std::optional<CoplanarGroups> group_coplanar(const Soup& soup,
+                                             const std::vector<PolygonShape>& shapes,
+                                             const ShellMesh& mesh, const Tolerances& tolerances) {
   return Grouper(soup, shapes, mesh, tolerances).run();
 }
 

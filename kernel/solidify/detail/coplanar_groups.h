@@ -27,12 +27,13 @@ struct CoplanarGroups {
 /// but for slivers: polygons thinner than twice plane_offset_m that share more than half of their
 /// outline with a group and lie in its plane.
 ///
-/// `shapes` are those of the soup's polygons.
+/// `shapes` are those of the soup's polygons. Nothing if every polygon stays alone.
 ///
 /// With noise the normal of a triangle says little about the wall that it is a piece of; the area
 /// vectors of all pieces add up to the wall's own, however it was cut.
-CoplanarGroups group_coplanar(const Soup& soup, const std::vector<PolygonShape>& shapes,
-                              const ShellMesh& mesh, const Tolerances& tolerances);
+std::optional<CoplanarGroups> group_coplanar(const Soup& soup,
+                                             const std::vector<PolygonShape>& shapes,
+                                             const ShellMesh& mesh, const Tolerances& tolerances);
 
 /// The soup in which each group is one polygon with the rings of all its members. Neither sources
 /// nor order are kept.

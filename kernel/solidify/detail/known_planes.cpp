@@ -72,24 +72,27 @@ std::optional<PlaneFit> KnownPlanes::known_fit(int k, const Span& span, double t
   const double reach = tolerance * c.size;
   std::optional<PlaneFit> best;
   const auto from = static_cast<std::int64_t>(std::ceil(static_cast<double>(span.high) - reach));
-  for (auto o = c.offsets.lower_bound(from); o != c.offsets.end(); ++o) {
-    if (residual_of(span, o->first) > reach) break;
-    const double residual = residual_of(span, o->first) / c.size;
-    if (!best || residual < best->residual) best = PlaneFit{k, true, o->first, residual};
+  auto o = std::ranges::lower_bound(c.offsets, from, {}, &NormalClass::Offset::offset);
+  for (; o != c.offsets.end(); ++o) {
+    if (residual_of(span, o->offset) > reach) break;
+    const double residual = residual_of(span, o->offset) / c.size;
+    if (!best || residual < best->residual) best = PlaneFit{k, true, o->offset, residual};
   }
   return best;
 }
 
 int KnownPlanes::number_of(int k, std::int64_t offset) {
   NormalClass& c = classes_[at(k)];
-  const auto [entry, is_new] = c.offsets.emplace(offset, static_cast<int>(places_.size()));
-  if (!is_new) return entry->second;
+  const auto o = std::ranges::lower_bound(c.offsets, offset, {}, &NormalClass::Offset::offset);
+  if (o != c.offsets.end() && o->offset == offset) return o->place;
+  const int place = static_cast<int>(places_.size());
+  c.offsets.insert(o, {offset, place});
   places_.push_back({k, offset});
   // Of classes with one normal the first one's place is the one that polygons take.
   const ExactPlane plane{c.normal[0], c.normal[1], c.normal[2], offset};
-  int& exact = exact_places_.try_emplace(plane, entry->second).first->second;
-  if (k < places_[at(exact)].normal_class) exact = entry->second;
-  return entry->second;
+  int& exact = exact_places_.try_emplace(plane, place).first->second;
+  if (k < places_[at(exact)].normal_class) exact = place;
+  return place;
 }
 
 int KnownPlanes::add_class(const Normal& normal) {

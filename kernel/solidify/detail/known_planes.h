@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -24,8 +23,13 @@ struct NormalClass {
   Normal normal{};
   Vec3 unit;
   NormalCell cell{};
-  double size = 0;                      ///< length of `normal`
-  std::map<std::int64_t, int> offsets;  ///< normal · point, and the number of the place
+  double size = 0;  ///< length of `normal`
+  /// An offset, normal · point, and the number of its place.
+  struct Offset {
+    std::int64_t offset = 0;
+    int place = -1;
+  };
+  std::vector<Offset> offsets;  ///< ascending
 };
 
 /// A place for a polygon: a class, and a plane of it or a new offset.

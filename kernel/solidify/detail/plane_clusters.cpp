@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -69,7 +70,8 @@ class Clusterer {
       const int known = exact_place(i);
       place_of_[at(i)] = known >= 0 ? known : place(i);
     }
-    for (int round = 0; round < 3 && separate_parallels(by_area); ++round) {
+    const std::vector<int> crowded = crowded_polygons(by_area);
+    for (int round = 0; round < 3 && separate_parallels(crowded); ++round) {
     }
     return result();
   }
@@ -155,14 +157,45 @@ class Clusterer {
     return planes_.number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
   }
 
+  /// The polygons that meet another one of their class at a point: only they can be too many there,
+  /// as no polygon joins a class later. Classes are told apart by their numbers' last bits: a
+  /// polygon too many does no harm.
+  [[nodiscard]] std::vector<int> crowded_polygons(const std::vector<int>& by_area) const {
+    const auto bit_of = [&](int polygon) {
+      constexpr int kBits = 64;
+      return std::uint64_t{1} << (class_of(place_of_[at(polygon)]) % kBits);
+    };
+    std::vector<std::uint64_t> met(soup_.points.size(), 0), met_again(met);
+    std::uint64_t any_again = 0;
+    for (int i = 0; i < soup_.polygon_count(); ++i) {
+      const std::uint64_t bit = bit_of(i);
+      for (const int v : soup_.corners_of(i)) {
+        const std::uint64_t again = met[at(v)] & bit;
+        met[at(v)] |= bit;
+        if (again == 0) continue;
+        met_again[at(v)] |= bit;
+        any_again |= bit;
+      }
+    }
+    std::vector<int> crowded;
+    if (any_again == 0) return crowded;
+    std::ranges::copy_if(by_area, std::back_inserter(crowded), [&](int i) {
+      const std::uint64_t bit = any_again & bit_of(i);
+      return bit != 0 && std::ranges::any_of(soup_.corners_of(i),
+                                             [&](int v) { return (met_again[at(v)] & bit) != 0; });
+    });
+    return crowded;
+  }
+
   /// Two parallel planes cannot share a vertex. Where polygons of one class but of two planes do,
   /// the smaller one takes its own normal, or the larger one's plane if that is no other. True if
-  /// something changed.
-  bool separate_parallels(const std::vector<int>& by_area) {
+  /// something changed. `crowded`: the largest first.
+  bool separate_parallels(const std::vector<int>& crowded) {
+    if (crowded.empty()) return false;
     PlacesAtPoints of_larger(soup_);
     bool has_changed = false;
     std::vector<int> points;  // where the polygon's place is new
-    for (const int i : by_area) {
+    for (const int i : crowded) {
       const int rival = rival_of(i, of_larger, points);
       if (rival >= 0) {
         const bool is_same_normal = !shapes_[at(i)].normal || own_class_exists(i, class_of(rival));
@@ -205,11 +238,9 @@ class Clusterer {
   /// The cosines between the normals of polygons and of their planes' classes; 1 for a polygon
   /// without area.
   [[nodiscard]] std::vector<double> cosines_to_classes() const {
-    std::vector<double> cosines;
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-      const Vec3 direction = planes_.class_at(place_of_[i]).unit;
-      cosines.push_back(shapes_[i].normal ? dot(shapes_[i].unit, direction) : 1);
-    }
+    std::vector<double> cosines(shapes_.size(), 1);
+    for (std::size_t i = 0; i < shapes_.size(); ++i)
+      if (shapes_[i].normal) cosines[i] = dot(shapes_[i].unit, planes_.class_at(place_of_[i]).unit);
     return cosines;
   }
 
@@ -239,11 +270,13 @@ class Clusterer {
       return std::tuple(p.normal.x, p.normal.y, p.normal.z, p.offset_m);
     });
     std::vector<int> place_of(planes.size());
+    out.planes.reserve(planes.size());
     for (const int i : order) {
       place_of[at(i)] = static_cast<int>(out.planes.size());
       out.planes.push_back(planes[at(i)]);
     }
-    for (const int p : plane_of) out.plane_of.push_back(place_of[at(p)]);
+    for (int& p : plane_of) p = place_of[at(p)];
+    out.plane_of = std::move(plane_of);
     return out;
   }
 
@@ -275,9 +308,9 @@ int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups
 PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
                              const Tolerances& tolerances) {
   std::vector<PolygonShape> shapes = shapes_of(soup);
-  const CoplanarGroups groups = group_coplanar(soup, shapes, mesh, tolerances);
-  if (groups.count == soup.polygon_count())
-    return Clusterer(soup, std::move(shapes), tolerances).run();
+  const std::optional<CoplanarGroups> found = group_coplanar(soup, shapes, mesh, tolerances);
+  if (!found) return Clusterer(soup, std::move(shapes), tolerances).run();
+  const CoplanarGroups& groups = *found;
   const Soup grouped = soup_of_groups(soup, groups);
   std::vector<int> members(static_cast<std::size_t>(groups.count), 0);
   for (const int g : groups.group_of) ++members[static_cast<std::size_t>(g)];

@@ -60,9 +60,10 @@ void decide_standing(const Soup& soup, std::span<const double> cosines, std::spa
 WaysRound ways_round(const Soup& soup, std::span<const double> cosines,
                      std::span<const int> planes) {
   WaysRound out;
+  out.is_turned.resize(soup.polygons.size());
   std::vector<int> undecided;
-  for (int i = 0; i < soup.polygon_count(); ++i) {
-    out.is_turned.push_back(cosines[at(i)] < 0);
+  for (int i = 0; i < std::ssize(out.is_turned); ++i) {
+    out.is_turned[at(i)] = cosines[at(i)] < 0;
     if (is_standing(cosines[at(i)])) undecided.push_back(i);
   }
   out.standing = static_cast<int>(undecided.size());
