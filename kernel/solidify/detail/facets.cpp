@@ -2,7 +2,6 @@
 
 #include "kernel/model/detail/counting_sort.h"
 #include "kernel/model/detail/index.h"
-#include "kernel/solidify/detail/disjoint_sets.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,13 +29,13 @@ class Drafter {
 
   void grow_facets() {
     draft_.facet_of.assign(soup_.polygons.size(), -1);
+    draft_.plane.reserve(soup_.polygons.size());
     side_.resize(mesh_.half_edge_count());
     Numbers patch;
     for (int start = 0; start < soup_.polygon_count(); ++start) {
       if (draft_.facet_of[at(start)] >= 0) continue;
       const int facet = static_cast<int>(draft_.plane.size());
       draft_.plane.push_back(clusters_.plane_of[at(start)]);
-      connected_.add();
       draft_.facet_of[at(start)] = facet;
       for (patch.assign(1, start); !patch.empty();) {
         const int p = patch.back();
@@ -52,49 +51,75 @@ class Drafter {
     const int plane = clusters_.plane_of[at(polygon)];
     const int begin = soup_.first_corner[at(soup_.first_ring[at(polygon)])];
     const int end = soup_.first_corner[at(soup_.first_ring[at(polygon) + 1])];
+    const int *const polygon_of = mesh_.polygon_of.data(), *const twin = mesh_.twin.data();
+    const int* const plane_of = clusters_.plane_of.data();
+    Side* const side = side_.data();
     for (int h = begin; h < end; ++h) {
-      const int q = mesh_.polygon_of[at(mesh_.twin[at(h)])];
-      int& neighbour = draft_.facet_of[at(q)];
-      const bool is_rim = clusters_.plane_of[at(q)] != plane;
-      side_[at(h)] = is_rim ? Side::rim : Side::interior;
-      if (is_rim && neighbour >= 0) connected_.unite(facet, neighbour);
-      if (is_rim || neighbour >= 0) continue;
-      neighbour = facet;
+      const int q = polygon_of[twin[h]];
+      const bool is_rim = plane_of[q] != plane;
+      side[h] = is_rim ? Side::rim : Side::interior;
+      if (is_rim || draft_.facet_of[at(q)] >= 0) continue;
+      draft_.facet_of[at(q)] = facet;
       patch.push_back(q);
     }
   }
 
+  /// What is connected over edges is one component, numbered by its first polygon.
   void number_components() {
+    Numbers component_of(soup_.polygons.size(), -1), reached;
+    reached.reserve(soup_.polygons.size());
+    std::size_t seen = 0;
+    for (int start = 0; reached.size() < soup_.polygons.size(); ++start) {
+      if (component_of[at(start)] >= 0) continue;
+      component_of[at(start)] = draft_.components;
+      reached.push_back(start);
+      while (seen < reached.size() && reached.size() < soup_.polygons.size())
+        reach_over(reached[seen++], component_of, reached);
+      ++draft_.components;
+    }
     draft_.component.resize(draft_.facet_count());
-    for (int f = 0; f < std::ssize(draft_.component); ++f) {
-      const int smallest = connected_.find(f);
-      draft_.component[at(f)] =
-          smallest == f ? draft_.components++ : draft_.component[at(smallest)];
+    for (std::size_t p = 0; p < component_of.size(); ++p)
+      draft_.component[at(draft_.facet_of[p])] = component_of[p];
+  }
+
+  /// Takes the neighbours of a polygon into its component.
+  void reach_over(int polygon, Numbers& component_of, Numbers& reached) const {
+    const int begin = soup_.first_corner[at(soup_.first_ring[at(polygon)])];
+    const int end = soup_.first_corner[at(soup_.first_ring[at(polygon) + 1])];
+    for (int h = begin; h < end; ++h) {
+      const int q = mesh_.polygon_of[at(mesh_.twin[at(h)])];
+      if (component_of[at(q)] >= 0) continue;
+      component_of[at(q)] = component_of[at(polygon)];
+      reached.push_back(q);
     }
   }
 
   /// All loops with all their vertices, in the order of the edges that they start with.
   void find_loops() {
-    vertices_.reserve(mesh_.half_edge_count());
+    vertices_.resize(mesh_.half_edge_count());
     first_vertex_.push_back(0);
-    for (int h = 0; h < std::ssize(side_); ++h) {
-      const int twin = mesh_.twin[at(h)];
-      if (side_[at(h)] == Side::interior || twin < h) continue;
+    const int* const twin = mesh_.twin.data();
+    for (int h = 0; h < std::ssize(mesh_.twin); ++h) {
+      if (twin[h] < h || side_[at(h)] == Side::interior) continue;
       if (side_[at(h)] == Side::rim) walk_loop(h);
-      if (side_[at(twin)] == Side::rim) walk_loop(twin);
+      if (side_[at(twin[h])] == Side::rim) walk_loop(twin[h]);
     }
+    vertices_.resize(at(first_vertex_.back()));
   }
 
   void walk_loop(int start) {
     facet_of_loop_.push_back(facet_of(start));
+    const int *const next = mesh_.next.data(), *const vertex_of = mesh_.vertex_of.data();
+    Side* const side = side_.data();
+    int* vertex = vertices_.data() + first_vertex_.back();
     int h = start;
     do {
-      side_[at(h)] = Side::walked;
-      vertices_.push_back(mesh_.vertex_of[at(h)]);
-      h = mesh_.next[at(h)];
-      while (side_[at(h)] == Side::interior) h = mesh_.next[at(mesh_.twin[at(h)])];
+      side[h] = Side::walked;
+      *vertex++ = vertex_of[h];
+      h = next[h];
+      while (side[h] == Side::interior) h = next[mesh_.twin[at(h)]];
     } while (h != start);
-    first_vertex_.push_back(static_cast<int>(vertices_.size()));
+    first_vertex_.push_back(static_cast<int>(vertex - vertices_.data()));
   }
 
   [[nodiscard]] std::size_t loop_count() const { return facet_of_loop_.size(); }
@@ -109,7 +134,7 @@ class Drafter {
     Numbers degree(mesh_.vertex_count(), 0);
     for (const int v : vertices_) ++degree[at(v)];
     is_kept_.resize(degree.size());
-    for (std::size_t v = 0; v < degree.size(); ++v) is_kept_[v] = degree[v] > 2;
+    for (std::size_t v = 0; v < degree.size(); ++v) is_kept_[v] = degree[v] == 0 || degree[v] > 2;
     for (bool has_changed = true; has_changed && !are_all_kept();) {
       has_changed = false;
       for (std::size_t l = 0; l < loop_count(); ++l) {
@@ -124,7 +149,7 @@ class Drafter {
   }
 
   [[nodiscard]] bool are_all_kept() const {
-    return std::ranges::all_of(vertices_, [&](int v) { return is_kept_[at(v)] != 0; });
+    return std::ranges::find(is_kept_, 0) == is_kept_.end();
   }
 
   /// An edge of a loop between kept vertices.
@@ -184,14 +209,20 @@ class Drafter {
   /// The loops by facet, with the vertices that are kept.
   void collect_loops() {
     Buckets loops_of_facet = sort_into_buckets(facet_of_loop_, draft_.facet_count());
-    draft_.vertices.reserve(vertices_.size());
-    draft_.first_vertex.reserve(loop_count() + 1);
-    draft_.first_vertex.push_back(0);
+    draft_.vertices.resize(vertices_.size());
+    draft_.first_vertex.resize(loop_count() + 1);
+    int* const kept = draft_.vertices.data();
+    int* first = draft_.first_vertex.data();
+    int count = 0;
+    *first = 0;
     for (const int l : loops_of_facet.items) {
-      for (const int v : loop(at(l)))
-        if (is_kept_[at(v)]) draft_.vertices.push_back(v);
-      draft_.first_vertex.push_back(static_cast<int>(draft_.vertices.size()));
+      for (const int v : loop(at(l))) {
+        kept[count] = v;
+        count += is_kept_[at(v)];
+      }
+      *++first = count;
     }
+    draft_.vertices.resize(at(count));
     draft_.first_loop = std::move(loops_of_facet.first);
   }
 
@@ -203,10 +234,9 @@ class Drafter {
   /// along it.
   enum class Side : char { interior, rim, walked };
   std::vector<Side> side_;
-  DisjointSets connected_{0};  ///< facets
   // The loops as found: of each its facet, its first vertex (one entry more), all vertices.
   Numbers facet_of_loop_, first_vertex_, vertices_;
-  std::vector<char> is_kept_;
+  std::vector<char> is_kept_;  ///< 1 for those on no loop, too
 };
 
 }  // namespace

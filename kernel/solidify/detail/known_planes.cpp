@@ -29,8 +29,8 @@ double residual_of(const Span& span, std::int64_t offset) {
                   std::abs(static_cast<double>(offset - span.low)));
 }
 
-KnownPlanes::KnownPlanes(double angle_tolerance)
-    : cell_size_(std::max(2 * std::sin(angle_tolerance / 2), kLeastCell)) {}
+KnownPlanes::KnownPlanes(double angle_tolerance, std::size_t most)
+    : cell_size_(std::max(2 * std::sin(angle_tolerance / 2), kLeastCell)), exact_places_(most) {}
 
 const NormalClass& KnownPlanes::class_at(int place) const {
   return classes_[at(places_[at(place)].normal_class)];
@@ -42,8 +42,9 @@ NormalCell KnownPlanes::cell_of(Vec3 u) const {
 }
 
 int KnownPlanes::exact_place(const Normal& normal, std::int64_t offset) const {
-  const auto found = exact_places_.find({normal[0], normal[1], normal[2], offset});
-  return found != exact_places_.end() ? found->second : -1;
+  return exact_places_.find(table_key(normal, offset), [&](int place) {
+    return places_[at(place)].offset == offset && class_at(place).normal == normal;
+  });
 }
 
 std::vector<int> KnownPlanes::near_classes(Vec3 u) const {
@@ -89,9 +90,10 @@ int KnownPlanes::number_of(int k, std::int64_t offset) {
   c.offsets.insert(o, {offset, place});
   places_.push_back({k, offset});
   // Of classes with one normal the first one's place is the one that polygons take.
-  const ExactPlane plane{c.normal[0], c.normal[1], c.normal[2], offset};
-  int& exact = exact_places_.try_emplace(plane, place).first->second;
-  if (k < places_[at(exact)].normal_class) exact = place;
+  int& exact = exact_places_.at(table_key(c.normal, offset), [&](int other) {
+    return places_[at(other)].offset == offset && class_at(other).normal == c.normal;
+  });
+  if (exact < 0 || k < places_[at(exact)].normal_class) exact = place;
   return place;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/geometry/exact.h"
+#include "kernel/solidify/detail/number_table.h"
 #include "kernel/solidify/detail/polygon_shape.h"
 
 #include <array>
@@ -47,8 +48,9 @@ double residual_of(const Span& span, std::int64_t offset);
 /// their offsets.
 class KnownPlanes {
  public:
-  /// `angle_tolerance`: within it directions are one, in radians.
-  explicit KnownPlanes(double angle_tolerance);
+  /// `angle_tolerance`: within it directions are one, in radians. `most`: no more places
+  /// are made.
+  KnownPlanes(double angle_tolerance, std::size_t most);
 
   /// A plane that polygons were put on.
   struct Place {
@@ -73,8 +75,6 @@ class KnownPlanes {
   int add_class(const Normal& normal);
 
  private:
-  using ExactPlane = std::array<std::int64_t, 4>;  ///< normal and offset
-
   /// Keys for hashing.
   struct Hash {
     template <class Key>
@@ -93,7 +93,7 @@ class KnownPlanes {
   std::vector<NormalClass> classes_;
   std::vector<Place> places_;
   std::unordered_map<NormalCell, std::vector<int>, Hash> cells_;  ///< classes by unit normal
-  std::unordered_map<ExactPlane, int, Hash> exact_places_;
+  NumberTable exact_places_;
 };
 
 }  // namespace oriel::detail

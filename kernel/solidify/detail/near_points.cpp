@@ -19,7 +19,8 @@ using exact::GridPoint;
 /// axes, in most buildings into single points.
 class Candidates {
  public:
-  Candidates(std::span<const GridPoint> points, double reach) : points_(points), reach_(reach) {}
+  Candidates(std::span<const GridPoint> points, double reach)
+      : points_(points), reach_(static_cast<std::int64_t>(std::ceil(reach))) {}
 
   /// Of sorted points.
   Numbers find() {
@@ -41,7 +42,7 @@ class Candidates {
   }
 
   [[nodiscard]] bool is_within_reach(int i, int j, std::size_t axis) const {
-    return static_cast<double>(points_[at(j)][axis] - points_[at(i)][axis]) < reach_;
+    return points_[at(j)][axis] - points_[at(i)][axis] < reach_;
   }
 
   /// What was not cut along `axis` is cut along the next one.
@@ -56,7 +57,7 @@ class Candidates {
   }
 
   std::span<const GridPoint> points_;
-  double reach_;
+  std::int64_t reach_;  ///< a whole number is below this one if it is below the one told
   Numbers found_;
 };
 

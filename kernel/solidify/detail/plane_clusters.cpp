@@ -51,7 +51,7 @@ class Clusterer {
         offset_tolerance_(tolerances.plane_offset_m / soup.grid_m),
         angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
         shapes_(std::move(shapes)),
-        planes_(angle_tolerance_) {}
+        planes_(angle_tolerance_, (1 + kRounds) * shapes_.size()) {}
 
   /// Another normal for a polygon than that of its area vector.
   void set_normal(int polygon, Vec3 normal) {
@@ -71,12 +71,15 @@ class Clusterer {
       place_of_[at(i)] = known >= 0 ? known : place(i);
     }
     const std::vector<int> crowded = crowded_polygons(by_area);
-    for (int round = 0; round < 3 && separate_parallels(crowded); ++round) {
+    for (int round = 0; round < kRounds && separate_parallels(crowded); ++round) {
     }
     return result();
   }
 
  private:
+  /// So often parallels are separated at most.
+  static constexpr int kRounds = 3;
+
   [[nodiscard]] std::vector<int> largest_first() const {
     struct Sized {
       double area;
@@ -134,20 +137,17 @@ class Clusterer {
   int place(int polygon) {
     const PolygonShape& shape = shapes_[at(polygon)];
     const double uncertainty = shape.uncertainty_rad(offset_tolerance_);
-    std::vector<int> candidates;
-    if (shape.normal && uncertainty <= angle_tolerance_) {
-      candidates = planes_.near_classes(shape.unit);
-    } else {
-      candidates.resize(planes_.classes().size());
-      std::iota(candidates.begin(), candidates.end(), 0);
-    }
     std::optional<PlaneFit> best;
-    for (const int k : candidates) {
+    const auto try_class = [&](int k) {
       const auto here = fit(polygon, uncertainty, k);
-      if (!here) continue;
+      if (!here) return;
       const auto key = [](const PlaneFit& f) { return std::tuple(!f.is_known, f.residual); };
       if (!best || key(*here) < key(*best)) best = here;
-    }
+    };
+    if (shape.normal && uncertainty <= angle_tolerance_)
+      std::ranges::for_each(planes_.near_classes(shape.unit), try_class);
+    else
+      for (int k = 0; k < std::ssize(planes_.classes()); ++k) try_class(k);
     return best ? planes_.number_of(best->normal_class, best->offset) : place_in_own_class(polygon);
   }
 

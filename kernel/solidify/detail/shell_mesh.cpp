@@ -2,9 +2,9 @@
 
 #include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/edge_groups.h"
+#include "kernel/solidify/detail/number_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -37,20 +37,15 @@ bool pair_plain(const Soup& soup, ShellMesh& mesh) {
   const auto ends_of = [&](int h) {
     return EdgeEnds(soup.corners[at(h)], soup.corners[at(mesh.next[at(h)])]);
   };
-  // An open hash table, at most half full: of every edge its first half-edge.
-  const std::size_t size = std::bit_ceil(soup.corners.size());
-  const int shift = 64 - std::countr_zero(size);
-  Numbers first(size, -1);
+  NumberTable first(soup.corners.size());  // of every edge its first half-edge
   mesh.twin.assign(soup.corners.size(), -1);
   for (int h = 0; h < soup.corner_count(); ++h) {
     const EdgeEnds ends = ends_of(h);
     const std::uint64_t key =
         static_cast<std::uint64_t>(ends.low) << 32 | static_cast<std::uint32_t>(ends.high);
-    std::size_t slot = (key * 0x9E3779B97F4A7C15ULL) >> shift;
-    while (first[slot] >= 0 && ends_of(first[slot]) != ends) slot = (slot + 1) & (size - 1);
-    const int other = first[slot];
+    int& other = first.at(key, [&](int g) { return ends_of(g) == ends; });
     if (other < 0) {
-      first[slot] = h;
+      other = h;
       continue;
     }
     if (mesh.twin[at(other)] >= 0 || soup.corners[at(other)] == soup.corners[at(h)]) return false;

@@ -55,13 +55,17 @@ void turn_round(Solid& solid, const Shell& shell) {
 void renumber_planes(Solid& solid) {
   std::vector<char> is_used(solid.planes.size(), 0);
   for (const Facet& facet : solid.facets) is_used[facet.plane.index()] = 1;
+  const auto key = [](const Plane& p) {
+    return std::tuple(p.normal.x, p.normal.y, p.normal.z, p.offset_m);
+  };
+  const auto out_of_order = [&](const Plane& p, const Plane& q) { return key(p) <= key(q); };
+  if (std::ranges::find(is_used, 0) == is_used.end() &&
+      std::ranges::adjacent_find(solid.planes, out_of_order) == solid.planes.end())
+    return;
   std::vector<int> order;
   for (int p = 0; p < std::ssize(solid.planes); ++p)
     if (is_used[at(p)]) order.push_back(p);
-  std::ranges::sort(order, std::greater{}, [&](int i) {
-    const Plane& p = solid.planes[at(i)];
-    return std::tuple(p.normal.x, p.normal.y, p.normal.z, p.offset_m);
-  });
+  std::ranges::sort(order, std::greater{}, [&](int i) { return key(solid.planes[at(i)]); });
   std::vector<int> number(solid.planes.size(), -1);
   std::vector<Plane> planes;
   for (const int p : order) {

@@ -3,13 +3,13 @@
 #include "kernel/model/detail/counting_sort.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
+#include "kernel/solidify/detail/nearest_point.h"
+#include "kernel/solidify/detail/number_table.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 namespace oriel::detail {
@@ -24,51 +24,9 @@ Plane unoriented(const Plane& plane) {
   return *leading < 0 ? exact::opposite(plane) : plane;
 }
 
-/// From `start` to the point with the least sum of squared distances to `planes`, drawn back by
-/// `pull` where they leave it free.
-Vec3 least_squares_shift(const std::vector<Plane>& planes, Vec3 start, double pull) {
-  double m[3][3] = {{pull, 0, 0}, {0, pull, 0}, {0, 0, pull}};
-  Vec3 right;
-  for (const Plane& plane : planes) {
-    const double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) m[i][j] += n[i] * n[j];
-    right = right + (plane.offset_m - dot(plane.normal, start)) * plane.normal;
-  }
-  const Vec3 r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]},
-      r2{m[2][0], m[2][1], m[2][2]};
-  const double det = dot(r0, cross(r1, r2));
-  return (1 / det) * (right.x * cross(r1, r2) + right.y * cross(r2, r0) + right.z * cross(r0, r1));
+bool is_same_plane(const Plane& p, const Plane& q) {
+  return p.offset == q.offset && p.coefficients == q.coefficients;
 }
-
-/// The point nearest to `planes`, no further than `reach` from `start`: planes of a wall and of a
-/// panel in it that are a hair's breadth from parallel meet anywhere.
-Vec3 nearest_point(const std::vector<Plane>& planes, Vec3 start, double reach) {
-  // Tolerances of nothing: they only keep the system regular along free directions.
-  constexpr double kWeakest = 1e-4, kStrongest = 1;
-  for (double pull = kWeakest; pull <= kStrongest; pull *= 10) {
-    const Vec3 shift = least_squares_shift(planes, start, pull);
-    if (length(shift) <= reach) return start + shift;
-  }
-  return start;
-}
-
-struct PlaneHash {
-  std::size_t operator()(const Plane& plane) const noexcept {
-    std::uint64_t h = static_cast<std::uint64_t>(plane.offset);
-    for (const std::int64_t c : plane.coefficients) {
-      h = (h ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
-      h ^= h >> 32;
-    }
-    return h;
-  }
-};
-
-struct IsSamePlane {
-  bool operator()(const Plane& p, const Plane& q) const {
-    return p.offset == q.offset && p.coefficients == q.coefficients;
-  }
-};
 
 class Snapper {
  public:
@@ -86,9 +44,13 @@ class Snapper {
     collect_planes();
     place_of_.resize(mesh_.vertex_count());
     for (int v = 0; v < std::ssize(place_of_); ++v) place(v);
-    while (unite_close_neighbours()) {
-    }
-    find_vanished();
+    if (has_close_neighbours())
+      while (unite_close_neighbours()) {
+      }
+    if (has_united_ || has_small_component())
+      find_vanished();
+    else
+      keep_all();
     return assemble();
   }
 
@@ -110,16 +72,20 @@ class Snapper {
 
   /// Numbers the planes so that both ways round of one have the same number.
   void number_planes() {
-    std::unordered_map<Plane, int, PlaneHash, IsSamePlane> numbers;
+    NumberTable numbers(2 * clusters_.planes.size());
+    planes_.reserve(clusters_.planes.size());
+    across_.reserve(clusters_.planes.size());
+    number_of_.reserve(clusters_.planes.size());
     for (const Plane& plane : clusters_.planes) {
       const Plane turned = unoriented(plane);
-      const int next = static_cast<int>(planes_.size());
-      const auto [entry, is_new] = numbers.try_emplace(turned, next);
-      if (is_new) {
+      int& number = numbers.at(table_key(turned.coefficients, turned.offset),
+                               [&](int n) { return is_same_plane(planes_[at(n)], turned); });
+      if (number < 0) {
+        number = static_cast<int>(planes_.size());
         planes_.push_back(turned);
         across_.push_back(across(turned));
       }
-      number_of_.push_back(entry->second);
+      number_of_.push_back(number);
     }
   }
 
@@ -130,12 +96,19 @@ class Snapper {
     count_to_first(plane_end_);
     plane_begin_ = plane_end_;
     planes_at_.resize(draft_.vertices.size());
+    int *const planes = planes_at_.data(), *const end_of = plane_end_.data();
+    const int* const begin_of = plane_begin_.data();
+    const int* vertex = draft_.vertices.data();
     for (std::size_t f = 0; f < draft_.facet_count(); ++f) {
       const int plane = number_of_[at(draft_.plane[f])];
-      const auto begin = draft_.vertices.begin() + draft_.first_vertex[at(draft_.first_loop[f])];
-      const auto end = draft_.vertices.begin() + draft_.first_vertex[at(draft_.first_loop[f + 1])];
-      for (auto v = begin; v != end; ++v)
-        if (!contains(planes_of(*v), plane)) planes_at_[at(plane_end_[at(*v)]++)] = plane;
+      const int* const end =
+          draft_.vertices.data() + draft_.first_vertex[at(draft_.first_loop[f + 1])];
+      for (; vertex != end; ++vertex) {
+        int* const last = planes + end_of[*vertex];
+        if (contains({planes + begin_of[*vertex], last}, plane)) continue;
+        *last = plane;
+        ++end_of[*vertex];
+      }
     }
   }
 
@@ -190,6 +163,21 @@ class Snapper {
     return out;
   }
 
+  /// True if the ends of an edge lie within weld_m, as placed at first. Every edge is met both
+  /// ways.
+  [[nodiscard]] bool has_close_neighbours() const {
+    const Vertex* const places = place_of_.data();
+    for (std::size_t l = 0; l < draft_.loop_count(); ++l) {
+      const auto loop = draft_.loop(l);
+      int v = loop.back();
+      for (const int w : loop) {
+        if (v < w && length(places[v].point - places[w].point) < tolerances_.weld_m) return true;
+        v = w;
+      }
+    }
+    return false;
+  }
+
   /// One pass over all edges; true if a pair was united. The united vertex is placed anew, by all
   /// its planes.
   bool unite_close_neighbours() {
@@ -221,6 +209,21 @@ class Snapper {
     planes_at_.insert(planes_at_.end(), planes.begin(), planes.end());
     plane_end_[at(first)] = static_cast<int>(planes_at_.size());
     place(first);
+  }
+
+  /// True if there is a component of fewer than three facets. In no other one two lie back to back
+  /// as drafted: the neighbours of each are all the facet behind it.
+  [[nodiscard]] bool has_small_component() const {
+    Numbers size(at(draft_.components), 0);
+    for (const int c : draft_.component) ++size[at(c)];
+    return std::ranges::any_of(size, [](int facets) { return facets < 3; });
+  }
+
+  /// All facets and loops as drafted.
+  void keep_all() {
+    has_vanished_.assign(draft_.facet_count(), 0);
+    loop_size_.resize(draft_.loop_count());
+    for (std::size_t l = 0; l < loop_size_.size(); ++l) loop_size_[l] = draft_.loop(l).size();
   }
 
   /// Facets without a loop vanish, and so do pairs that lie back to back: the two sides of a fin
@@ -314,9 +317,7 @@ class Snapper {
       facet.loops.reserve(at(draft_.first_loop[f + 1] - draft_.first_loop[f]));
       for (int l = draft_.first_loop[f]; l < draft_.first_loop[f + 1]; ++l) {
         if (loop_size_[at(l)] < 3) continue;
-        const auto vertices = cleaned(l);
-        Loop& loop = facet.loops.emplace_back(vertices.size());
-        for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = number[at(vertices[i])];
+        facet.loops.push_back(numbered(cleaned(l), number));
       }
       facet.polygons.reserve(polygons[f].size());
       for (const int p : polygons[f])
@@ -329,6 +330,26 @@ class Snapper {
       }
     }
     return out;
+  }
+
+  /// The loop in the numbers of the solid, from the smallest one; if that comes twice, from the
+  /// smallest vertex of the mesh.
+  static Loop numbered(std::span<const int> vertices, const Numbers& number) {
+    std::size_t start = 0;
+    bool comes_twice = false;
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      const int mine = number[at(vertices[i])], smallest = number[at(vertices[start])];
+      if (mine > smallest) continue;
+      comes_twice = mine == smallest;
+      start = i;
+    }
+    if (comes_twice)
+      start = static_cast<std::size_t>(std::ranges::min_element(vertices) - vertices.begin());
+    Loop loop(vertices.size());
+    int* out = loop.data();
+    for (const int v : vertices.subspan(start)) *out++ = number[at(v)];
+    for (const int v : vertices.first(start)) *out++ = number[at(v)];
+    return loop;
   }
 
   /// Appends the vertices in use to the solid; returns their numbers there.

@@ -64,6 +64,10 @@ class RingCutter {
   }
 
   [[nodiscard]] int ring_count() const { return ring_count_; }
+  /// True if all points are known to be on the rings that are left.
+  [[nodiscard]] bool uses_all_points() const {
+    return !has_dropped_ && std::ranges::find(last_ring_, 0) == last_ring_.end();
+  }
 
   /// Where the ring comes back to a point (it touches itself, or a bridge ties a hole to its outer
   /// ring) it is cut in two, and what has fewer than three vertices goes.
@@ -94,7 +98,10 @@ class RingCutter {
  private:
   /// Makes the points that stand after the last ring a ring.
   void keep(std::size_t size, std::size_t smallest) {
-    if (size < 3) return;
+    if (size < 3) {
+      has_dropped_ = true;
+      return;
+    }
     int* const begin = soup_.corners.data() + end_;
     if (smallest > 0) std::rotate(begin, begin + smallest, begin + size);
     end_ += size;
@@ -123,7 +130,8 @@ class RingCutter {
   std::size_t end_ = 0;  ///< of the corners so far
   int ring_count_ = 0;
   int ring_ = 0;
-  Numbers last_ring_;  ///< that came to each point
+  bool has_dropped_ = false;  ///< a ring of fewer than three vertices
+  Numbers last_ring_;         ///< that came to each point
   Numbers path_;
   Numbers place_in_path_;  ///< by point, -1 off the path
 };
@@ -142,6 +150,8 @@ void sort_rings(Soup& soup, int first, int end) {
   std::ranges::sort(order, comes_first);
   Numbers corners, first_corner;
   const int begin = soup.first_corner[at(first)];
+  corners.reserve(at(soup.first_corner[at(end)] - begin));
+  first_corner.reserve(order.size());
   for (const int r : order) {
     first_corner.push_back(begin + static_cast<int>(corners.size()));
     corners.insert(corners.end(), soup.ring(r).begin(), soup.ring(r).end());
@@ -150,8 +160,24 @@ void sort_rings(Soup& soup, int first, int end) {
   std::ranges::copy(first_corner, soup.first_corner.begin() + first);
 }
 
-/// Appends the building's polygons in its order. Returns how many have nothing left of their outer
-/// ring and were dropped.
+/// Leaves only the points in use, in their order.
+void drop_unused_points(Soup& soup) {
+  std::vector<char> is_used(soup.points.size(), 0);
+  for (const int v : soup.corners) is_used[at(v)] = 1;
+  if (std::ranges::find(is_used, 0) == is_used.end()) return;
+  Numbers place(soup.points.size(), -1);
+  int used = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (!is_used[v]) continue;
+    soup.points[at(used)] = soup.points[v];
+    place[v] = used++;
+  }
+  soup.points.resize(at(used));
+  for (int& v : soup.corners) v = place[at(v)];
+}
+
+/// Appends the building's polygons in its order, with the points in use. Returns how many have
+/// nothing left of their outer ring and were dropped.
 int append_polygons(const Building& building, std::span<const int> point_of, Soup& soup) {
   std::size_t corner_count = 0;
   for (const Polygon& polygon : building.polygons)
@@ -176,23 +202,8 @@ int append_polygons(const Building& building, std::span<const int> point_of, Sou
   const int dropped = static_cast<int>(soup.polygons.size() - count);
   soup.polygons.resize(count);
   soup.first_ring.resize(count + 1);
+  if (!cutter.uses_all_points()) drop_unused_points(soup);
   return dropped;
-}
-
-/// Leaves only the points in use, in their order.
-void drop_unused_points(Soup& soup) {
-  std::vector<char> is_used(soup.points.size(), 0);
-  for (const int v : soup.corners) is_used[at(v)] = 1;
-  if (std::ranges::find(is_used, 0) == is_used.end()) return;
-  Numbers place(soup.points.size(), -1);
-  int used = 0;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (!is_used[v]) continue;
-    soup.points[at(used)] = soup.points[v];
-    place[v] = used++;
-  }
-  soup.points.resize(at(used));
-  for (int& v : soup.corners) v = place[at(v)];
 }
 
 /// The polygons by body, then rings, then source.
@@ -268,7 +279,6 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
         Severity::note, "E304", building.id,
         fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
                     tolerances.weld_m)));
-  drop_unused_points(soup);
   const Numbers order = canonical_order(soup);
   return arranged(std::move(soup), order);
 }
