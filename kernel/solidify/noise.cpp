@@ -3,6 +3,7 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -20,8 +21,43 @@ constexpr double kShare = 0.9;
 constexpr double kOffsetPerNoise = 2.75;
 constexpr double kLargestOffset_m = 0.01;
 
+/// True if all corners have the same coordinate along that axis.
+bool is_across(const Building& building, const Polygon& polygon, double Vec3::*axis) {
+  const double level = building.vertices[at(polygon.rings[0][0])].*axis;
+  for (const auto& ring : polygon.rings)
+    for (const int v : ring)
+      if (building.vertices[at(v)].*axis != level) return false;
+  return true;
+}
+
+/// Twice the area of the outer ring, seen along the third axis.
+double area_across(const Building& building, const Polygon& polygon, double Vec3::*u,
+                   double Vec3::*v) {
+  const auto& outer = polygon.rings[0];
+  const Vec3* const corners = building.vertices.data();
+  const Vec3 origin = corners[outer[0]];
+  double area = 0;
+  double before_u = corners[outer[1]].*u - origin.*u, before_v = corners[outer[1]].*v - origin.*v;
+  for (std::size_t i = 2; i < outer.size(); ++i) {
+    const double here_u = corners[outer[i]].*u - origin.*u,
+                 here_v = corners[outer[i]].*v - origin.*v;
+    area += before_u * here_v - before_v * here_u;
+    before_u = here_u;
+    before_v = here_v;
+  }
+  return area;
+}
+
 /// Half of what the corners reach along the normal of the outer ring; NaN without area.
 double out_of_plane_m(const Building& building, const Polygon& polygon) {
+  // Most polygons stand across an axis and are flat then.
+  const auto flat_m = [&](double Vec3::*u, double Vec3::*v) {
+    const double area = area_across(building, polygon, u, v);
+    return std::abs(area) > 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
+  };
+  if (is_across(building, polygon, &Vec3::x)) return flat_m(&Vec3::y, &Vec3::z);
+  if (is_across(building, polygon, &Vec3::y)) return flat_m(&Vec3::z, &Vec3::x);
+  if (is_across(building, polygon, &Vec3::z)) return flat_m(&Vec3::x, &Vec3::y);
   const auto corner = [&](int v) { return building.vertices[at(v)]; };
   const auto& outer = polygon.rings[0];
   const Vec3 origin = corner(outer[0]);

@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/points.h"
 
+#include "kernel/geometry/axis_corners.h"
+
 #include <algorithm>
 #include <cmath>
 #include <ranges>
@@ -37,23 +39,36 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
     for (const Loop& loop : facet.loops)
       for (const int v : loop) add_plane(points_[index(v)], plane);
   }
+  AxisCorners corners(grid_m_);
+  corners.reserve(index(planes.size()));
+  for (int p = 0; p < planes.size(); ++p) corners.add(planes.plane(p));
   places_.reserve(points_.size());
   for (std::size_t v = 0; v < points_.size(); ++v) {
     Point& point = points_[v];
     const Vec3 at = solid.vertices[v].point;
-    std::optional<exact::Rational> where;
-    if (solid.vertices[v].is_meeting && point.planes.size() >= 3)
-      where = exact::meet(planes.plane(point.planes[0]), planes.plane(point.planes[1]),
-                          planes.plane(point.planes[2]));
-    places_.push_back(where ? metres_of(*where) : Vec3{});
-    point.is_by_decree = !where || length(places_[v] - at) > kOnSegment_m;
-    if (!point.is_by_decree) continue;
+    std::optional<Vec3> where;
+    if (solid.vertices[v].is_meeting && point.planes.size() >= 3) {
+      where = corners.meeting(point.planes[0], point.planes[1], point.planes[2]);
+      if (!where) where = meeting_of(point);
+    }
+    point.is_by_decree = !where || length(*where - at) > kOnSegment_m;
+    if (!point.is_by_decree) {
+      places_.push_back(*where);
+      continue;
+    }
     const Place place = place_at(exact::round_finely(at, grid_m_));
-    places_[v] = place.at;
+    places_.push_back(place.at);
     point.stored = static_cast<int>(exact_.size());
     exact_.push_back(place.where);
   }
   solid_points_ = size();
+}
+
+/// Where its first three planes meet.
+std::optional<Vec3> PointTable::meeting_of(const Point& point) const {
+  const auto plane = [&](std::size_t i) -> const Plane& { return planes_.plane(point.planes[i]); };
+  const auto where = exact::meet(plane(0), plane(1), plane(2));
+  return where ? std::optional(metres_of(*where)) : std::nullopt;
 }
 
 /// Planes of a point are sorted, each once.
@@ -94,6 +109,11 @@ int PointTable::rank_beside(int p, const PlaneTable::Class& c) const {
   const double along = dot(c.normal, at(p));
   if (along + kCertain_m < c.offsets_m.front()) return 0;
   if (along - kCertain_m > c.offsets_m.back()) return 2 * static_cast<int>(c.offsets_m.size());
+  return rank_between(p, c, along);
+}
+
+/// The same where the point, `along` the normal, is not outside all planes.
+int PointTable::rank_between(int p, const PlaneTable::Class& c, double along) const {
   auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
   for (; i < std::ssize(c.offsets_m) &&
          c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;

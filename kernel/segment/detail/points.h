@@ -89,6 +89,7 @@ class PointTable {
   using Cell = std::array<std::int64_t, 3>;
   [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
   const Incidence& incidence();
+  [[nodiscard]] std::optional<Vec3> meeting_of(const Point& point) const;
   void add_plane(Point& point, int plane) const;
   void rank_by_incidence(int k);
   [[nodiscard]] Cell cell_of(Vec3 p) const;
@@ -104,6 +105,7 @@ class PointTable {
   int compute_rank(int point, int k);
   [[nodiscard]] int own_rank(int p, int k) const;
   [[nodiscard]] int rank_beside(int p, const PlaneTable::Class& c) const;
+  [[nodiscard]] int rank_between(int p, const PlaneTable::Class& c, double along) const;
 
   double grid_m_;
   double near_m_;  ///< points that were met closer than this are one

@@ -20,10 +20,6 @@ bool is_next_to(const NormalCell& a, const NormalCell& b) {
 
 }  // namespace
 
-Normal unoriented(const Normal& normal) {
-  return normal < Normal{0, 0, 0} ? Normal{-normal[0], -normal[1], -normal[2]} : normal;
-}
-
 double residual_of(const Span& span, std::int64_t offset) {
   return std::max(std::abs(static_cast<double>(span.high - offset)),
                   std::abs(static_cast<double>(offset - span.low)));

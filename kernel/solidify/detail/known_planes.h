@@ -14,7 +14,11 @@
 namespace oriel::detail {
 
 /// The normal or its negative: its first component that is not zero is positive.
-Normal unoriented(const Normal& normal);
+inline Normal unoriented(const Normal& normal) {
+  const bool is_against =
+      normal[0] < 0 || (normal[0] == 0 && (normal[1] < 0 || (normal[1] == 0 && normal[2] < 0)));
+  return is_against ? Normal{-normal[0], -normal[1], -normal[2]} : normal;
+}
 
 /// A cell of the grid in which unit normals lie.
 using NormalCell = std::array<int, 3>;

@@ -44,6 +44,14 @@ inline std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon,
                                                   const Normal& normal) {
   const auto corners = soup.corners_of(polygon);
   const exact::GridPoint* const points = soup.points.data();
+  // Most are across an axis: one coordinate tells.
+  if ((normal[0] != 0) + (normal[1] != 0) + (normal[2] != 0) == 1) {
+    const std::size_t axis = normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2;
+    const std::int64_t level = points[corners.front()][axis];
+    for (const int v : corners)
+      if (points[v][axis] != level) return std::nullopt;
+    return normal[axis] * level;
+  }
   const std::int64_t offset = along(normal, points[corners.front()]);
   for (const int v : corners)
     if (along(normal, points[v]) != offset) return std::nullopt;

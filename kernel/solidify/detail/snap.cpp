@@ -1,5 +1,6 @@
 #include "kernel/solidify/detail/snap.h"
 
+#include "kernel/geometry/axis_corners.h"
 #include "kernel/model/detail/counting_sort.h"
 #include "kernel/model/detail/index.h"
 #include "kernel/solidify/detail/disjoint_sets.h"
@@ -7,7 +8,6 @@
 #include "kernel/solidify/detail/number_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -37,13 +37,16 @@ class Snapper {
         mesh_(mesh),
         draft_(std::move(draft)),
         tolerances_(tolerances),
+        reach_m_(4 * tolerances.plane_offset_m),
+        corners_(soup.grid_m),
         merged_(mesh.vertex_count()) {}
 
   SnappedSolid run() {
     number_planes();
     collect_planes();
     place_of_.resize(mesh_.vertex_count());
-    for (int v = 0; v < std::ssize(place_of_); ++v) place(v);
+    for (int v = 0; v < std::ssize(place_of_); ++v)
+      if (!place_at_corner(v)) place(v);
     if (has_close_neighbours())
       while (unite_close_neighbours()) {
       }
@@ -55,26 +58,11 @@ class Snapper {
   }
 
  private:
-  /// Which axis a plane stands across, and where; axis 3: none.
-  struct Across {
-    std::size_t axis = 3;
-    double level_m = 0;
-  };
-  [[nodiscard]] Across across(const Plane& turned) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::array<std::int64_t, 3> along{};
-      along[axis] = 1;
-      if (turned.coefficients == along)
-        return {axis, static_cast<double>(turned.offset) * soup_.grid_m};
-    }
-    return {};
-  }
-
   /// Numbers the planes so that both ways round of one have the same number.
   void number_planes() {
     NumberTable numbers(2 * clusters_.planes.size());
     planes_.reserve(clusters_.planes.size());
-    across_.reserve(clusters_.planes.size());
+    corners_.reserve(clusters_.planes.size());
     number_of_.reserve(clusters_.planes.size());
     for (const Plane& plane : clusters_.planes) {
       const Plane turned = unoriented(plane);
@@ -83,7 +71,7 @@ class Snapper {
       if (number < 0) {
         number = static_cast<int>(planes_.size());
         planes_.push_back(turned);
-        across_.push_back(across(turned));
+        corners_.add(turned);
       }
       number_of_.push_back(number);
     }
@@ -122,34 +110,40 @@ class Snapper {
     return {planes_at_.data() + plane_begin_[at(v)], planes_at_.data() + plane_end_[at(v)]};
   }
 
+  /// Where the vertex was, in metres.
+  [[nodiscard]] Vec3 start_of(int v) const {
+    const exact::GridPoint& p = soup_.points[at(mesh_.point_of[at(v)])];
+    return {static_cast<double>(p[0]) * soup_.grid_m, static_cast<double>(p[1]) * soup_.grid_m,
+            static_cast<double>(p[2]) * soup_.grid_m};
+  }
+
+  /// As place() does, if three planes across the axes meet there: as in most places.
+  bool place_at_corner(int v) {
+    const auto planes = planes_of(v);
+    if (planes.size() != 3) return false;
+    const auto corner = corners_.meeting(planes[0], planes[1], planes[2]);
+    if (!corner || !(length(*corner - start_of(v)) <= reach_m_)) return false;
+    place_of_[at(v)] = {*corner, true};
+    return true;
+  }
+
   void place(int v) {
     const auto planes = planes_of(v);
     if (planes.empty()) return;
-    const Vec3 start = exact::to_metres(soup_.points[at(mesh_.point_of[at(v)])], soup_.grid_m);
-    const double reach = 4 * tolerances_.plane_offset_m;
+    const Vec3 start = start_of(v);
     if (planes.size() == 3) {
       const auto point = meeting_of(planes[0], planes[1], planes[2]);
-      if (point && length(*point - start) <= reach) {
+      if (point && length(*point - start) <= reach_m_) {
         place_of_[at(v)] = {*point, true};
         return;
       }
     }
-    const Vec3 best = nearest_point(sorted_planes(planes), start, reach);
+    const Vec3 best = nearest_point(sorted_planes(planes), start, reach_m_);
     place_of_[at(v)] = {exact::to_metres(exact::round_to_grid(best, soup_.grid_m), soup_.grid_m),
                         false};
   }
 
-  /// Most meet at right angles, across the axes: where is no question then.
   [[nodiscard]] std::optional<Vec3> meeting_of(int p, int q, int r) const {
-    std::array<double, 4> corner{};
-    unsigned axes = 0;
-    for (const int plane : {p, q, r}) {
-      const Across& here = across_[at(plane)];
-      corner[here.axis] = here.level_m;
-      axes |= 1U << here.axis;
-    }
-    constexpr unsigned kAllThree = 7;
-    if (axes == kAllThree) return Vec3{corner[0], corner[1], corner[2]};
     const auto meeting = exact::meet(planes_[at(p)], planes_[at(q)], planes_[at(r)]);
     if (!meeting) return std::nullopt;
     return exact::to_metres(*meeting, soup_.grid_m);
@@ -319,10 +313,9 @@ class Snapper {
         if (loop_size_[at(l)] < 3) continue;
         facet.loops.push_back(numbered(cleaned(l), number));
       }
-      facet.polygons.reserve(polygons[f].size());
-      for (const int p : polygons[f])
-        if (const int source = soup_.polygons[at(p)].source; source >= 0)
-          facet.polygons.push_back(source);
+      facet.polygons.assign(polygons[f].begin(), polygons[f].end());
+      for (int& p : facet.polygons) p = soup_.polygons[at(p)].source;
+      std::erase_if(facet.polygons, [](int source) { return source < 0; });
       if (facet.polygons.size() > 1) {
         std::ranges::sort(facet.polygons);
         const auto repeated = std::ranges::unique(facet.polygons);  // pieces of one polygon
@@ -375,9 +368,10 @@ class Snapper {
   const ShellMesh& mesh_;
   FacetDraft draft_;
   const Tolerances& tolerances_;
-  std::vector<Plane> planes_;   ///< each once, one way round
-  std::vector<Across> across_;  ///< of each plane
-  Numbers number_of_;           ///< in planes_, by plane of the clusters
+  double reach_m_;             ///< no vertex is put further from where it was
+  std::vector<Plane> planes_;  ///< each once, one way round
+  AxisCorners corners_;        ///< of planes_
+  Numbers number_of_;          ///< in planes_, by plane of the clusters
   // The planes of vertex v: planes_at_[plane_begin_[v]] … planes_at_[plane_end_[v] - 1].
   Numbers plane_begin_, plane_end_, planes_at_;
   std::vector<Vertex> place_of_;

@@ -18,9 +18,10 @@ namespace {
 
 /// One number for a point, ordered as its coordinates: |coordinate| ≤ 2^32, so 34 bits hold each.
 exact::Int128 sort_key(const exact::GridPoint& point) {
-  exact::Int128 key = 0;
-  for (const std::int64_t c : point) key = (key << 34) | (c + (std::int64_t{1} << 33));
-  return key;
+  const auto bits = [&](std::size_t axis) {
+    return static_cast<std::uint64_t>(point[axis] + (std::int64_t{1} << 33));
+  };
+  return exact::Int128{bits(0)} << 68 | exact::Int128{bits(1)} << 34 | bits(2);
 }
 
 /// Fills Soup::points with the rounded vertices, sorted; returns the point of every vertex, united
@@ -30,13 +31,11 @@ Numbers weld_points(const Building& building, double reach, Soup& soup) {
     exact::Int128 key;
     int vertex;
   };
-  std::vector<exact::GridPoint> grid_points;
-  std::vector<Rounded> rounded;
-  grid_points.reserve(building.vertices.size());
-  rounded.reserve(building.vertices.size());
-  for (const Vec3 p : building.vertices) {
-    grid_points.push_back(exact::round_to_grid(p, soup.grid_m));
-    rounded.push_back({sort_key(grid_points.back()), static_cast<int>(rounded.size())});
+  std::vector<exact::GridPoint> grid_points(building.vertices.size());
+  std::vector<Rounded> rounded(building.vertices.size());
+  for (std::size_t v = 0; v < rounded.size(); ++v) {
+    grid_points[v] = exact::round_to_grid(building.vertices[v], soup.grid_m);
+    rounded[v] = {sort_key(grid_points[v]), static_cast<int>(v)};
   }
   std::ranges::sort(rounded, {}, &Rounded::key);
 
