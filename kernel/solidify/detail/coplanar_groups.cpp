@@ -123,20 +123,25 @@ class Grouper {
     return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
   }
   [[nodiscard]] Vec3 point(int v) const { return point(soup_.points[at(v)]); }
+  [[nodiscard]] double uncertainty_of(int polygon) const {
+    return uncertainty_rad(height_of(soup_, polygon, shapes_[at(polygon)].area), reach_);
+  }
 
   /// Neighbours with area whose normals may be those of one plane, the largest first. None if all
   /// such normals are equal: then there is nothing to fit.
   [[nodiscard]] std::vector<Pair> likely_pairs() const {
     std::vector<Pair> pairs;
     bool is_exact = true;
-    for (int h = 0; h < soup_.corner_count(); ++h) {
-      const int twin = mesh_.twin[at(h)];
+    const int count = soup_.corner_count();
+    const int *const twin_of = mesh_.twin.data(), *const polygon_of = mesh_.polygon_of.data();
+    for (int h = 0; h < count; ++h) {
+      const int twin = twin_of[h];
       if (twin < h) continue;
-      const int p = mesh_.polygon_of[at(h)], q = mesh_.polygon_of[at(twin)];
+      const int p = polygon_of[h], q = polygon_of[twin];
       const PolygonShape &a = shapes_[at(p)], &b = shapes_[at(q)];
       // Without area the unit normal is zero.
       if (dot(a.unit, b.unit) < kCosineOfMost || p == q) continue;
-      const double allowed = 2 * angle_ + a.uncertainty_rad(reach_) + b.uncertainty_rad(reach_);
+      const double allowed = 2 * angle_ + uncertainty_of(p) + uncertainty_of(q);
       if (*a.normal != *b.normal && is_angle_above(a.unit, b.unit, allowed)) continue;
       pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
       is_exact &= *a.normal == *b.normal;
@@ -156,7 +161,7 @@ class Grouper {
     group.points.assign(corners.begin(), corners.end());
     group.area = shape.area;
     group.area_vector = shape.area * shape.unit;
-    group.uncertainty = shape.uncertainty_rad(reach_);
+    group.uncertainty = uncertainty_of(polygon);
     Vec3 sum;
     for (const int v : group.points) {
       sum = sum + point(v);

@@ -99,10 +99,12 @@ class Drafter {
     vertices_.resize(mesh_.half_edge_count());
     first_vertex_.push_back(0);
     const int* const twin = mesh_.twin.data();
-    for (int h = 0; h < std::ssize(mesh_.twin); ++h) {
-      if (twin[h] < h || side_[at(h)] == Side::interior) continue;
-      if (side_[at(h)] == Side::rim) walk_loop(h);
-      if (side_[at(twin[h])] == Side::rim) walk_loop(twin[h]);
+    const Side* const side = side_.data();
+    const int count = static_cast<int>(mesh_.half_edge_count());
+    for (int h = 0; h < count; ++h) {
+      if (twin[h] < h || side[h] == Side::interior) continue;
+      if (side[h] == Side::rim) walk_loop(h);
+      if (side[twin[h]] == Side::rim) walk_loop(twin[h]);
     }
     vertices_.resize(at(first_vertex_.back()));
   }

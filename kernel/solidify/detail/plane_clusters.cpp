@@ -136,7 +136,8 @@ class Clusterer {
   /// Puts the polygon on the best place there is, or on a new one; returns its number.
   int place(int polygon) {
     const PolygonShape& shape = shapes_[at(polygon)];
-    const double uncertainty = shape.uncertainty_rad(offset_tolerance_);
+    const double uncertainty =
+        uncertainty_rad(height_of(soup_, polygon, shape.area), offset_tolerance_);
     std::optional<PlaneFit> best;
     const auto try_class = [&](int k) {
       const auto here = fit(polygon, uncertainty, k);
@@ -167,7 +168,8 @@ class Clusterer {
     };
     std::vector<std::uint64_t> met(soup_.points.size(), 0), met_again(met);
     std::uint64_t any_again = 0;
-    for (int i = 0; i < soup_.polygon_count(); ++i) {
+    const int count = soup_.polygon_count();
+    for (int i = 0; i < count; ++i) {
       const std::uint64_t bit = bit_of(i);
       for (const int v : soup_.corners_of(i)) {
         const std::uint64_t again = met[at(v)] & bit;

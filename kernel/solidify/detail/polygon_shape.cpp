@@ -32,18 +32,15 @@ void add_cross(const GridPoint& p, const GridPoint& q, std::array<Int, 3>& sum) 
 template <class Int>
 PolygonShape shape_in(const Soup& soup, int polygon) {
   std::array<Int, 3> sum{};  // twice the area times the normal
-  double reach2 = 0;
   const GridPoint base = soup.points[at(soup.corners_of(polygon).front())];
   bool is_outer = true;
   for (const int r : soup.rings_of(polygon)) {
     const auto ring = soup.ring(r);
     // The outer ring starts at the base: its first and last edge span nothing with it.
     GridPoint before = difference(soup.points[at(is_outer ? ring[1] : ring.back())], base);
-    if (is_outer) reach2 = length2(before);
     for (const int v : ring.subspan(is_outer ? 2 : 0)) {
       const GridPoint here = difference(soup.points[at(v)], base);
       add_cross(before, here, sum);
-      reach2 = std::max(reach2, length2(here));
       before = here;
     }
     is_outer = false;
@@ -54,7 +51,6 @@ PolygonShape shape_in(const Soup& soup, int polygon) {
   shape.area = length({static_cast<double>(sum[0]), static_cast<double>(sum[1]),
                        static_cast<double>(sum[2])}) /
                2;
-  shape.height = reach2 > 0 ? shape.area / std::sqrt(reach2) : 0;
   return shape;
 }
 
@@ -65,7 +61,16 @@ Vec3 unit(const Normal& n) {
       {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
 }
 
-double PolygonShape::uncertainty_rad(double offset) const {
+double height_of(const Soup& soup, int polygon, double area) {
+  const auto corners = soup.corners_of(polygon);
+  const GridPoint& base = soup.points[at(corners.front())];
+  double reach2 = 0;
+  for (const int v : corners)
+    reach2 = std::max(reach2, length2(difference(soup.points[at(v)], base)));
+  return reach2 > 0 ? area / std::sqrt(reach2) : 0;
+}
+
+double uncertainty_rad(double height, double offset) {
   return height > 2 * offset ? std::asin(2 * offset / height) : std::numbers::pi;
 }
 
@@ -81,7 +86,8 @@ std::vector<PolygonShape> shapes_of(const Soup& soup) {
   const double side = static_cast<double>(std::max({sides[0], sides[1], sides[2]}));
   std::vector<PolygonShape> shapes;
   shapes.reserve(soup.polygons.size());
-  for (int p = 0; p < soup.polygon_count(); ++p) {
+  const int count = soup.polygon_count();
+  for (int p = 0; p < count; ++p) {
     // Every corner adds two products at most: 64 bits do for all but the largest polygons.
     const bool is_small = 2 * side * side * static_cast<double>(soup.corners_of(p).size()) < 4e18;
     shapes.push_back(is_small ? shape_in<std::int64_t>(soup, p) : shape_in<Int128>(soup, p));

@@ -18,11 +18,14 @@ struct PolygonShape {
   std::optional<Normal> normal;  ///< of its own, missing for a polygon without area
   Vec3 unit;                     ///< the unit vector of `normal`
   double area = 0;               ///< grid units squared
-  double height = 0;             ///< area by longest reach, grid units
-
-  /// How far its own normal may be off if its vertices may be off by `offset` (grid units).
-  [[nodiscard]] double uncertainty_rad(double offset) const;
 };
+
+/// A polygon's area by its longest reach from its first corner, grid units.
+double height_of(const Soup& soup, int polygon, double area);
+
+/// How far the normal of a polygon that high may be off if its vertices may be off by `offset`
+/// (grid units).
+double uncertainty_rad(double height, double offset);
 
 /// Of every polygon of a soup that has any.
 std::vector<PolygonShape> shapes_of(const Soup& soup);

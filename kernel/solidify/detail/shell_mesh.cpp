@@ -39,7 +39,8 @@ bool pair_plain(const Soup& soup, ShellMesh& mesh) {
   };
   NumberTable first(soup.corners.size());  // of every edge its first half-edge
   mesh.twin.assign(soup.corners.size(), -1);
-  for (int h = 0; h < soup.corner_count(); ++h) {
+  const int count = soup.corner_count();
+  for (int h = 0; h < count; ++h) {
     const EdgeEnds ends = ends_of(h);
     const std::uint64_t key =
         static_cast<std::uint64_t>(ends.low) << 32 | static_cast<std::uint32_t>(ends.high);
@@ -127,15 +128,18 @@ void tell_vertices_apart(const Soup& soup, ShellMesh& mesh) {
   mesh.point_of.clear();
   mesh.point_of.reserve(soup.points.size());
   Numbers previous;  // the half-edge before each, needed at open edges only
-  for (int start = 0; start < soup.corner_count(); ++start) {
-    if (mesh.vertex_of[at(start)] >= 0) continue;
+  const int *const twin_of = mesh.twin.data(), *const next = mesh.next.data();
+  int* const vertex_of = mesh.vertex_of.data();
+  const int count = soup.corner_count();
+  for (int start = 0; start < count; ++start) {
+    if (vertex_of[start] >= 0) continue;
     const int vertex = static_cast<int>(mesh.point_of.size());
     mesh.point_of.push_back(soup.corners[at(start)]);
     int h = start;
     do {
-      mesh.vertex_of[at(h)] = vertex;
-      const int twin = mesh.twin[at(h)];
-      h = twin < 0 ? -1 : mesh.next[at(twin)];
+      vertex_of[h] = vertex;
+      const int twin = twin_of[h];
+      h = twin < 0 ? -1 : next[twin];
     } while (h >= 0 && h != start);
     if (h == start) continue;
     // The fan ended at an open edge; what is left of it lies the other way round.

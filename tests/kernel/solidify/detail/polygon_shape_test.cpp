@@ -49,7 +49,7 @@ TEST_SUITE("kernel/solidify") {
       REQUIRE(shape.normal);
       CHECK(*shape.normal == Normal{0, 0, 1});
       CHECK(shape.area == 77);
-      CHECK(shape.height == doctest::Approx(77 / std::sqrt(162.0)));
+      CHECK(height_of(soup, 0, shape.area) == doctest::Approx(77 / std::sqrt(162.0)));
       CHECK(offset_if_flat(soup, 0, *shape.normal) == 5);
     }
   }
