@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/points.h"
 
 #include "kernel/geometry/axis_corners.h"
+#include "kernel/model/detail/counting_sort.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +35,7 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
       planes_(planes),
       points_(solid.vertices.size()),
       ranks_(index(planes.class_count())) {
-  for (const Facet& facet : solid.facets) {
-    const int plane = planes.side_of(facet.plane) >> 1;
-    for (const Loop& loop : facet.loops)
-      for (const int v : loop) add_plane(points_[index(v)], plane);
-  }
+  list_planes(solid.facets);
   AxisCorners corners(grid_m_);
   corners.reserve(index(planes.size()));
   for (int p = 0; p < planes.size(); ++p) corners.add(planes.plane(p));
@@ -71,14 +68,19 @@ std::optional<Vec3> PointTable::meeting_of(const Point& point) const {
   return where ? std::optional(metres_of(*where)) : std::nullopt;
 }
 
-/// Planes of a point are sorted, each once.
-void PointTable::add_plane(Point& point, int plane) const {
-  auto& planes = point.planes;
-  std::size_t place = planes.size();
-  while (place > 0 && planes[place - 1] >= plane) --place;
-  if (place < planes.size() && planes[place] == plane) return;
-  planes.push_back(plane);
-  for (std::size_t i = planes.size() - 1; i > place; --i) std::swap(planes[i], planes[i - 1]);
+/// Enters in every point its planes, sorted, each once: the facets come plane by plane.
+void PointTable::list_planes(const std::vector<Facet>& facets) {
+  Numbers plane_of(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    plane_of[f] = planes_.side_of(facets[f].plane) >> 1;
+  for (const int f : sort_into_buckets(plane_of, index(planes_.size())).items) {
+    const int plane = plane_of[index(f)];
+    for (const Loop& loop : facets[index(f)].loops)
+      for (const int v : loop) {
+        auto& planes = points_[index(v)].planes;
+        if (planes.empty() || planes.back() != plane) planes.push_back(plane);
+      }
+  }
 }
 
 Vec3 PointTable::metres_of(const exact::Rational& where) const {

@@ -90,7 +90,7 @@ class PointTable {
   [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
   const Incidence& incidence();
   [[nodiscard]] std::optional<Vec3> meeting_of(const Point& point) const;
-  void add_plane(Point& point, int plane) const;
+  void list_planes(const std::vector<Facet>& facets);
   void rank_by_incidence(int k);
   [[nodiscard]] Cell cell_of(Vec3 p) const;
   std::optional<int> met_near(const Point& point, Vec3 where);

@@ -24,6 +24,7 @@ class Candidates {
 
   /// Of sorted points.
   Numbers find() {
+    if (points_.empty()) return {};
     Numbers all(points_.size());
     std::iota(all.begin(), all.end(), 0);
     cut(all, 0);
@@ -31,18 +32,20 @@ class Candidates {
   }
 
  private:
-  /// `piece` is sorted by the axis.
+  /// `piece` is sorted by the axis and not empty.
   void cut(std::span<int> piece, std::size_t axis) {
+    const GridPoint* const points = points_.data();
     std::size_t start = 0;
-    for (std::size_t i = 1; i <= piece.size(); ++i) {
-      if (i < piece.size() && is_within_reach(piece[i - 1], piece[i], axis)) continue;
-      if (i - start > 1) keep(piece.subspan(start, i - start), axis);
-      start = i;
+    std::int64_t before = points[piece[0]][axis];
+    for (std::size_t i = 1; i < piece.size(); ++i) {
+      const std::int64_t here = points[piece[i]][axis];
+      if (here - before >= reach_) {
+        if (i - start > 1) keep(piece.subspan(start, i - start), axis);
+        start = i;
+      }
+      before = here;
     }
-  }
-
-  [[nodiscard]] bool is_within_reach(int i, int j, std::size_t axis) const {
-    return points_[at(j)][axis] - points_[at(i)][axis] < reach_;
+    if (piece.size() - start > 1) keep(piece.subspan(start), axis);
   }
 
   /// What was not cut along `axis` is cut along the next one.
@@ -51,9 +54,19 @@ class Candidates {
       found_.insert(found_.end(), piece.begin(), piece.end());
       return;
     }
-    const auto coordinate = [&](int i) { return points_[at(i)][axis + 1]; };
-    if (!std::ranges::is_sorted(piece, {}, coordinate)) std::ranges::sort(piece, {}, coordinate);
+    if (!is_sorted(piece, axis + 1))
+      std::ranges::sort(piece, {}, [&](int i) { return points_[at(i)][axis + 1]; });
     cut(piece, axis + 1);
+  }
+
+  [[nodiscard]] bool is_sorted(std::span<const int> piece, std::size_t axis) const {
+    const GridPoint* const points = points_.data();
+    std::int64_t before = points[piece[0]][axis];
+    for (const int i : piece) {
+      if (points[i][axis] < before) return false;
+      before = points[i][axis];
+    }
+    return true;
   }
 
   std::span<const GridPoint> points_;

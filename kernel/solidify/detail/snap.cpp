@@ -315,12 +315,13 @@ class Snapper {
       }
       facet.polygons.assign(polygons[f].begin(), polygons[f].end());
       for (int& p : facet.polygons) p = soup_.polygons[at(p)].source;
-      std::erase_if(facet.polygons, [](int source) { return source < 0; });
       if (facet.polygons.size() > 1) {
         std::ranges::sort(facet.polygons);
         const auto repeated = std::ranges::unique(facet.polygons);  // pieces of one polygon
         facet.polygons.erase(repeated.begin(), repeated.end());
       }
+      if (facet.polygons.front() < 0)  // of oriel's own
+        facet.polygons.erase(facet.polygons.begin(), std::ranges::lower_bound(facet.polygons, 0));
     }
     return out;
   }
