@@ -37,7 +37,7 @@ struct CapMark {
 /// Half-edges, loops and facets keep their numbers; removed ones are marked dead.
 class Boundary {
  public:
-  struct HalfEdge {
+  struct alignas(16) HalfEdge {  // 32 bytes: found by a shift
     int origin = -1;
     int next = -1;  ///< -1: dead
     int prev = -1;

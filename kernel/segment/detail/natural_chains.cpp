@@ -37,6 +37,10 @@ void NaturalChains::forget() {
 bool NaturalChains::refresh() {
   if (std::ranges::all_of(classes_, &Class::is_known)) return false;
   const std::vector<Edge> edges = living_edges();
+  if (free_side_ >= 0) {
+    free_ranks_ = world_.points.ranks(world_.planes.class_of(free_side_ >> 1));
+    free_rank_ = world_.planes.rank_of(free_side_ >> 1);
+  }
   for (Class& c : classes_) {
     if (!c.is_known) look(c, edges);
     c.is_known = true;
@@ -59,6 +63,7 @@ std::vector<NaturalChains::Edge> NaturalChains::living_edges() const {
 void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
   const auto ranks = world_.points.ranks(c.number);
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
+  normal_ = normal;
   steps_.clear();
   Scratch& scratch = world_.scratch;
   if (scratch.leaving.size() < ranks.size()) {
@@ -73,8 +78,8 @@ void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
     if (edge.plane == plane && edge.twin_plane == plane) continue;
     const int entry = entries_[at(plane)];
     if (entry < 0) continue;
-    if (edge.plane != plane) add_step(entry, normal, ranks, edge.half, edge.from, edge.to);
-    if (edge.twin_plane != plane) add_step(entry, normal, ranks, edge.twin, edge.to, edge.from);
+    if (edge.plane != plane) add_step(entry, ranks, edge.half, edge.from, edge.to);
+    if (edge.twin_plane != plane) add_step(entry, ranks, edge.twin, edge.to, edge.from);
   }
   sort_steps(c);
   for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) {
@@ -99,14 +104,11 @@ void NaturalChains::sort_steps(const Class& c) {
 
 /// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
 /// it along `e` and goes back; none if it goes through the plane or lies in it.
-void NaturalChains::add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from,
-                             int to) {
+void NaturalChains::add_step(int entry, std::span<const int> ranks, int e, int from, int to) {
   const int rank = ranks[at(from)];
-  int before = body_.prev(e), after = body_.next(body_.next(e));
+  const int last = body_.prev(e), second = body_.next(body_.next(e));
+  int before = last, after = second;
   int rank_before = ranks[at(body_.origin(before))], rank_after = ranks[at(body_.origin(after))];
-  // The outlines of triangles and quadrangles surround what they run around, holes do not.
-  const bool may_hang =
-      body_.loop(body_.edge(e).loop).is_hole || (after != before && body_.next(after) != before);
   while (before != e && rank_before == rank) {
     before = body_.prev(before);
     rank_before = ranks[at(body_.origin(before))];
@@ -118,22 +120,22 @@ void NaturalChains::add_step(int entry, Vec3 normal, std::span<const int> ranks,
   }
   const bool is_up = rank_before > rank;
   if (is_up != (rank_after > rank)) return;
-  if (may_hang && hangs_below(e, from, to, is_up ? normal : -normal)) return;
+  // The outlines of triangles and quadrangles surround what they run around, holes do not.
+  const bool may_hang = (second != last && body_.next(second) != last) ||
+                        body_.loop(body_.edge(e).loop).is_hole;
+  if (may_hang && hangs_below(e, from, to, is_up)) return;
   steps_.push_back({2 * entry + (is_up ? 0 : 1), from, to});
 }
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
 /// only of edges between points where their planes meet.
-bool NaturalChains::hangs_below(int e, int from, int to, Vec3 up) const {
+bool NaturalChains::hangs_below(int e, int from, int to, bool is_up) const {
   if (!world_.points.is_meeting(from) || !world_.points.is_meeting(to)) return false;
+  const Vec3 up = is_up ? normal_ : -normal_;
   const Vec3 along = world_.points.at(to) - world_.points.at(from);
   const double inward = dot(cross(world_.planes.normal(body_.side_of_edge(e)), along), up);
   constexpr double kFlat = 1e-9;  // tolerance of doubles
   return inward < 0 && inward < -kFlat * length(along);
-}
-
-bool NaturalChains::is_free(int point) const {
-  return free_side_ >= 0 && world_.points.side(point, free_side_ >> 1) == 0;
 }
 
 /// Takes away what comes from nowhere or leads to nowhere, again and again, and tells whether

@@ -2,6 +2,7 @@
 
 #include "kernel/segment/detail/boundary.h"
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -58,11 +59,13 @@ class NaturalChains {
   void look(const Class& c, std::span<const Edge> edges);
   void sort_steps(const Class& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
-  void add_step(int entry, Vec3 normal, std::span<const int> ranks, int e, int from, int to);
-  [[nodiscard]] bool hangs_below(int e, int from, int to, Vec3 up) const;
+  void add_step(int entry, std::span<const int> ranks, int e, int from, int to);
+  [[nodiscard]] bool hangs_below(int e, int from, int to, bool is_up) const;
   bool has_chain(std::span<Step> steps, std::size_t slot);
   [[nodiscard]] bool may_bound(std::span<const Step> steps, std::size_t slot);
-  [[nodiscard]] bool is_free(int point) const;
+  [[nodiscard]] bool is_free(int point) const {
+    return free_side_ >= 0 && free_ranks_[static_cast<std::size_t>(point)] == free_rank_;
+  }
 
   const Boundary& body_;
   World& world_;
@@ -73,6 +76,10 @@ class NaturalChains {
 
   std::vector<int> entries_;  ///< by plane of the world, where it is in planes_; -1: nowhere
 
+  // Of the look at hand: of the ground, and of the class.
+  std::span<const int> free_ranks_;
+  int free_rank_ = 0;
+  Vec3 normal_;
   std::vector<Step> steps_, sorted_;
   std::vector<int> ends_;
 };
