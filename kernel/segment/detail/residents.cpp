@@ -13,6 +13,15 @@ namespace {
 /// of objects in bench/recall.sh.
 constexpr double kSameRing = 0.8;
 
+/// Of the outline that ring_of() makes of the loop.
+Reach reach_of_ring(const Solid& solid, const Facet& facet, const Loop& loop,
+                    const ReachAxes& axes) {
+  const Plane& plane = solid.planes[facet.plane.index()];
+  Reach reach;
+  for (const int v : loop) axes.grow(reach, laid_on(plane, solid.vertices[at(v)].point));
+  return reach;
+}
+
 }  // namespace
 
 Residents::Residents(const Segmentation& segmentation, const Tolerances& tolerances)
@@ -45,28 +54,29 @@ Reach Residents::cap_of(FeatureId id, PlaneId number) const {
   return cap;
 }
 
-template <class Visit>
-void Residents::for_each_within(PlaneId plane, const Reach& reach, Visit visit) {
+template <class Test>
+bool Residents::any_within(PlaneId plane, const Reach& reach, Test test) {
   const std::vector<Resident>& residents = on(plane);
   const double slack = tolerances_.weld_m + tolerances_.plane_offset_m;
   auto r = std::ranges::lower_bound(residents, reach.u0 - slack, {},
                                     [](const Resident& resident) { return resident.cap.u0; });
   for (; r != residents.end() && r->cap.u0 <= reach.u1; ++r)
-    if (reach.holds(r->cap, slack)) visit(*r);
+    if (reach.holds(r->cap, slack) && test(*r)) return true;
+  return false;
 }
 
 std::vector<FeatureId> Residents::within(PlaneId plane, const Reach& reach) {
   std::vector<FeatureId> found;
-  for_each_within(plane, reach, [&](const Resident& r) { found.push_back(r.id); });
+  any_within(plane, reach, [&](const Resident& r) {
+    found.push_back(r.id);
+    return false;
+  });
   return found;
 }
 
 bool Residents::fills(PlaneId plane, const Reach& reach) {
-  bool is_filled = false;
-  for_each_within(plane, reach, [&](const Resident& r) {
-    is_filled = is_filled || r.cap.area() >= kSameRing * reach.area();
-  });
-  return is_filled;
+  const double least_m2 = kSameRing * reach.area();
+  return any_within(plane, reach, [&](const Resident& r) { return r.cap.area() >= least_m2; });
 }
 
 bool all_rings_have_residents(const Solid& solid, Residents& residents,
@@ -75,11 +85,10 @@ bool all_rings_have_residents(const Solid& solid, Residents& residents,
     const Facet& facet = solid.facets[at(f)];
     if (facet.loops.size() == 1) continue;
     const ReachAxes axes = axes_in(solid.planes[facet.plane.index()].normal);
-    for (std::size_t l = 1; l < facet.loops.size(); ++l) {
-      const Ring ring = ring_of(solid, FacetId{f}, facet.loops[l]);
-      if (!residents.fills(facet.plane, axes.reach_of(ring.outline)) && !is_slit(ring, tolerances))
+    for (std::size_t l = 1; l < facet.loops.size(); ++l)
+      if (!residents.fills(facet.plane, reach_of_ring(solid, facet, facet.loops[l], axes)) &&
+          !is_slit(ring_of(solid, FacetId{f}, facet.loops[l]), tolerances))
         return false;
-    }
   }
   return true;
 }

@@ -33,8 +33,9 @@ class Residents {
   };
   const std::vector<Resident>& on(PlaneId plane);
   [[nodiscard]] Reach cap_of(FeatureId id, PlaneId number) const;
-  template <class Visit>
-  void for_each_within(PlaneId plane, const Reach& reach, Visit visit);
+  /// One of those with a cap within the rectangle, asked from left to right, passes the test.
+  template <class Test>
+  bool any_within(PlaneId plane, const Reach& reach, Test test);
 
   const Segmentation& segmentation_;
   const Tolerances& tolerances_;

@@ -25,7 +25,7 @@ constexpr double kStraightSide_deg = 1;
 
 /// In a plane, counter-clockwise.
 Outline laid(const Plane& plane, Outline loop) {
-  for (Vec3& p : loop) p = p + (plane.offset_m - dot(p, plane.normal)) * plane.normal;
+  for (Vec3& p : loop) p = laid_on(plane, p);
   if (signed_area(loop, plane.normal) < 0) std::ranges::reverse(loop);
   return loop;
 }

@@ -30,6 +30,11 @@ struct Ring {
   int source = -1;  ///< the input polygon it is a ring of, -1 if of the facet
 };
 
+/// A point moved onto a plane.
+inline Vec3 laid_on(const Plane& plane, Vec3 p) {
+  return p + (plane.offset_m - dot(p, plane.normal)) * plane.normal;
+}
+
 /// The ring that a loop of a facet is, whether a hole or its outer one.
 Ring ring_of(const Solid& solid, FacetId facet, const Loop& loop);
 
