@@ -221,9 +221,12 @@ class Judge {
   [[nodiscard]] std::optional<Corner> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
     const auto limits = limits_of(component);
+    StampSet& met = world_.scratch.met_points;
+    met.start(world_.points.size());
     for (const int f : component.facets) {
       body_.for_each_edge(f, [&](int e) {
         work_ += std::ssize(component.sides);
+        if (!met.insert(body_.origin(e))) return;
         int most = -1, least = 1;
         for (const Limit& limit : limits) {
           const int level = limit.level(body_.origin(e));

@@ -7,6 +7,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -63,55 +66,77 @@ class PatchFinder {
     return !is_hole_ && body_.facet(f).side == options_.free_side;
   }
 
+  /// Where what is listed of a group stands among that of all groups.
+  struct Place {
+    std::size_t first = 0, last = 0;
+    template <class T>
+    [[nodiscard]] std::span<const T> of(const std::vector<T>& all) const {
+      return std::span(all).subspan(first, last - first);
+    }
+  };
   /// Facets that hang together, with what is around them.
   struct Grown {
-    std::vector<int> facets;
+    Place facets;
     double area = 0;
-    std::vector<int> rim;     ///< half-edges to other groups or the ground
-    std::vector<Side> sides;  ///< of its own facets, ascending
-    /// What lies across the rim: sides, and the groups they are of; sorted.
-    std::vector<std::pair<Side, int>> beyond;
+    Place rim;     ///< half-edges to other groups or the ground
+    Place sides;   ///< of its own facets, ascending
+    Place beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
     bool meets_ground = false;
   };
+
+  /// Sorts what stands from `first` on, each once.
+  template <class T>
+  static Place close(std::vector<T>& all, std::size_t first) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    std::ranges::sort(begin, all.end());
+    all.erase(std::unique(begin, all.end()), all.end());
+    return {first, all.size()};
+  }
 
   /// Collects the facets that hang together with `start`.
   void grow(int start) {
     const int number = static_cast<int>(grown_.size());
-    Grown group{{start}, 0, {}, {}, {}, false};
+    const std::size_t first = facets_.size(), first_rim = rims_.size(), first_side = sides_.size();
+    Grown& group = grown_.emplace_back();
+    facets_.push_back(start);
     number_of_[at(start)] = number;
-    for (std::size_t i = 0; i < group.facets.size(); ++i) {
-      group.sides.push_back(body_.facet(group.facets[i]).side);
-      group.area += body_.area(group.facets[i]);
-      body_.for_each_edge(group.facets[i], [&](int e) {
+    for (std::size_t i = first; i < facets_.size(); ++i) {
+      sides_.push_back(body_.facet(facets_[i]).side);
+      group.area += body_.area(facets_[i]);
+      body_.for_each_edge(facets_[i], [&](int e) {
         const int g = body_.facet_of(body_.twin(e));
         if (number_of_[at(g)] == number) return;
         if (number_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) {
-          group.rim.push_back(e);
+          rims_.push_back(e);
           return;
         }
         number_of_[at(g)] = number;
-        group.facets.push_back(g);
+        facets_.push_back(g);
       });
     }
     // An edge may have been met before its other side joined the group.
-    std::erase_if(group.rim,
-                  [&](int e) { return number_of_[at(body_.facet_of(body_.twin(e)))] == number; });
-    std::ranges::sort(group.sides);
-    group.sides.erase(std::unique(group.sides.begin(), group.sides.end()), group.sides.end());
-    grown_.push_back(std::move(group));
+    const auto is_inside = [&](int e) {
+      return number_of_[at(body_.facet_of(body_.twin(e)))] == number;
+    };
+    const auto rim = rims_.begin() + static_cast<std::ptrdiff_t>(first_rim);
+    rims_.erase(std::remove_if(rim, rims_.end(), is_inside), rims_.end());
+    group.facets = {first, facets_.size()};
+    group.rim = {first_rim, rims_.size()};
+    group.sides = close(sides_, first_side);
   }
 
   void find_neighbours() {
+    beyond_.reserve(rims_.size());
     for (Grown& group : grown_) {
-      for (const int e : group.rim) {
+      const std::size_t first = beyond_.size();
+      for (const int e : group.rim.of(rims_)) {
         const int g = body_.facet_of(body_.twin(e));
         if (is_ground(g))
           group.meets_ground = true;
         else
-          group.beyond.emplace_back(body_.facet(g).side, number_of_[at(g)]);
+          beyond_.emplace_back(body_.facet(g).side, number_of_[at(g)]);
       }
-      std::ranges::sort(group.beyond);
-      group.beyond.erase(std::unique(group.beyond.begin(), group.beyond.end()), group.beyond.end());
+      group.beyond = close(beyond_, first);
     }
     group_stamps_.assign(grown_.size(), 0);
   }
@@ -129,7 +154,7 @@ class PatchFinder {
     component.ground = -1;
     for (const int n : widened_) {
       const Grown& group = grown_[at(n)];
-      for (const auto& [side, other] : group.beyond)
+      for (const auto& [side, other] : group.beyond.of(beyond_))
         if (!is_widened(other)) component.sides.push_back(side);
       if (group.meets_ground) component.ground = options_.free_side;
     }
@@ -145,8 +170,9 @@ class PatchFinder {
     component.rim.clear();
     for (const int n : widened_) {
       const Grown& group = grown_[at(n)];
-      component.facets.insert(component.facets.end(), group.facets.begin(), group.facets.end());
-      for (const int e : group.rim) {
+      const auto facets = group.facets.of(facets_);
+      component.facets.insert(component.facets.end(), facets.begin(), facets.end());
+      for (const int e : group.rim.of(rims_)) {
         const int g = body_.facet_of(body_.twin(e));
         if (is_ground(g) || !is_widened(number_of_[at(g)])) component.rim.push_back(e);
       }
@@ -166,7 +192,8 @@ class PatchFinder {
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
     for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask)
-      if (std::popcount(mask) >= 2 && std::popcount(mask) <= options_.max_order) visit(mask);
+      if (const int order = std::popcount(mask); order >= 2 && order <= options_.max_order)
+        visit(mask);
     for (const Side side : sides) limit_bits_[at(side)] = 0;
   }
 
@@ -181,11 +208,12 @@ class PatchFinder {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Grown& group = grown_[at(groups[i])];
       area += group.area;
-      work_ += std::ssize(group.beyond);
+      const auto beyond = group.beyond.of(beyond_);
+      work_ += std::ssize(beyond);
       unsigned own = 0;
-      for (const Side side : group.sides) own |= limit_bits_[at(side)];
+      for (const Side side : group.sides.of(sides_)) own |= limit_bits_[at(side)];
       if (2 * area > surface_ || (own & limits) != 0) return false;
-      for (const auto& [side, other] : group.beyond) {
+      for (const auto& [side, other] : beyond) {
         if (group_stamps_[at(other)] == last_stamp_ || (limit_bits_[at(side)] & limits) != 0)
           continue;
         group_stamps_[at(other)] = last_stamp_;
@@ -208,7 +236,7 @@ class PatchFinder {
   [[nodiscard]] bool can_be_capped(const Component& component) const {
     const auto& sides = component.sides;
     const std::ptrdiff_t order = std::ssize(sides) - (component.ground >= 0 ? 1 : 0);
-    if (widened_.size() == 1 && grown_[at(widened_[0])].facets.size() < 2) return false;
+    if (widened_.size() == 1 && grown_[at(widened_[0])].facets.of(facets_).size() < 2) return false;
     if (order < 2 || order > options_.max_order) return false;
     if (component.ground >= 0 && order > 2) return false;
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -231,6 +259,10 @@ class PatchFinder {
   std::int64_t& work_;
   std::vector<int> number_of_;  ///< by facet, the group it is in
   std::vector<Grown> grown_;
+  // Of the groups, one after the other.
+  std::vector<int> facets_, rims_;
+  std::vector<Side> sides_;
+  std::vector<std::pair<Side, int>> beyond_;
   double surface_ = 0;             ///< of the body
   std::vector<int> group_stamps_;  ///< the last widening that has met a group
   int last_stamp_ = 0;
