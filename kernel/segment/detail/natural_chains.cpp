@@ -3,6 +3,7 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace oriel::detail {
@@ -60,6 +61,36 @@ std::vector<NaturalChains::Edge> NaturalChains::living_edges() const {
   return edges;
 }
 
+/// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
+/// it along `e` and goes back; none if it goes through the plane or lies in it.
+[[gnu::always_inline]] inline void NaturalChains::add_step(int entry, std::span<const int> ranks,
+                                                           int e, int from, int to) {
+  const int rank = ranks[at(from)];
+  const auto& half = body_.edge(e);
+  const int last = half.prev, second = body_.next(half.next);
+  int rank_before = ranks[at(body_.origin(last))], rank_after = ranks[at(body_.origin(second))];
+  if (rank_before == rank || rank_after == rank)
+    std::tie(rank_before, rank_after) = ranks_around(ranks, e, rank);
+  const bool is_up = rank_before > rank;
+  if (rank_before == rank || is_up != (rank_after > rank)) return;
+  // The outlines of triangles and quadrangles surround what they run around, holes do not.
+  const bool may_hang =
+      (second != last && body_.next(second) != last) || body_.loop(half.loop).is_hole;
+  if (may_hang && hangs_below(e, from, to, is_up)) return;
+  steps_.push_back({2 * entry + (is_up ? 0 : 1), from, to});
+}
+
+/// The ranks of the last point before the half-edge `e` and the first one behind it that have
+/// another rank than those of `e`; the same rank if there is none.
+std::pair<int, int> NaturalChains::ranks_around(std::span<const int> ranks, int e, int rank) const {
+  const auto rank_at = [&](int half) { return ranks[at(body_.origin(half))]; };
+  int before = body_.prev(e), after = body_.next(body_.next(e));
+  while (before != e && rank_at(before) == rank) before = body_.prev(before);
+  if (before == e) return {rank, rank};
+  while (rank_at(after) == rank) after = body_.next(after);
+  return {rank_at(before), rank_at(after)};
+}
+
 void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
   const auto ranks = world_.points.ranks(c.number);
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
@@ -100,31 +131,6 @@ void NaturalChains::sort_steps(const Class& c) {
   for (std::size_t i = 2; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
   sorted_.resize(steps_.size());
   for (const Step& step : steps_) sorted_[at(ends[step.slot]++)] = step;
-}
-
-/// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
-/// it along `e` and goes back; none if it goes through the plane or lies in it.
-void NaturalChains::add_step(int entry, std::span<const int> ranks, int e, int from, int to) {
-  const int rank = ranks[at(from)];
-  const int last = body_.prev(e), second = body_.next(body_.next(e));
-  int before = last, after = second;
-  int rank_before = ranks[at(body_.origin(before))], rank_after = ranks[at(body_.origin(after))];
-  while (before != e && rank_before == rank) {
-    before = body_.prev(before);
-    rank_before = ranks[at(body_.origin(before))];
-  }
-  if (before == e) return;
-  while (rank_after == rank) {
-    after = body_.next(after);
-    rank_after = ranks[at(body_.origin(after))];
-  }
-  const bool is_up = rank_before > rank;
-  if (is_up != (rank_after > rank)) return;
-  // The outlines of triangles and quadrangles surround what they run around, holes do not.
-  const bool may_hang = (second != last && body_.next(second) != last) ||
-                        body_.loop(body_.edge(e).loop).is_hole;
-  if (may_hang && hangs_below(e, from, to, is_up)) return;
-  steps_.push_back({2 * entry + (is_up ? 0 : 1), from, to});
 }
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told

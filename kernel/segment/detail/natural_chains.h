@@ -60,6 +60,7 @@ class NaturalChains {
   void sort_steps(const Class& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
   void add_step(int entry, std::span<const int> ranks, int e, int from, int to);
+  [[nodiscard]] std::pair<int, int> ranks_around(std::span<const int> ranks, int e, int rank) const;
   [[nodiscard]] bool hangs_below(int e, int from, int to, bool is_up) const;
   bool has_chain(std::span<Step> steps, std::size_t slot);
   [[nodiscard]] bool may_bound(std::span<const Step> steps, std::size_t slot);
