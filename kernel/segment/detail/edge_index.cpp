@@ -46,8 +46,10 @@ void EdgeIndex::enter(Class& c) {
     std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
     sizes.pop_back();
     c.lists.make(sizes);
+    for (const Run& run : runs) c.lists.push_back_in_room(run.first, run.last, run.half);
+  } else {
+    for (const Run& run : runs) c.lists.push_back(run.first, run.last, run.half);
   }
-  for (const Run& run : runs) c.lists.push_back(run.first, run.last, run.half);
   c.entered = edges_.size();
 }
 

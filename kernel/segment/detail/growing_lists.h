@@ -28,6 +28,11 @@ class GrowingLists {
   }
 
   void push_back(std::size_t i, int number) { push_back(i, i, number); }
+  /// To the lists from `first` to `last`, which have room left.
+  void push_back_in_room(std::size_t first, std::size_t last, int number) {
+    for (List *list = &lists_[first], *end = &lists_[last] + 1; list != end; ++list)
+      numbers_[list->begin + list->size++] = number;
+  }
   /// To the lists from `first` to `last`.
   void push_back(std::size_t first, std::size_t last, int number) {
     for (std::size_t i = first; i <= last; ++i) {

@@ -166,13 +166,14 @@ void Pockets::list_loop(Kind& kind, int first) {
 
 /// No two of its facets are made of one facet of the solid.
 bool Pockets::has_own_sources() {
-  sources_.clear();
-  for (const int f : facets_) {
-    const auto& sources = body_.facet(f).sources;
-    sources_.insert(sources_.end(), sources.begin(), sources.end());
-  }
-  std::ranges::sort(sources_);
-  return std::ranges::adjacent_find(sources_) == sources_.end();
+  StampSet& is_met = body_.world().scratch.met_sources;
+  is_met.start(0);
+  for (const int f : facets_)
+    for (const int source : body_.facet(f).sources) {
+      is_met.make_room(source + 1);
+      if (!is_met.insert(source)) return false;
+    }
+  return true;
 }
 
 std::span<const int> Pockets::edges_of(const Pocket& pocket) const {

@@ -134,7 +134,7 @@ class Pockets {
   mutable Order order_;            ///< of the model that was asked for last
 
   // The pocket at hand.
-  std::vector<int> rim_, facets_, sources_, walk_;
+  std::vector<int> rim_, facets_, walk_;
   int wall_ = -1;
   Vec3 corner_;
 };

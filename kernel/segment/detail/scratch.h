@@ -13,8 +13,12 @@ namespace oriel::detail {
 class StampSet {
  public:
   void start(int size) {
-    if (std::ssize(stamps_) < size) stamps_.resize(static_cast<std::size_t>(size), 0);
+    make_room(size);
     ++last_;
+  }
+  /// For numbers below `size`.
+  void make_room(int size) {
+    if (std::ssize(stamps_) < size) stamps_.resize(static_cast<std::size_t>(size), 0);
   }
   /// True if it was not in.
   bool insert(int i) {
@@ -116,6 +120,7 @@ struct Scratch {
   StampSet rim_edges;
   StampMap place_in_walk;    ///< by half-edge
   StampMap corner_at_point;  ///< by point
+  StampSet met_sources;      ///< by facet of the solid
 
   // Cuts.
   StampSet facets_of_lump, facets_of_piece;

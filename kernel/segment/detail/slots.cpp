@@ -110,14 +110,14 @@ void Slots::let_rest(std::size_t number, double margin_m2) {
   slot.is_idle = true;
   slot.is_clear = true;
   slot.is_stale = false;
-  count_tests(slot);
-}
-
-void Slots::count_tests(const Slot& slot) {
   const Side looking = slot.section.looking();
   const auto areas = body_.on_plane(looking >> 1).areas;
-  if (areas[at(looking & 1)] > 0) ++stats_.protrusion_tests;
-  if (areas[at((looking & 1) ^ 1)] > 0) ++stats_.hole_tests;
+  count_tests({areas[at((looking & 1) ^ 1)], areas[at(looking & 1)]});
+}
+
+void Slots::count_tests(const std::array<double, 2>& old_areas) {
+  if (old_areas[1] > 0) ++stats_.protrusion_tests;
+  if (old_areas[0] > 0) ++stats_.hole_tests;
 }
 
 /// False if there is nothing to cut: no region is natural or smaller than the old area.
@@ -208,7 +208,7 @@ void Slots::refresh(std::size_t number) {
   fresh_.direction = slot.section.direction;
   const bool do_all_cross = section_at(body_, fresh_, edges, section_options_);
   work_ += std::ssize(edges);
-  count_tests(slot);
+  count_tests(fresh_.old_areas);
   for (const Region& region : fresh_.regions)
     if (region.is_candidate && fresh_.old_area(region) > region.new_area) ++stats_.candidates;
   if (do_all_cross) look_across_gap(number);

@@ -8,6 +8,7 @@
 #include "kernel/segment/segment.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -117,7 +118,8 @@ class Slots {
   void swept(std::size_t number, double area_m2);
   void look_across_gap(std::size_t number);
   void let_rest(std::size_t number, double margin_m2);
-  void count_tests(const Slot& slot);
+  /// As Section::old_areas.
+  void count_tests(const std::array<double, 2>& old_areas);
   void refresh(std::size_t number);
   bool prune(std::size_t number);
   [[nodiscard]] bool judge(std::size_t number, const Section& section);

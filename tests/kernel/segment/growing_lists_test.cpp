@@ -37,6 +37,20 @@ TEST_SUITE("kernel/segment") {
     CHECK(std::ranges::equal(lists[2], all));
     CHECK(lists[3].empty());
   }
+
+  TEST_CASE("lists with room for what they get are filled in place") {
+    detail::GrowingLists lists;
+    lists.make(std::vector<int>{1, 3, 2});
+    lists.push_back_in_room(1, 2, 5);
+    lists.push_back_in_room(0, 1, 6);
+    lists.push_back_in_room(1, 2, 7);
+    CHECK(std::ranges::equal(lists[0], std::vector<int>{6}));
+    CHECK(std::ranges::equal(lists[1], std::vector<int>{5, 6, 7}));
+    CHECK(std::ranges::equal(lists[2], std::vector<int>{5, 7}));
+    lists.push_back(0, 2, 8);
+    CHECK(std::ranges::equal(lists[1], std::vector<int>{5, 6, 7, 8}));
+    CHECK(std::ranges::equal(lists[0], std::vector<int>{6, 8}));
+  }
 }
 
 }  // namespace
