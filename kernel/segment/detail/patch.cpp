@@ -82,6 +82,7 @@ class PatchFinder {
     Place sides;   ///< of its own facets, ascending
     Place beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
     bool meets_ground = false;
+    unsigned own_limits = 0;  ///< the bits of its own sides in for_fewer_sides()
   };
 
   /// Sorts what stands from `first` on, each once.
@@ -191,6 +192,10 @@ class PatchFinder {
     if (sides.size() < 3 || sides.size() > kMost) return;
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
+    for (Grown& group : grown_) {
+      group.own_limits = 0;
+      for (const Side side : group.sides.of(sides_)) group.own_limits |= limit_bits_[at(side)];
+    }
     for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask)
       if (const int order = std::popcount(mask); order >= 2 && order <= options_.max_order)
         visit(mask);
@@ -210,9 +215,7 @@ class PatchFinder {
       area += group.area;
       const auto beyond = group.beyond.of(beyond_);
       work_ += std::ssize(beyond);
-      unsigned own = 0;
-      for (const Side side : group.sides.of(sides_)) own |= limit_bits_[at(side)];
-      if (2 * area > surface_ || (own & limits) != 0) return false;
+      if (2 * area > surface_ || (group.own_limits & limits) != 0) return false;
       for (const auto& [side, other] : beyond) {
         if (group_stamps_[at(other)] == last_stamp_ || (limit_bits_[at(side)] & limits) != 0)
           continue;
