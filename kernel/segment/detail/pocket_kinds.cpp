@@ -198,6 +198,8 @@ void Pockets::judge(Kind& kind, bool is_hole) const {
         ++chords;
         continue;
       }
+      // One answer for both half-edges of an edge.
+      if (at(kind.twins[i]) < i) continue;
       kind.has_bend = kind.has_bend || (!kind.is_convex && body_.is_reflex(e));
       kind.is_unclear |= is_on_rim(body_.origin(e)) && is_on_rim(body_.target(e));
     }
