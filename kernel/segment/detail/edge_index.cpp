@@ -11,6 +11,7 @@ EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : bod
   // Planes are numbered class by class, and in a class by rank.
   const PlaneTable& table = body.world().planes;
   places_.reserve(planes.size());
+  classes_.reserve(std::min(planes.size(), at(table.class_count())));
   for (const int plane : planes) {
     if (classes_.empty() || classes_.back().number != table.class_of(plane))
       classes_.push_back({table.class_of(plane), {}});

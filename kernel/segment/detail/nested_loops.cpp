@@ -47,7 +47,10 @@ class LoopNester {
 
   void add_region(int l) {
     const double area = section_.loops[at(l)].area;
-    section_.regions.push_back({area > 0, {l}, std::abs(area)});
+    Region& region = section_.regions.emplace_back();
+    region.is_material = area > 0;
+    region.loops.push_back(l);
+    region.area = std::abs(area);
   }
 
  private:

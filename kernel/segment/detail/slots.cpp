@@ -34,17 +34,19 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
       edges_(body, planes_),
       margins_(2 * planes_.size()),
       chains_(body, planes_, free_side) {
-  slots_.reserve(2 * planes_.size());
+  slots_.resize(2 * planes_.size());
+  to_do_.reserve(slots_.size());
+  classes_.reserve(std::min(planes_.size(), at(world_.planes.class_count())));
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     const int k = world_.planes.class_of(planes_[i]);
     if (classes_.empty() || classes_.back().number != k) classes_.push_back({k, i, i, {}});
     ++classes_.back().last;
     classes_.back().ranks.push_back(world_.planes.rank_of(planes_[i]));
-    for (const int direction : {1, -1}) {
-      to_do_.push_back(slots_.size());
-      slots_.push_back({i});
-      slots_.back().section.plane = planes_[i];
-      slots_.back().section.direction = direction;
+    for (const std::size_t number : {2 * i, 2 * i + 1}) {
+      to_do_.push_back(number);
+      slots_[number].entry = i;
+      slots_[number].section.plane = planes_[i];
+      slots_[number].section.direction = number % 2 == 0 ? 1 : -1;
     }
   }
 }

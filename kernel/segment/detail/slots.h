@@ -46,8 +46,8 @@ class Slots {
  public:
   /// A split plane seen from one side.
   struct Slot {
-    std::size_t entry;  ///< of its plane in planes_
-    int looks = 0;      ///< how often its section was looked at again
+    std::size_t entry = 0;  ///< of its plane in planes_
+    int looks = 0;          ///< how often its section was looked at again
     bool is_stale = true;
     /// Nothing can be cut here; margins_ has the area by which the smallest region is too large.
     bool is_idle = false;
