@@ -108,7 +108,7 @@ void Slots::let_rest(std::size_t number, double margin_m2) {
   margins_.set(number, margin_m2);
   slot.is_to_prune = false;
   slot.section.regions.clear();  // those that it had before it was touched
-  promising_.erase(number);
+  if (slot.looks > 0) promising_.erase(number);
   slot.is_idle = true;
   slot.is_clear = true;
   slot.is_stale = false;
@@ -159,11 +159,11 @@ void Slots::refresh(bool natural_only) {
     Slot& slot = slots_[i];
     if (!slot.is_idle && (slot.is_stale || !prune(i))) refresh(i);
     slot.is_stale = slot.is_to_prune = false;
-    ++slot.looks;
-    if (slot.section.regions.empty())
-      promising_.erase(i);
-    else
+    const bool is_new = slot.looks++ == 0;
+    if (!slot.section.regions.empty())
       promising_.insert(i);
+    else if (!is_new)
+      promising_.erase(i);
   }
   to_do_.clear();
 }
@@ -178,13 +178,13 @@ void Slots::find_natural() {
 }
 
 void Slots::put_off() {
+  put_off_.reserve(put_off_.size() + to_do_.size());
   std::erase_if(to_do_, [&](std::size_t i) {
     Slot& slot = slots_[i];
     if (!slot.is_stale || chains_.may_be_natural(i)) return false;
     slot.section.regions.clear();
     slot.is_to_prune = false;
-    ++slot.looks;
-    promising_.erase(i);
+    if (slot.looks++ > 0) promising_.erase(i);
     put_off_.push_back(i);
     return true;
   });
@@ -202,7 +202,7 @@ bool Slots::prune(std::size_t number) {
 void Slots::refresh(std::size_t number) {
   Slot& slot = slots_[number];
   slot.is_idle = false;
-  lively_.erase(number);
+  if (slot.looks > 0) lively_.erase(number);
   slot.section.regions.clear();
   if (!body_.on_plane(planes_[slot.entry]).has_area()) return;
   const auto edges = edges_.edges_at(slot.entry, slot.section.direction);
