@@ -351,7 +351,7 @@ class Segmenter {
     for (const int v : feature.vertices) feature.box.grow(world_.points.at(v));
     const FeatureId feature_id = next_feature();
     out_.features.push_back(std::move(feature));
-    tasks_.push_back({std::move(body), id, feature_id, sign, std::move(own_planes)});
+    tasks_.emplace_back(std::move(body), id, feature_id, sign, std::move(own_planes));
   }
 
   void add_leaf(const Task& task, LeafFlag flag) {
