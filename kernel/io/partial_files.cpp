@@ -92,7 +92,7 @@ void PartialFiles::enter(OutputFile& file) {
   if (left == left_by_target.end()) return;
   file.size_ = left->second.bytes;
   file.lines_ = left->second.lines;
-  file.hash_ = left->second.hash;
+  file.hash_ = std::move(left->second.hash);
   left_by_target.erase(left);
 }
 

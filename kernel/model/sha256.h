@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,6 +13,11 @@ std::string sha256(std::string_view text);
 /// The same of bytes that come piece by piece.
 class Sha256 {
  public:
+  Sha256();
+  ~Sha256();
+  Sha256(Sha256&& other) noexcept;
+  Sha256& operator=(Sha256&& other) noexcept;
+
   void add(std::string_view bytes);
   /// Of all bytes so far; more may follow.
   [[nodiscard]] std::string digest() const;
@@ -20,9 +25,8 @@ class Sha256 {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
-  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  std::string rest_;  ///< of less than a block
+  struct State;
+  std::unique_ptr<State> state_;  ///< none: moved from
   std::uint64_t bytes_ = 0;
 };
 
