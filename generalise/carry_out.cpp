@@ -132,12 +132,7 @@ class Guard {
     if (!edge.feature.is_valid()) return held == 2;
     if (edge.length_m > pieces_.c_m[piece.index()] + 2 * off_m || held == 0) return false;
     return pieces_.c_m[edge.feature.index()] < invariants_.least_edge_m ||
-           carries(edge.feature, piece);
-  }
-
-  [[nodiscard]] bool carries(FeatureId carrier, FeatureId id) const {
-    while (id.is_valid() && id != carrier) id = parent_of(id);
-    return id.is_valid();
+           detail::is_within(segmentation_, piece, edge.feature);
   }
 
   /// Without new edges that are too short, as far as that can be.

@@ -1,3 +1,4 @@
+#include "generalise/detail/slopes.h"
 #include "generalise/generalise.h"
 #include "generalise/removed.h"
 #include "kernel/geometry/outlines.h"
@@ -27,12 +28,10 @@ Vec3 area_vector(const Building& building, const Polygon& polygon) {
   return 0.5 * sum;
 }
 
-/// By slope alone: what a facet is that no input polygon lies in. 75 degrees is the default pack's
-/// steepest roof.
+/// What a facet is that no input polygon lies in.
 std::string type_by_slope(Vec3 normal) {
-  const double steepest_roof = std::cos(75 * 3.14159265358979323846 / 180);
-  if (normal.z > steepest_roof) return "RoofSurface";
-  return normal.z < -steepest_roof ? "OuterCeilingSurface" : "WallSurface";
+  if (detail::looks_up(normal)) return "RoofSurface";
+  return detail::looks_down(normal) ? "OuterCeilingSurface" : "WallSurface";
 }
 
 /// What is drawn looks the way of a polygon within 45 degrees.

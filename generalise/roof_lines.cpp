@@ -1,12 +1,12 @@
 #include "generalise/roof_lines.h"
 
 #include "generalise/detail/shells.h"
+#include "generalise/detail/slopes.h"
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 namespace oriel {
@@ -23,8 +23,7 @@ enum class Side { none, falls, level, rises };
 
 /// How a roof facet goes on inwards from its edge from `p` to `q`; none: it is no roof.
 Side side_of(const Plane& plane, Vec3 p, Vec3 q) {
-  const double steepest_roof = std::cos(75 * std::numbers::pi / 180);
-  if (plane.normal.z <= steepest_roof) return Side::none;
+  if (!detail::looks_up(plane.normal)) return Side::none;
   const double rise = cross(plane.normal, normalised(q - p)).z;
   return rise > kLevel ? Side::rises : rise < -kLevel ? Side::falls : Side::level;
 }

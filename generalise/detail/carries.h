@@ -4,6 +4,9 @@
 
 namespace oriel::detail {
 
+/// The feature is `outer`, or was found in its subtree.
+bool is_within(const Segmentation& segmentation, FeatureId id, FeatureId outer);
+
 /// What the feature is a piece of stands on it: the cut between the two looks down, and the piece
 /// stands on something else itself, so no surface of its own looks down. Such is the wedge under a
 /// chimney across a ridge, cut along one slope, over the other slope; a console is not, its lower
