@@ -140,7 +140,7 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
 /// The lump in front of a candidate. What only floods can tell is flooded, of pockets of one kind
 /// the first; a lump that is alone is none of a kind.
 Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
-  const Section& section = candidate.slot->section;
+  const Section& section = *candidate.slot->section;
   const int pocket = pockets_.find(section, candidate.region, is_alone);
   if (pocket >= 0 && !is_alone) {
     const int kind = pockets_.kind_of(pocket);
@@ -161,7 +161,7 @@ Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
 }
 
 Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
-  const Section& section = candidate.slot->section;
+  const Section& section = *candidate.slot->section;
   const Region& region = section.regions[at(candidate.region)];
   const auto flooded = pockets_.flooded(pocket, section, region);
   if (!flooded) return flood(candidate);
@@ -174,7 +174,7 @@ Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
 }
 
 Lump Chooser::flood(const Candidate& candidate) {
-  if (candidate.slot != flooded_) finder_.emplace(body_, candidate.slot->section);
+  if (candidate.slot != flooded_) finder_.emplace(body_, *candidate.slot->section);
   flooded_ = candidate.slot;
   return finder_->find(candidate.region);
 }
@@ -196,7 +196,7 @@ std::optional<double> Chooser::key_of(Pass pass, const Region& region, double ne
 /// Gives a candidate its lump, and the key of that as a whole. False if it is no feature, or none
 /// of the pass.
 bool Chooser::check(Candidate& candidate, Pass pass, bool is_alone) {
-  const Section& section = candidate.slot->section;
+  const Section& section = *candidate.slot->section;
   const Region& region = section.regions[at(candidate.region)];
   Lump found = lump_at(candidate, is_alone);
   candidate.lump = static_cast<int>(lumps_.size());
@@ -219,10 +219,11 @@ bool Chooser::check(Candidate& candidate, Pass pass, bool is_alone) {
 
 template <class Visit>
 void Chooser::for_each_candidate(const Slot& slot, Pass pass, Visit visit) const {
-  for (int r = 0; r < std::ssize(slot.section.regions); ++r) {
-    const Region& region = slot.section.regions[at(r)];
-    const double old = region.is_candidate ? slot.section.old_area(region) : 0;
-    if (old <= 0 || is_banned(slot.section, region)) continue;
+  const Section& section = *slot.section;
+  for (int r = 0; r < std::ssize(section.regions); ++r) {
+    const Region& region = section.regions[at(r)];
+    const double old = region.is_candidate ? section.old_area(region) : 0;
+    if (old <= 0 || is_banned(section, region)) continue;
     if (const auto key = key_of(pass, region, region.new_area, old)) visit(r, *key);
   }
 }
@@ -310,7 +311,7 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass, const std::vector<Pat
   for (const Candidate& c : candidates) least = std::min(least, c.key);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool is_material =
-        candidates[i].slot->section.regions[at(candidates[i].region)].is_material;
+        candidates[i].slot->section->regions[at(candidates[i].region)].is_material;
     if (!is_same_value(candidates[i].key, least) || is_done[{candidates[i].slot, is_material}])
       continue;
     is_done[{candidates[i].slot, is_material}] = true;
@@ -326,7 +327,7 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass, const std::vector<Pat
 /// The leader with all lumps of the same plane and kind whose value is the same within value_rel.
 Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const {
   const Candidate& first = candidates[leader];
-  const Section& section = first.slot->section;
+  const Section& section = *first.slot->section;
   const Region& region = section.regions[at(first.region)];
   Choice choice;
   choice.is_hole = !region.is_material;

@@ -37,19 +37,19 @@ void EdgeIndex::update() {
 /// Takes in the edges that came since the last time.
 void EdgeIndex::enter(Class& c) {
   if (c.entered == 0) make_table(c);
-  const std::vector<Run> runs = new_runs(c);
+  find_new_runs(c);
   if (c.entered == 0) {
     std::vector<int> sizes(c.ranks.size() + 2, 0);
-    for (const Run& run : runs) {
+    for (const Run& run : runs_) {
       ++sizes[run.first];
       --sizes[run.last + 1];
     }
     std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
     sizes.pop_back();
     c.lists.make(sizes);
-    for (const Run& run : runs) c.lists.push_back_in_room(run.first, run.last, run.half);
+    for (const Run& run : runs_) c.lists.push_back_in_room(run.first, run.last, run.half);
   } else {
-    for (const Run& run : runs) c.lists.push_back(run.first, run.last, run.half);
+    for (const Run& run : runs_) c.lists.push_back(run.first, run.last, run.half);
   }
   c.entered = edges_.size();
 }
@@ -70,17 +70,16 @@ std::size_t EdgeIndex::Class::planes_before(int rank) const {
   return at(std::ranges::lower_bound(ranks, rank) - ranks.begin());
 }
 
-std::vector<EdgeIndex::Run> EdgeIndex::new_runs(const Class& c) const {
-  const std::span<const Edge> edges = std::span(edges_).subspan(c.entered);
-  std::vector<Run> runs;
-  runs.reserve(edges.size());
+void EdgeIndex::find_new_runs(const Class& c) {
+  const auto edges = std::span<const Edge>(edges_).subspan(c.entered);
+  runs_.clear();
+  runs_.reserve(edges.size());
   const auto rank = body_.world().points.ranks(c.number);
   for (const Edge& edge : edges) {
     const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
     if (low == high) continue;
-    runs.push_back({edge.half, c.planes_before(low + 1), c.planes_before(high)});
+    runs_.push_back({edge.half, c.planes_before(low + 1), c.planes_before(high)});
   }
-  return runs;
 }
 
 }  // namespace oriel::detail

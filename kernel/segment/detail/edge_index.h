@@ -59,13 +59,14 @@ class EdgeIndex {
   };
   void enter(Class& c);
   void make_table(Class& c) const;
-  [[nodiscard]] std::vector<Run> new_runs(const Class& c) const;
+  void find_new_runs(const Class& c);
 
   const Boundary& body_;
   std::vector<Class> classes_;
   std::vector<Place> places_;  ///< by plane
   std::vector<Edge> edges_;    ///< as they came
   int known_ = 0;              ///< half-edges taken in
+  std::vector<Run> runs_;      ///< of the class at hand
 };
 
 }  // namespace oriel::detail

@@ -37,28 +37,27 @@ void NaturalChains::forget() {
 
 bool NaturalChains::refresh() {
   if (std::ranges::all_of(classes_, &Class::is_known)) return false;
-  const std::vector<Edge> edges = living_edges();
+  find_living_edges();
   if (free_side_ >= 0) {
     free_ranks_ = world_.points.ranks(world_.planes.class_of(free_side_ >> 1));
     free_rank_ = world_.planes.rank_of(free_side_ >> 1);
   }
   for (Class& c : classes_) {
-    if (!c.is_known) look(c, edges);
+    if (!c.is_known) look(c);
     c.is_known = true;
   }
   return true;
 }
 
-std::vector<NaturalChains::Edge> NaturalChains::living_edges() const {
-  std::vector<Edge> edges;
-  edges.reserve(at(body_.half_edge_count() - body_.dead_edge_count()) / 2);
+void NaturalChains::find_living_edges() {
+  edges_.clear();
+  edges_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()) / 2);
   for (int e = 0; e < body_.half_edge_count(); ++e) {
     const int twin = body_.twin(e);
     if (!body_.is_alive_edge(e) || e > twin) continue;
-    edges.push_back({e, twin, body_.origin(e), body_.origin(twin), body_.side_of_edge(e) >> 1,
-                     body_.side_of_edge(twin) >> 1});
+    edges_.push_back({e, twin, body_.origin(e), body_.origin(twin), body_.side_of_edge(e) >> 1,
+                      body_.side_of_edge(twin) >> 1});
   }
-  return edges;
 }
 
 /// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
@@ -91,7 +90,7 @@ std::pair<int, int> NaturalChains::ranks_around(std::span<const int> ranks, int 
   return {rank_at(before), rank_at(after)};
 }
 
-void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
+void NaturalChains::look(const Class& c) {
   const auto ranks = world_.points.ranks(c.number);
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
   normal_ = normal;
@@ -101,7 +100,7 @@ void NaturalChains::look(const Class& c, std::span<const Edge> edges) {
     scratch.leaving.resize(ranks.size(), 0);
     scratch.entering.resize(ranks.size(), 0);
   }
-  for (const Edge& edge : edges) {
+  for (const Edge& edge : edges_) {
     const int rank = ranks[at(edge.from)];
     if ((rank & 1) == 0 || ranks[at(edge.to)] != rank) continue;
     // Mostly one of the facets lies in the plane and the other one does not.

@@ -55,8 +55,8 @@ class NaturalChains {
     int plane, twin_plane;
   };
 
-  [[nodiscard]] std::vector<Edge> living_edges() const;
-  void look(const Class& c, std::span<const Edge> edges);
+  void find_living_edges();
+  void look(const Class& c);
   void sort_steps(const Class& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
   void add_step(int entry, std::span<const int> ranks, int e, int from, int to);
@@ -81,6 +81,7 @@ class NaturalChains {
   std::span<const int> free_ranks_;
   int free_rank_ = 0;
   Vec3 normal_;
+  std::vector<Edge> edges_;  ///< the living ones
   std::vector<Step> steps_, sorted_;
   std::vector<int> ends_;
 };

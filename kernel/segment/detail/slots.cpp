@@ -45,8 +45,7 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
     for (const std::size_t number : {2 * i, 2 * i + 1}) {
       to_do_.push_back(number);
       slots_[number].entry = i;
-      slots_[number].section.plane = planes_[i];
-      slots_[number].section.direction = number % 2 == 0 ? 1 : -1;
+      slots_[number].direction = number % 2 == 0 ? 1 : -1;
     }
   }
 }
@@ -59,7 +58,7 @@ void Slots::sweep_classes() {
   for (const std::size_t i : to_do_)
     if (slots_[i].is_stale)
       met[at(world_.planes.class_of(planes_[slots_[i].entry]))] +=
-          edges_.edges_at(slots_[i].entry, slots_[i].section.direction).size();
+          edges_.edges_at(slots_[i].entry, slots_[i].direction).size();
   for (const Class& c : classes_)
     if (met[at(c.number)] > kManyTimes * at(body_.half_edge_count())) sweep_class(c);
   std::erase_if(to_do_, [&](std::size_t i) { return slots_[i].is_idle; });
@@ -80,9 +79,9 @@ void Slots::sweep_class(const Class& c) {
 /// larger than the old area, whatever coplanar facets cover of it.
 void Slots::swept(std::size_t number, double area_m2) {
   if (!slots_[number].is_stale) return;
-  const Side looking = slots_[number].section.looking();
-  const auto areas = body_.on_plane(looking >> 1).areas;
-  const double old = areas[at(looking & 1)], covered = areas[at((looking & 1) ^ 1)];
+  const Side side = looking(slots_[number]);
+  const auto areas = body_.on_plane(side >> 1).areas;
+  const double old = areas[at(side & 1)], covered = areas[at((side & 1) ^ 1)];
   let_rest(number, old > 0 ? area_m2 - kSweptArea_m2 - covered - old : Margins::kNone);
 }
 
@@ -107,14 +106,14 @@ void Slots::let_rest(std::size_t number, double margin_m2) {
   Slot& slot = slots_[number];
   margins_.set(number, margin_m2);
   slot.is_to_prune = false;
-  slot.section.regions.clear();  // those that it had before it was touched
+  clear_regions(slot);  // those that it had before it was touched
   if (slot.looks > 0) promising_.erase(number);
   slot.is_idle = true;
-  slot.is_clear = true;
+  slot.unclear_changes = unclear_changes_;
   slot.is_stale = false;
-  const Side looking = slot.section.looking();
-  const auto areas = body_.on_plane(looking >> 1).areas;
-  count_tests({areas[at((looking & 1) ^ 1)], areas[at(looking & 1)]});
+  const Side side = looking(slot);
+  const auto areas = body_.on_plane(side >> 1).areas;
+  count_tests({areas[at((side & 1) ^ 1)], areas[at(side & 1)]});
 }
 
 void Slots::count_tests(const std::array<double, 2>& old_areas) {
@@ -136,7 +135,7 @@ bool Slots::judge(std::size_t number, const Section& section) {
     is_idle &= !region.is_natural && least > 0;
   }
   slot.is_idle = is_idle;
-  slot.is_clear = true;
+  slot.unclear_changes = unclear_changes_;
   margins_.set(number, is_idle ? least : Margins::kNone);
   if (is_idle)
     lively_.erase(number);
@@ -160,7 +159,7 @@ void Slots::refresh(bool natural_only) {
     if (!slot.is_idle && (slot.is_stale || !prune(i))) refresh(i);
     slot.is_stale = slot.is_to_prune = false;
     const bool is_new = slot.looks++ == 0;
-    if (!slot.section.regions.empty())
+    if (slot.has_regions())
       promising_.insert(i);
     else if (!is_new)
       promising_.erase(i);
@@ -182,7 +181,7 @@ void Slots::put_off() {
   std::erase_if(to_do_, [&](std::size_t i) {
     Slot& slot = slots_[i];
     if (!slot.is_stale || chains_.may_be_natural(i)) return false;
-    slot.section.regions.clear();
+    clear_regions(slot);
     slot.is_to_prune = false;
     if (slot.looks++ > 0) promising_.erase(i);
     put_off_.push_back(i);
@@ -192,10 +191,10 @@ void Slots::put_off() {
 
 /// Takes the loops that have gone from a section. False if it is to be made anew.
 bool Slots::prune(std::size_t number) {
-  Slot& slot = slots_[number];
-  work_ += std::ssize(slot.section.crossings);
-  if (!prune_section(body_, slot.section, section_options_)) return false;
-  if (!judge(number, slot.section)) slot.section.regions.clear();
+  Section& section = section_of(slots_[number]);
+  work_ += std::ssize(section.crossings);
+  if (!prune_section(body_, section, section_options_)) return false;
+  if (!judge(number, section)) section.regions.clear();
   return true;
 }
 
@@ -203,18 +202,25 @@ void Slots::refresh(std::size_t number) {
   Slot& slot = slots_[number];
   slot.is_idle = false;
   if (slot.looks > 0) lively_.erase(number);
-  slot.section.regions.clear();
+  clear_regions(slot);
   if (!body_.on_plane(planes_[slot.entry]).has_area()) return;
-  const auto edges = edges_.edges_at(slot.entry, slot.section.direction);
-  fresh_.plane = slot.section.plane;
-  fresh_.direction = slot.section.direction;
+  const auto edges = edges_.edges_at(slot.entry, slot.direction);
+  fresh_.plane = planes_[slot.entry];
+  fresh_.direction = slot.direction;
   const bool do_all_cross = section_at(body_, fresh_, edges, section_options_);
   work_ += std::ssize(edges);
   count_tests(fresh_.old_areas);
   for (const Region& region : fresh_.regions)
     if (region.is_candidate && fresh_.old_area(region) > region.new_area) ++stats_.candidates;
   if (do_all_cross) look_across_gap(number);
-  if (judge(number, fresh_)) std::swap(slot.section, fresh_);
+  if (judge(number, fresh_)) std::swap(section_of(slot), fresh_);
+}
+
+/// That a slot keeps, or begins to.
+Section& Slots::section_of(Slot& slot) {
+  if (slot.section == nullptr)
+    slot.section = &sections_.emplace_back(planes_[slot.entry], slot.direction);
+  return *slot.section;
 }
 
 }  // namespace oriel::detail

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <set>
 #include <span>
 #include <utility>
@@ -46,18 +47,23 @@ class Slots {
  public:
   /// A split plane seen from one side.
   struct Slot {
-    std::size_t entry = 0;  ///< of its plane in planes_
-    int looks = 0;          ///< how often its section was looked at again
+    std::size_t entry = 0;       ///< of its plane in planes_
+    Section* section = nullptr;  ///< as it was last kept, in sections_; null: none ever was
+    int looks = 0;               ///< how often its section was looked at again
+    /// unclear_changes_ as it was when its section was made, or swept over.
+    int unclear_changes = -1;
+    int direction = 1;  ///< as that of a Section
     bool is_stale = true;
     /// Nothing can be cut here; margins_ has the area by which the smallest region is too large.
     bool is_idle = false;
-    /// Since its section was made, or swept over, only plain rings were filled.
-    bool is_clear = false;
     /// No region's outline follows edges, so none becomes natural by losing a loop in it.
     bool is_fenced = false;
     /// Some loops have gone; nothing else has changed.
     bool is_to_prune = false;
-    Section section{};  ///< kept if there is something to cut
+
+    [[nodiscard]] bool has_regions() const {
+      return section != nullptr && !section->regions.empty();
+    }
   };
 
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of the
@@ -111,6 +117,13 @@ class Slots {
     double area = 0;
     bool is_merged = false;  ///< into another one
   };
+  [[nodiscard]] Side looking(const Slot& slot) const {
+    return 2 * planes_[slot.entry] + (slot.direction > 0 ? 0 : 1);
+  }
+  Section& section_of(Slot& slot);
+  static void clear_regions(Slot& slot) {
+    if (slot.section != nullptr) slot.section->regions.clear();
+  }
   void find_natural();
   void put_off();
   void sweep_classes();
@@ -152,7 +165,10 @@ class Slots {
   std::vector<int> planes_;  ///< the split planes, ascending
   EdgeIndex edges_;
   std::vector<Class> classes_;
-  std::vector<Slot> slots_;           ///< of each plane in front, then behind
+  std::vector<Slot> slots_;       ///< of each plane in front, then behind
+  std::deque<Section> sections_;  ///< of slots
+  /// How many changes there were that filled no plain ring: what is clear has met none of them.
+  int unclear_changes_ = 0;
   Margins margins_;                   ///< of idle slots
   std::set<std::size_t> lively_;      ///< slots with a section that is kept
   std::vector<std::size_t> to_do_;    ///< slots to look at again

@@ -160,8 +160,7 @@ void Slots::find_reach(std::span<const int> rank, const Seen& seen, Reach& reach
 
 /// Planes are ordered by class and rank, so those that a change reaches are a run in each class.
 void Slots::touch_all(const Class& c, const Run& run) {
-  if (!run.reach.is_plain())
-    for (Slot& slot : slots_) slot.is_clear = false;
+  if (!run.reach.is_plain()) ++unclear_changes_;
   if (run.reach.is_rim_convex) return touch_along(c, run);
   for (std::size_t i = c.from(run.reach.low); i < c.from(run.reach.high + 1); ++i)
     touch_plane(i, run);
@@ -224,8 +223,8 @@ void Slots::make_stale(std::size_t number) {
 /// loops or not at all: its wall has no other end than the rim.
 bool Slots::loses_loops_only(const Slot& slot, const Reach& reach) const {
   if (!reach.is_natural || reach.rim_start < 0) return false;
-  const int direction = slot.section.direction;
-  const int limit = world_.planes.rank_of(slot.section.plane) * direction;
+  const int direction = slot.direction;
+  const int limit = world_.planes.rank_of(planes_[slot.entry]) * direction;
   return (reach.rim_low * direction > limit) == (reach.rim_high * direction > limit);
 }
 
@@ -262,8 +261,8 @@ bool Slots::stays_idle(std::size_t number, const Run& run) {
 bool Slots::stays_idle_beside(std::size_t number, const Run& run) {
   const Reach& reach = run.reach;
   const Slot& slot = slots_[number];
-  if (!slot.is_clear || !reach.is_plain()) return false;
-  const int rank = world_.planes.rank_of(planes_[slot.entry]), direction = slot.section.direction;
+  if (slot.unclear_changes != unclear_changes_ || !reach.is_plain()) return false;
+  const int rank = world_.planes.rank_of(planes_[slot.entry]), direction = slot.direction;
   const auto is_up = [&](int other) { return other * direction > rank * direction; };
   const bool is_met = is_up(reach.part_low) || is_up(reach.part_high);
   if (is_met && is_up(reach.rim_low) == is_up(reach.rim_high)) return false;
