@@ -36,7 +36,7 @@ void EdgeIndex::update() {
 
 /// Takes in the edges that came since the last time.
 void EdgeIndex::enter(Class& c) {
-  if (c.entered == 0) make_table(c);
+  if (!c.ranks.is_ready()) make_table(c);
   find_new_runs(c);
   if (c.entered == 0) {
     std::vector<int> sizes(c.ranks.size() + 2, 0);
@@ -55,19 +55,7 @@ void EdgeIndex::enter(Class& c) {
 }
 
 void EdgeIndex::make_table(Class& c) const {
-  constexpr std::size_t kMany = 8;  // times: then searching costs less than a table
-  const std::size_t ranks = 2 * body_.world().planes.normal_class(c.number).planes.size() + 2;
-  if (ranks > kMany * c.ranks.size()) return;
-  c.before.reserve(ranks);
-  for (int rank = 0, i = 0; rank < static_cast<int>(ranks); ++rank) {
-    while (i < std::ssize(c.ranks) && c.ranks[at(i)] < rank) ++i;
-    c.before.push_back(i);
-  }
-}
-
-std::size_t EdgeIndex::Class::planes_before(int rank) const {
-  if (!before.empty()) return at(before[at(rank)]);
-  return at(std::ranges::lower_bound(ranks, rank) - ranks.begin());
+  c.ranks.make_table(body_.world().planes.normal_class(c.number).planes.size());
 }
 
 void EdgeIndex::find_new_runs(const Class& c) {
@@ -78,7 +66,7 @@ void EdgeIndex::find_new_runs(const Class& c) {
   for (const Edge& edge : edges) {
     const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
     if (low == high) continue;
-    runs_.push_back({edge.half, c.planes_before(low + 1), c.planes_before(high)});
+    runs_.push_back({edge.half, c.ranks.before(low + 1), c.ranks.before(high)});
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "kernel/segment/detail/boundary.h"
 #include "kernel/segment/detail/growing_lists.h"
+#include "kernel/segment/detail/plane_ranks.h"
 
 #include <cstddef>
 #include <span>
@@ -32,6 +33,13 @@ class EdgeIndex {
   /// Takes in the half-edges that were made since the last time.
   void update();
 
+  /// The ranks of those of the planes that are of the k-th of their classes.
+  [[nodiscard]] const PlaneRanks& ranks_of_class(std::size_t k) {
+    Class& c = classes_[k];
+    if (!c.ranks.is_ready()) make_table(c);
+    return c.ranks;
+  }
+
  private:
   /// A living half-edge that speaks for its edge.
   struct Edge {
@@ -39,13 +47,9 @@ class EdgeIndex {
   };
   struct Class {
     int number;
-    std::vector<int> ranks;  ///< of its planes, ascending
-    /// For each rank how many planes have a lesser one; empty if the class has many more planes
-    /// than are asked for.
-    std::vector<int> before = {};
+    PlaneRanks ranks;
     GrowingLists lists = {};  ///< half-edges by gap
     std::size_t entered = 0;  ///< how many of edges_
-    [[nodiscard]] std::size_t planes_before(int rank) const;
   };
   /// A half-edge whose edge is not level, and the gaps that it runs through.
   struct Run {

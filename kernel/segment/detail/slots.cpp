@@ -39,9 +39,8 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
   classes_.reserve(std::min(planes_.size(), at(world_.planes.class_count())));
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     const int k = world_.planes.class_of(planes_[i]);
-    if (classes_.empty() || classes_.back().number != k) classes_.push_back({k, i, i, {}});
+    if (classes_.empty() || classes_.back().number != k) classes_.push_back({k, i, i});
     ++classes_.back().last;
-    classes_.back().ranks.push_back(world_.planes.rank_of(planes_[i]));
     for (const std::size_t number : {2 * i, 2 * i + 1}) {
       to_do_.push_back(number);
       slots_[number].entry = i;

@@ -87,12 +87,6 @@ class Slots {
   struct Class {
     int number;
     std::size_t first, last;
-    std::vector<int> ranks;
-    /// The first plane with this rank or more.
-    [[nodiscard]] std::size_t from(int rank) const {
-      return first +
-             static_cast<std::size_t>(std::ranges::lower_bound(ranks, rank) - ranks.begin());
-    }
   };
   /// What a change means to the planes of one class: the ranks of its points, of those of the part,
   /// and of those around its cap.
@@ -143,7 +137,11 @@ class Slots {
     bool is_exact_ring;  ///< and all its points are meetings
   };
   [[nodiscard]] Seen look_at(const Change& change) const;
-  void apply(const Class& c, std::span<const Seen> changes);
+  void apply(std::size_t k, std::span<const Seen> changes);
+  /// The first plane of the class at hand with this rank or more.
+  [[nodiscard]] std::size_t first_at(const Class& c, int rank) const {
+    return c.first + ranks_->before(rank);
+  }
   void find_runs(const Class& c, std::span<const Seen> changes);
   void merge_runs();
   static void find_reach(std::span<const int> rank, const Seen& seen, Reach& reach);
@@ -174,10 +172,11 @@ class Slots {
   std::vector<std::size_t> to_do_;    ///< slots to look at again
   std::vector<std::size_t> put_off_;  ///< those of them in which nothing natural can be
   NaturalChains chains_;
-  std::set<std::size_t> promising_;  ///< slots with something to cut
-  Section fresh_;                    ///< room for the section at hand
-  std::vector<Run> room_;            ///< for runs of the class at hand
-  std::span<Run> runs_;              ///< those in use
+  std::set<std::size_t> promising_;    ///< slots with something to cut
+  Section fresh_;                      ///< room for the section at hand
+  std::vector<Run> room_;              ///< for runs of the class at hand
+  std::span<Run> runs_;                ///< those in use
+  const PlaneRanks* ranks_ = nullptr;  ///< of that class
 };
 
 }  // namespace oriel::detail

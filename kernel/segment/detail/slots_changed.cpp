@@ -32,7 +32,7 @@ void Slots::changed(const std::vector<Change>& changes) {
     change.has_covered ? chains_.forget() : chains_.expect(change.new_edges);
     all.push_back(look_at(change));
   }
-  for (const Class& c : classes_) apply(c, all);
+  for (std::size_t k = 0; k < classes_.size(); ++k) apply(k, all);
   margins_.take_out_spent([&](std::size_t number) { make_stale(number); });
 }
 
@@ -44,10 +44,12 @@ Slots::Seen Slots::look_at(const Change& change) const {
   return seen;
 }
 
-void Slots::apply(const Class& c, std::span<const Seen> changes) {
+void Slots::apply(std::size_t k, std::span<const Seen> changes) {
+  const Class& c = classes_[k];
   // Of many a class no section was asked for yet.
   const auto slots = std::span(slots_).subspan(2 * c.first, 2 * (c.last - c.first));
   if (std::ranges::all_of(slots, &Slot::is_stale)) return;
+  ranks_ = &edges_.ranks_of_class(k);
   find_runs(c, changes);
   const auto is_plain = [](const Run& run) { return run.reach.is_plain(); };
   if (std::ranges::all_of(runs_, is_plain)) merge_runs();
@@ -162,7 +164,7 @@ void Slots::find_reach(std::span<const int> rank, const Seen& seen, Reach& reach
 void Slots::touch_all(const Class& c, const Run& run) {
   if (!run.reach.is_plain()) ++unclear_changes_;
   if (run.reach.is_rim_convex) return touch_along(c, run);
-  for (std::size_t i = c.from(run.reach.low); i < c.from(run.reach.high + 1); ++i)
+  for (std::size_t i = first_at(c, run.reach.low); i < first_at(c, run.reach.high + 1); ++i)
     touch_plane(i, run);
 }
 
@@ -171,22 +173,23 @@ void Slots::touch_all(const Class& c, const Run& run) {
 /// where the rim meets them, or are of no use, and stay so until they get facets.
 void Slots::touch_along(const Class& c, const Run& run) {
   const Reach& reach = run.reach;
-  std::size_t first = c.from(reach.low), last = c.from(reach.high + 1);
+  std::size_t first = first_at(c, reach.low), last = first_at(c, reach.high + 1);
   if (first == last) return;
   for (auto i = lively_.lower_bound(2 * first); i != lively_.end() && *i < 2 * last;)
     touch(*i++, run);
   const auto touch_unhit = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i)
-      if (!std::ranges::binary_search(reach.hits, c.ranks[i - c.first])) touch_plane(i, run);
+      if (!std::ranges::binary_search(reach.hits, (*ranks_)[i - c.first])) touch_plane(i, run);
   };
-  first = c.from(reach.part_low + 1);
-  last = c.from(reach.part_high);
-  const std::size_t rim_first = c.from(reach.rim_low + 1), rim_last = c.from(reach.rim_high);
+  first = first_at(c, reach.part_low + 1);
+  last = first_at(c, reach.part_high);
+  const std::size_t rim_first = first_at(c, reach.rim_low + 1),
+                    rim_last = first_at(c, reach.rim_high);
   touch_unhit(first, std::min(rim_first, last));
   first = std::max(first, rim_first);
   for (const int rank : reach.hits) {
-    const std::size_t hit = c.from(rank);
-    const bool is_plane = hit < c.last && c.ranks[hit - c.first] == rank;
+    const std::size_t hit = first_at(c, rank);
+    const bool is_plane = hit < c.last && (*ranks_)[hit - c.first] == rank;
     if (rank > reach.rim_low && rank <= reach.rim_high) {
       margins_.take_off(2 * first, 2 * hit, run.area);
       first = is_plane ? hit + 1 : hit;
