@@ -248,6 +248,9 @@ Pockets::Order Pockets::order_of(int pocket) const {
   const Kind& kind = kinds_[at(here.kind)];
   const auto edges = edges_of(here);
   Order order{pocket, {}, {}, {}};
+  order.points.reserve(kind.corners.size());
+  order.planes.reserve(kind.sizes.size() + 1);
+  order.sources.reserve(kind.sizes.size());
   for (const Corner& corner : kind.corners)
     order.points.emplace_back(body_.origin(edges[at(corner.edge)]), corner.edge);
   order.planes.emplace_back(kind.cap >> 1, -1);
