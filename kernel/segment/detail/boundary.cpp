@@ -12,11 +12,21 @@ double Boundary::area(int f) const {
   return sum;
 }
 
+/// As std::lower_bound, but with the way chosen by arithmetic: no processor can guess it.
+std::size_t Boundary::place_of(Side side) const {
+  const std::pair<Side, int>* first = number_of_side_.data();
+  for (std::size_t left = number_of_side_.size(); left > 0;) {
+    const std::size_t half = (left + 1) / 2;
+    first += half * static_cast<std::size_t>(first[half - 1].first < side);
+    left -= half;
+  }
+  return static_cast<std::size_t>(first - number_of_side_.data());
+}
+
 const Boundary::OnSide* Boundary::on_side(Side side) const {
-  const auto found =
-      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
-  if (found == number_of_side_.end() || found->first != side) return nullptr;
-  return &on_side_[index(found->second)];
+  const std::size_t place = place_of(side);
+  if (place == number_of_side_.size() || number_of_side_[place].first != side) return nullptr;
+  return &on_side_[index(number_of_side_[place].second)];
 }
 
 double Boundary::area_on(Side side) const {
@@ -26,12 +36,13 @@ double Boundary::area_on(Side side) const {
 
 Boundary::OnPlane Boundary::on_plane(int plane) const {
   OnPlane found;
-  auto i = std::ranges::lower_bound(number_of_side_, 2 * plane, {}, &std::pair<Side, int>::first);
-  for (; i != number_of_side_.end() && i->first >> 1 == plane; ++i) {
-    const OnSide& on = on_side_[index(i->second)];
+  for (std::size_t i = place_of(2 * plane); i < number_of_side_.size(); ++i) {
+    const auto [side, number] = number_of_side_[i];
+    if (side >> 1 != plane) break;
+    const OnSide& on = on_side_[index(number)];
     if (on.living == 0) continue;
-    found.areas[index(i->first & 1)] = on.area;
-    found.has_facets[index(i->first & 1)] = true;
+    found.areas[index(side & 1)] = on.area;
+    found.has_facets[index(side & 1)] = true;
   }
   return found;
 }
@@ -125,11 +136,12 @@ int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> 
 }
 
 int Boundary::number_side(Side side) {
-  const auto place =
-      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
-  if (place != number_of_side_.end() && place->first == side) return place->second;
+  const std::size_t place = place_of(side);
+  if (place < number_of_side_.size() && number_of_side_[place].first == side)
+    return number_of_side_[place].second;
   const int number = static_cast<int>(on_side_.size());
-  number_of_side_.insert(place, {side, number});
+  number_of_side_.insert(number_of_side_.begin() + static_cast<std::ptrdiff_t>(place),
+                         {side, number});
   on_side_.emplace_back();
   return number;
 }

@@ -179,6 +179,8 @@ class Boundary {
     Few<int, 2> facets = {};  ///< ascending, with dead ones among them
     int living = 0;
   };
+  /// Where a side stands, or would stand, in number_of_side_.
+  [[nodiscard]] std::size_t place_of(Side side) const;
   [[nodiscard]] const OnSide* on_side(Side side) const;
   [[nodiscard]] OnSide& on_side_of(int f) { return on_side_[index(facets_[index(f)].on_side)]; }
   [[nodiscard]] double perimeter(int l) const;

@@ -292,10 +292,10 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
 /// Only slots with a leader are asked for their candidates: most do not change from cut to cut.
 void Chooser::wait_for_slots(Pass pass) {
   waiting_.clear();
-  for (const std::size_t number : slots_.promising()) {
+  slots_.promising().for_each([&](std::size_t number) {
     const double key = least_key(number, pass);
     if (key < std::numeric_limits<double>::infinity()) waiting_.emplace_back(key, number);
-  }
+  });
   std::ranges::make_heap(waiting_, std::greater{});
 }
 

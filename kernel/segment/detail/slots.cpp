@@ -33,7 +33,9 @@ Slots::Slots(const Boundary& body, const SegmentOptions& options, Side free_side
       planes_(split_planes_of(body, own_planes)),
       edges_(body, planes_),
       margins_(2 * planes_.size()),
-      chains_(body, planes_, free_side) {
+      lively_(2 * planes_.size()),
+      chains_(body, planes_, free_side),
+      promising_(2 * planes_.size()) {
   slots_.resize(2 * planes_.size());
   to_do_.reserve(slots_.size());
   classes_.reserve(std::min(planes_.size(), at(world_.planes.class_count())));
@@ -106,7 +108,7 @@ void Slots::let_rest(std::size_t number, double margin_m2) {
   margins_.set(number, margin_m2);
   slot.is_to_prune = false;
   clear_regions(slot);  // those that it had before it was touched
-  if (slot.looks > 0) promising_.erase(number);
+  promising_.erase(number);
   slot.is_idle = true;
   slot.unclear_changes = unclear_changes_;
   slot.is_stale = false;
@@ -136,10 +138,7 @@ bool Slots::judge(std::size_t number, const Section& section) {
   slot.is_idle = is_idle;
   slot.unclear_changes = unclear_changes_;
   margins_.set(number, is_idle ? least : Margins::kNone);
-  if (is_idle)
-    lively_.erase(number);
-  else
-    lively_.insert(number);
+  is_idle ? lively_.erase(number) : lively_.insert(number);
   return !is_idle;
 }
 
@@ -157,11 +156,8 @@ void Slots::refresh(bool natural_only) {
     Slot& slot = slots_[i];
     if (!slot.is_idle && (slot.is_stale || !prune(i))) refresh(i);
     slot.is_stale = slot.is_to_prune = false;
-    const bool is_new = slot.looks++ == 0;
-    if (slot.has_regions())
-      promising_.insert(i);
-    else if (!is_new)
-      promising_.erase(i);
+    ++slot.looks;
+    slot.has_regions() ? promising_.insert(i) : promising_.erase(i);
   }
   to_do_.clear();
 }
@@ -182,7 +178,8 @@ void Slots::put_off() {
     if (!slot.is_stale || chains_.may_be_natural(i)) return false;
     clear_regions(slot);
     slot.is_to_prune = false;
-    if (slot.looks++ > 0) promising_.erase(i);
+    ++slot.looks;
+    promising_.erase(i);
     put_off_.push_back(i);
     return true;
   });
@@ -200,7 +197,7 @@ bool Slots::prune(std::size_t number) {
 void Slots::refresh(std::size_t number) {
   Slot& slot = slots_[number];
   slot.is_idle = false;
-  if (slot.looks > 0) lively_.erase(number);
+  lively_.erase(number);
   clear_regions(slot);
   if (!body_.on_plane(planes_[slot.entry]).has_area()) return;
   const auto edges = edges_.edges_at(slot.entry, slot.direction);

@@ -5,6 +5,7 @@
 #include "kernel/segment/detail/margins.h"
 #include "kernel/segment/detail/natural_chains.h"
 #include "kernel/segment/detail/section.h"
+#include "kernel/segment/detail/slot_set.h"
 #include "kernel/segment/segment.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -77,8 +77,8 @@ class Slots {
   /// are put off: they hold nothing to cut until they are asked for without.
   void refresh(bool natural_only);
 
-  /// The slots with something to cut, ascending.
-  [[nodiscard]] const std::set<std::size_t>& promising() const { return promising_; }
+  /// The slots with something to cut.
+  [[nodiscard]] const SlotSet& promising() const { return promising_; }
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
   [[nodiscard]] const Slot& operator[](std::size_t i) const { return slots_[i]; }
 
@@ -168,11 +168,11 @@ class Slots {
   /// How many changes there were that filled no plain ring: what is clear has met none of them.
   int unclear_changes_ = 0;
   Margins margins_;                   ///< of idle slots
-  std::set<std::size_t> lively_;      ///< slots with a section that is kept
+  SlotSet lively_;                    ///< slots with a section that is kept
   std::vector<std::size_t> to_do_;    ///< slots to look at again
   std::vector<std::size_t> put_off_;  ///< those of them in which nothing natural can be
   NaturalChains chains_;
-  std::set<std::size_t> promising_;    ///< slots with something to cut
+  SlotSet promising_;                  ///< slots with something to cut
   Section fresh_;                      ///< room for the section at hand
   std::vector<Run> room_;              ///< for runs of the class at hand
   std::span<Run> runs_;                ///< those in use

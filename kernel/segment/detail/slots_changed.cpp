@@ -175,8 +175,7 @@ void Slots::touch_along(const Class& c, const Run& run) {
   const Reach& reach = run.reach;
   std::size_t first = first_at(c, reach.low), last = first_at(c, reach.high + 1);
   if (first == last) return;
-  for (auto i = lively_.lower_bound(2 * first); i != lively_.end() && *i < 2 * last;)
-    touch(*i++, run);
+  lively_.for_each(2 * first, 2 * last, [&](std::size_t number) { touch(number, run); });
   const auto touch_unhit = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i)
       if (!std::ranges::binary_search(reach.hits, (*ranks_)[i - c.first])) touch_plane(i, run);
