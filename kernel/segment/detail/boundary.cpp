@@ -1,5 +1,7 @@
 #include "kernel/segment/detail/boundary.h"
 
+#include "kernel/segment/detail/even_search.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,15 +14,8 @@ double Boundary::area(int f) const {
   return sum;
 }
 
-/// As std::lower_bound, but with the way chosen by arithmetic: no processor can guess it.
 std::size_t Boundary::place_of(Side side) const {
-  const std::pair<Side, int>* first = number_of_side_.data();
-  for (std::size_t left = number_of_side_.size(); left > 0;) {
-    const std::size_t half = (left + 1) / 2;
-    first += half * static_cast<std::size_t>(first[half - 1].first < side);
-    left -= half;
-  }
-  return static_cast<std::size_t>(first - number_of_side_.data());
+  return first_not_less(std::span(number_of_side_), side, &std::pair<Side, int>::first);
 }
 
 const Boundary::OnSide* Boundary::on_side(Side side) const {

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <algorithm>
+#include "kernel/segment/detail/even_search.h"
+
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -34,7 +36,7 @@ class PlaneRanks {
     const auto place = static_cast<std::size_t>(rank);
     if (place < before_.size()) return static_cast<std::size_t>(before_[place]);
     if (!before_.empty()) return ranks_.size();
-    return static_cast<std::size_t>(std::ranges::lower_bound(ranks_, rank) - ranks_.begin());
+    return first_not_less(std::span<const int>(ranks_), rank);
   }
 
  private:
