@@ -30,6 +30,15 @@ std::vector<const Polygon*> polygon_of_each_source(const Building& building) {
   return polygons;
 }
 
+/// True if no point from p to q may lie over a box. Each coordinate of points on a line only grows,
+/// or only falls.
+bool misses(Vec3 p, Vec3 q, const Box& box, Vec3 normal) {
+  Box line;
+  line.grow(p);
+  line.grow(q);
+  return !may_overlap(line, box, normal);
+}
+
 /// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
 /// most of it lies.
 std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
@@ -38,16 +47,19 @@ std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
   const auto middle = interior_point(polygon, normal);
   if (!middle) return {};
   std::vector<Vec3> samples{*middle};
-  const auto may_hold = [&](Vec3 p) { return may_overlap(Box{p, p}, box, normal); };
   const Vec3 any = std::abs(normal.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = normalised(cross(any, normal)), v = cross(normal, u);
   const double reach = length(box.max - box.min);
   constexpr int kSteps = 8;
-  for (int i = -kSteps; i <= kSteps; ++i)
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    const Vec3 in_row = *middle + (reach * i / kSteps) * u;
+    const auto point = [&](int j) { return in_row + (reach * j / kSteps) * v; };
+    if (misses(point(-kSteps), point(kSteps), box, normal)) continue;
     for (int j = -kSteps; j <= kSteps; ++j) {
-      const Vec3 p = *middle + (reach * i / kSteps) * u + (reach * j / kSteps) * v;
-      if (may_hold(p) && contains(polygon, normal, p)) samples.push_back(p);
+      const Vec3 p = point(j);
+      if (may_overlap(Box{p, p}, box, normal) && contains(polygon, normal, p)) samples.push_back(p);
     }
+  }
   return samples;
 }
 
@@ -192,6 +204,7 @@ void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
     here = polygons;
   else
     here.insert(here.end(), polygons.begin(), polygons.end());
+  if (here.size() > 1) std::ranges::sort(here);
   for (const FeatureId id : features_around(cell.feature))
     add_to(out_.features[id.index()].source_polygons);
 }
@@ -219,9 +232,6 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
     if (!std::ranges::is_sorted(polygons)) std::ranges::sort(polygons);
     polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
   }
-  for (Cell& cell : out_.cells)
-    for (Facet& facet : cell.facets)
-      if (facet.polygons.size() > 1) std::ranges::sort(facet.polygons);
 }
 
 }  // namespace oriel::detail
