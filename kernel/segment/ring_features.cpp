@@ -48,7 +48,7 @@ class RingWriter {
     const bool is_open = solid_.shells.empty();
     if (!is_open && all_rings_have_residents(solid_, residents_, tolerances_)) return;
     grid_ = detail::PolygonGrid(building_, solid_.grid_m);
-    const std::vector<Ring> rings = detail::find_rings(solid_, grid_, tolerances_);
+    const std::vector<Ring> rings = detail::find_rings(solid_, grid_, residents_, tolerances_);
     if (rings.empty()) return;
     find_homes();
     for (const Ring& ring : rings) write(ring);
@@ -66,7 +66,10 @@ class RingWriter {
     for (int c = 0; c < std::ssize(out_.cells); ++c) {
       const auto& facets = out_.cells[at(c)].facets;
       for (int f = 0; f < std::ssize(facets); ++f)
-        for (const int polygon : facets[at(f)].polygons) home_[polygon] = {CellId{c}, f};
+        for (const int polygon : facets[at(f)].polygons) {
+          if (at(polygon) >= home_.size()) home_.resize(at(polygon) + 1);
+          home_[at(polygon)] = {CellId{c}, f};
+        }
     }
   }
 
@@ -77,7 +80,6 @@ class RingWriter {
     const Vec3 normal = plane_of(ring).normal;
     const detail::ReachAxes axes = detail::axes_in(normal);
     const Reach reach = axes.reach_of(ring.outline);
-    if (residents_.fills(plane, reach)) return;
     const auto home = home_of(ring);
     if (!home) return;
     const RingContent content = detail::content_of(ring, solid_, grid_);
@@ -152,8 +154,9 @@ class RingWriter {
 
   /// The cell facet of the ring's polygon.
   [[nodiscard]] std::optional<CellFacet> home_of(const Ring& ring) const {
-    const auto found = home_.find(ring.source < 0 ? largest_of(ring) : ring.source);
-    return found == home_.end() ? std::nullopt : std::optional(found->second);
+    const std::size_t source = at(ring.source < 0 ? largest_of(ring) : ring.source);
+    if (source >= home_.size() || !home_[source].cell.is_valid()) return std::nullopt;
+    return home_[source];
   }
 
   /// The smallest ring feature so far that has the ring's polygon; else the smallest that has most
@@ -248,7 +251,7 @@ class RingWriter {
   const Tolerances& tolerances_;
   detail::Residents residents_;
   detail::PolygonGrid grid_;
-  std::map<int, CellFacet> home_;   ///< by Polygon::source
+  std::vector<CellFacet> home_;     ///< by Polygon::source, invalid where there is none
   std::map<int, FeatureId> owner_;  ///< by Polygon::source: the smallest ring around it so far
   std::map<std::array<long, 3>, std::vector<Told>> told_;  ///< rings by their middle
   std::map<std::tuple<double, double, double>, int> vertex_;

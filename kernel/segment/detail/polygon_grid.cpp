@@ -1,6 +1,6 @@
 #include "kernel/segment/detail/polygon_grid.h"
 
-#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,19 @@ PolygonGrid::Place PolygonGrid::place_of(Vec3 point) {
 }
 
 PolygonGrid::PolygonGrid(const Building& building, double grid_m) {
+  std::vector<Vec3> corners;  // a vertex is a corner of several polygons
+  corners.reserve(building.vertices.size());
+  for (const Vec3 vertex : building.vertices) corners.push_back(exact::on_grid(vertex, grid_m));
+  polygons_.reserve(building.polygons.size());
   for (const Polygon& polygon : building.polygons) {
     if (polygon.source < 0 || polygon.rings.empty()) continue;
     PlacedPolygon placed;
     placed.source = polygon.source;
-    placed.rings = outlines_of(building, polygon, grid_m);
-    for (Outline& outline : placed.rings) {
+    placed.rings.reserve(polygon.rings.size());
+    for (const auto& ring : polygon.rings) {
+      Outline& outline = placed.rings.emplace_back();
+      outline.reserve(ring.size());
+      for (const int v : ring) outline.push_back(corners[static_cast<std::size_t>(v)]);
       start_at_least(outline);
       for (std::size_t i = 1; i + 1 < outline.size(); ++i)
         placed.area =

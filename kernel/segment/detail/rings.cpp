@@ -2,6 +2,7 @@
 
 #include "kernel/model/detail/index.h"
 #include "kernel/segment/detail/reach.h"
+#include "kernel/segment/detail/residents.h"
 
 #include <algorithm>
 #include <array>
@@ -35,10 +36,11 @@ class RingFinder {
   RingFinder(const Solid& solid, const PolygonGrid& grid, const Tolerances& tolerances)
       : solid_(solid), grid_(grid), tolerances_(tolerances), is_open_(solid.shells.empty()) {}
 
-  std::vector<Ring> run() {
+  std::vector<Ring> run(Residents& residents) {
     for (int f = 0; f < std::ssize(solid_.facets); ++f) find_rings_of(f);
     join_leaves();
-    sort();
+    std::erase_if(rings_, [&](const Ring& ring) { return is_filled(ring, residents); });
+    if (rings_.size() > 1) sort();
     return std::move(rings_);
   }
 
@@ -48,6 +50,11 @@ class RingFinder {
   }
   [[nodiscard]] const Plane& plane_of(const Ring& ring) const {
     return plane_of(static_cast<int>(ring.facet.index()));
+  }
+
+  [[nodiscard]] bool is_filled(const Ring& ring, Residents& residents) const {
+    return residents.fills(solid_.facets[ring.facet.index()].plane,
+                           axes_in(plane_of(ring).normal).reach_of(ring.outline));
   }
 
   void find_rings_of(int f) {
@@ -242,9 +249,9 @@ bool is_slit(const Ring& ring, const Tolerances& tolerances) {
   return ring.area_m2 <= tolerances.weld_m * perimeter(ring.outline) / 2;
 }
 
-std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid,
+std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, Residents& residents,
                              const Tolerances& tolerances) {
-  return RingFinder(solid, grid, tolerances).run();
+  return RingFinder(solid, grid, tolerances).run(residents);
 }
 
 }  // namespace oriel::detail
