@@ -24,7 +24,8 @@ namespace oriel {
 
 namespace {
 
-constexpr std::size_t kBuffer = 1 << 20;
+/// Small, so that it stays in the caches; what is larger is written without a copy of it.
+constexpr std::size_t kBuffer = 1 << 15;
 /// Leftovers of crashed runs that may stand in the way of a temporary name.
 constexpr int kMaxTries = 1000;
 
@@ -128,23 +129,29 @@ void OutputFile::fail(int reason) {
 }
 
 void OutputFile::append(std::string_view bytes) {
-  buffer_ += bytes;
   size_ += bytes.size();
   if (PartialFiles::are_watched()) {
     hash_.add(bytes);
     lines_ += static_cast<std::uint64_t>(std::ranges::count(bytes, '\n'));
   }
-  if (buffer_.size() >= kBuffer) flush();
+  if (buffer_.size() + bytes.size() > kBuffer) flush();
+  if (bytes.size() > kBuffer)
+    write(bytes);
+  else
+    buffer_ += bytes;
 }
 
 void OutputFile::flush() {
-  std::string_view left = buffer_;
+  write(buffer_);
+  buffer_.clear();
+}
+
+void OutputFile::write(std::string_view left) {
   while (!left.empty()) {
     const ssize_t count = ::write(descriptor_, left.data(), left.size());
     if (count < 0 && errno != EINTR) fail(errno);
     if (count > 0) left.remove_prefix(static_cast<std::size_t>(count));
   }
-  buffer_.clear();
 }
 
 void OutputFile::commit() {

@@ -35,6 +35,7 @@ class OutputFile {
   void open_temporary();
   void open_partial();
   void flush();
+  void write(std::string_view bytes);
   [[noreturn]] void fail(int reason);
 
   /// As it was given, for messages.

@@ -31,6 +31,20 @@ TEST_SUITE("kernel/io") {
     CHECK(folder.file_count() == 1);
   }
 
+  TEST_CASE("pieces of all sizes are in the file in their order") {
+    const test::TemporaryFolder folder;
+    std::string all;
+    OutputFile file(folder.file("a.json"));
+    for (const std::size_t size : {10UL, 40'000UL, 20'000UL, 20'000UL, 0UL, 3UL, 100'000UL, 1UL}) {
+      const std::string piece(size, static_cast<char>('a' + all.size() % 26));
+      file.append(piece);
+      all += piece;
+      CHECK(file.size() == all.size());
+    }
+    file.commit();
+    CHECK(test::text_of(folder.file("a.json")) == all);
+  }
+
   TEST_CASE("a file that is not committed leaves the old one alone") {
     const test::TemporaryFolder folder;
     const std::string path = folder.write("a.json", "old");
