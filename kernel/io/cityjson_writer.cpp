@@ -114,7 +114,7 @@ class CityJsonWriter {
     for (const LabelledBuilding& building : labelled) relabel(building);
     if (!removed.empty()) remove({removed.begin(), removed.end()});
     if (pool_) exchange_vertices();
-    root_.set("CityObjects", objects_.text());
+    root_.set("CityObjects", std::move(objects_));
     const std::string_view text = source_.text;
     const std::string_view root = root_of(text);
     const auto start = static_cast<std::size_t>(root.data() - text.data());
@@ -172,8 +172,8 @@ class CityJsonWriter {
     for (const Installation& installation : labelled.installations)
       installations.push_back(
           installation_text(installation, labelled, polygons, geometry.value_of("lod")));
-    geometries.set(number, geometry.text());
-    object.set("geometry", geometries.text());
+    geometries.set(number, std::move(geometry));
+    object.set("geometry", std::move(geometries));
     if (labelled.geometry) object.erase("geographicalExtent");
     drop_members(object, "attributes", labelled.dropped_attributes);
     set_members(object, "attributes", labelled.attributes);

@@ -71,6 +71,17 @@ std::string_view RawNode::value_of(std::string_view key) const {
   return found ? value(*found) : std::string_view();
 }
 
+void RawNode::set(std::size_t i, std::string value) {
+  slots_[i].node.reset();
+  slots_[i].changed = std::move(value);
+}
+
+void RawNode::set(std::size_t i, RawNode value) {
+  slots_[i].node = std::make_unique<RawNode>(std::move(value));
+}
+
+void RawNode::set(std::string_view key, RawNode value) { set(find(key).value(), std::move(value)); }
+
 void RawNode::set(std::string_view key, std::string value) {
   if (const auto found = find(key))
     set(*found, std::move(value));
@@ -98,12 +109,18 @@ std::string RawNode::text() const {
   return result;
 }
 
-void RawNode::append_text(std::string& out) const {
+std::size_t RawNode::text_size() const {
   std::size_t size = inside_.size() + 2;
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    size += slots_[i].before.size() + slots_[i].added_key.size() + value(i).size() +
-            slots_[i].after.size() + 4;
-  out.reserve(out.size() + size);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const Slot& slot = slots_[i];
+    size += slot.before.size() + slot.added_key.size() + slot.after.size() + 4;
+    size += slot.node ? slot.node->text_size() : value(i).size();
+  }
+  return size;
+}
+
+void RawNode::append_text(std::string& out) const {
+  out.reserve(out.size() + text_size());
   out += close_ == '}' ? '{' : '[';
   bool is_first = true;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -115,7 +132,10 @@ void RawNode::append_text(std::string& out) const {
       out += ':';
     }
     out += slot.before;
-    out += value(i);
+    if (slot.node)
+      slot.node->append_text(out);
+    else
+      out += value(i);
     out += slot.after;
   }
   if (slots_.empty()) out += inside_;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,9 +38,13 @@ class RawNode {
   /// The value of the first member with that key, or an empty text.
   [[nodiscard]] std::string_view value_of(std::string_view key) const;
 
-  void set(std::size_t i, std::string value) { slots_[i].changed = std::move(value); }
+  void set(std::size_t i, std::string value);
   /// Replaces the member `key`, or appends it.
   void set(std::string_view key, std::string value);
+  /// Puts what became of the value of element `i`, or of the member `key` that is there, in its
+  /// place: its text is made once, with that of the whole. value() goes on to give the old one.
+  void set(std::size_t i, RawNode value);
+  void set(std::string_view key, RawNode value);
   /// Appends an element to an array.
   void push_back(std::string value);
   /// Appends a member to an object that has no such key.
@@ -64,8 +69,12 @@ class RawNode {
     /// The key of a member that was added, unescaped.
     std::string added_key;
     std::optional<std::string> changed;
+    /// What is written instead of either.
+    std::unique_ptr<RawNode> node;
     bool is_erased = false;
   };
+  /// At least as many bytes as text() has, but for what is escaped in keys that were added.
+  [[nodiscard]] std::size_t text_size() const;
 
   std::vector<Slot> slots_;
   /// White space of an empty container, else nothing.

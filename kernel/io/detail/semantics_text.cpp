@@ -39,7 +39,9 @@ std::vector<int> flat_values(std::string_view values, const GeometryShape& shape
 }
 
 std::string nested_values(const std::vector<int>& flat, const GeometryShape& shape) {
+  constexpr std::size_t kDigits = 4;
   std::string text;
+  text.reserve(kDigits * flat.size());
   std::size_t next = 0;
   const char* body_separator = shape.depth == 2 ? "[" : "";
   for (const std::vector<int>& body : shape.counts) {
@@ -109,7 +111,10 @@ class Filling {
   }
 
   [[nodiscard]] std::string surfaces_text() const {
-    std::string text = "[";
+    constexpr std::size_t kUsual = 64;  // bytes of a surface
+    std::string text;
+    text.reserve(kUsual * (existing_.size() + added_.size()));
+    text += '[';
     for (std::size_t i = 0; i < existing_.size(); ++i) {
       if (i > 0) text += ',';
       text += with_additions(i);

@@ -77,6 +77,19 @@ TEST_SUITE("kernel/io") {
     CHECK(node.value_of("c\"") == "null");
   }
 
+  TEST_CASE("what became of a member is written in its place as its text would be") {
+    RawNode node(R"({ "a" : [1, {"b":2} ] ,"c":3})");
+    RawNode array(node.value_of("a")), inner(array.value(1));
+    inner.set("b", "4");
+    inner.append("d", "5");
+    array.set(1, std::move(inner));
+    node.set("a", std::move(array));
+    CHECK(node.text() == R"({ "a" : [1, {"b":4,"d":5} ] ,"c":3})");
+    CHECK(node.value_of("a") == R"([1, {"b":2} ])");
+    node.set("a", "6");
+    CHECK(node.text() == R"({ "a" : 6 ,"c":3})");
+  }
+
   TEST_CASE("elements are appended to an empty array") {
     RawNode node("[ ]");
     CHECK(node.text() == "[ ]");
