@@ -85,6 +85,9 @@ class Annotator {
   const AnnotateOptions& options_;
   std::optional<Explainer> explainer_;
   std::vector<Role> roles_;
+  /// What each feature is written as, in short: every polygon asks for it.
+  enum class Kind : char { nothing, opening, installation };
+  std::vector<Kind> kinds_;
   /// By feature, the ids of its groups.
   std::vector<std::vector<std::string>> groups_;
   /// By source; null for numbers that no polygon has.
@@ -114,8 +117,14 @@ LabelledBuilding Annotator::run() {
 
 void Annotator::find_roles() {
   roles_.resize(segmentation_.features.size());
-  for (const Verdict& verdict : interpretation_.verdicts)
-    roles_[verdict.feature.index()] = rules::role_of(base_.pack(), verdict.label);
+  kinds_.resize(roles_.size(), Kind::nothing);
+  for (const Verdict& verdict : interpretation_.verdicts) {
+    if (verdict.label.empty()) continue;
+    Role& role = roles_[verdict.feature.index()];
+    role = rules::role_of(base_.pack(), verdict.label);
+    if (role.emission == nullptr) continue;
+    kinds_[verdict.feature.index()] = role.is_opening() ? Kind::opening : Kind::installation;
+  }
   groups_ = groups_by_feature(interpretation_);
 }
 
@@ -137,7 +146,7 @@ void Annotator::find_owners() {
 
 int Annotator::find_labelled(const Polygon& polygon) const {
   for (const int feature : features_of(polygon))
-    if (roles_[index(feature)].emission != nullptr) return feature;
+    if (kinds_[index(feature)] != Kind::nothing) return feature;
   return -1;
 }
 
@@ -164,7 +173,7 @@ void Annotator::add_surfaces() {
     const auto next = static_cast<int>(result_.surfaces.size());
     int& surface = result_.surface_of_polygon[index(polygon.source)];
     const int feature = find_labelled(polygon);
-    if (feature < 0 || !roles_[index(feature)].is_opening()) {
+    if (feature < 0 || kinds_[index(feature)] != Kind::opening) {
       surface = next;
       result_.surfaces.emplace_back().type = verdicts_[row].type;
       if (options_.has_reasons)
@@ -235,10 +244,11 @@ Members Annotator::members_of(int feature) const {
 }
 
 void Annotator::add_installations() {
+  if (std::ranges::find(kinds_, Kind::installation) == kinds_.end()) return;
   std::vector<std::vector<int>> polygons(roles_.size());
   for (const Polygon& polygon : building_.polygons)
     for (const int feature : features_of(polygon))
-      if (roles_[index(feature)].is_installation()) {
+      if (kinds_[index(feature)] == Kind::installation) {
         polygons[index(feature)].push_back(polygon.source);
         break;
       }
