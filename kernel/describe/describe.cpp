@@ -80,6 +80,7 @@ struct Subject {
   detail::StandingBox box;
   std::optional<Vec3> normal;  ///< of the largest cap, outward from the rest; missing for cavities
   Vec3 across{1, 0, 0};        ///< horizontal along the host's facet
+  Extent width = {};           ///< along `across`
 };
 
 /// Horizontal in the plane of the cap; for a level cap, along the longer side of the standing box.
@@ -98,6 +99,7 @@ Subject subject_of(const Segmentation& segmentation, FeatureId id) {
     subject.normal = segmentation.planes[feature.planes.front().index()].normal;
     subject.across = direction_across(*subject.normal, subject.box);
   }
+  subject.width = detail::extent_along(subject.points, subject.across);
   return subject;
 }
 
@@ -133,7 +135,7 @@ void describe_size(FeatureTable& table, const Subject& s) {
   table.set(s.id, columns().b, b);
   table.set(s.id, columns().c, without_dust(c));
   table.set(s.id, columns().silhouette, a * b);
-  table.set(s.id, columns().width, detail::extent_along(s.points, s.across).size());
+  table.set(s.id, columns().width, s.width.size());
   table.set(s.id, columns().height_of, s.box.height);
   if (!s.normal) return;
   table.set(s.id, columns().depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
@@ -279,7 +281,7 @@ void describe_place_in_facet(FeatureTable& table, const Subject& s,
   describe_edge_gap(table, s, plane, outline);
   if (is_level(detail::inclination_deg(*s.normal))) return;
   const double left = detail::extent_along(outline, s.across).low;
-  table.set(s.id, columns().along, detail::extent_along(s.points, s.across).middle() - left);
+  table.set(s.id, columns().along, s.width.middle() - left);
 }
 
 void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
@@ -296,12 +298,9 @@ void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
 
 InFacade in_facade(const Subject& s, int facade) {
   const auto [a, b, c] = s.box.edges();
-  return {facade,
-          detail::kind_of(s.feature->sense),
-          detail::extent_along(s.points, s.across),
-          detail::extent_along(s.points, {0, 0, 1}),
-          a,
-          b};
+  return {facade,  detail::kind_of(s.feature->sense),
+          s.width, detail::extent_along(s.points, {0, 0, 1}),
+          a,       b};
 }
 
 /// A hole or an imprint in a steep facet.
@@ -358,6 +357,9 @@ Description describe(const Building& building, const Segmentation& segmentation,
   std::vector<InFacade> placed;
   std::vector<char> openings;
   const auto lod = level_of_detail(building);
+  subjects.reserve(segmentation.features.size());
+  placed.reserve(segmentation.features.size());
+  openings.reserve(segmentation.features.size());
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     subjects.push_back(subject_of(segmentation, FeatureId{static_cast<int>(i)}));
     const Subject& s = subjects.back();

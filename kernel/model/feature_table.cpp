@@ -51,12 +51,11 @@ const std::string& FeatureTable::text(FeatureId row, std::string_view name) cons
   return texts(require_column(name, true))[row.index()];
 }
 
-void FeatureTable::set(FeatureId row, std::size_t column, double value) {
-  if (place_of_[column] == 0) {
-    place_of_[column] = static_cast<std::uint32_t>(numbers_.size() / rows());
-    numbers_.resize(numbers_.size() + rows(), kMissing);
-  }
-  numbers_[place_of_[column] * rows() + row.index()] = value;
+void FeatureTable::add_numbers(std::size_t column) {
+  constexpr std::size_t kUsual = 32;  // columns that are filled
+  if (numbers_.size() == rows()) numbers_.reserve(kUsual * rows());
+  place_of_[column] = static_cast<std::uint32_t>(numbers_.size() / rows());
+  numbers_.resize(numbers_.size() + rows(), kMissing);
 }
 
 void FeatureTable::set(FeatureId row, std::string_view name, double value) {

@@ -81,12 +81,18 @@ class FeatureTable {
   void set(FeatureId row, std::string_view name, double value);
   void set(FeatureId row, std::string_view name, std::string value);
   /// The same by the column's position, whose type must fit.
-  void set(FeatureId row, std::size_t column, double value);
+  void set(FeatureId row, std::size_t column, double value) {
+    if (place_of_[column] == 0) add_numbers(column);
+    numbers_[place_of_[column] * rows() + row.index()] = value;
+  }
   void set(FeatureId row, std::size_t column, std::string value) {
     texts_[place_of_[column]].set(row.index(), std::move(value));
   }
 
  private:
+  /// Makes place for a column of numbers, all missing.
+  void add_numbers(std::size_t column);
+
   std::string building_;
   std::vector<std::string> ids_;
   /// By column: which of the columns it is that stand in `numbers_` or in `texts_`.

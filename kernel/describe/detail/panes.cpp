@@ -61,7 +61,7 @@ void Panes::measure(Pane& pane) const {
 std::size_t Panes::least_of(const std::vector<int>& ring) const {
   std::size_t least = 0;
   for (std::size_t i = 1; i < ring.size(); ++i)
-    if (is_lesser(corners_[at(ring[i])], corners_[at(ring[least])])) least = i;
+    least = is_lesser(corners_[at(ring[i])], corners_[at(ring[least])]) ? i : least;
   return least;
 }
 

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
@@ -20,17 +23,18 @@ struct InPlan {
   friend bool operator==(InPlan, InPlan) = default;
 };
 
-using PlanHull = std::vector<InPlan>;
+/// Of most features all points fit without memory of their own.
+using PlanPoints = boost::container::small_vector<InPlan, 32>;
 
-/// The convex hull in plan, counter-clockwise (Andrew's monotone chain).
-PlanHull hull_in_plan(const std::vector<Vec3>& of) {
-  PlanHull points;
+/// The convex hull in plan, counter-clockwise (Andrew's monotone chain); it stands in `points` or
+/// `hull`, which are empty before.
+std::span<const InPlan> hull_in_plan(const std::vector<Vec3>& of, PlanPoints& points,
+                                     PlanPoints& hull) {
   points.reserve(of.size());
   for (const Vec3 p : of) points.push_back({p.x, p.y});
   std::ranges::sort(points, [](InPlan p, InPlan q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  PlanHull hull;
+  if (points.size() < 3) return {points.data(), points.size()};
   hull.reserve(2 * points.size());
   const auto turn = [](InPlan p, InPlan q) { return p.x * q.y - p.y * q.x; };
   const auto add_half = [&](auto from, auto to) {
@@ -46,11 +50,11 @@ PlanHull hull_in_plan(const std::vector<Vec3>& of) {
   };
   add_half(points.begin(), points.end());
   add_half(points.rbegin(), points.rend());
-  return hull;
+  return {hull.data(), hull.size()};
 }
 
 /// The extents of points in plan along a direction and across it.
-std::pair<double, double> sizes_along(const PlanHull& points, InPlan u) {
+std::pair<double, double> sizes_along(std::span<const InPlan> points, InPlan u) {
   Extent along, across;
   for (const InPlan p : points) {
     const double s = p.x * u.x + p.y * u.y, t = p.x * -u.y + p.y * u.x;
@@ -74,7 +78,8 @@ StandingBox standing_box(const std::vector<Vec3>& points) {
   StandingBox best;
   best.height = extent_along(points, {0, 0, 1}).size();
   best.along = {1, 0, 0};
-  const PlanHull hull = hull_in_plan(points);
+  PlanPoints in_plan, of_hull;
+  const std::span<const InPlan> hull = hull_in_plan(points, in_plan, of_hull);
   double least = Box::kInfinity;
   // One side of the smallest rectangle lies along a side of the hull.
   for (std::size_t i = 0; i < hull.size(); ++i) {
