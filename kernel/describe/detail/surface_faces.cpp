@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace oriel::detail {
 
@@ -59,7 +60,7 @@ double z_at(const SurfaceFace& face, Vec3 on_plane, Vec3 point) {
   return on_plane.z - (d.x * face.normal.x + d.y * face.normal.y) / face.normal.z;
 }
 
-/// All points are taken before the first view of them is made, and all views before the first face.
+/// There is room for all before the first is taken, so that none moves.
 template <class Figures, class RingsOf, class PointAt>
 void SurfaceFaces::take(const Figures& figures, RingsOf rings_of, PointAt point_at) {
   std::size_t points = 0, rings = 0;
@@ -71,16 +72,13 @@ void SurfaceFaces::take(const Figures& figures, RingsOf rings_of, PointAt point_
   points_.reserve(points);
   outlines_.reserve(rings);
   faces_.reserve(figures.size());
-  for (const auto& figure : figures)
+  for (const auto& figure : figures) {
+    const std::size_t first = outlines_.size();
     for (const auto& ring : rings_of(figure)) {
       for (const int v : ring) points_.push_back(point_at(v));
       outlines_.push_back({points_.data() + points_.size() - ring.size(), ring.size()});
     }
-  const OutlineView* next = outlines_.data();
-  for (const auto& figure : figures) {
-    const std::size_t count = rings_of(figure).size();
-    faces_.push_back(face_of({next, count}));
-    next += count;
+    faces_.push_back(face_of(std::span(outlines_).subspan(first)));
   }
 }
 
