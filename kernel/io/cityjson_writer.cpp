@@ -260,31 +260,37 @@ class CityJsonWriter {
                                        const LabelledBuilding& labelled,
                                        const std::vector<std::string_view>& polygons,
                                        std::string_view lod) {
-    std::string boundaries = "[";
-    std::vector<int> surfaces;
-    for (std::size_t i = 0; i < installation.polygons.size(); ++i) {
-      const std::string_view polygon =
-          polygons.at(static_cast<std::size_t>(installation.polygons[i]));
-      if (polygon.empty()) continue;
-      if (boundaries.size() > 1) boundaries += ',';
-      boundaries += polygon;
-      surfaces.push_back(i < installation.surfaces.size() ? installation.surfaces[i] : -1);
+    constexpr std::size_t kUsual = 1024;  // bytes without the boundaries
+    std::string text;
+    std::size_t size = kUsual;
+    for (const int polygon : installation.polygons)
+      size += polygons.at(static_cast<std::size_t>(polygon)).size() + 1;
+    text.reserve(size);
+    text += R"({"type":"BuildingInstallation","attributes":{)";
+    for (const auto& [key, value] : installation.attributes) {
+      if (key == "oriel_geometry") continue;
+      detail::append_json_key(text, key);
+      std::visit([&](const auto& known) { append_json(text, known); }, value);
     }
-    const detail::GeometryShape shape{0, {{static_cast<int>(surfaces.size())}}};
-    const std::string semantics = detail::filled_semantics("", shape, surfaces, labelled.surfaces);
-
-    Members attributes = installation.attributes;
-    std::erase_if(attributes, [](const auto& member) { return member.first == "oriel_geometry"; });
-    attributes.emplace_back("oriel_geometry", std::string("shared"));
-    std::string text = R"({"type":"BuildingInstallation","attributes":{)";
-    detail::append_members(text, attributes);
+    detail::append_json_key(text, "oriel_geometry");
+    append_json(text, std::string_view("shared"));
     text += R"(},"parents":[)";
     append_json(text, std::string_view(labelled.building));
     text += R"(],"geometry":[{"type":"MultiSurface","lod":)";
     text += lod;
-    text += R"(,"boundaries":)";
-    text += boundaries;
+    text += R"(,"boundaries":[)";
+    std::vector<int> surfaces;
+    surfaces.reserve(installation.polygons.size());
+    for (std::size_t i = 0; i < installation.polygons.size(); ++i) {
+      const std::string_view polygon = polygons[static_cast<std::size_t>(installation.polygons[i])];
+      if (polygon.empty()) continue;
+      if (!surfaces.empty()) text += ',';
+      text += polygon;
+      surfaces.push_back(i < installation.surfaces.size() ? installation.surfaces[i] : -1);
+    }
     text += ']';
+    const detail::GeometryShape shape{0, {{static_cast<int>(surfaces.size())}}};
+    const std::string semantics = detail::filled_semantics("", shape, surfaces, labelled.surfaces);
     if (!semantics.empty()) {
       text += R"(,"semantics":)";
       text += semantics;

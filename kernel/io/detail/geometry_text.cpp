@@ -53,21 +53,14 @@ bool holds_numbers(std::string_view array) {
   return array.find_first_not_of("[]-0123456789, \t\r\n") == std::string_view::npos;
 }
 
-/// As for_each_element. Polygons are short, and without a string brackets need no more than to be
-/// counted.
-template <class Visit>
-void for_each_polygon(std::string_view shell, Visit visit) {
-  if (!RawNode::is_array(shell) || shell.find('"') != std::string_view::npos) {
-    for_each_element(shell, visit);
-    return;
-  }
-  int depth = 0;
-  std::size_t begin = 0;
-  for (std::size_t at = 0; at < shell.size(); ++at) {
-    const char c = shell[at];
-    if (c == '[' && ++depth == 2) begin = at;
-    if (c == ']' && --depth == 1) visit(shell.substr(begin, at + 1 - begin));
-  }
+/// Appends the polygons of a shell. They are short, and without a string brackets need no more than
+/// to be counted.
+void append_polygons(std::string_view shell, std::vector<std::string_view>& polygons) {
+  if (RawNode::is_array(shell) && shell.find('"') == std::string_view::npos &&
+      shell.find('{') == std::string_view::npos)
+    append_arrays_in(shell, polygons);
+  else
+    for_each_element(shell, [&](std::string_view polygon) { polygons.push_back(polygon); });
 }
 
 }  // namespace
@@ -76,12 +69,10 @@ GeometryText geometry_of(std::string_view boundaries, int depth, bool with_polyg
   GeometryText geometry;
   geometry.shape.depth = depth;
   const auto read_shell = [&](std::string_view shell) {
-    int count = 0;
-    for_each_polygon(shell, [&](std::string_view polygon) {
-      ++count;
-      if (with_polygons) geometry.polygons.emplace_back(polygon);
-    });
-    geometry.shape.counts.back().push_back(count);
+    const std::size_t before = geometry.polygons.size();
+    append_polygons(shell, geometry.polygons);
+    geometry.shape.counts.back().push_back(static_cast<int>(geometry.polygons.size() - before));
+    if (!with_polygons) geometry.polygons.clear();
   };
   const auto read_body = [&](std::string_view body) {
     geometry.shape.counts.emplace_back();

@@ -172,4 +172,22 @@ std::size_t end_of_value(std::string_view text, std::size_t at,
   return at;
 }
 
+void append_arrays_in(std::string_view text, std::vector<std::string_view>& arrays) {
+  int depth = 0;
+  std::size_t begin = 0, at = 0;
+  const auto take = [&](std::size_t place, bool opens) {
+    if (opens && ++depth == 2) begin = place;
+    if (!opens && --depth == 1) arrays.push_back(text.substr(begin, place + 1 - begin));
+  };
+  for (; at + kBlockSize <= text.size(); at += kBlockSize) {
+    const Marks marks = marks_of(&text[at]);
+    for (unsigned left = marks.opens | marks.closes; left != 0; left &= left - 1)
+      take(at + static_cast<std::size_t>(std::countr_zero(left)),
+           (marks.opens & left & -left) != 0);
+  }
+  for (; at < text.size(); ++at)
+    if (const ByteKind kind = kind_of(text[at]); kind == open || kind == close)
+      take(at, kind == open);
+}
+
 }  // namespace oriel::detail

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -20,5 +21,9 @@ std::size_t skip_space(std::string_view text, std::size_t at);
 /// none in another one. Of them only those count that are slices of `text`.
 std::size_t end_of_value(std::string_view text, std::size_t at,
                          std::span<const std::string_view> known = {});
+
+/// Appends the arrays that are elements of the array `text`, in which there is no string and no
+/// object, at whatever depth.
+void append_arrays_in(std::string_view text, std::vector<std::string_view>& arrays);
 
 }  // namespace oriel::detail

@@ -65,6 +65,16 @@ TEST_SUITE("kernel/io") {
     CHECK(RawNode(other, known).value_of("f") == "[13]");
   }
 
+  TEST_CASE("arrays in an array of numbers are its elements wherever they stand") {
+    for (const std::string text :
+         {"[]", "[ [[1,2,3]] ,[[4,5,6],[7]],\n[[8]]]", "[[1]]",
+          "[[[1,2,3,4,5]],[[10,11,12,13],[14,15,16]] , [ ],[[100000,200000,300000,400000]]]"}) {
+      std::vector<std::string_view> arrays;
+      append_arrays_in(text, arrays);
+      CHECK(arrays == elements_of(text));
+    }
+  }
+
   TEST_CASE("members are replaced and added and erased without touching the others") {
     RawNode node(R"({ "a" : 1.0 ,"b":[2],"a":3 })");
     CHECK(node.value_of("a") == "1.0");
