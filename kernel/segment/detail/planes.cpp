@@ -1,42 +1,55 @@
 #include "kernel/segment/detail/planes.h"
 
 #include "kernel/geometry/exact.h"
+#include "kernel/model/detail/index.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
 
 namespace oriel::detail {
 
 PlaneTable::PlaneTable(const std::vector<Plane>& oriented) : sides_(oriented.size()) {
-  // One entry per geometric plane, keyed so that classes and offsets come out sorted.
-  std::map<std::array<std::int64_t, 3>, std::map<std::int64_t, Entry>> by_normal;
-  for (std::size_t i = 0; i < oriented.size(); ++i) {
-    const Plane& given = oriented[i];
+  struct Turned {
+    Plane plane;
+    bool is_flipped;
+  };
+  std::vector<Turned> turned;
+  turned.reserve(oriented.size());
+  for (const Plane& given : oriented) {
     const auto leading =
         std::ranges::find_if(given.coefficients, [](std::int64_t n) { return n != 0; });
     const bool is_flipped = *leading < 0;
-    const Plane plane = is_flipped ? exact::opposite(given) : given;
-    Entry& entry = by_normal[plane.coefficients][plane.offset];
-    entry.plane = plane;
-    entry.ids[is_flipped ? 1 : 0] = PlaneId{static_cast<int>(i)};
+    turned.push_back({is_flipped ? exact::opposite(given) : given, is_flipped});
   }
-  for (auto& [coefficients, offsets] : by_normal) {
-    Class c;
-    for (auto& [offset, entry] : offsets) {
-      const int plane = static_cast<int>(planes_.size());
-      entry.normal_class = static_cast<int>(classes_.size());
-      entry.rank = 2 * static_cast<int>(c.planes.size()) + 1;
-      for (int flip = 0; flip < 2; ++flip)
-        if (entry.ids[static_cast<std::size_t>(flip)].is_valid())
-          sides_[entry.ids[static_cast<std::size_t>(flip)].index()] = 2 * plane + flip;
-      c.normal = entry.plane.normal;
-      c.planes.push_back(plane);
-      c.offsets_m.push_back(entry.plane.offset_m);
-      planes_.push_back(entry);
-    }
-    classes_.push_back(std::move(c));
+  std::vector<int> order(oriented.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, [&](int i, int j) {
+    const Plane &p = turned[at(i)].plane, &q = turned[at(j)].plane;
+    return std::tie(p.coefficients, p.offset, i) < std::tie(q.coefficients, q.offset, j);
+  });
+  planes_.reserve(oriented.size());
+  for (const int i : order) add(turned[at(i)].plane, turned[at(i)].is_flipped, PlaneId{i});
+}
+
+void PlaneTable::add(const Plane& plane, bool is_flipped, PlaneId id) {
+  const bool is_new_class =
+      planes_.empty() || planes_.back().plane.coefficients != plane.coefficients;
+  if (is_new_class) classes_.emplace_back();
+  Class& c = classes_.back();
+  if (is_new_class || planes_.back().plane.offset != plane.offset) {
+    Entry& entry = planes_.emplace_back();
+    entry.normal_class = class_count() - 1;
+    entry.rank = 2 * static_cast<int>(c.planes.size()) + 1;
+    c.planes.push_back(size() - 1);
+    c.offsets_m.emplace_back();
   }
+  planes_.back().plane = plane;
+  planes_.back().ids[is_flipped ? 1 : 0] = id;
+  c.normal = plane.normal;
+  c.offsets_m.back() = plane.offset_m;
+  sides_[id.index()] = 2 * (size() - 1) + (is_flipped ? 1 : 0);
 }
 
 std::optional<Side> PlaneTable::find(const Plane& plane) const {

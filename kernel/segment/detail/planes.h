@@ -57,6 +57,8 @@ class PlaneTable {
     int rank = 0;
     std::array<PlaneId, 2> ids;
   };
+  /// Planes come by their coefficients, then offsets, and have the sign that classes have.
+  void add(const Plane& plane, bool is_flipped, PlaneId id);
   [[nodiscard]] const Entry& entry(int plane) const {
     return planes_[static_cast<std::size_t>(plane)];
   }
