@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -98,8 +97,8 @@ class Annotator {
   std::vector<SurfaceVerdict> own_verdicts_;
   std::span<const SurfaceVerdict> verdicts_;
   std::vector<std::string> reasons_;
-  /// The surface of every opening that has one.
-  std::map<int, int> opening_surfaces_;
+  /// By feature, the surface of every opening that has one, or -1.
+  std::vector<int> opening_surfaces_;
   LabelledBuilding result_;
 };
 
@@ -118,6 +117,7 @@ LabelledBuilding Annotator::run() {
 void Annotator::find_roles() {
   roles_.resize(segmentation_.features.size());
   kinds_.resize(roles_.size(), Kind::nothing);
+  opening_surfaces_.resize(roles_.size(), -1);
   for (const Verdict& verdict : interpretation_.verdicts) {
     if (verdict.label.empty()) continue;
     Role& role = roles_[verdict.feature.index()];
@@ -180,10 +180,10 @@ void Annotator::add_surfaces() {
         result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons_[row]));
       continue;
     }
-    const auto [found, is_new] = opening_surfaces_.try_emplace(feature, next);
-    surface = found->second;
-    if (is_new)
-      result_.surfaces.push_back({roles_[index(feature)].emission->type, -1, members_of(feature)});
+    surface = opening_surfaces_[index(feature)];
+    if (surface >= 0) continue;
+    surface = opening_surfaces_[index(feature)] = next;
+    result_.surfaces.push_back({roles_[index(feature)].emission->type, -1, members_of(feature)});
   }
 }
 
@@ -225,9 +225,9 @@ int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<in
 }
 
 void Annotator::add_parents() {
-  for (const auto& [feature, surface] : opening_surfaces_)
-    result_.surfaces[index(surface)].parent =
-        surface_around(segmentation_.features[index(feature)]);
+  for (std::size_t feature = 0; feature < opening_surfaces_.size(); ++feature)
+    if (const int surface = opening_surfaces_[feature]; surface >= 0)
+      result_.surfaces[index(surface)].parent = surface_around(segmentation_.features[feature]);
 }
 
 Members Annotator::members_of(int feature) const {
