@@ -102,10 +102,13 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
   const CellId id{static_cast<int>(out_.cells.size())};
   Cell cell{sign, body.volume(), is_convex, flag, node, feature, {}};
   const Corners all_corners(body);
-  for (const int f : body.living_facets()) {
+  const std::vector<int> facets = body.living_facets();
+  cell.facets.reserve(facets.size());
+  for (const int f : facets) {
     const auto& record = body.facet(f);
     const CellFacet here{id, static_cast<int>(cell.facets.size())};
-    Facet facet{plane_id(record.side), {}, {}};
+    Facet& facet = cell.facets.emplace_back();
+    facet.plane = plane_id(record.side);
     facet.loops = all_corners.loops(f);
     for (const int source : record.sources) made_of(source).push_back(here);
     for (const CapMark& mark : record.marks) {
@@ -113,7 +116,6 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
       marked.host = feature;
       marked.host_facet = here;
     }
-    cell.facets.push_back(std::move(facet));
   }
   out_.cells.push_back(std::move(cell));
   return id;
