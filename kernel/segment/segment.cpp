@@ -35,7 +35,7 @@ class Segmenter {
         solid_(solid),
         options_(options),
         world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)},
-        cells_(world_, out_),
+        cells_(solid.facets.size(), world_, out_),
         models_(world_, cells_, out_) {}
 
   Segmentation run() {

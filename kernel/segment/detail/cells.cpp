@@ -83,11 +83,6 @@ Side CellWriter::side_of(PlaneId id) const {
   return id.index() < own ? world_.planes.side_of(id) : extra_sides_[id.index() - own];
 }
 
-Few<CellFacet, 2>& CellWriter::made_of(int source) {
-  if (std::ssize(made_of_) <= source) made_of_.resize(at(source) + 1);
-  return made_of_[at(source)];
-}
-
 void CellWriter::copy_sources(const NumberMap& sources, CellId first, CellId last, int copies) {
   for (const auto& [source, copy] : sources)
     for (std::size_t i = 0; i < made_of(source).size(); ++i) {

@@ -18,7 +18,9 @@ namespace oriel::detail {
 /// input polygon ended up where.
 class CellWriter {
  public:
-  CellWriter(World& world, Segmentation& out) : world_(world), out_(out) {}
+  /// `facets`: how many the solid has.
+  CellWriter(std::size_t facets, World& world, Segmentation& out)
+      : world_(world), out_(out), made_of_(facets) {}
 
   /// The id of an oriented plane; planes that only caps of parts have are added behind the solid's.
   PlaneId plane_id(Side side);
@@ -45,7 +47,7 @@ class CellWriter {
     std::vector<Outline> outlines;
     Box box;
   };
-  Few<CellFacet, 2>& made_of(int source);
+  Few<CellFacet, 2>& made_of(int source) { return made_of_[static_cast<std::size_t>(source)]; }
   /// The features that polygons of a cell of `innermost` are in; valid until the next call.
   const std::vector<FeatureId>& features_around(FeatureId innermost);
   /// To a cell facet, and to the features it is in.
