@@ -3,10 +3,11 @@
 #include "kernel/model/detail/index.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <map>
+#include <cstdint>
+#include <limits>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +15,16 @@
 namespace oriel::detail {
 
 namespace {
+
+/// A component with more planes is no single feature.
+constexpr std::size_t kMostLimits = 6;
+
+/// How many bits numbers have.
+constexpr auto kOrders = [] {
+  std::array<int, 1U << kMostLimits> orders{};
+  for (unsigned mask = 0; mask < orders.size(); ++mask) orders[mask] = std::popcount(mask);
+  return orders;
+}();
 
 class PatchFinder {
  public:
@@ -30,11 +41,14 @@ class PatchFinder {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f)) surface_ += body_.area(f);
     Component alone, widened;
+    const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
     for (int n = 0; n < std::ssize(grown_); ++n) {
       start_with(n);
-      offer(alone);
+      const bool is_new = is_met_first();
+      if (!find_sides(alone, std::max(most, kMostLimits))) continue;
+      if (is_new) offer(alone);
       for_fewer_sides(alone, [&](unsigned limits) {
-        if (widen(n, limits)) offer(widened);
+        if (widen(n, limits) && is_met_first() && find_sides(widened, most)) offer(widened);
       });
     }
     return std::move(patches_);
@@ -46,7 +60,7 @@ class PatchFinder {
     std::vector<Component> all;
     for (int n = 0; n < std::ssize(grown_); ++n) {
       start_with(n);
-      find_sides(all.emplace_back());
+      find_sides(all.emplace_back(), std::numeric_limits<std::size_t>::max());
       find_facets(all.back());
     }
     return all;
@@ -82,7 +96,10 @@ class PatchFinder {
     Place sides;   ///< of its own facets, ascending
     Place beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
     bool meets_ground = false;
-    unsigned own_limits = 0;  ///< the bits of its own sides in for_fewer_sides()
+  };
+  /// A half-edge of a rim, and the facet beyond it.
+  struct RimEdge {
+    int edge, beyond;
   };
 
   /// Sorts what stands from `first` on, each once.
@@ -108,7 +125,7 @@ class PatchFinder {
         const int g = body_.facet_of(body_.twin(e));
         if (number_of_[at(g)] == number) return;
         if (number_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) {
-          rims_.push_back(e);
+          rims_.push_back({e, g});
           return;
         }
         number_of_[at(g)] = number;
@@ -116,9 +133,7 @@ class PatchFinder {
       });
     }
     // An edge may have been met before its other side joined the group.
-    const auto is_inside = [&](int e) {
-      return number_of_[at(body_.facet_of(body_.twin(e)))] == number;
-    };
+    const auto is_inside = [&](const RimEdge& e) { return number_of_[at(e.beyond)] == number; };
     const auto rim = rims_.begin() + static_cast<std::ptrdiff_t>(first_rim);
     rims_.erase(std::remove_if(rim, rims_.end(), is_inside), rims_.end());
     group.facets = {first, facets_.size()};
@@ -130,16 +145,16 @@ class PatchFinder {
     beyond_.reserve(rims_.size());
     for (Grown& group : grown_) {
       const std::size_t first = beyond_.size();
-      for (const int e : group.rim.of(rims_)) {
-        const int g = body_.facet_of(body_.twin(e));
-        if (is_ground(g))
+      for (const RimEdge& e : group.rim.of(rims_)) {
+        if (is_ground(e.beyond))
           group.meets_ground = true;
         else
-          beyond_.emplace_back(body_.facet(g).side, number_of_[at(g)]);
+          beyond_.emplace_back(body_.facet(e.beyond).side, number_of_[at(e.beyond)]);
       }
       group.beyond = close(beyond_, first);
     }
     group_stamps_.assign(grown_.size(), 0);
+    own_limits_.assign(grown_.size(), 0);
   }
 
   /// One group alone.
@@ -149,20 +164,47 @@ class PatchFinder {
   }
   [[nodiscard]] bool is_widened(int n) const { return group_stamps_[at(n)] == last_stamp_; }
 
-  /// Of the groups at hand as one component: the sides on which its rim lies.
-  void find_sides(Component& component) const {
-    component.sides.clear();
+  /// The groups at hand were not at hand before.
+  bool is_met_first() {
+    std::uint64_t name = 0;  // that of the same groups in any order
+    for (const int n : widened_) name += scrambled(n);
+    for (std::size_t i = 0; i < met_names_.size(); ++i)
+      if (met_names_[i] == name && is_at_hand(met_sets_[i])) return false;
+    met_names_.push_back(name);
+    const std::size_t first = met_groups_.size();
+    met_groups_.insert(met_groups_.end(), widened_.begin(), widened_.end());
+    met_sets_.push_back({first, met_groups_.size()});
+    return true;
+  }
+  [[nodiscard]] bool is_at_hand(const Place& set) const {
+    const auto groups = set.of(met_groups_);
+    return groups.size() == widened_.size() &&
+           std::ranges::all_of(groups, [&](int n) { return is_widened(n); });
+  }
+  static std::uint64_t scrambled(int n) {
+    std::uint64_t x = (static_cast<std::uint64_t>(n) + 1) * 0x9E3779B97F4A7C15U;
+    x ^= x >> 32;
+    return x * x;
+  }
+
+  /// Of the groups at hand as one component: the sides on which its rim lies. False, and not all of
+  /// them, if these are more than `most` without the ground.
+  bool find_sides(Component& component, std::size_t most) const {
+    std::vector<Side>& sides = component.sides;
+    sides.clear();
     component.ground = -1;
     for (const int n : widened_) {
       const Grown& group = grown_[at(n)];
-      for (const auto& [side, other] : group.beyond.of(beyond_))
-        if (!is_widened(other)) component.sides.push_back(side);
+      for (const auto& [side, other] : group.beyond.of(beyond_)) {
+        if (is_widened(other) || std::ranges::find(sides, side) != sides.end()) continue;
+        if (sides.size() == most) return false;
+        sides.push_back(side);
+      }
       if (group.meets_ground) component.ground = options_.free_side;
     }
-    if (component.ground >= 0) component.sides.push_back(component.ground);
-    std::ranges::sort(component.sides);
-    component.sides.erase(std::unique(component.sides.begin(), component.sides.end()),
-                          component.sides.end());
+    if (component.ground >= 0) sides.push_back(component.ground);
+    std::ranges::sort(sides);
+    return true;
   }
 
   /// The same of its facets and its rim.
@@ -173,10 +215,9 @@ class PatchFinder {
       const Grown& group = grown_[at(n)];
       const auto facets = group.facets.of(facets_);
       component.facets.insert(component.facets.end(), facets.begin(), facets.end());
-      for (const int e : group.rim.of(rims_)) {
-        const int g = body_.facet_of(body_.twin(e));
-        if (is_ground(g) || !is_widened(number_of_[at(g)])) component.rim.push_back(e);
-      }
+      for (const RimEdge& e : group.rim.of(rims_))
+        if (is_ground(e.beyond) || !is_widened(number_of_[at(e.beyond)]))
+          component.rim.push_back(e.edge);
     }
     std::ranges::sort(component.facets);
     std::ranges::sort(component.rim);
@@ -186,19 +227,18 @@ class PatchFinder {
   /// bits of limit_bits_.
   template <class Visit>
   void for_fewer_sides(const Component& component, const Visit& visit) {
-    std::vector<Side> sides = component.sides;
-    std::erase(sides, component.ground);
-    constexpr std::size_t kMost = 6;  // 2^6 sets: a component with more planes is no single feature
-    if (sides.size() < 3 || sides.size() > kMost) return;
+    Few<Side, kMostLimits> sides;
+    for (const Side side : component.sides)
+      if (side != component.ground) sides.push_back(side);
+    if (sides.size() < 3 || sides.size() > kMostLimits) return;
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
-    for (Grown& group : grown_) {
-      group.own_limits = 0;
-      for (const Side side : group.sides.of(sides_)) group.own_limits |= limit_bits_[at(side)];
+    for (std::size_t n = 0; n < grown_.size(); ++n) {
+      own_limits_[n] = 0;
+      for (const Side side : grown_[n].sides.of(sides_)) own_limits_[n] |= limit_bits_[at(side)];
     }
     for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask)
-      if (const int order = std::popcount(mask); order >= 2 && order <= options_.max_order)
-        visit(mask);
+      if (const int order = kOrders[mask]; order >= 2 && order <= options_.max_order) visit(mask);
     for (const Side side : sides) limit_bits_[at(side)] = 0;
   }
 
@@ -207,31 +247,47 @@ class PatchFinder {
   /// than half of the body's surface: then the rest is the part.
   bool widen(int start, unsigned limits) {
     std::vector<int>& groups = widened_;
-    groups.assign(1, start);
+    groups.resize(grown_.size() + 1);
+    groups[0] = start;
     group_stamps_[at(start)] = ++last_stamp_;
+    std::size_t size = 1;
     double area = 0;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
+    bool is_open = (own_limits_[at(start)] & limits) == 0;
+    for (std::size_t i = 0; i < size; ++i) {
       const Grown& group = grown_[at(groups[i])];
       area += group.area;
       const auto beyond = group.beyond.of(beyond_);
       work_ += std::ssize(beyond);
-      if (2 * area > surface_ || (group.own_limits & limits) != 0) return false;
-      for (const auto& [side, other] : beyond) {
-        if (group_stamps_[at(other)] == last_stamp_ || (limit_bits_[at(side)] & limits) != 0)
-          continue;
-        group_stamps_[at(other)] = last_stamp_;
-        groups.push_back(other);
+      if (2 * area > surface_) return false;
+      // What stands behind a group that runs into a plane does not matter any more.
+      if (!is_open) continue;
+      const std::size_t first = size;
+      unsigned met = 0;
+      for (const auto& next : beyond) {  // without branches, which nobody could foresee
+        const int other = next.second;
+        const unsigned own_limits = own_limits_[at(other)];
+        int& stamp = group_stamps_[at(other)];
+        const bool is_new = (stamp != last_stamp_) & ((limit_bits_[at(next.first)] & limits) == 0);
+        const int all_bits = -static_cast<int>(is_new);
+        groups[size] = other;
+        size += static_cast<std::size_t>(is_new);
+        stamp ^= (stamp ^ last_stamp_) & all_bits;
+        met |= own_limits & static_cast<unsigned>(all_bits);
+      }
+      if ((met & limits) == 0) continue;
+      is_open = false;
+      size = first;
+      while ((own_limits_[at(groups[size++])] & limits) == 0) {
       }
     }
-    return groups.size() > 1;
+    groups.resize(size);
+    return is_open && size > 1;
   }
 
-  /// The groups at hand.
+  /// The groups at hand, whose sides the component has.
   void offer(Component& component) {
-    find_sides(component);
     if (!can_be_capped(component)) return;
     find_facets(component);
-    if (!seen_.insert(component.facets).second) return;
     if (auto patch = cap_component(body_, is_hole_, component, work_))
       patches_.push_back(std::move(*patch));
   }
@@ -263,7 +319,8 @@ class PatchFinder {
   std::vector<int> number_of_;  ///< by facet, the group it is in
   std::vector<Grown> grown_;
   // Of the groups, one after the other.
-  std::vector<int> facets_, rims_;
+  std::vector<int> facets_;
+  std::vector<RimEdge> rims_;
   std::vector<Side> sides_;
   std::vector<std::pair<Side, int>> beyond_;
   double surface_ = 0;             ///< of the body
@@ -272,7 +329,11 @@ class PatchFinder {
   std::vector<int> widened_;  ///< groups
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
-  std::set<std::vector<int>> seen_;
+  std::vector<unsigned> own_limits_;  ///< by group, the bits of its own sides
+  // Of the groups that were at hand together: a name that others hardly have, and they themselves.
+  std::vector<std::uint64_t> met_names_;
+  std::vector<Place> met_sets_;
+  std::vector<int> met_groups_;
   std::vector<Patch> patches_;
 };
 
