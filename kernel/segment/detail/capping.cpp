@@ -17,6 +17,9 @@ enum class Corner {
   concave          ///< in front of all planes: a post in an inner corner
 };
 
+/// Two points, by their distances from a plane in ranks, lie on different sides of it.
+bool are_opposite(int p, int q) { return ((p > 0) & (q < 0)) | ((p < 0) & (q > 0)); }
+
 /// Caps for one component, or nothing.
 class Capper {
  public:
@@ -48,27 +51,23 @@ class Capper {
     Place rim;  ///< the first half-edge behind it
   };
 
-  /// Where a half-edge stands in the rim, which is sorted.
-  [[nodiscard]] std::optional<Place> place_of(int e) const {
-    const auto place = std::ranges::lower_bound(component_.rim, e);
-    if (place == component_.rim.end() || *place != e) return std::nullopt;
-    return static_cast<Place>(place - component_.rim.begin());
-  }
-
   /// The rim half-edge that follows each on its closed curve.
   bool order_rim() {
+    StampMap& places = world_.scratch.place_in_rim;
+    places.start(body_.half_edge_count());
+    for (Place i = 0; i < component_.rim.size(); ++i)
+      places.set(component_.rim[i], static_cast<int>(i));
     followers_.reserve(component_.rim.size());
     for (Place i = 0; i < component_.rim.size(); ++i) {
       int follower = body_.next(component_.rim[i]);
-      auto place = place_of(follower);
-      for (int steps = 0; !place; ++steps) {
+      for (int steps = 0; places.find(follower) < 0; ++steps) {
         if (steps > body_.half_edge_count()) return false;
         follower = body_.next(body_.twin(follower));
-        place = place_of(follower);
       }
-      followers_.push_back(*place);
-      if (labels_[i] != labels_[*place])
-        switches_.push_back({body_.origin(follower), labels_[i], labels_[*place], *place});
+      const auto place = static_cast<Place>(places.find(follower));
+      followers_.push_back(place);
+      if (labels_[i] != labels_[place])
+        switches_.push_back({body_.origin(follower), labels_[i], labels_[place], place});
     }
     return true;
   }
@@ -183,8 +182,12 @@ class Capper {
 /// Tells whether a component and its caps make a patch, and measures it.
 class Judge {
  public:
-  Judge(const Boundary& body, bool is_hole, std::int64_t& work)
-      : body_(body), world_(body.world()), is_hole_(is_hole), work_(work) {}
+  Judge(FlatBody& flat, bool is_hole, std::int64_t& work)
+      : flat_(flat),
+        body_(flat.body()),
+        world_(flat.body().world()),
+        is_hole_(is_hole),
+        work_(work) {}
 
   std::optional<Patch> run(const Component& component) {
     const auto corner = corner_of(component);
@@ -192,7 +195,7 @@ class Judge {
     auto caps = Capper(body_, component, *corner).run();
     if (!caps) return std::nullopt;
     Patch patch{is_hole_, component.facets, std::move(*caps)};
-    if (!are_edges_free(patch) || !measure(patch)) return std::nullopt;
+    if (!measure(patch) || !are_edges_free(patch) || is_pierced(patch)) return std::nullopt;
     return patch;
   }
 
@@ -254,50 +257,63 @@ class Judge {
 
   [[nodiscard]] bool is_crossed(int from, int to) const {
     const Vec3 p = world_.points.at(from), q = world_.points.at(to);
-    for (int f = 0; f < body_.facet_count(); ++f) {
-      if (!body_.is_alive(f)) continue;
-      const Side side = body_.facet(f).side;
-      if (world_.points.level(from, side) * world_.points.level(to, side) >= 0) continue;
+    for (const FlatBody::Facet& f : flat_.facets()) {
+      const int start = world_.points.rank(from, f.normal_class) - f.rank,
+                end = world_.points.rank(to, f.normal_class) - f.rank;
+      if (!are_opposite(start, end)) continue;
+      const Side side = body_.facet(f.number).side;
       const Vec3 normal = world_.planes.normal(side);
-      const double hp = dot(normal, p) - world_.planes.offset_m(side),
-                   hq = dot(normal, q) - world_.planes.offset_m(side);
-      if (contains_clearly(body_.outlines(f), normal, p + (hp / (hp - hq)) * (q - p),
+      const double offset_m = world_.planes.offset_m(side);
+      const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
+      if (contains_clearly(body_.outlines(f.number), normal, p + (hp / (hp - hq)) * (q - p),
                            world_.points.grid_m()))
         return true;
     }
     return false;
   }
 
-  /// An edge of the body goes through a cap.
-  [[nodiscard]] bool is_pierced(const std::vector<Outline>& shape, Side side) const {
-    const Vec3 normal = world_.planes.normal(side);
-    const double offset_m = world_.planes.offset_m(side);
-    const auto ranks = world_.points.ranks(world_.planes.class_of(side >> 1));
-    const int rank = world_.planes.rank_of(side >> 1);
-    for (int e = 0; e < body_.half_edge_count(); ++e) {
-      const int from = body_.origin(e);
-      if (ranks[at(from)] <= rank || !body_.is_alive_edge(e)) continue;
-      const int to = body_.target(e);
-      if (ranks[at(to)] >= rank) continue;
-      const Vec3 p = world_.points.at(from), q = world_.points.at(to);
+  /// An edge of the body goes through a cap that is none of its facets.
+  [[nodiscard]] bool is_pierced(const Patch& patch) const {
+    return std::ranges::any_of(patch.caps,
+                               [&](const Cap& cap) { return !cap.is_taken && is_pierced(cap); });
+  }
+
+  [[nodiscard]] bool is_pierced(const Cap& cap) const {
+    const Vec3 normal = world_.planes.normal(cap.side);
+    const double offset_m = world_.planes.offset_m(cap.side);
+    const auto ranks = world_.points.ranks(world_.planes.class_of(cap.side >> 1));
+    const int rank = world_.planes.rank_of(cap.side >> 1);
+    std::vector<Outline> shape;
+    for (const auto& [first, second] : flat_.edges()) {
+      const int start = ranks[at(first)] - rank, end = ranks[at(second)] - rank;
+      if (!are_opposite(start, end)) continue;
+      const Vec3 p = world_.points.at(start > 0 ? first : second),
+                 q = world_.points.at(start > 0 ? second : first);
       const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
+      if (shape.empty()) shape = shape_of(cap);
       if (contains_clearly(shape, normal, p + (hp / (hp - hq)) * (q - p), world_.points.grid_m()))
         return true;
     }
     return false;
   }
 
-  /// Fills in areas and volume, takes covered facets off the caps; false if a cap has no area.
+  [[nodiscard]] std::vector<Outline> shape_of(const Cap& cap) const {
+    std::vector<Outline> shape;
+    for (const CapLoop& loop : cap.loops) {
+      shape.emplace_back();
+      for (const CapEdge& edge : loop.edges) shape.back().push_back(world_.points.at(edge.from));
+    }
+    return shape;
+  }
+
+  /// Fills in areas and volume, takes covered facets off the caps; false if a cap has no area, or
+  /// the patch no volume.
   bool measure(Patch& patch) const {
     double patch_sum = 0, cap_sum = 0;
     for (const int f : patch.facets)
       patch_sum += world_.planes.offset_m(body_.facet(f).side) * body_.area(f);
     for (Cap& cap : patch.caps) {
-      std::vector<Outline> shape;
-      for (const CapLoop& loop : cap.loops) {
-        shape.emplace_back();
-        for (const CapEdge& edge : loop.edges) shape.back().push_back(world_.points.at(edge.from));
-      }
+      const std::vector<Outline> shape = shape_of(cap);
       const Vec3 normal = world_.planes.normal(cap.side);
       double area = 0;
       for (const Outline& outline : shape) area += signed_area(outline, normal);
@@ -310,7 +326,7 @@ class Judge {
         cap.covered.push_back(g);
         area -= body_.area(g);
       }
-      if (area <= 0 || is_pierced(shape, cap.side)) return false;
+      if (area <= 0) return false;
       patch.new_area += area;
       patch.old_area += body_.area_on(cap.side);
     }
@@ -319,6 +335,7 @@ class Judge {
     return patch.volume > 0;
   }
 
+  FlatBody& flat_;
   const Boundary& body_;
   World& world_;
   bool is_hole_;
@@ -345,7 +362,7 @@ Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e) {
   return -1;
 }
 
-std::optional<Patch> cap_component(const Boundary& body, bool is_hole, const Component& component,
+std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
                                    std::int64_t& work) {
   return Judge(body, is_hole, work).run(component);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/segment/detail/carve.h"
+#include "kernel/segment/detail/flat_body.h"
 
 #include <cstdint>
 #include <memory>
@@ -42,7 +43,7 @@ Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e);
 
 /// The component with caps on all its sides. Nothing if it does not lie in the corner that they
 /// make, if the caps do not close, have no area or are pierced, or if it has no volume.
-std::optional<Patch> cap_component(const Boundary& body, bool is_hole, const Component& component,
+std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
                                    std::int64_t& work);
 
 }  // namespace oriel::detail

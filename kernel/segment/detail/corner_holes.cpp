@@ -32,8 +32,9 @@ class CornerCutter {
     for (const Side side : sides_)
       if (!imprint_all(side)) return {};
     std::vector<Patch> patches;
+    FlatBody flat(*body_);
     for (const Component& component : components_behind()) {
-      auto patch = cap_component(*body_, true, component, work_);
+      auto patch = cap_component(flat, true, component, work_);
       if (!patch || !is_exact(component)) continue;
       patch->is_natural = std::ranges::all_of(component.rim, [&](int e) { return e < old_edges_; });
       patch->imprinted = body_;

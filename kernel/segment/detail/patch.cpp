@@ -30,6 +30,7 @@ class PatchFinder {
  public:
   PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options, std::int64_t& work)
       : body_(body),
+        flat_(body),
         world_(body.world()),
         is_hole_(is_hole),
         options_(options),
@@ -288,7 +289,7 @@ class PatchFinder {
   void offer(Component& component) {
     if (!can_be_capped(component)) return;
     find_facets(component);
-    if (auto patch = cap_component(body_, is_hole_, component, work_))
+    if (auto patch = cap_component(flat_, is_hole_, component, work_))
       patches_.push_back(std::move(*patch));
   }
 
@@ -312,6 +313,7 @@ class PatchFinder {
   }
 
   const Boundary& body_;
+  FlatBody flat_;
   World& world_;
   bool is_hole_;
   const PatchOptions& options_;

@@ -122,6 +122,9 @@ struct Scratch {
   StampMap corner_at_point;  ///< by point
   StampSet met_sources;      ///< by facet of the solid
 
+  // Patches.
+  StampMap place_in_rim;  ///< by half-edge
+
   // Cuts.
   StampSet facets_of_lump, facets_of_piece;
   StampMap copy_of;      ///< by half-edge
