@@ -89,14 +89,6 @@ double Boundary::volume() const {
   return sum / 3;
 }
 
-bool Boundary::is_reflex(int e) const {
-  // One answer for both half-edges of an edge.
-  e = std::min(e, twin(e));
-  signed char& bend = edge(e).bend;
-  if (bend == kUnknown) bend = bends_inward(e) ? 1 : 0;
-  return bend != 0;
-}
-
 bool Boundary::bends_inward(int e) const {
   const Side mine = side_of_edge(e), theirs = side_of_edge(twin(e));
   if (mine >> 1 == theirs >> 1) return false;

@@ -7,6 +7,7 @@
 #include "kernel/segment/detail/points.h"
 #include "kernel/segment/detail/scratch.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -106,7 +107,12 @@ class Boundary {
   /// A third of the sum of plane offset × facet area.
   [[nodiscard]] double volume() const;
   /// The body bends inward along this edge: more than 180° of material around it.
-  [[nodiscard]] bool is_reflex(int e) const;
+  [[nodiscard]] bool is_reflex(int e) const {
+    e = std::min(e, twin(e));  // one answer for both half-edges of an edge
+    signed char& bend = edge(e).bend;
+    if (bend == kUnknown) bend = bends_inward(e) ? 1 : 0;
+    return bend != 0;
+  }
   /// Calls `visit(half_edge)` for every half-edge of a facet; `visit` must not change the boundary.
   template <class Visit>
   void for_each_edge(int f, Visit visit) const {

@@ -32,6 +32,7 @@ class Capper {
   std::optional<std::vector<Cap>> run() {
     if (!order_rim()) return std::nullopt;
     std::vector<Cap> caps;
+    caps.reserve(component_.sides.size());
     for (const Side side : component_.sides) {
       auto cap = cap_on(side);
       if (!cap) return std::nullopt;
@@ -43,6 +44,8 @@ class Capper {
  private:
   /// A half-edge of the rim by its place there.
   using Place = std::size_t;
+  /// The edges of a loop are mostly no more.
+  static constexpr std::size_t kMostly = 8;
 
   /// Where the rim changes from one plane to another.
   struct Switch {
@@ -78,10 +81,11 @@ class Capper {
       cap.side = side ^ 1;
       cap.is_taken = true;
     }
-    std::vector<char> is_done(labels_.size(), 0);
+    Few<char, 32> is_done(labels_.size(), 0);
     for (Place start = 0; start < labels_.size(); ++start) {
       if (labels_[start] != side || is_done[start] != 0) continue;
       CapLoop loop;
+      loop.edges.reserve(kMostly);
       Place i = start;
       do {
         is_done[i] = 1;
@@ -174,9 +178,9 @@ class Capper {
   World& world_;
   const Component& component_;
   Corner corner_;
-  std::vector<Side> labels_;      ///< by place in the rim: the plane of the cap there
-  std::vector<Place> followers_;  ///< likewise
-  std::vector<Switch> switches_;
+  Few<Side, 16> labels_;      ///< by place in the rim: the plane of the cap there
+  Few<Place, 16> followers_;  ///< likewise
+  Few<Switch, 8> switches_;
 };
 
 /// Tells whether a component and its caps make a patch, and measures it.

@@ -88,7 +88,7 @@ std::optional<Choice> Chooser::paper_next() {
 }
 
 /// The best cut with as few planes as possible.
-std::optional<Choice> Chooser::first_of_least_order(const std::vector<Patch>& patches) {
+std::optional<Choice> Chooser::first_of_least_order(std::span<const Patch> patches) {
   for (int order = 2; order <= options_.max_order; ++order)
     if (auto choice = best_patch_cut(patches, order, order)) return choice;
   return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<Choice> Chooser::corner_cut(const std::vector<Patch>& natural) {
     for (const Patch& patch : natural)
       if (std::ranges::none_of(holes, [&](const Patch& p) { return p.sides() == patch.sides(); }))
         holes.push_back(patch);
-    if (auto choice = best_patch_cut(std::move(holes), order, order)) return choice;
+    if (auto choice = best_patch_cut(holes, order, order)) return choice;
   }
   return std::nullopt;
 }
@@ -299,7 +299,7 @@ void Chooser::wait_for_slots(Pass pass) {
   std::ranges::make_heap(waiting_, std::greater{});
 }
 
-std::optional<Choice> Chooser::best_section_cut(Pass pass, const std::vector<Patch>& rivals) {
+std::optional<Choice> Chooser::best_section_cut(Pass pass, std::span<const Patch> rivals) {
   std::vector<Candidate> candidates;
   lumps_.clear();
   lump_of_kind_.assign(at(pockets_.kind_count()), -1);
@@ -351,23 +351,24 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
   return choice;
 }
 
-std::optional<Choice> Chooser::best_patch_cut(std::vector<Patch> patches, int min_order,
+std::optional<Choice> Chooser::best_patch_cut(std::span<const Patch> patches, int min_order,
                                               int max_order) {
-  std::erase_if(patches, [&](const Patch& p) {
-    const int order = static_cast<int>(p.sides().size());
-    return order < min_order || order > max_order || p.new_area / p.old_area >= limit() ||
-           is_banned(p);
-  });
+  std::vector<const Patch*> fit;
+  for (const Patch& p : patches) {
+    const auto order = std::ranges::count(p.caps, false, &Cap::is_taken);
+    if (order >= min_order && order <= max_order && !(p.new_area / p.old_area >= limit()) &&
+        !is_banned(p))
+      fit.push_back(&p);
+  }
   std::optional<Choice> best;
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    Choice choice = choice_of(patches, i);
+  for (const Patch* leader : fit) {
+    Choice choice = choice_of(fit, *leader);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }
   return best;
 }
 
-Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader) const {
-  const Patch& first = patches[leader];
+Choice Chooser::choice_of(std::span<const Patch* const> patches, const Patch& first) const {
   Choice choice;
   choice.is_hole = first.is_hole;
   choice.is_natural = true;
@@ -375,11 +376,13 @@ Choice Chooser::choice_of(const std::vector<Patch>& patches, std::size_t leader)
   choice.old_area = first.old_area;
   choice.value = choice.quality = first.new_area / first.old_area;
   choice.sides = first.sides();
-  for (const Patch& p : patches) {
+  for (const Patch* patch : patches) {
+    const Patch& p = *patch;
     const double value = p.new_area / p.old_area;
-    if (p.is_hole != first.is_hole || p.sides() != choice.sides) continue;
+    if (p.is_hole != first.is_hole) continue;
     if (value < choice.value * (1 - kSame) ||
-        value > choice.value * (1 + std::max(kSame, options_.tolerances.value_rel)))
+        value > choice.value * (1 + std::max(kSame, options_.tolerances.value_rel)) ||
+        p.sides() != choice.sides)
       continue;
     choice.patches.push_back(p);
     choice.volume += p.volume;

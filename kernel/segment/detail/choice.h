@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,7 @@ class Chooser {
   }
   std::optional<Choice> natural_next();
   std::optional<Choice> paper_next();
-  std::optional<Choice> best_section_cut(Pass pass, const std::vector<Patch>& rivals);
+  std::optional<Choice> best_section_cut(Pass pass, std::span<const Patch> rivals);
   [[nodiscard]] std::optional<double> key_of(Pass pass, const Region& region, double new_area,
                                              double old_area) const;
   [[nodiscard]] double least_key(std::size_t number, Pass pass);
@@ -97,9 +98,10 @@ class Chooser {
   Lump lump_at(const Candidate& candidate, bool is_alone);
   Lump lump_of(int pocket, const Candidate& candidate);
   Lump flood(const Candidate& candidate);
-  std::optional<Choice> best_patch_cut(std::vector<Patch> patches, int min_order, int max_order);
+  std::optional<Choice> best_patch_cut(std::span<const Patch> patches, int min_order,
+                                       int max_order);
   Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
-  Choice choice_of(const std::vector<Patch>& patches, std::size_t leader) const;
+  Choice choice_of(std::span<const Patch* const> patches, const Patch& first) const;
   [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
   [[nodiscard]] bool is_banned(const Section& section, const Region& region) const {
     return !banned_->empty() &&
@@ -110,7 +112,7 @@ class Chooser {
   }
   std::vector<Patch> patches(bool is_hole);
   std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
-  std::optional<Choice> first_of_least_order(const std::vector<Patch>& patches);
+  std::optional<Choice> first_of_least_order(std::span<const Patch> patches);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
 
   const Boundary& body_;

@@ -42,6 +42,9 @@ class PatchFinder {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f)) surface_ += body_.area(f);
     Component alone, widened;
+    met_names_.reserve(2 * grown_.size());
+    met_sets_.reserve(2 * grown_.size());
+    met_groups_.reserve(4 * grown_.size());
     const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
     for (int n = 0; n < std::ssize(grown_); ++n) {
       start_with(n);
@@ -69,6 +72,9 @@ class PatchFinder {
 
  private:
   void grow_all() {
+    facets_.reserve(at(body_.facet_count()));
+    sides_.reserve(at(body_.facet_count()));
+    rims_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()));
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
     find_neighbours();
