@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <tuple>
 
 namespace oriel::detail {
@@ -306,15 +305,16 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass, std::span<const Patch
   wait_for_slots(pass);
   check_leaders(candidates, pass);
   std::optional<Choice> best;
-  std::map<std::pair<const Slot*, bool>, bool> is_done;
+  Few<std::pair<std::size_t, bool>, 8> done;  // slots, and which kind of their regions
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) least = std::min(least, c.key);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool is_material =
         candidates[i].slot->section->regions[at(candidates[i].region)].is_material;
-    if (!is_same_value(candidates[i].key, least) || is_done[{candidates[i].slot, is_material}])
+    const std::pair kind(candidates[i].number, is_material);
+    if (!is_same_value(candidates[i].key, least) || std::ranges::find(done, kind) != done.end())
       continue;
-    is_done[{candidates[i].slot, is_material}] = true;
+    done.push_back(kind);
     Choice choice = choice_of(candidates, i);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }

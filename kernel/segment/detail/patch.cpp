@@ -74,6 +74,7 @@ class PatchFinder {
   void grow_all() {
     facets_.reserve(at(body_.facet_count()));
     sides_.reserve(at(body_.facet_count()));
+    grown_.reserve(at(body_.facet_count()));
     rims_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()));
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
