@@ -161,16 +161,15 @@ class PatchFinder {
       }
       group.beyond = close(beyond_, first);
     }
-    group_stamps_.assign(grown_.size(), 0);
-    own_limits_.assign(grown_.size(), 0);
+    at_hand_.assign(grown_.size(), {});
   }
 
   /// One group alone.
   void start_with(int n) {
     widened_.assign(1, n);
-    group_stamps_[at(n)] = ++last_stamp_;
+    at_hand_[at(n)].stamp = ++last_stamp_;
   }
-  [[nodiscard]] bool is_widened(int n) const { return group_stamps_[at(n)] == last_stamp_; }
+  [[nodiscard]] bool is_widened(int n) const { return at_hand_[at(n)].stamp == last_stamp_; }
 
   /// The groups at hand were not at hand before.
   bool is_met_first() {
@@ -242,8 +241,9 @@ class PatchFinder {
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
     for (std::size_t n = 0; n < grown_.size(); ++n) {
-      own_limits_[n] = 0;
-      for (const Side side : grown_[n].sides.of(sides_)) own_limits_[n] |= limit_bits_[at(side)];
+      unsigned own = 0;
+      for (const Side side : grown_[n].sides.of(sides_)) own |= limit_bits_[at(side)];
+      at_hand_[n].own_limits = own;
     }
     for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask)
       if (const int order = kOrders[mask]; order >= 2 && order <= options_.max_order) visit(mask);
@@ -257,10 +257,10 @@ class PatchFinder {
     std::vector<int>& groups = widened_;
     groups.resize(grown_.size() + 1);
     groups[0] = start;
-    group_stamps_[at(start)] = ++last_stamp_;
+    at_hand_[at(start)].stamp = ++last_stamp_;
     std::size_t size = 1;
     double area = 0;
-    bool is_open = (own_limits_[at(start)] & limits) == 0;
+    bool is_open = (at_hand_[at(start)].own_limits & limits) == 0;
     for (std::size_t i = 0; i < size; ++i) {
       const Grown& group = grown_[at(groups[i])];
       area += group.area;
@@ -273,8 +273,7 @@ class PatchFinder {
       unsigned met = 0;
       for (const auto& next : beyond) {  // without branches, which nobody could foresee
         const int other = next.second;
-        const unsigned own_limits = own_limits_[at(other)];
-        int& stamp = group_stamps_[at(other)];
+        auto& [stamp, own_limits] = at_hand_[at(other)];
         const bool is_new = (stamp != last_stamp_) & ((limit_bits_[at(next.first)] & limits) == 0);
         const int all_bits = -static_cast<int>(is_new);
         groups[size] = other;
@@ -285,7 +284,7 @@ class PatchFinder {
       if ((met & limits) == 0) continue;
       is_open = false;
       size = first;
-      while ((own_limits_[at(groups[size++])] & limits) == 0) {
+      while ((at_hand_[at(groups[size++])].own_limits & limits) == 0) {
       }
     }
     groups.resize(size);
@@ -332,13 +331,17 @@ class PatchFinder {
   std::vector<RimEdge> rims_;
   std::vector<Side> sides_;
   std::vector<std::pair<Side, int>> beyond_;
-  double surface_ = 0;             ///< of the body
-  std::vector<int> group_stamps_;  ///< the last widening that has met a group
+  double surface_ = 0;  ///< of the body
+  /// A group as widenings ask about it.
+  struct AtHand {
+    int stamp = 0;            ///< of the last widening that has met it
+    unsigned own_limits = 0;  ///< the bits of its own sides in for_fewer_sides()
+  };
+  std::vector<AtHand> at_hand_;
   int last_stamp_ = 0;
   std::vector<int> widened_;  ///< groups
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
-  std::vector<unsigned> own_limits_;  ///< by group, the bits of its own sides
   // Of the groups that were at hand together: a name that others hardly have, and they themselves.
   std::vector<std::uint64_t> met_names_;
   std::vector<Place> met_sets_;
