@@ -42,15 +42,14 @@ class PatchFinder {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f)) surface_ += body_.area(f);
     Component alone, widened;
-    met_names_.reserve(2 * grown_.size());
-    met_sets_.reserve(2 * grown_.size());
+    first_met_.assign(std::bit_ceil(2 * grown_.size() + 1), -1);
+    met_.reserve(grown_.size());
     met_groups_.reserve(4 * grown_.size());
     const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
     for (int n = 0; n < std::ssize(grown_); ++n) {
       start_with(n);
-      const bool is_new = is_met_first();
       if (!find_sides(alone, std::max(most, kMostLimits))) continue;
-      if (is_new) offer(alone);
+      offer(alone);
       for_fewer_sides(alone, [&](unsigned limits) {
         if (widen(n, limits) && is_met_first() && find_sides(widened, most)) offer(widened);
       });
@@ -162,25 +161,28 @@ class PatchFinder {
       group.beyond = close(beyond_, first);
     }
     at_hand_.assign(grown_.size(), {});
+    queue_.resize(grown_.size() + 1);
   }
 
   /// One group alone.
   void start_with(int n) {
-    widened_.assign(1, n);
+    queue_[0] = n;
+    widened_ = std::span(queue_).first(1);
     at_hand_[at(n)].stamp = ++last_stamp_;
   }
   [[nodiscard]] bool is_widened(int n) const { return at_hand_[at(n)].stamp == last_stamp_; }
 
-  /// The groups at hand were not at hand before.
+  /// The groups at hand, several, were not at hand before.
   bool is_met_first() {
     std::uint64_t name = 0;  // that of the same groups in any order
     for (const int n : widened_) name += scrambled(n);
-    for (std::size_t i = 0; i < met_names_.size(); ++i)
-      if (met_names_[i] == name && is_at_hand(met_sets_[i])) return false;
-    met_names_.push_back(name);
-    const std::size_t first = met_groups_.size();
+    int& first = first_met_[name & (first_met_.size() - 1)];
+    for (int i = first; i >= 0; i = met_[at(i)].next)
+      if (met_[at(i)].name == name && is_at_hand(met_[at(i)].groups)) return false;
+    const std::size_t begin = met_groups_.size();
     met_groups_.insert(met_groups_.end(), widened_.begin(), widened_.end());
-    met_sets_.push_back({first, met_groups_.size()});
+    met_.push_back({name, {begin, met_groups_.size()}, first});
+    first = static_cast<int>(met_.size()) - 1;
     return true;
   }
   [[nodiscard]] bool is_at_hand(const Place& set) const {
@@ -254,8 +256,7 @@ class PatchFinder {
   /// chimney's shaft with its head. False if that runs into one of those planes itself, or has more
   /// than half of the body's surface: then the rest is the part.
   bool widen(int start, unsigned limits) {
-    std::vector<int>& groups = widened_;
-    groups.resize(grown_.size() + 1);
+    std::vector<int>& groups = queue_;
     groups[0] = start;
     at_hand_[at(start)].stamp = ++last_stamp_;
     std::size_t size = 1;
@@ -287,7 +288,7 @@ class PatchFinder {
       while ((at_hand_[at(groups[size++])].own_limits & limits) == 0) {
       }
     }
-    groups.resize(size);
+    widened_ = std::span(groups).first(size);
     return is_open && size > 1;
   }
 
@@ -339,12 +340,18 @@ class PatchFinder {
   };
   std::vector<AtHand> at_hand_;
   int last_stamp_ = 0;
-  std::vector<int> widened_;  ///< groups
+  std::vector<int> queue_;        ///< room for all groups, and what is put there in vain
+  std::span<const int> widened_;  ///< the groups at hand, the first in queue_
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
-  // Of the groups that were at hand together: a name that others hardly have, and they themselves.
-  std::vector<std::uint64_t> met_names_;
-  std::vector<Place> met_sets_;
+  /// Groups that were at hand together.
+  struct Met {
+    std::uint64_t name;  ///< that others hardly have
+    Place groups;        ///< in met_groups_
+    int next;            ///< with the same last bits of the name; -1: none
+  };
+  std::vector<Met> met_;
+  std::vector<int> first_met_;  ///< by the last bits of their names; -1: none
   std::vector<int> met_groups_;
   std::vector<Patch> patches_;
 };
