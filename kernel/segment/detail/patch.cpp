@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -42,8 +43,6 @@ class PatchFinder {
     for (int f = 0; f < body_.facet_count(); ++f)
       if (body_.is_alive(f)) surface_ += body_.area(f);
     Component alone, widened;
-    first_met_.assign(std::bit_ceil(2 * grown_.size() + 1), -1);
-    met_.reserve(grown_.size());
     met_groups_.reserve(4 * grown_.size());
     const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
     for (int n = 0; n < std::ssize(grown_); ++n) {
@@ -176,13 +175,12 @@ class PatchFinder {
   bool is_met_first() {
     std::uint64_t name = 0;  // that of the same groups in any order
     for (const int n : widened_) name += scrambled(n);
-    int& first = first_met_[name & (first_met_.size() - 1)];
-    for (int i = first; i >= 0; i = met_[at(i)].next)
-      if (met_[at(i)].name == name && is_at_hand(met_[at(i)].groups)) return false;
+    const auto [first, last] = met_.equal_range(name);
+    if (std::any_of(first, last, [&](const auto& met) { return is_at_hand(met.second); }))
+      return false;
     const std::size_t begin = met_groups_.size();
     met_groups_.insert(met_groups_.end(), widened_.begin(), widened_.end());
-    met_.push_back({name, {begin, met_groups_.size()}, first});
-    first = static_cast<int>(met_.size()) - 1;
+    met_.emplace(name, Place{begin, met_groups_.size()});
     return true;
   }
   [[nodiscard]] bool is_at_hand(const Place& set) const {
@@ -344,14 +342,8 @@ class PatchFinder {
   std::span<const int> widened_;  ///< the groups at hand, the first in queue_
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
-  /// Groups that were at hand together.
-  struct Met {
-    std::uint64_t name;  ///< that others hardly have
-    Place groups;        ///< in met_groups_
-    int next;            ///< with the same last bits of the name; -1: none
-  };
-  std::vector<Met> met_;
-  std::vector<int> first_met_;  ///< by the last bits of their names; -1: none
+  /// Groups that were at hand together, in met_groups_, by a name that others hardly have.
+  std::unordered_multimap<std::uint64_t, Place> met_;
   std::vector<int> met_groups_;
   std::vector<Patch> patches_;
 };
