@@ -69,21 +69,24 @@ std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
 
 std::optional<Choice> Chooser::natural_next() {
   slots_.refresh(true);
-  if (auto choice = best_section_cut(Pass::natural, {})) return choice;
+  if (auto choice = best_section_cut(Pass::natural)) return choice;
   if (options_.max_order > 1)
-    if (auto choice = first_of_least_order(patches(false))) return choice;
-  if (auto choice = best_section_cut(Pass::wide_natural, {})) return choice;
+    if (auto choice = first_of_least_order(patches(false, limit()))) return choice;
+  if (auto choice = best_section_cut(Pass::wide_natural)) return choice;
   slots_.refresh(false);
-  if (options_.max_order == 1) return best_section_cut(Pass::strict, {});
-  if (auto choice = best_section_cut(Pass::strict, patches(true))) return choice;
-  return corner_cut({});
+  auto choice = best_section_cut(Pass::strict);
+  if (options_.max_order == 1) return choice;
+  const auto holes = patches(true, choice ? choice->value : limit());
+  auto rival = best_patch_cut(holes, 2, options_.max_order);
+  if (rival && (!choice || is_better(*rival, *choice))) return rival;
+  return choice ? std::move(choice) : corner_cut({});
 }
 
 std::optional<Choice> Chooser::paper_next() {
   slots_.refresh(false);
-  if (auto choice = best_section_cut(Pass::strict, {})) return choice;
+  if (auto choice = best_section_cut(Pass::strict)) return choice;
   if (options_.max_order == 1) return std::nullopt;
-  return corner_cut(patches(true));
+  return corner_cut(patches(true, limit()));
 }
 
 /// The best cut with as few planes as possible.
@@ -112,9 +115,10 @@ std::optional<Choice> Chooser::corner_cut(const std::vector<Patch>& natural) {
   return std::nullopt;
 }
 
-std::vector<Patch> Chooser::patches(bool is_hole) {
+/// Those with a larger value than `most` may be left out.
+std::vector<Patch> Chooser::patches(bool is_hole, double most) {
   std::vector<Patch> found =
-      find_patches(body_, is_hole, {own_planes_, options_.max_order, free_side_}, work_);
+      find_patches(body_, is_hole, {own_planes_, options_.max_order, free_side_, most}, work_);
   (is_hole ? stats_.hole_tests : stats_.protrusion_tests) += found.size();
   stats_.candidates += found.size();
   return found;
@@ -298,7 +302,7 @@ void Chooser::wait_for_slots(Pass pass) {
   std::ranges::make_heap(waiting_, std::greater{});
 }
 
-std::optional<Choice> Chooser::best_section_cut(Pass pass, std::span<const Patch> rivals) {
+std::optional<Choice> Chooser::best_section_cut(Pass pass) {
   std::vector<Candidate> candidates;
   lumps_.clear();
   lump_of_kind_.assign(at(pockets_.kind_count()), -1);
@@ -318,9 +322,6 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass, std::span<const Patch
     Choice choice = choice_of(candidates, i);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }
-  if (auto rival = best_patch_cut(rivals, 2, options_.max_order);
-      rival && (!best || is_better(*rival, *best)))
-    return rival;
   return best;
 }
 

@@ -85,7 +85,7 @@ class Chooser {
   }
   std::optional<Choice> natural_next();
   std::optional<Choice> paper_next();
-  std::optional<Choice> best_section_cut(Pass pass, std::span<const Patch> rivals);
+  std::optional<Choice> best_section_cut(Pass pass);
   [[nodiscard]] std::optional<double> key_of(Pass pass, const Region& region, double new_area,
                                              double old_area) const;
   [[nodiscard]] double least_key(std::size_t number, Pass pass);
@@ -110,7 +110,7 @@ class Chooser {
   [[nodiscard]] bool is_banned(const Patch& patch) const {
     return !banned_->empty() && banned_->contains({patch.sides(), patch.is_hole});
   }
-  std::vector<Patch> patches(bool is_hole);
+  std::vector<Patch> patches(bool is_hole, double most);
   std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
   std::optional<Choice> first_of_least_order(std::span<const Patch> patches);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }

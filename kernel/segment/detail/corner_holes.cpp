@@ -28,7 +28,9 @@ class CornerCutter {
         work_(work) {}
 
   std::vector<Patch> run() {
-    work_ += std::ssize(sides_) * body_->half_edge_count();
+    // The body is copied, and asked what lies behind the planes; for each it is indexed and
+    // changed.
+    work_ += 2 * (std::ssize(sides_) + 1) * body_->half_edge_count();
     for (const Side side : sides_)
       if (!imprint_all(side)) return {};
     std::vector<Patch> patches;

@@ -1,6 +1,7 @@
 #include "kernel/segment/detail/patch.h"
 
 #include "kernel/model/detail/index.h"
+#include "kernel/segment/detail/cap_areas.h"
 
 #include <algorithm>
 #include <array>
@@ -20,9 +21,12 @@ namespace {
 /// A component with more planes is no single feature.
 constexpr std::size_t kMostLimits = 6;
 
+/// Sets of its planes, at most.
+constexpr std::size_t kMostSets = 1U << kMostLimits;
+
 /// How many bits numbers have.
 constexpr auto kOrders = [] {
-  std::array<int, 1U << kMostLimits> orders{};
+  std::array<int, kMostSets> orders{};
   for (unsigned mask = 0; mask < orders.size(); ++mask) orders[mask] = std::popcount(mask);
   return orders;
 }();
@@ -49,8 +53,9 @@ class PatchFinder {
       start_with(n);
       if (!find_sides(alone, std::max(most, kMostLimits))) continue;
       offer(alone);
-      for_fewer_sides(alone, [&](unsigned limits) {
-        if (widen(n, limits) && is_met_first() && find_sides(widened, most)) offer(widened);
+      for_fewer_sides(n, alone, [&](unsigned limits) {
+        widen(n, limits);
+        if (is_met_first() && find_sides(widened, most)) offer(widened);
       });
     }
     return std::move(patches_);
@@ -98,6 +103,7 @@ class PatchFinder {
   struct Grown {
     Place facets;
     double area = 0;
+    Vec3 open;     ///< the sum of area × normal, which caps have to make up for
     Place rim;     ///< half-edges to other groups or the ground
     Place sides;   ///< of its own facets, ascending
     Place beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
@@ -126,7 +132,9 @@ class PatchFinder {
     number_of_[at(start)] = number;
     for (std::size_t i = first; i < facets_.size(); ++i) {
       sides_.push_back(body_.facet(facets_[i]).side);
-      group.area += body_.area(facets_[i]);
+      const double area = body_.area(facets_[i]);
+      group.area += area;
+      group.open = group.open + area * world_.planes.normal(sides_.back());
       body_.for_each_edge(facets_[i], [&](int e) {
         const int g = body_.facet_of(body_.twin(e));
         if (number_of_[at(g)] == number) return;
@@ -231,44 +239,60 @@ class PatchFinder {
   }
 
   /// Visits the sets of two or more of a component's split planes that leave one out at least, as
-  /// bits of limit_bits_.
+  /// bits of limit_bits_, and between which group `n`, which the component is, can be widened.
   template <class Visit>
-  void for_fewer_sides(const Component& component, const Visit& visit) {
+  void for_fewer_sides(int n, const Component& component, const Visit& visit) {
     Few<Side, kMostLimits> sides;
     for (const Side side : component.sides)
       if (side != component.ground) sides.push_back(side);
     if (sides.size() < 3 || sides.size() > kMostLimits) return;
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
-    for (std::size_t n = 0; n < grown_.size(); ++n) {
+    for (std::size_t i = 0; i < grown_.size(); ++i) {
       unsigned own = 0;
-      for (const Side side : grown_[n].sides.of(sides_)) own |= limit_bits_[at(side)];
-      at_hand_[n].own_limits = own;
+      for (const Side side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
+      at_hand_[i].own_limits = own;
     }
-    for (unsigned mask = 1; mask + 1 < 1U << sides.size(); ++mask)
-      if (const int order = kOrders[mask]; order >= 2 && order <= options_.max_order) visit(mask);
+    const auto sets = sets_to_widen_in(n, sides.size());
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
     for (const Side side : sides) limit_bits_[at(side)] = 0;
   }
 
+  /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
+  /// them: it becomes too large there as well, and runs into the same planes where the set has
+  /// them.
+  Few<unsigned, kMostSets> sets_to_widen_in(int n, std::size_t sides) {
+    const unsigned all = (1U << sides) - 1;
+    Few<unsigned, kMostSets> sets;
+    std::array<unsigned, kMostSets> run_into;
+    run_into[all] = at_hand_[at(n)].own_limits;
+    for (unsigned set = all - 1; set > 0; --set) {
+      unsigned& met = run_into[set] = 0;
+      for (unsigned others = all & ~set; others != 0; others &= others - 1)
+        met |= run_into[set | (others & -others)];
+      const int order = kOrders[set];
+      if ((met & set) != 0 || order < 2 || order > options_.max_order) continue;
+      met |= widen(n, set);
+      if ((met & set) == 0) sets.push_back(set);
+    }
+    return sets;
+  }
+
   /// Makes widened_ a group with all that lies beyond its rim but for the given planes (bits): a
-  /// chimney's shaft with its head. False if that runs into one of those planes itself, or has more
-  /// than half of the body's surface: then the rest is the part.
-  bool widen(int start, unsigned limits) {
+  /// chimney's shaft with its head. Returns the planes that it runs into, and stops, if it does so;
+  /// all, if it has more than half of the body's surface: then the rest is the part.
+  unsigned widen(int start, unsigned limits) {
     std::vector<int>& groups = queue_;
     groups[0] = start;
     at_hand_[at(start)].stamp = ++last_stamp_;
     std::size_t size = 1;
     double area = 0;
-    bool is_open = (at_hand_[at(start)].own_limits & limits) == 0;
     for (std::size_t i = 0; i < size; ++i) {
       const Grown& group = grown_[at(groups[i])];
       area += group.area;
       const auto beyond = group.beyond.of(beyond_);
       work_ += std::ssize(beyond);
-      if (2 * area > surface_) return false;
-      // What stands behind a group that runs into a plane does not matter any more.
-      if (!is_open) continue;
-      const std::size_t first = size;
+      if (2 * area > surface_) return ~0U;
       unsigned met = 0;
       for (const auto& next : beyond) {  // without branches, which nobody could foresee
         const int other = next.second;
@@ -280,19 +304,15 @@ class PatchFinder {
         stamp ^= (stamp ^ last_stamp_) & all_bits;
         met |= own_limits & static_cast<unsigned>(all_bits);
       }
-      if ((met & limits) == 0) continue;
-      is_open = false;
-      size = first;
-      while ((at_hand_[at(groups[size++])].own_limits & limits) == 0) {
-      }
+      if ((met & limits) != 0) return met & limits;
     }
     widened_ = std::span(groups).first(size);
-    return is_open && size > 1;
+    return 0;
   }
 
   /// The groups at hand, whose sides the component has.
   void offer(Component& component) {
-    if (!can_be_capped(component)) return;
+    if (!can_be_capped(component) || !may_be_chosen(component)) return;
     find_facets(component);
     if (auto patch = cap_component(flat_, is_hole_, component, work_))
       patches_.push_back(std::move(*patch));
@@ -311,6 +331,28 @@ class PatchFinder {
         if (has_same_normal(sides[i], sides[j])) return false;
     }
     return true;
+  }
+
+  /// Caps that have no more than the areas that are asked for may close the groups at hand. The
+  /// ground, of which a part may be taken, tells nothing.
+  [[nodiscard]] bool may_be_chosen(const Component& component) const {
+    if (component.ground >= 0) return true;
+    Vec3 open;
+    double area = 0, old_area = 0, covered = 0;
+    for (const int n : widened_) {
+      open = open + grown_[at(n)].open;
+      area += grown_[at(n)].area;
+    }
+    Few<Vec3, 4> normals;
+    for (const Side side : component.sides) {
+      normals.push_back(world_.planes.normal(side));
+      old_area += body_.area_on(side);
+      covered += body_.area_on(side ^ 1);
+    }
+    constexpr double kOff = 0.02;  // of the area: what noise may move of it
+    const double slack = kOff * area;
+    return least_cap_area({normals.data(), normals.size()}, open, slack) <=
+           options_.most_value * old_area + covered + slack;
   }
 
   [[nodiscard]] bool has_same_normal(Side s, Side t) const {

@@ -3,6 +3,7 @@
 #include "kernel/segment/detail/capping.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace oriel::detail {
@@ -14,6 +15,9 @@ struct PatchOptions {
   /// The ground (-1: none): of protrusions with two planes, the rim may leave out a part of it, see
   /// Cap::is_taken.
   Side free_side = -1;
+  /// Patches with more new area than so many times the old one are not asked for; most of them are
+  /// left out.
+  double most_value = std::numeric_limits<double>::infinity();
 };
 
 /// The natural patches of holes, or of protrusions, that two to four planes can cap (paper, section
