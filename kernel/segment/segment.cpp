@@ -28,12 +28,18 @@ using detail::Choice;
 using detail::Side;
 using detail::Task;
 
+/// A cut has failed half-way, and there is no copy of the body as it was.
+struct NoCopy {};
+
 class Segmenter {
  public:
-  Segmenter(const Building& building, const Solid& solid, const SegmentOptions& options)
+  /// `keeps_copies`: of bodies that cuts may fail on. Else run() throws NoCopy where one does.
+  Segmenter(const Building& building, const Solid& solid, const SegmentOptions& options,
+            bool keeps_copies)
       : building_(building),
         solid_(solid),
         options_(options),
+        keeps_copies_(keeps_copies),
         world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)},
         cells_(solid.facets.size(), world_, out_),
         models_(world_, cells_, out_) {}
@@ -182,7 +188,8 @@ class Segmenter {
   /// edges fail before they change their body if at all, so no copy is kept of it.
   std::optional<std::vector<detail::Change>> try_cut(Task& task, const Choice& choice) {
     std::optional<Boundary> body;
-    if (!choice.is_natural || choice.imprinted) body = task.body;
+    const bool may_fail = !choice.is_natural || choice.imprinted;
+    if (may_fail && keeps_copies_) body = task.body;
     const NodeId id = task.node;
     const std::size_t nodes = out_.nodes.size(), features = out_.features.size();
     const std::size_t tasks = tasks_.size();
@@ -191,6 +198,7 @@ class Segmenter {
     try {
       return cut(task, choice);
     } catch (const GeometryError&) {
+      if (may_fail && !keeps_copies_) throw NoCopy{};
       if (!body && is_body_changed_) throw;
       if (body) task.body = std::move(*body);
       task.node = id;
@@ -381,6 +389,7 @@ class Segmenter {
   const Building& building_;
   const Solid& solid_;
   const SegmentOptions& options_;
+  bool keeps_copies_;
   Segmentation out_;
   detail::World world_;
   detail::CellWriter cells_;
@@ -397,7 +406,12 @@ class Segmenter {
 }  // namespace
 
 Segmentation segment(const Building& building, const Solid& solid, const SegmentOptions& options) {
-  return Segmenter(building, solid, options).run();
+  // Hardly any cut fails, and copies for those that may take as long as the cuts.
+  try {
+    return Segmenter(building, solid, options, false).run();
+  } catch (const NoCopy&) {
+    return Segmenter(building, solid, options, true).run();
+  }
 }
 
 }  // namespace oriel
