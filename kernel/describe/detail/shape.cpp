@@ -53,10 +53,31 @@ std::span<const InPlan> hull_in_plan(const std::vector<Vec3>& of, PlanPoints& po
   return {hull.data(), hull.size()};
 }
 
+/// The hull of points whose box in plan has a point in all its corners, without looking for it:
+/// those corners, in the order of hull_in_plan(). So stand most features. None if the points are no
+/// such ones.
+std::span<const InPlan> corners_of_box(const std::vector<Vec3>& points, const Box& box,
+                                       std::array<InPlan, 4>& corners) {
+  unsigned found = 0;  // low and high x at low y, then at high y
+  for (const Vec3& p : points) {
+    const unsigned in_x = unsigned{p.x == box.min.x} + 2 * unsigned{p.x == box.max.x};
+    found |= in_x * (unsigned{p.y == box.min.y} + 4 * unsigned{p.y == box.max.y});
+  }
+  constexpr unsigned kAllFour = 15;
+  if (found != kAllFour) return {};
+  const bool is_wide = box.min.x < box.max.x, is_deep = box.min.y < box.max.y;
+  std::size_t count = 0;
+  corners[count++] = {box.min.x, box.min.y};
+  if (is_wide) corners[count++] = {box.max.x, box.min.y};
+  if (is_deep) corners[count++] = {box.max.x, box.max.y};
+  if (is_wide && is_deep) corners[count++] = {box.min.x, box.max.y};
+  return {corners.data(), count};
+}
+
 /// The extents of points in plan along a direction and across it.
 std::pair<double, double> sizes_along(std::span<const InPlan> points, InPlan u) {
   Extent along, across;
-  for (const InPlan p : points) {
+  for (const InPlan& p : points) {
     const double s = p.x * u.x + p.y * u.y, t = p.x * -u.y + p.y * u.x;
     along.low = std::min(along.low, s);
     along.high = std::max(along.high, s);
@@ -75,14 +96,22 @@ std::array<double, 3> StandingBox::edges() const {
 }
 
 StandingBox standing_box(const std::vector<Vec3>& points) {
+  Box box;
+  for (const Vec3& p : points) box.grow(p);
   StandingBox best;
-  best.height = extent_along(points, {0, 0, 1}).size();
+  best.height = box.max.z - box.min.z;
   best.along = {1, 0, 0};
+  std::array<InPlan, 4> corners;
   PlanPoints in_plan, of_hull;
-  const std::span<const InPlan> hull = hull_in_plan(points, in_plan, of_hull);
+  std::span<const InPlan> hull = corners_of_box(points, box, corners);
+  std::size_t sides = (hull.size() + 1) / 2;  // opposite sides of a box say the same
+  if (hull.empty()) {
+    hull = hull_in_plan(points, in_plan, of_hull);
+    sides = hull.size();
+  }
   double least = Box::kInfinity;
   // One side of the smallest rectangle lies along a side of the hull.
-  for (std::size_t i = 0; i < hull.size(); ++i) {
+  for (std::size_t i = 0; i < sides; ++i) {
     const InPlan side = hull[i + 1 < hull.size() ? i + 1 : 0] - hull[i];
     if (side.x == 0 && side.y == 0) continue;
     const Vec3 u = normalised({side.x, side.y, 0}), v{-u.y, u.x, 0};
@@ -98,7 +127,7 @@ StandingBox standing_box(const std::vector<Vec3>& points) {
 
 Extent extent_along(const std::vector<Vec3>& points, Vec3 direction) {
   Extent extent;
-  for (const Vec3 p : points) {
+  for (const Vec3& p : points) {
     extent.low = std::min(extent.low, dot(p, direction));
     extent.high = std::max(extent.high, dot(p, direction));
   }
