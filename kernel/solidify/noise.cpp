@@ -21,13 +21,24 @@ constexpr double kShare = 0.9;
 constexpr double kOffsetPerNoise = 2.75;
 constexpr double kLargestOffset_m = 0.01;
 
-/// True if all corners have the same coordinate along that axis.
-bool is_across(const Building& building, const Polygon& polygon, double Vec3::*axis) {
-  const double level = building.vertices[at(polygon.rings[0][0])].*axis;
+/// Along which axes all corners have the same coordinate.
+struct Across {
+  bool x = true, y = true, z = true;
+};
+
+/// In one go and without a branch: which axis it is no one can guess.
+Across axes_across(const Building& building, const Polygon& polygon) {
+  const Vec3* const corners = building.vertices.data();
+  const Vec3 first = corners[polygon.rings[0][0]];
+  Across across;
   for (const auto& ring : polygon.rings)
-    for (const int v : ring)
-      if (building.vertices[at(v)].*axis != level) return false;
-  return true;
+    for (const int v : ring) {
+      const Vec3& p = corners[v];
+      across.x &= p.x == first.x;
+      across.y &= p.y == first.y;
+      across.z &= p.z == first.z;
+    }
+  return across;
 }
 
 /// Twice the area of the outer ring, seen along the third axis.
@@ -55,9 +66,10 @@ double out_of_plane_m(const Building& building, const Polygon& polygon) {
     const double area = area_across(building, polygon, u, v);
     return std::abs(area) > 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
   };
-  if (is_across(building, polygon, &Vec3::x)) return flat_m(&Vec3::y, &Vec3::z);
-  if (is_across(building, polygon, &Vec3::y)) return flat_m(&Vec3::z, &Vec3::x);
-  if (is_across(building, polygon, &Vec3::z)) return flat_m(&Vec3::x, &Vec3::y);
+  const Across across = axes_across(building, polygon);
+  if (across.x) return flat_m(&Vec3::y, &Vec3::z);
+  if (across.y) return flat_m(&Vec3::z, &Vec3::x);
+  if (across.z) return flat_m(&Vec3::x, &Vec3::y);
   const auto corner = [&](int v) { return building.vertices[at(v)]; };
   const auto& outer = polygon.rings[0];
   const Vec3 origin = corner(outer[0]);

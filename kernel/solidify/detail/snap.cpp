@@ -47,7 +47,7 @@ class Snapper {
     place_of_.resize(mesh_.vertex_count());
     for (int v = 0; v < std::ssize(place_of_); ++v)
       if (!place_at_corner(v)) place(v);
-    if (has_close_neighbours())
+    if (may_have_close_neighbours())
       while (unite_close_neighbours()) {
       }
     if (has_united_ || has_small_component())
@@ -157,19 +157,22 @@ class Snapper {
     return out;
   }
 
-  /// True if the ends of an edge lie within weld_m, as placed at first. Every edge is met both
-  /// ways.
-  [[nodiscard]] bool has_close_neighbours() const {
+  /// False if the ends of no edge lie within weld_m, as placed at first: of the shortest one by
+  /// its square, which may be off by rounding.
+  [[nodiscard]] bool may_have_close_neighbours() const {
     const Vertex* const places = place_of_.data();
+    double least = Box::kInfinity;
     for (std::size_t l = 0; l < draft_.loop_count(); ++l) {
       const auto loop = draft_.loop(l);
-      int v = loop.back();
-      for (const int w : loop) {
-        if (v < w && length(places[v].point - places[w].point) < tolerances_.weld_m) return true;
-        v = w;
+      Vec3 before = places[loop.back()].point;
+      for (const int v : loop) {
+        const Vec3 here = places[v].point, edge = here - before;
+        least = std::min(least, dot(edge, edge));
+        before = here;
       }
     }
-    return false;
+    constexpr double kRounding = 1e-9;
+    return least < (1 + kRounding) * tolerances_.weld_m * tolerances_.weld_m;
   }
 
   /// One pass over all edges; true if a pair was united. The united vertex is placed anew, by all
