@@ -24,6 +24,8 @@ namespace detail {
 struct SurfaceFacing {
   bool is_turned = false;
   const char* source = "input";
+  /// Outward from the facet of the solid that it lies in: it says more than `is_turned`.
+  const Vec3* of_solid = nullptr;
 };
 
 }  // namespace detail
@@ -87,7 +89,11 @@ struct SurfaceSurvey::State {
 
   [[nodiscard]] const detail::VerticalLines& lines();
   [[nodiscard]] Vec3 outward(std::size_t row) const {
-    return facings[row].is_turned ? -faces[row].normal : faces[row].normal;
+    const SurfaceFacing& facing = facings[row];
+    const Vec3 normal = faces[row].normal;
+    const bool is_turned =
+        facing.of_solid != nullptr ? dot(normal, *facing.of_solid) < 0 : facing.is_turned;
+    return is_turned ? -normal : normal;
   }
   [[nodiscard]] std::optional<bool> looks_up_by_position(const SurfaceFace& face);
   [[nodiscard]] bool is_below(const std::optional<LineCrossing>& above, Vec3 point);
@@ -97,15 +103,12 @@ struct SurfaceSurvey::State {
   /// Once something is asked of them.
   std::optional<detail::VerticalLines> vertical_lines;
   std::vector<SurfaceFacing> facings;
-  Box box;
   SurfaceTable table;
 };
 
 template <class Figures>
 SurfaceSurvey::State::State(const Figures& figures, const Tolerances& given)
-    : tolerances(given), faces(figures), facings(faces.size()), table(faces.size()) {
-  for (const SurfaceFace& face : faces) box.grow(face.box);
-}
+    : tolerances(given), faces(figures), facings(faces.size()), table(faces.size()) {}
 
 const detail::VerticalLines& SurfaceSurvey::State::lines() {
   if (!vertical_lines) vertical_lines.emplace(faces);
@@ -132,8 +135,9 @@ void SurfaceSurvey::State::judge_facing(const std::vector<bool>& is_known) {
   double agree_m2 = 0, all_m2 = 0;
   std::vector<bool> is_told(faces.size(), false), is_against(faces.size(), false);
   for (std::size_t row = 0; row < faces.size(); ++row) {
+    if (is_known[row]) continue;
     const SurfaceFace& face = faces[row];
-    if (is_known[row] || face.is_steep()) continue;
+    if (face.is_steep()) continue;
     const auto looks_up = looks_up_by_position(face);
     if (!looks_up) continue;
     is_against[row] = *looks_up != (face.normal.z > 0);
@@ -161,9 +165,9 @@ void SurfaceSurvey::State::describe(std::size_t row) {
   table.set(row, surface_columns().area, face.area_m2);
   table.set(row, surface_columns().facing, std::string(facings[row].source));
   if (!face.box.is_empty()) {
-    table.set(row, surface_columns().height, face.box.min.z - box.min.z);
-    table.set(row, surface_columns().top, face.box.max.z - box.min.z);
-    table.set(row, surface_columns().below_ridge, box.max.z - face.box.max.z);
+    table.set(row, surface_columns().height, face.box.min.z - faces.low_m());
+    table.set(row, surface_columns().top, face.box.max.z - faces.low_m());
+    table.set(row, surface_columns().below_ridge, faces.high_m() - face.box.max.z);
   }
   if (face.normal == Vec3{}) return;
   const Vec3 normal = outward(row);
@@ -187,7 +191,8 @@ void SurfaceSurvey::State::measure_gaps(std::size_t row) {
   const double weld_m = tolerances.weld_m;
   if (const auto above = lines().next_above(middle, middle.z + weld_m))
     table.set(row, surface_columns().gap_above, above->z - middle.z);
-  if (const auto below = lines().next_below(middle, std::nextafter(middle.z - weld_m, box.min.z)))
+  if (const auto below =
+          lines().next_below(middle, std::nextafter(middle.z - weld_m, faces.low_m())))
     table.set(row, surface_columns().gap_below, middle.z - below->z);
 }
 
@@ -244,15 +249,15 @@ std::vector<int> rows_by_source(const Building& building) {
 }
 
 /// A polygon looks where the solid's facet looks that it lies in. True for those that lie in one.
-std::vector<bool> take_facing(const Solid& solid, const SurfaceFaces& faces,
-                              const std::vector<int>& rows, std::vector<SurfaceFacing>& facings) {
-  std::vector<bool> is_known(faces.size(), false);
+std::vector<bool> take_facing(const Solid& solid, const std::vector<int>& rows,
+                              std::vector<SurfaceFacing>& facings) {
+  std::vector<bool> is_known(facings.size(), false);
   for (const Facet& facet : solid.facets) {
-    const Vec3 normal = solid.planes[facet.plane.index()].normal;
+    const Vec3& normal = solid.planes[facet.plane.index()].normal;
     for (const int source : facet.polygons) {
       if (source < 0 || at(source) >= rows.size() || rows[at(source)] < 0) continue;
       const std::size_t row = at(rows[at(source)]);
-      facings[row] = {dot(faces[row].normal, normal) < 0, "solid"};
+      facings[row] = {false, "solid", &normal};
       is_known[row] = true;
     }
   }
@@ -305,8 +310,7 @@ SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& toleran
     : state_(std::make_unique<State>(building, tolerances)) {
   const auto by_source = rows_by_source(building);
   std::vector<bool> is_known(state_->faces.size(), false);
-  if (context.solid != nullptr)
-    is_known = take_facing(*context.solid, state_->faces, by_source, state_->facings);
+  if (context.solid != nullptr) is_known = take_facing(*context.solid, by_source, state_->facings);
   state_->judge_facing(is_known);
   for (const int row : rows) {
     state_->describe(at(row));

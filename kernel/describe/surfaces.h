@@ -39,7 +39,8 @@ inline constexpr std::array kSurfaceMeasures = {SurfaceMeasure::sides, SurfaceMe
 std::optional<SurfaceMeasure> measure_of(std::size_t column);
 
 /// Describes the surfaces of one building as far as it is asked to. What is measured of a surface
-/// does not depend on what else is.
+/// does not depend on what else is. Refers to the building, and to the solid (the context's, too),
+/// which must outlive it.
 class SurfaceSurvey {
  public:
   /// Fills every attribute of surface_schema() that can be told without rules (all but `part`) and

@@ -16,7 +16,7 @@ PlanFigure::PlanFigure(std::span<const OutlineView> outlines) {
   std::size_t edges = 0;
   for (const OutlineView outline : outlines) {
     edges += outline.size();
-    for (const Vec3 p : outline) box_.grow(p);
+    for (const Vec3& p : outline) box_.grow(p);
   }
   first_.resize(2 + edges / kEdgesPerStrip, 0);
   for_each_touch(outlines, [&](std::size_t strip, const Edge&) { ++first_[strip + 1]; });

@@ -32,7 +32,9 @@ struct SurfaceFace {
 /// a point of its plane.
 double z_at(const SurfaceFace& face, Vec3 on_plane, Vec3 point);
 
-/// The faces of a building or a solid, with their points in one piece of memory.
+/// The faces of a building or a solid, with their points in one piece of memory. A face is made
+/// when it is asked for, as few of a building's are. Refers to the building or the solid, which
+/// must outlive it.
 class SurfaceFaces {
  public:
   explicit SurfaceFaces(const Building& building);
@@ -41,17 +43,32 @@ class SurfaceFaces {
   SurfaceFaces& operator=(const SurfaceFaces&) = delete;
 
   [[nodiscard]] std::size_t size() const { return faces_.size(); }
-  [[nodiscard]] const SurfaceFace& operator[](std::size_t face) const { return faces_[face]; }
-  [[nodiscard]] auto begin() const { return faces_.begin(); }
-  [[nodiscard]] auto end() const { return faces_.end(); }
+  [[nodiscard]] const SurfaceFace& operator[](std::size_t face) const {
+    if (!is_made_[face]) make(face);
+    return faces_[face];
+  }
+  /// Told without making it: its outer outline lies in a plane across x or y. It is steep then.
+  [[nodiscard]] bool is_upright(std::size_t face) const { return is_upright_[face] != 0; }
+  /// The least and the greatest height of all outer outlines; low > high if there are none.
+  [[nodiscard]] double low_m() const { return low_m_; }
+  [[nodiscard]] double high_m() const { return high_m_; }
 
  private:
+  void make(std::size_t face) const;
   template <class Figures, class RingsOf, class PointAt>
-  void take(const Figures& figures, RingsOf rings_of, PointAt point_at);
+  void survey(const Figures& figures, RingsOf rings_of, PointAt point_at);
+  template <class Rings, class PointAt>
+  void take(SurfaceFace& face, const Rings& rings, PointAt point_at) const;
 
-  std::vector<Vec3> points_;
-  std::vector<OutlineView> outlines_;
-  std::vector<SurfaceFace> faces_;
+  const Building* building_ = nullptr;
+  const Solid* solid_ = nullptr;
+  double low_m_ = Box::kInfinity, high_m_ = -Box::kInfinity;
+  std::vector<char> is_upright_;
+  // There is room for all before the first is made, so that none moves.
+  mutable std::vector<Vec3> points_;
+  mutable std::vector<OutlineView> outlines_;
+  mutable std::vector<SurfaceFace> faces_;
+  mutable std::vector<char> is_made_;
 };
 
 /// The sides of the smallest rectangle around the face in its plane, the longer one first.

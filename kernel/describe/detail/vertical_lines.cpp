@@ -29,10 +29,8 @@ int cell(double value, double low, double high, int count) {
 }  // namespace
 
 VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
-  entries_.reserve(static_cast<std::size_t>(
-      std::ranges::count_if(faces, [](const SurfaceFace& face) { return !face.is_steep(); })));
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].is_steep()) continue;
+    if (faces.is_upright(f) || faces[f].is_steep()) continue;
     entries_.push_back(entry_of(faces[f], static_cast<int>(f)));
     box_.grow(faces[f].box);
   }
