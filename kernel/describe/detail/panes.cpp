@@ -14,7 +14,7 @@ namespace oriel::detail {
 
 Panes::Panes(const Building& building, double grid_m) {
   corners_.reserve(building.vertices.size());
-  for (const Vec3 vertex : building.vertices) corners_.push_back(exact::on_grid(vertex, grid_m));
+  for (const Vec3& vertex : building.vertices) corners_.push_back(exact::on_grid(vertex, grid_m));
   panes_.reserve(building.polygons.size());
   for (const Polygon& polygon : building.polygons) {
     if (polygon.source < 0 || polygon.rings.empty()) continue;
@@ -47,7 +47,7 @@ void Panes::measure(Pane& pane) const {
     std::size_t corner = least_of(ring);
     Vec3 origin, before;
     for (std::size_t i = 0; i < size; ++i) {
-      const Vec3 p = corners_[at(ring[corner])];
+      const Vec3& p = corners_[at(ring[corner])];
       corner = corner + 1 < size ? corner + 1 : 0;
       if (r == 0) pane.middle = pane.middle + share * p;
       if (i == 0) origin = p;

@@ -100,7 +100,7 @@ void Site::find_terrain() {
 
 Site::GroundFacet Site::ground_facet(CellFacet facet, const Plane& plane, CellId cell) const {
   GroundFacet ground{outlines_of(segmentation_, facet), {}, plane, cell};
-  for (const Vec3 p : ground.outlines[0]) ground.box.grow(p);
+  for (const Vec3& p : ground.outlines[0]) ground.box.grow(p);
   return ground;
 }
 

@@ -123,7 +123,9 @@ class Snapper {
     if (planes.size() != 3) return false;
     const auto corner = corners_.meeting(planes[0], planes[1], planes[2]);
     if (!corner || !(length(*corner - start_of(v)) <= reach_m_)) return false;
-    place_of_[at(v)] = {*corner, true};
+    Vertex& place = place_of_[at(v)];
+    place.point = *corner;
+    place.is_meeting = true;
     return true;
   }
 
