@@ -156,14 +156,16 @@ std::vector<CellWriter::Shape> CellWriter::shapes_of(std::span<const CellFacet> 
 /// The shape that holds most of a polygon.
 std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon,
                                 const std::vector<Shape>& shapes, Vec3 normal) const {
-  const std::vector<Outline> rings = outlines_of(building, polygon, out_.grid_m);
   Box box;
-  for (const Vec3 p : rings[0]) box.grow(p);
-  std::vector<std::size_t> near;
+  for (const int v : polygon.rings[0]) box.grow(building.vertices[at(v)]);
+  // That of the corners on the grid: of two numbers the lesser one is not rounded to more.
+  box = {exact::on_grid(box.min, out_.grid_m), exact::on_grid(box.max, out_.grid_m)};
+  Few<std::size_t, 8> near;
   for (std::size_t i = 0; i < shapes.size(); ++i)
     if (may_overlap(box, shapes[i].box, normal)) near.push_back(i);
   if (near.empty()) return 0;
   if (near.size() == 1) return near[0];
+  const std::vector<Outline> rings = outlines_of(building, polygon, out_.grid_m);
   std::vector<int> hits(shapes.size(), 0);
   for (const Vec3 p : samples_of(rings, normal))
     for (const std::size_t i : near)
