@@ -5,7 +5,7 @@
 
 namespace oriel::detail {
 
-std::optional<double> visible_level(std::vector<ParallelArea> areas, double outline_m2) {
+std::optional<double> visible_level(std::span<ParallelArea> areas, double outline_m2) {
   std::ranges::sort(areas, {},
                     [](const ParallelArea& a) { return std::tuple(-a.offset_m, a.area_m2); });
   std::optional<double> level;

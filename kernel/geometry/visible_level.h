@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <span>
 
 namespace oriel::detail {
 
@@ -13,7 +13,7 @@ struct ParallelArea {
 
 /// The level, seen from before the plane, down to which parallel areas cover half of an outline of
 /// `outline_m2`: that of the pane, not of a narrow frame before it or of what stands behind it. If
-/// all together cover less, the level of the last of them; nothing if there are none.
-std::optional<double> visible_level(std::vector<ParallelArea> areas, double outline_m2);
+/// all together cover less, the level of the last of them; nothing if there are none. Sorts them.
+std::optional<double> visible_level(std::span<ParallelArea> areas, double outline_m2);
 
 }  // namespace oriel::detail

@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
@@ -24,7 +25,7 @@ Panes::Panes(const Building& building, double grid_m) {
 }
 
 std::optional<double> Panes::level_in(const Feature& feature, const Plane& plane) const {
-  std::vector<ParallelArea> parallel;
+  boost::container::small_vector<ParallelArea, 16> parallel;  // few have more
   for (const int source : feature.source_polygons) {
     Pane& pane = panes_[at(source)];
     if (!pane.is_measured) measure(pane);
@@ -32,7 +33,7 @@ std::optional<double> Panes::level_in(const Feature& feature, const Plane& plane
     if (across_m2 > std::sqrt(0.5) * length(pane.area))  // by 45 degrees or less
       parallel.push_back({dot(pane.middle, plane.normal) - plane.offset_m, across_m2});
   }
-  return visible_level(std::move(parallel), feature.new_area_m2);
+  return visible_level({parallel.data(), parallel.size()}, feature.new_area_m2);
 }
 
 /// From the least corner on, so that it does not depend on where a ring begins.

@@ -35,7 +35,7 @@ class ContentFinder {
       if (is_content(grid_.polygons()[at(p)])) place(p);
     take_outwards();
     take_inwards();
-    out_.level_m = visible_level(std::move(parallel_), ring_.area_m2);
+    out_.level_m = visible_level(parallel_, ring_.area_m2);
     std::ranges::sort(out_.polygons);
     return std::move(out_);
   }
