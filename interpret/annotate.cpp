@@ -55,7 +55,6 @@ class Annotator {
 
  private:
   void find_roles();
-  void find_polygons();
   void find_owners();
   void name_surfaces();
   void add_surfaces();
@@ -105,7 +104,6 @@ class Annotator {
 LabelledBuilding Annotator::run() {
   result_.building = building_.id;
   find_roles();
-  find_polygons();
   find_owners();
   add_surfaces();
   add_parents();
@@ -128,19 +126,12 @@ void Annotator::find_roles() {
   groups_ = groups_by_feature(interpretation_);
 }
 
-void Annotator::find_polygons() {
-  int count = 0;
-  for (const Polygon& polygon : building_.polygons) count = std::max(count, polygon.source + 1);
-  polygons_.assign(index(count), nullptr);
-  for (const Polygon& polygon : building_.polygons) polygons_[index(polygon.source)] = &polygon;
-}
-
 void Annotator::find_owners() {
   if (options_.owners != nullptr) {
     owners_ = options_.owners;
     return;
   }
-  own_owners_ = polygon_owners(segmentation_, polygons_.size());
+  own_owners_ = polygon_owners(segmentation_, building_);
   owners_ = &own_owners_;
 }
 
@@ -167,10 +158,12 @@ void Annotator::name_surfaces() {
 void Annotator::add_surfaces() {
   name_surfaces();
   result_.surface_of_polygon.assign(owners_->polygons(), -1);
+  polygons_.assign(owners_->polygons(), nullptr);
   result_.surfaces.reserve(building_.polygons.size());
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
     const auto next = static_cast<int>(result_.surfaces.size());
+    polygons_[index(polygon.source)] = &polygon;
     int& surface = result_.surface_of_polygon[index(polygon.source)];
     const int feature = find_labelled(polygon);
     if (feature < 0 || kinds_[index(feature)] != Kind::opening) {
