@@ -14,6 +14,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -221,6 +222,7 @@ class Segmenter {
     here.quality = choice.quality;
     for (const Side side : choice.sides) here.planes.push_back(cells_.plane_id(side));
     std::ranges::sort(here.planes);
+    here.parts.reserve(choice.lumps.size() + choice.patches.size());
     const NodeId rest = add_node();
     node(task.node).rest = {rest};
 
@@ -241,16 +243,19 @@ class Segmenter {
         continue;
       }
       std::vector<int> touched;
-      const auto caps = lump.pocket >= 0 ? std::vector{choice.pockets->cap_of(lump.pocket)}
-                                         : imprint(task.body, *choice.section, lump, touched);
+      std::vector<detail::Cap> caps;
+      if (lump.pocket >= 0)
+        caps.push_back(choice.pockets->cap_of(lump.pocket));
+      else
+        caps = imprint(task.body, *choice.section, lump, touched);
       is_body_changed_ = is_body_changed_ || !touched.empty();
       if (caps.empty()) throw GeometryError("the section of a lump has no area");
       is_body_changed_ = true;
       std::size_t loops = 0;
       for (const detail::Cap& cap : caps) loops += cap.loops.size() + cap.covered.size();
       may_have_parted_ |= loops > 1;
-      changes.push_back(
-          take_off_part(task, choice, caps, {lump.new_area, lump.value}, std::move(touched)));
+      changes.push_back(take_off_part(task, choice, std::move(caps), {lump.new_area, lump.value},
+                                      std::move(touched)));
     }
     for (const detail::Patch& patch : choice.patches) {
       may_have_parted_ = is_body_changed_ = true;
@@ -279,8 +284,9 @@ class Segmenter {
     detail::Change change = change_of(carved, caps, points);
     change.is_natural = is_natural;
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
-    std::ranges::stable_sort(caps, std::greater{},
-                             [&](const detail::Cap& cap) { return area_of(world_, cap); });
+    if (caps.size() > 1)
+      std::ranges::stable_sort(caps, std::greater{},
+                               [&](const detail::Cap& cap) { return area_of(world_, cap); });
 
     Feature feature = feature_of(task, choice, caps, measures);
     feature.cap_point = carved.cap_point;
@@ -299,18 +305,17 @@ class Segmenter {
   /// or, if there is none, is a leaf.
   detail::Change take_off_pocket(Task& task, const Choice& choice, const detail::Lump& lump,
                                  const detail::Lump* model) {
-    std::vector<detail::Cap> caps;
-    caps.push_back(choice.pockets->cap_of(lump.pocket));
+    const detail::Cap cap = choice.pockets->cap_of(lump.pocket);
+    const std::vector<int> facets = choice.pockets->facets_of(lump.pocket);
     std::optional<detail::Congruence> how;
     std::optional<detail::Leaf> leaf;
     if (model != nullptr)
       how = choice.pockets->congruence(model->pocket, lump.pocket);
     else
-      leaf = choice.pockets->leaf_of(lump.pocket, choice.is_hole);
+      leaf = choice.pockets->leaf_of(lump.pocket, facets, choice.is_hole);
     std::vector<int> points = choice.pockets->points_of(lump.pocket);
-    const auto filled = fill_pocket(task.body, caps[0], choice.pockets->facets_of(lump.pocket),
-                                    choice.is_hole, next_feature());
-    Feature feature = feature_of(task, choice, caps, {lump.new_area, lump.value});
+    const auto filled = fill_pocket(task.body, cap, facets, choice.is_hole, next_feature());
+    Feature feature = feature_of(task, choice, {&cap, 1}, {lump.new_area, lump.value});
     feature.cap_point = filled.cap_point;
     feature.surface_m2 = filled.surface;
     feature.volume_m3 = filled.volume;
@@ -320,7 +325,7 @@ class Segmenter {
     add_part(task, Boundary(world_), sign, std::move(feature), {});
     tasks_.back().copy_of_model = std::move(how);
     tasks_.back().leaf = std::move(leaf);
-    return change_of_pocket(caps[0], std::move(points));
+    return change_of_pocket(cap, std::move(points));
   }
 
   [[nodiscard]] FeatureId next_feature() const {
@@ -328,7 +333,7 @@ class Segmenter {
   }
 
   /// A part as a feature, as far as its cut tells: its caps, the largest first.
-  Feature feature_of(const Task& task, const Choice& choice, const std::vector<detail::Cap>& caps,
+  Feature feature_of(const Task& task, const Choice& choice, std::span<const detail::Cap> caps,
                      Measures measures) {
     Feature feature;
     // A hole in a void is material: the sense is that of the building.

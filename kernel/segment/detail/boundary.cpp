@@ -69,6 +69,12 @@ Outline Boundary::outline(int l) const {
   Outline points;
   const int first = loop(l).first;
   int e = first;
+  std::size_t size = 0;
+  do {
+    ++size;
+    e = next(e);
+  } while (e != first);
+  points.reserve(size);
   do {
     points.push_back(at(e));
     e = next(e);
@@ -78,6 +84,7 @@ Outline Boundary::outline(int l) const {
 
 std::vector<Outline> Boundary::outlines(int f) const {
   std::vector<Outline> all;
+  all.reserve(facet(f).loops.size());
   for (const int l : facet(f).loops) all.push_back(outline(l));
   return all;
 }
@@ -99,9 +106,9 @@ bool Boundary::bends_inward(int e) const {
   constexpr double kHardly = 0.02;
   if (std::abs(bend) > kHardly) return bend < 0;
   double above = 0;
-  for (const int l : facet(facet_of(twin(e))).loops)
-    for (const Vec3 p : outline(l))
-      above += dot(world_->planes.normal(mine), p) - world_->planes.offset_m(mine);
+  for_each_edge(facet_of(twin(e)), [&](int other) {
+    above += dot(world_->planes.normal(mine), at(other)) - world_->planes.offset_m(mine);
+  });
   return above > 0;
 }
 

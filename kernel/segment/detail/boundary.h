@@ -160,7 +160,7 @@ class Boundary {
   /// Forgets the loops of a facet and makes new ones of the cycles that its half-edges and `extra`
   /// ones form now. If they have several outer loops the facet falls apart: the first keeps its
   /// number.
-  void retrace(int f, const std::vector<int>& extra);
+  void retrace(int f, std::span<const int> extra);
   /// Takes the facet `covered`, which faces the cap and lies under it, out of the cap: both vanish
   /// where they lie on each other. To be followed by heal(cap).
   void cover(int cap, int covered);
@@ -202,9 +202,9 @@ class Boundary {
   void kill_facet(int f);
   void merge(int target, int f);
   void part(int f);
-  void part(int f, const std::vector<int>& outer, const std::vector<int>& holes);
+  void part(int f, std::span<const int> outer, std::span<const int> holes);
   [[nodiscard]] bool bends_inward(int e) const;
-  void distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks);
+  void distribute_marks(std::span<const int> pieces, const std::vector<CapMark>& marks);
   [[nodiscard]] std::vector<int> seams_of(int cap) const;
   void remove_seams(int f, const std::vector<int>& seams);
 

@@ -2,17 +2,18 @@
 #include "kernel/segment/detail/boundary.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <utility>
 
 namespace oriel::detail {
 
-void Boundary::retrace(int f, const std::vector<int>& extra) {
+void Boundary::retrace(int f, std::span<const int> extra) {
   const Few<int, 2> old = facet(f).loops;
   for (const int l : old) detach(l);
   const int first_new = static_cast<int>(loops_.size());
-  std::vector<int> fresh;
+  Few<int, 4> fresh;
   for (const int e : extra)
     if (edge(e).loop < first_new) fresh.push_back(trace(e));
   for (const int l : old)
@@ -25,16 +26,18 @@ void Boundary::retrace(int f, const std::vector<int>& extra) {
 /// the holes inside it.
 void Boundary::part(int f) {
   if (facet(f).outer_loops <= 1) return;
-  std::vector<int> outer, holes;
+  Few<int, 4> outer, holes;
   for (const int l : facet(f).loops) (loop(l).is_hole ? holes : outer).push_back(l);
-  part(f, outer, holes);
+  part(f, {outer.data(), outer.size()}, {holes.data(), holes.size()});
 }
 
-void Boundary::part(int f, const std::vector<int>& outer, const std::vector<int>& holes) {
+void Boundary::part(int f, std::span<const int> outer, std::span<const int> holes) {
   const Vec3 normal = world_->planes.normal(facet(f).side);
-  std::vector<int> pieces{f};
-  std::vector<Outline> shapes;
-  for (const int l : outer) shapes.push_back(outline(l));
+  Few<int, 4> pieces{f};
+  std::vector<Outline> shapes;  // asked by holes only
+  if (!holes.empty()) shapes.reserve(outer.size());
+  for (std::size_t i = 0; !holes.empty() && i < outer.size(); ++i)
+    shapes.push_back(outline(outer[i]));
   const std::vector<CapMark> marks = std::exchange(facets_[index(f)].marks, {});
   const Sources sources = facet(f).sources;
   for (std::size_t i = 1; i < outer.size(); ++i) {
@@ -45,7 +48,7 @@ void Boundary::part(int f, const std::vector<int>& outer, const std::vector<int>
   }
   for (const int l : holes) {
     // The smallest outer loop around a point of the hole that is no vertex of it.
-    const auto inside = interior_point(std::vector<Outline>{outline(l)}, normal);
+    const auto inside = interior_point(std::array{outline(l)}, normal);
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; inside && i < outer.size(); ++i) {
@@ -59,10 +62,10 @@ void Boundary::part(int f, const std::vector<int>& outer, const std::vector<int>
     detach(l);
     attach(l, pieces[best]);
   }
-  distribute_marks(pieces, marks);
+  distribute_marks({pieces.data(), pieces.size()}, marks);
 }
 
-void Boundary::distribute_marks(const std::vector<int>& pieces, const std::vector<CapMark>& marks) {
+void Boundary::distribute_marks(std::span<const int> pieces, const std::vector<CapMark>& marks) {
   if (marks.empty()) return;
   std::vector<std::vector<Outline>> shapes;
   for (const int f : pieces) shapes.push_back(outlines(f));

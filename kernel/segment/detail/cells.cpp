@@ -146,6 +146,7 @@ std::vector<CellWriter::Shape> CellWriter::shapes_of(std::span<const CellFacet> 
     const CellFacet here = cell_facets[i];
     for (const Loop& loop : out_.cells[here.cell.index()].facets[at(here.facet)].loops) {
       Outline& outline = shapes[i].outlines.emplace_back();
+      outline.reserve(loop.size());
       for (const int v : loop) outline.push_back(out_.vertices[at(v)].point);
       for (const Vec3 p : outline) shapes[i].box.grow(p);
     }
@@ -168,9 +169,12 @@ std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon
   const std::vector<Outline> rings = outlines_of(building, polygon, out_.grid_m);
   std::vector<int> hits(shapes.size(), 0);
   for (const Vec3 p : samples_of(rings, normal))
-    for (const std::size_t i : near)
-      if (may_overlap(Box{p, p}, shapes[i].box, normal) && contains(shapes[i].outlines, normal, p))
+    for (const std::size_t i : near) {
+      const auto& outlines = shapes[i].outlines;
+      if (may_overlap(Box{p, p}, shapes[i].box, normal) &&
+          contains({outlines.data(), outlines.size()}, normal, p))
         ++hits[i];
+    }
   return static_cast<std::size_t>(std::ranges::max_element(hits) - hits.begin());
 }
 
@@ -190,7 +194,7 @@ const std::vector<FeatureId>& CellWriter::features_around(FeatureId innermost) {
   return around_;
 }
 
-void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
+void CellWriter::give(std::span<const int> polygons, const CellFacet& home) {
   if (polygons.empty()) return;
   const auto add_to = [&](std::vector<int>& all) {
     constexpr std::size_t kFew = 8;  // a window has no more
@@ -199,10 +203,7 @@ void CellWriter::give(const std::vector<int>& polygons, const CellFacet& home) {
   };
   Cell& cell = out_.cells[home.cell.index()];
   auto& here = cell.facets[at(home.facet)].polygons;
-  if (here.empty())
-    here = polygons;
-  else
-    here.insert(here.end(), polygons.begin(), polygons.end());
+  here.insert(here.end(), polygons.begin(), polygons.end());
   if (here.size() > 1) std::ranges::sort(here);
   for (const FeatureId id : features_around(cell.feature))
     add_to(out_.features[id.index()].source_polygons);
@@ -220,11 +221,9 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
     if (polygon_of_source.empty()) polygon_of_source = polygon_of_each_source(building);
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
     const std::vector<Shape> shapes = shapes_of(cell_facets);
-    std::vector<std::vector<int>> polygons(cell_facets.size());
-    for (const int polygon : facet.polygons)
-      polygons[home_of(building, *polygon_of_source[at(polygon)], shapes, normal)].push_back(
-          polygon);
-    for (std::size_t i = 0; i < cell_facets.size(); ++i) give(polygons[i], cell_facets[i]);
+    for (const int& polygon : facet.polygons)
+      give({&polygon, 1},
+           cell_facets[home_of(building, *polygon_of_source[at(polygon)], shapes, normal)]);
   }
   for (Feature& feature : out_.features) {
     auto& polygons = feature.source_polygons;

@@ -44,14 +44,14 @@ class CellWriter {
  private:
   /// The outlines of a cell facet.
   struct Shape {
-    std::vector<Outline> outlines;
+    Few<Outline, 1> outlines;
     Box box;
   };
   Few<CellFacet, 2>& made_of(int source) { return made_of_[static_cast<std::size_t>(source)]; }
   /// The features that polygons of a cell of `innermost` are in; valid until the next call.
   const std::vector<FeatureId>& features_around(FeatureId innermost);
   /// To a cell facet, and to the features it is in.
-  void give(const std::vector<int>& polygons, const CellFacet& home);
+  void give(std::span<const int> polygons, const CellFacet& home);
   void attribute_polygons(const Building& building, const Solid& solid);
   [[nodiscard]] std::vector<Shape> shapes_of(std::span<const CellFacet> cell_facets) const;
   [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,

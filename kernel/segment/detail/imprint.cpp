@@ -16,6 +16,8 @@ struct ChordStop {
 };
 
 class Imprinter {
+  using Rim = Few<int, 32>;  ///< half-edges
+
  public:
   Imprinter(Boundary& body, const Section& section, const Lump& lump, std::vector<int>& touched)
       : body_(body),
@@ -39,7 +41,7 @@ class Imprinter {
       }
       if (!cap.loops.empty()) caps.push_back(std::move(cap));
     }
-    for (const auto& [facet, edges] : fresh_) body_.retrace(facet, edges);
+    for (const auto& [facet, edges] : fresh_) body_.retrace(facet, {edges.data(), edges.size()});
     return caps;
   }
 
@@ -115,7 +117,7 @@ class Imprinter {
 
   /// The rim of a loop, chord by chord, without stretches that it runs there and back.
   std::vector<CapEdge> rim_of(int l) {
-    std::vector<int> rim;
+    Rim rim;
     int c = section_.loops[at(l)].first;
     do {
       if (const int e = edge_of(c); e >= 0)
@@ -134,13 +136,13 @@ class Imprinter {
   /// Makes the chord from crossing c an edge of the body, and adds its upper half-edges to the rim.
   /// The chord goes from corner to corner; where an existing edge leads from one to the next it is
   /// that edge.
-  void add_chord(int c, std::vector<int>& rim) {
+  void add_chord(int c, Rim& rim) {
     const int begin = section_.crossings[at(c)].edge;
     const int end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
     const int f = body_.facet_of(begin);
     const Vec3 line = line_in(f);
     const int last_in = body_.prev(end);
-    std::vector<ChordStop> stops{
+    Few<ChordStop, 4> stops{
         {begin, body_.next(begin), dot(line, body_.world().points.at(body_.target(begin)))}};
     const double goal = dot(line, body_.at(end));
     for (const ChordStop& corner : corners_.at(f))
@@ -186,12 +188,12 @@ class Imprinter {
     return upper;
   }
 
-  void cancel_spikes(std::vector<int>& rim) const {
+  void cancel_spikes(Rim& rim) const {
     const auto is_back = [&](std::size_t i) { return i > 0 && body_.twin(rim[i - 1]) == rim[i]; };
     bool has_spike = rim.size() > 1 && body_.twin(rim.back()) == rim.front();
     for (std::size_t i = 0; i < rim.size(); ++i) has_spike = has_spike || is_back(i);
     if (!has_spike) return;
-    std::vector<int> out;
+    Rim out;
     for (const int e : rim) {
       if (!out.empty() && body_.twin(out.back()) == e)
         out.pop_back();
@@ -212,8 +214,8 @@ class Imprinter {
   int normal_class_;
   int plane_rank_;
   Vec3 axis_;
-  std::map<int, std::vector<ChordStop>> corners_;
-  std::map<int, std::vector<int>> fresh_;  ///< half-edges whose cycles have changed, by facet
+  std::map<int, Few<ChordStop, 4>> corners_;
+  std::map<int, Few<int, 8>> fresh_;  ///< half-edges whose cycles have changed, by facet
 };
 
 }  // namespace

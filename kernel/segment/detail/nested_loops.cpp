@@ -17,6 +17,9 @@ struct LoopSize {
   int loop;
 };
 
+/// Most sections have no more loops.
+constexpr std::size_t kFewLoops = 16;
+
 bool is_within(const Box& inner, const Box& outer) {
   return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
          inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
@@ -30,7 +33,7 @@ class LoopNester {
     sort_loops();
     find_boxes();
     outlines_.resize(section_.loops.size());
-    std::array<std::vector<int>, 2> larger;  // regions around air, around material
+    std::array<Few<int, kFewLoops>, 2> larger;  // regions around air, around material
     section_.regions.reserve(order_.size());
     for (int i = 0; i < std::ssize(order_); ++i) {
       const int l = order_[at(i)].loop;
@@ -73,7 +76,7 @@ class LoopNester {
 
   /// Of the smallest of the larger loops of the other kind that is around loop `l` the region; or
   /// -1.
-  int parent_of(int l, const std::vector<int>& others) {
+  int parent_of(int l, const Few<int, kFewLoops>& others) {
     for (std::size_t j = others.size(); j-- > 0;) {
       const int outer = order_[at(others[j])].loop;
       if (is_within(boxes_[at(l)], boxes_[at(outer)]) && is_inside(l, outer)) return others[j];
@@ -101,9 +104,9 @@ class LoopNester {
 
   Section& section_;
   Vec3 axis_;
-  std::vector<LoopSize> order_;    ///< the loop of each region
-  std::vector<Box> boxes_;         ///< by loop
-  std::vector<Outline> outlines_;  ///< by loop, filled in when asked for
+  Few<LoopSize, kFewLoops> order_;    ///< the loop of each region
+  Few<Box, kFewLoops> boxes_;         ///< by loop
+  Few<Outline, kFewLoops> outlines_;  ///< by loop, filled in when asked for
 };
 
 }  // namespace
@@ -118,6 +121,9 @@ void nest_loops(Section& section, Vec3 axis) {
 
 Outline outline_of(const Section& section, int loop) {
   Outline points;
+  std::size_t size = 0;
+  for_each_crossing(section, loop, [&](const Crossing&) { ++size; });
+  points.reserve(size);
   for_each_crossing(section, loop, [&](const Crossing& c) { points.push_back(c.at); });
   return points;
 }

@@ -36,6 +36,7 @@ std::vector<std::size_t> models_of(const Choice& choice) {
     last_of_kind[kind] = i;
   }
   std::vector<std::size_t> models;
+  models.reserve(lumps.size());
   for (std::size_t i = 0; i < lumps.size(); ++i)
     models.push_back(lumps[i].is_alone ? i
                                        : last_of_kind.at(choice.pockets->kind_of(lumps[i].pocket)));
@@ -86,10 +87,11 @@ Change change_of_pocket(const Cap& cap, std::vector<int> points) {
   return change;
 }
 
-double area_of(const World& world, const Cap& cap) {
+double area_of(World& world, const Cap& cap) {
   double area = 0;
   for (const CapLoop& loop : cap.loops) {
-    Outline outline;
+    Outline& outline = world.scratch.outline;
+    outline.clear();
     for (const CapEdge& edge : loop.edges) outline.push_back(world.points.at(edge.from));
     area += signed_area(outline, world.planes.normal(cap.side));
   }

@@ -26,7 +26,7 @@ Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::
 /// The same of a pocket that was filled, whose cap is a ring. `points`: its vertices.
 Change change_of_pocket(const Cap& cap, std::vector<int> points);
 
-double area_of(const World& world, const Cap& cap);
+double area_of(World& world, const Cap& cap);
 
 /// What a part's own body tells of it: adds to its surface, and sets its volume.
 void measure(Feature& feature, const Boundary& body);

@@ -191,14 +191,14 @@ Cap Pockets::cap_of(int pocket) const {
   return cap;
 }
 
-Leaf Pockets::leaf_of(int pocket, bool is_hole) const {
+Leaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hole) const {
   // Facet by facet and edge by edge as take_off() makes a body of it.
   const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   const int flip = is_hole ? 1 : 0;
   Leaf leaf;
   leaf.faces.reserve(kind.sizes.size() + 1);
   leaf.sources.reserve(kind.sizes.size());
-  for (const int f : facets_of(pocket)) {
+  for (const int f : facets) {
     const auto& facet = body_.facet(f);
     for (const int source : facet.sources)
       leaf.sources.push_back({source, static_cast<int>(leaf.faces.size())});

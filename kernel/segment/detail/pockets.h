@@ -52,8 +52,9 @@ class Pockets {
   /// its vertices: leaf_of() tells what it becomes.
   [[nodiscard]] bool is_leaf(int kind) const { return kinds_[index(kind)].is_leaf; }
 
-  /// What a pocket that is_leaf() becomes, but for its volume; needs the body as it was.
-  [[nodiscard]] Leaf leaf_of(int pocket, bool is_hole) const;
+  /// What a pocket that is_leaf() becomes, but for its volume; `facets` are its facets_of(). Needs
+  /// the body as it was.
+  [[nodiscard]] Leaf leaf_of(int pocket, std::span<const int> facets, bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
   [[nodiscard]] std::vector<int> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.

@@ -34,7 +34,7 @@ PolygonGrid::PolygonGrid(const Building& building, double grid_m) {
   polygons_.reserve(building.polygons.size());
   for (const Polygon& polygon : building.polygons) {
     if (polygon.source < 0 || polygon.rings.empty()) continue;
-    PlacedPolygon placed;
+    PlacedPolygon& placed = polygons_.emplace_back();
     placed.source = polygon.source;
     placed.rings.reserve(polygon.rings.size());
     for (const auto& ring : polygon.rings) {
@@ -47,9 +47,9 @@ PolygonGrid::PolygonGrid(const Building& building, double grid_m) {
             placed.area + 0.5 * cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
     }
     for (const Vec3 p : placed.outline()) placed.box.grow(p);
-    polygons_.push_back(std::move(placed));
   }
-  std::ranges::sort(polygons_, {}, &PlacedPolygon::source);
+  if (!std::ranges::is_sorted(polygons_, {}, &PlacedPolygon::source))
+    std::ranges::sort(polygons_, {}, &PlacedPolygon::source);
   for (int i = 0; i < std::ssize(polygons_); ++i)
     cells_[place_of(polygons_[static_cast<std::size_t>(i)].middle())].push_back(i);
 }
@@ -64,7 +64,7 @@ std::vector<int> PolygonGrid::within(const Box& box) const {
     return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&
            p.z >= box.min.z && p.z <= box.max.z;
   };
-  const auto take = [&](const std::vector<int>& cell) {
+  const auto take = [&](const Cell& cell) {
     for (const int i : cell)
       if (is_in(polygons_[static_cast<std::size_t>(i)].middle())) found.push_back(i);
   };

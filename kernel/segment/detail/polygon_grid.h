@@ -2,6 +2,7 @@
 
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
+#include "kernel/segment/detail/few.h"
 
 #include <unordered_map>
 #include <vector>
@@ -11,7 +12,7 @@ namespace oriel::detail {
 /// An input polygon in space.
 struct PlacedPolygon {
   int source = -1;
-  std::vector<Outline> rings;  ///< the outer one first
+  Few<Outline, 1> rings;  ///< the outer one first
   Box box;
   Vec3 area;  ///< its area vector, in m²
 
@@ -46,7 +47,8 @@ class PolygonGrid {
   static Place place_of(Vec3 point);
 
   std::vector<PlacedPolygon> polygons_;
-  std::unordered_map<Place, std::vector<int>, Hash> cells_;
+  using Cell = Few<int, 4>;  ///< polygons
+  std::unordered_map<Place, Cell, Hash> cells_;
 };
 
 }  // namespace oriel::detail
