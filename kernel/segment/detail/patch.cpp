@@ -253,6 +253,7 @@ class PatchFinder {
       for (const Side side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
       at_hand_[i].own_limits = own;
     }
+    // Widened once more there, as few as they are: in ascending order, which ties are decided by.
     const auto sets = sets_to_widen_in(n, sides.size());
     for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
     for (const Side side : sides) limit_bits_[at(side)] = 0;
