@@ -76,7 +76,7 @@ std::optional<int> Resume::finished() const {
   if (!status.is_object() || status.value("command_sha256", "") != command_sha256_)
     return std::nullopt;
   for (const auto& [name, sha256] : status.at("input_sha256").items())
-    if (sha256_of_file(name) != sha256) return std::nullopt;
+    if (sha256_of_file(name) != sha256.get<std::string>()) return std::nullopt;
   for (const auto& [path, mark] : marks_of(status.at("outputs")))
     if (PartialFiles::mark_of(path, kWhole) != mark) return std::nullopt;
   return status.at("exit_code").get<int>();

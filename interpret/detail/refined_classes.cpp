@@ -83,8 +83,10 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
 /// Whether a row that may fit has no value.
 bool is_missing_in(Column values, std::span<const int> rows, const std::vector<Truth>& fits) {
   bool is_missing = false;
-  for (const int row : rows)
-    is_missing |= (fits[at(row)] != Truth::no) & std::isnan(values[at(row)]);
+  for (const int row : rows) {
+    const bool may_fit = fits[at(row)] != Truth::no, has_none = std::isnan(values[at(row)]);
+    is_missing |= may_fit & has_none;
+  }
   return is_missing;
 }
 

@@ -115,7 +115,7 @@ TEST_SUITE("cli") {
     const nlohmann::json entry = nlohmann::json::parse(bad[0]);
     const std::size_t line = entry["line"].get<std::size_t>() - 1;
     auto expected = lines_of(bytes_of(whole));
-    CHECK(lines_of(bytes_of(input)).at(line) == entry["record"]);
+    CHECK(lines_of(bytes_of(input)).at(line) == entry["record"].get<std::string>());
     expected.at(line) = entry["record"];
     CHECK(lines_of(bytes_of(out)) == expected);
     CHECK(nlohmann::json::parse(bytes_of(folder / "s.status.json"))["set_aside"] == 1);
