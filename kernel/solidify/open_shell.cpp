@@ -50,7 +50,7 @@ class FacetMaker {
  private:
   /// The facet of all polygons that hang together with this one in its plane.
   void grow(int seed) {
-    const int number = static_cast<int>(out_.facets.size());
+    const int number = next_number_++;
     Facet facet{PlaneId{clusters_.plane_of[at(seed)]}, {}, {}};
     std::vector<int> members{seed};
     facet_of_[at(seed)] = number;
@@ -71,6 +71,7 @@ class FacetMaker {
     for (const int p : members)
       for (const int h : half_edges_of_[at(p)])
         if (!is_walked_[at(h)] && !is_inside(h)) facet.loops.push_back(walk(h));
+    if (facet.loops.empty()) return;  // both sides of one sheet: they bound nothing
     put_outer_first(facet);
     out_.facets.push_back(std::move(facet));
   }
@@ -98,7 +99,7 @@ class FacetMaker {
     const auto outer = std::ranges::max_element(facet.loops, {}, [&](const Loop& loop) {
       return signed_area_m2(out_.vertices, loop, normal);
     });
-    if (outer != facet.loops.end()) std::iter_swap(facet.loops.begin(), outer);
+    std::iter_swap(facet.loops.begin(), outer);
   }
 
   const Soup& soup_;
@@ -107,6 +108,7 @@ class FacetMaker {
   std::vector<int> facet_of_;
   std::vector<std::vector<int>> half_edges_of_;
   std::vector<char> is_walked_;
+  int next_number_ = 0;  ///< of a facet in facet_of_
   Solid out_;
 };
 
@@ -119,7 +121,9 @@ std::optional<Solid> open_shell(const Building& building, const Tolerances& tole
   if (soup.polygons.empty()) return std::nullopt;
   const ShellMesh mesh = detail::build_open_mesh(soup);
   const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances);
-  return FacetMaker(soup, mesh, clusters).run();
+  Solid shell = FacetMaker(soup, mesh, clusters).run();
+  if (shell.facets.empty()) return std::nullopt;
+  return shell;
 }
 
 }  // namespace oriel

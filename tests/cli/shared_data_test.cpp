@@ -48,6 +48,17 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("buildings that made label run for ever or crash are labelled or set aside") {
+    ORIEL_NEEDS_SHARED(shared);
+    for (const char* name : {"hang-insets-real.city.jsonl", "hang-insets.city.jsonl",
+                             "crash-ground-facet.city.jsonl", "crash-conformance-file.city.json"}) {
+      CAPTURE(name);
+      const Outcome outcome = run({"label", shared / "data/faults" / name});
+      CHECK((outcome.exit == 0 || outcome.exit == 3));
+      CHECK(outcome.says(" of 1 buildings"));
+    }
+  }
+
   TEST_CASE("the houses of random3dcity are all segmented and labelled as the truth says") {
     ORIEL_NEEDS_SHARED(shared);
     const Folder folder;

@@ -205,9 +205,14 @@ class SubdivisionMaker {
     edges.reserve(out_.edges.size());
     for (int e = 0; e < std::ssize(out_.edges); ++e)
       edges.emplace(key(out_.edges[at(e)].from, out_.to(e)), e);
+    // Polygons that lie upon each other have the same edges: the first of them has the twin, so
+    // that an edge is its twin's twin.
+    const auto is_first = [&](int e) {
+      return edges.find(key(out_.edges[at(e)].from, out_.to(e)))->second == e;
+    };
     for (int e = 0; e < std::ssize(out_.edges); ++e) {
       const auto twin = edges.find(key(out_.to(e), out_.edges[at(e)].from));
-      if (twin != edges.end()) out_.edges[at(e)].twin = twin->second;
+      if (twin != edges.end() && is_first(e)) out_.edges[at(e)].twin = twin->second;
     }
   }
 
