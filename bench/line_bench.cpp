@@ -2,13 +2,13 @@
 /// by itself, and reading beside a peer that only parses the same file. `bench/run.sh line` runs
 /// it.
 #include "bench/sample_file.h"
-#include "interpret/annotate.h"
-#include "interpret/interpret.h"
-#include "interpret/rule_base.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/pack/rule_base.h"
+#include "interpret/surfaces/annotate.h"
 #include "kernel/describe/describe.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/io/writer.h"
-#include "kernel/segment/imprints.h"
+#include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 

@@ -83,12 +83,12 @@ run house-isolate label samples/*.stripped.city.json --isolate -j 2 --features @
 run house-explain explain "$house" f2hgk
 run house-explain-json explain "$house" f11yv --json
 run house-explain-surface explain "$house" --surface 3
-run house-explain-at explain "$house" --at 5,2,8
+run house-explain-at explain "$house" --at 0.1,2.2,5
 run house-view view "$house" -o @/house.html
 run house-cfd generalise "$house" --profile cfd -o @/house.stl
 run house-cfd-obj generalise "$house" --profile cfd -o @/house.obj
-for profile in plateau sig3d; do
-  run "house-$profile" generalise "$house" --scale 1:10000 --profile "$profile" -o @/house.city.json --explain @/why.txt
+for profile in plateau:2.1 map lod:2.0 citygml:2; do
+  run "house-${profile%:*}" generalise "$house" --scale 1:10000 --profile "$profile" -o @/house.city.json --explain @/why.txt
 done
 run house-cartographic generalise "$house" --scale 1:2500 --rules cartographic -o @/house.city.json --explain @/why.txt
 run house-series generalise "$house" --series 1:500,1:2000,1:10000 -o @/house
@@ -104,8 +104,8 @@ run 3dbag-series generalise data/3dbag/tile_5910.city.jsonl --random 16 --series
   run diff diff "$out/samples-label/parts.jsonl" "$out/noisy-label/parts.jsonl" --json
 }
 run score-surfaces score --surfaces samples/*.labelled.city.json
-run split split data/3dbag/tile_5910.city.jsonl --shards 3 -o @/
-run collect collect "$out/split/"*.city.jsonl -o @/all.city.json
+run split split data/3dbag/tile_5910.city.jsonl --count 100 -o @/tile
+run collect collect "$out/split/tile/"*.city.jsonl -o @/all.city.json
 for pack in residential cartographic; do
   run "rules-check-$pack" rules check "$pack"
   run "rules-test-$pack" rules test "rules/$pack.yaml"

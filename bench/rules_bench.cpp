@@ -7,12 +7,12 @@
 ///                                              explanations, and with all reasons written
 #include "bench/facade_features.h"
 #include "bench/timing.h"
-#include "interpret/detail/groups.h"
-#include "interpret/detail/labelling.h"
-#include "interpret/explain.h"
-#include "interpret/interpret.h"
-#include "interpret/rule_base.h"
-#include "kernel/model/detail/index.h"
+#include "interpret/explain/explain.h"
+#include "interpret/labelling/groups.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/labelling/labelling.h"
+#include "interpret/pack/rule_base.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
 #include <array>

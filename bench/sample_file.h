@@ -3,7 +3,7 @@
 #include "examples/generator/cityjson.h"
 #include "examples/generator/generate.h"
 #include "examples/generator/random.h"
-#include "kernel/io/output_file.h"
+#include "kernel/io/files/output_file.h"
 #include "kernel/io/reader.h"
 
 #include <cstdio>

@@ -1,7 +1,7 @@
-#include "cli/commands.h"
-#include "cli/report.h"
-#include "cli/signals.h"
-#include "kernel/model/issue.h"
+#include "cli/commands/commands.h"
+#include "cli/terminal/report.h"
+#include "cli/terminal/signals.h"
+#include "kernel/base/issue.h"
 #include "kernel/model/version.h"
 
 #include <cerrno>

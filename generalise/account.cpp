@@ -1,6 +1,6 @@
 #include "generalise/account.h"
 
-#include "generalise/invariants.h"
+#include "generalise/invariants/invariants.h"
 
 #include <algorithm>
 #include <array>

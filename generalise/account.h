@@ -1,7 +1,7 @@
 #pragma once
 
 #include "generalise/generalise.h"
-#include "kernel/model/feature_table.h"
+#include "kernel/model/description/feature_table.h"
 #include "kernel/model/interpretation.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/solid.h"

@@ -1,11 +1,11 @@
 #include "generalise/carry_out.h"
 
-#include "generalise/clear_edges.h"
-#include "generalise/detail/carries.h"
-#include "generalise/detail/stays.h"
-#include "generalise/detail/steps.h"
-#include "generalise/detail/tasks.h"
-#include "generalise/fineness.h"
+#include "generalise/invariants/fineness.h"
+#include "generalise/invariants/stays.h"
+#include "generalise/removal/carries.h"
+#include "generalise/removal/clear_edges.h"
+#include "generalise/steps.h"
+#include "generalise/tasks.h"
 
 #include <algorithm>
 #include <utility>

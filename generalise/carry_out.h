@@ -1,6 +1,6 @@
 #pragma once
 
-#include "generalise/invariants.h"
+#include "generalise/invariants/invariants.h"
 #include "kernel/model/plan.h"
 #include "kernel/segment/remove.h"
 

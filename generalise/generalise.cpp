@@ -1,6 +1,6 @@
 #include "generalise/generalise.h"
 
-#include "interpret/significance.h"
+#include "interpret/score/significance.h"
 
 #include <algorithm>
 

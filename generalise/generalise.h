@@ -1,10 +1,10 @@
 #pragma once
 
 #include "generalise/carry_out.h"
+#include "kernel/base/issue.h"
 #include "kernel/model/building.h"
-#include "kernel/model/feature_table.h"
+#include "kernel/model/description/feature_table.h"
 #include "kernel/model/interpretation.h"
-#include "kernel/model/issue.h"
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"

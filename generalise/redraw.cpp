@@ -1,10 +1,10 @@
-#include "generalise/detail/slopes.h"
 #include "generalise/generalise.h"
-#include "generalise/removed.h"
+#include "generalise/operators/slopes.h"
+#include "generalise/removal/removed.h"
+#include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/detail/index.h"
-#include "kernel/segment/draw_imprints.h"
+#include "kernel/segment/flush/draw_imprints.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "generalise/to_lod.h"
 
-#include "generalise/removed.h"
+#include "generalise/removal/removed.h"
 #include "kernel/blocks/blocks.h"
 
 #include <utility>

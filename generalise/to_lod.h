@@ -1,7 +1,7 @@
 #pragma once
 
 #include "generalise/generalise.h"
-#include "interpret/profile.h"
+#include "interpret/plan/profile.h"
 #include "kernel/model/tolerances.h"
 
 namespace oriel {

@@ -1,7 +1,7 @@
 #include "cli/view/page_data.h"
 
-#include "interpret/explain.h"
-#include "interpret/surfaces.h"
+#include "interpret/explain/explain.h"
+#include "interpret/surfaces/surfaces.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/version.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cli/line.h"
-#include "interpret/rule_base.h"
-#include "kernel/io/carried_labels.h"
+#include "cli/pipeline/line.h"
+#include "interpret/pack/rule_base.h"
+#include "kernel/io/cityjson/carried_labels.h"
 #include "kernel/model/building.h"
 
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "examples/generator/json.h"
 #include "examples/generator/semantics.h"
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
 
 #include <numeric>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "examples/generator/draft.h"
 
 #include "examples/generator/rings.h"
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
 
 #include <utility>
 

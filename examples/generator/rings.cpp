@@ -1,6 +1,6 @@
 #include "examples/generator/rings.h"
 
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "examples/generator/semantics.h"
 
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #include "examples/generator/truth.h"
 
 #include "examples/generator/json.h"
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
 
 namespace oriel::generator {
 namespace {

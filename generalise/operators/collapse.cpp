@@ -1,6 +1,6 @@
 #include "generalise/operators/collapse.h"
 
-#include "kernel/segment/draw_imprints.h"
+#include "kernel/segment/flush/draw_imprints.h"
 
 #include <algorithm>
 #include <iterator>

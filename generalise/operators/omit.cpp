@@ -1,7 +1,7 @@
 #include "generalise/operators/omit.h"
 
-#include "generalise/fill_rings.h"
-#include "generalise/remove_cells.h"
+#include "generalise/removal/fill_rings.h"
+#include "generalise/removal/remove_cells.h"
 
 #include <algorithm>
 #include <utility>

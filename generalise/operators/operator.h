@@ -1,6 +1,6 @@
 #pragma once
 
-#include "generalise/detail/host.h"
+#include "generalise/operators/host.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"

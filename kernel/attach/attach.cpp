@@ -1,12 +1,12 @@
 #include "kernel/attach/attach.h"
 
-#include "kernel/attach/detail/clearance.h"
-#include "kernel/attach/detail/convex_body.h"
+#include "kernel/attach/clearance.h"
+#include "kernel/attach/convex_body.h"
+#include "kernel/base/index.h"
 #include "kernel/geometry/area_within.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "kernel/attach/move_facet.h"
 
-#include "kernel/attach/detail/passage.h"
+#include "kernel/attach/passage.h"
+#include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/model/detail/index.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "kernel/blocks/blocks.h"
 
-#include "kernel/blocks/detail/plan_view.h"
-#include "kernel/blocks/detail/prisms.h"
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
+#include "kernel/blocks/plan_view.h"
+#include "kernel/blocks/prisms.h"
 #include "kernel/solidify/solidify.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/issue.h"
+#include "kernel/base/issue.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
 

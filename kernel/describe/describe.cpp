@@ -1,13 +1,13 @@
 #include "kernel/describe/describe.h"
 
-#include "kernel/describe/detail/feature_names.h"
-#include "kernel/describe/detail/panes.h"
-#include "kernel/describe/detail/relations.h"
-#include "kernel/describe/detail/shape.h"
-#include "kernel/describe/detail/site.h"
+#include "kernel/base/index.h"
+#include "kernel/describe/features/feature_names.h"
+#include "kernel/describe/features/panes.h"
+#include "kernel/describe/features/relations.h"
+#include "kernel/describe/features/shape.h"
+#include "kernel/describe/features/site.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/detail/index.h"
 #include "kernel/model/wall_lean.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "kernel/model/building.h"
-#include "kernel/model/feature_graph.h"
-#include "kernel/model/feature_table.h"
+#include "kernel/model/description/feature_graph.h"
+#include "kernel/model/description/feature_table.h"
 #include "kernel/model/segmentation.h"
 
 #include <vector>

@@ -1,9 +1,9 @@
 #include "kernel/describe/surfaces.h"
 
-#include "kernel/describe/detail/shape.h"
-#include "kernel/describe/detail/surface_faces.h"
-#include "kernel/describe/detail/vertical_lines.h"
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
+#include "kernel/describe/features/shape.h"
+#include "kernel/describe/surfaces/surface_faces.h"
+#include "kernel/describe/surfaces/vertical_lines.h"
 #include "kernel/model/polygon_owners.h"
 
 #include <algorithm>

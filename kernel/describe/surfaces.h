@@ -1,11 +1,11 @@
 #pragma once
 
 #include "kernel/model/building.h"
-#include "kernel/model/feature_table.h"
+#include "kernel/model/description/feature_table.h"
+#include "kernel/model/description/surface_table.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
-#include "kernel/model/surface_table.h"
 #include "kernel/model/tolerances.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "kernel/io/document.h"
 
-#include "kernel/io/detail/cityjson_source.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 
 namespace oriel {
 

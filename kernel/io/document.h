@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/io/format.h"
+#include "kernel/io/files/format.h"
 #include "kernel/model/building.h"
 
 #include <memory>

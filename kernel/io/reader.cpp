@@ -1,9 +1,9 @@
 #include "kernel/io/reader.h"
 
-#include "kernel/io/detail/citygml_reader.h"
-#include "kernel/io/detail/cityjson_reader.h"
-#include "kernel/io/detail/input.h"
-#include "kernel/io/detail/mesh_reader.h"
+#include "kernel/io/citygml/citygml_reader.h"
+#include "kernel/io/cityjson/cityjson_reader.h"
+#include "kernel/io/files/input.h"
+#include "kernel/io/mesh/mesh_reader.h"
 
 #include <utility>
 

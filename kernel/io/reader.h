@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernel/base/issue.h"
 #include "kernel/io/document.h"
-#include "kernel/io/format.h"
-#include "kernel/model/issue.h"
+#include "kernel/io/files/format.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/model/ids.h"
+#include "kernel/base/ids.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/model/ids.h"
-#include "kernel/model/issue.h"
-#include "kernel/model/name.h"
+#include "kernel/base/ids.h"
+#include "kernel/base/issue.h"
+#include "kernel/base/name.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernel/model/ids.h"
-#include "kernel/model/issue.h"
+#include "kernel/base/ids.h"
+#include "kernel/base/issue.h"
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 #include "kernel/model/solid.h"
 
-#include "kernel/model/detail/counting_sort.h"
+#include "kernel/model/description/counting_sort.h"
 
 #include <cstddef>
 

@@ -1,12 +1,12 @@
 #include "kernel/segment/remove.h"
 
+#include "kernel/base/index.h"
+#include "kernel/base/issue.h"
 #include "kernel/geometry/outlines.h"
-#include "kernel/model/detail/index.h"
-#include "kernel/model/issue.h"
-#include "kernel/segment/detail/carve.h"
-#include "kernel/segment/detail/edge_index.h"
-#include "kernel/segment/detail/parting.h"
-#include "kernel/segment/detail/patch.h"
+#include "kernel/segment/boundary/parting.h"
+#include "kernel/segment/cuts/carve.h"
+#include "kernel/segment/cuts/patch.h"
+#include "kernel/segment/sections/edge_index.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,13 +1,13 @@
 #include "kernel/segment/segment.h"
 
-#include "kernel/model/detail/index.h"
-#include "kernel/segment/detail/body_state.h"
-#include "kernel/segment/detail/carve.h"
-#include "kernel/segment/detail/cells.h"
-#include "kernel/segment/detail/choice.h"
-#include "kernel/segment/detail/models.h"
-#include "kernel/segment/detail/parting.h"
-#include "kernel/segment/detail/parts.h"
+#include "kernel/base/index.h"
+#include "kernel/segment/boundary/parting.h"
+#include "kernel/segment/cuts/carve.h"
+#include "kernel/segment/cuts/choice.h"
+#include "kernel/segment/cuts/parts.h"
+#include "kernel/segment/instances/body_state.h"
+#include "kernel/segment/instances/models.h"
+#include "kernel/segment/tree/cells.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "kernel/solidify/open_shell.h"
 
-#include "kernel/model/detail/index.h"
-#include "kernel/solidify/detail/open_mesh.h"
-#include "kernel/solidify/detail/plane_clusters.h"
-#include "kernel/solidify/detail/soup.h"
+#include "kernel/base/index.h"
+#include "kernel/solidify/planes/plane_clusters.h"
+#include "kernel/solidify/shells/open_mesh.h"
+#include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
 #include <cmath>

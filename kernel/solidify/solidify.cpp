@@ -1,14 +1,14 @@
 #include "kernel/solidify/solidify.h"
 
-#include "kernel/solidify/detail/disjoint_sets.h"
-#include "kernel/solidify/detail/facets.h"
-#include "kernel/solidify/detail/mend/mend.h"
-#include "kernel/solidify/detail/mend/uncross.h"
-#include "kernel/solidify/detail/plane_clusters.h"
-#include "kernel/solidify/detail/shell_mesh.h"
-#include "kernel/solidify/detail/shells.h"
-#include "kernel/solidify/detail/snap.h"
-#include "kernel/solidify/detail/soup.h"
+#include "kernel/geometry/disjoint_sets.h"
+#include "kernel/solidify/crossings/uncross.h"
+#include "kernel/solidify/mend/mend.h"
+#include "kernel/solidify/planes/plane_clusters.h"
+#include "kernel/solidify/planes/snap.h"
+#include "kernel/solidify/shells/facets.h"
+#include "kernel/solidify/shells/shell_mesh.h"
+#include "kernel/solidify/shells/shells.h"
+#include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
 #include <cmath>

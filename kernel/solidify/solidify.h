@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernel/base/issue.h"
 #include "kernel/model/building.h"
-#include "kernel/model/issue.h"
 #include "kernel/model/repair.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"

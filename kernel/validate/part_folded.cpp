@@ -1,9 +1,9 @@
 #include "kernel/validate/part_folded.h"
 
+#include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/io/detail/triangulate.h"
-#include "kernel/model/detail/index.h"
-#include "kernel/solidify/detail/shells.h"
+#include "kernel/mesh/triangulate.h"
+#include "kernel/solidify/shells/shells.h"
 
 #include <algorithm>
 #include <cmath>

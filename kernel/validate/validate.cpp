@@ -1,10 +1,10 @@
 #include "kernel/validate/validate.h"
 
-#include "kernel/validate/detail/defects.h"
-#include "kernel/validate/detail/polygon_checks.h"
-#include "kernel/validate/detail/shell_checks.h"
-#include "kernel/validate/detail/snapped.h"
-#include "kernel/validate/detail/solid_checks.h"
+#include "kernel/validate/defects.h"
+#include "kernel/validate/polygons/polygon_checks.h"
+#include "kernel/validate/polygons/snapped.h"
+#include "kernel/validate/solids/shell_checks.h"
+#include "kernel/validate/solids/solid_checks.h"
 
 #include <map>
 #include <optional>

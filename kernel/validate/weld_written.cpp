@@ -1,8 +1,8 @@
 #include "kernel/validate/weld_written.h"
 
+#include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/model/detail/index.h"
-#include "kernel/solidify/detail/shells.h"
+#include "kernel/solidify/shells/shells.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "examples/generator/citygml.h"
 #include "examples/generator/generate.h"
-#include "kernel/io/cityjson_collector.h"
+#include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
 #include "tests/cli/command.h"

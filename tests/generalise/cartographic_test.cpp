@@ -1,6 +1,6 @@
-#include "generalise/fineness.h"
-#include "interpret/interpret.h"
-#include "interpret/plan.h"
+#include "generalise/invariants/fineness.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/plan/plan.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"
 

@@ -1,7 +1,7 @@
 #include "generalise/generalise.h"
 
-#include "generalise/fineness.h"
-#include "generalise/series_levels.h"
+#include "generalise/invariants/fineness.h"
+#include "generalise/series/series_levels.h"
 #include "tests/generalise/line.h"
 #include "tests/support/changed.h"
 #include "tests/support/shapes.h"

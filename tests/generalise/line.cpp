@@ -1,12 +1,12 @@
 #include "tests/generalise/line.h"
 
-#include "interpret/annotate.h"
-#include "interpret/interpret.h"
-#include "interpret/plan.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/plan/plan.h"
+#include "interpret/surfaces/annotate.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"
-#include "kernel/segment/imprints.h"
+#include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "generalise/generalise.h"
-#include "interpret/rule_base.h"
+#include "interpret/pack/rule_base.h"
 #include "kernel/describe/describe.h"
 #include "kernel/io/document.h"
 #include "kernel/model/building.h"

@@ -1,9 +1,9 @@
 // Labels the first building of a file and generalises it: consumer FILE.
 
 #include "generalise/generalise.h"
-#include "interpret/annotate.h"
-#include "interpret/interpret.h"
-#include "interpret/plan.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/plan/plan.h"
+#include "interpret/surfaces/annotate.h"
 #include "kernel/describe/describe.h"
 #include "kernel/describe/surfaces.h"
 #include "kernel/io/reader.h"

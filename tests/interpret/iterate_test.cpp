@@ -1,4 +1,4 @@
-#include "interpret/explain.h"
+#include "interpret/explain/explain.h"
 #include "tests/interpret/support.h"
 
 using namespace oriel;

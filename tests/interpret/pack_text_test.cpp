@@ -1,4 +1,4 @@
-#include "interpret/rule_base.h"
+#include "interpret/pack/rule_base.h"
 
 #include <algorithm>
 #include <filesystem>

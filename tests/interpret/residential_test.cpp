@@ -1,4 +1,4 @@
-#include "interpret/plan.h"
+#include "interpret/plan/plan.h"
 #include "tests/interpret/support.h"
 
 #include <algorithm>

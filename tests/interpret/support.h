@@ -1,9 +1,9 @@
 #pragma once
 
-#include "interpret/interpret.h"
-#include "interpret/rule_base.h"
-#include "kernel/model/feature_graph.h"
-#include "kernel/model/feature_table.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/pack/rule_base.h"
+#include "kernel/model/description/feature_graph.h"
+#include "kernel/model/description/feature_table.h"
 
 #include <map>
 #include <string>

@@ -1,7 +1,7 @@
 #include "generalise/operators/flatten.h"
 
 #include "generalise/generalise.h"
-#include "interpret/profile.h"
+#include "interpret/plan/profile.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"
 

@@ -1,10 +1,10 @@
 #include "generalise/operators/omit.h"
 
 #include "generalise/account.h"
-#include "generalise/fill_rings.h"
 #include "generalise/generalise.h"
-#include "generalise/remove_cells.h"
-#include "kernel/segment/cell_complex.h"
+#include "generalise/removal/fill_rings.h"
+#include "generalise/removal/remove_cells.h"
+#include "kernel/segment/complex/cell_complex.h"
 #include "tests/generalise/line.h"
 #include "tests/support/changed.h"
 #include "tests/support/houses.h"

@@ -1,6 +1,6 @@
 #include "generalise/generalise.h"
 #include "generalise/operators/displace.h"
-#include "interpret/plan.h"
+#include "interpret/plan/plan.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"

@@ -1,4 +1,4 @@
-#include "kernel/segment/imprints.h"
+#include "kernel/segment/flush/imprints.h"
 
 #include "tests/support/described.h"
 #include "tests/support/flush.h"

@@ -1,5 +1,5 @@
-#include "kernel/io/cityjson_collector.h"
-#include "kernel/io/detail/citygml_stream.h"
+#include "kernel/io/citygml/citygml_stream.h"
+#include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/writer.h"
 #include "tests/kernel/io/cityjson_checks.h"
 #include "tests/kernel/io/cityjson_samples.h"

@@ -1,4 +1,4 @@
-#include "kernel/io/mesh_writer.h"
+#include "kernel/io/mesh/mesh_writer.h"
 #include "kernel/io/writer.h"
 #include "tests/kernel/io/cityjson_samples.h"
 #include "tests/kernel/io/files.h"

@@ -1,4 +1,4 @@
-#include "kernel/segment/cell_complex.h"
+#include "kernel/segment/complex/cell_complex.h"
 #include "tests/kernel/segment/complex_checks.h"
 #include "tests/support/shapes.h"
 

@@ -1,6 +1,6 @@
 #include "kernel/geometry/planar.h"
-#include "kernel/segment/cell_complex.h"
-#include "kernel/segment/detail/complex/refine.h"
+#include "kernel/segment/complex/cell_complex.h"
+#include "kernel/segment/complex/refine.h"
 #include "tests/kernel/segment/complex_checks.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"

@@ -1,6 +1,6 @@
 #include "tests/kernel/segment/invariants.h"
 
-#include "kernel/segment/balance.h"
+#include "kernel/segment/tree/balance.h"
 #include "tests/support/inside.h"
 
 #include <doctest/doctest.h>

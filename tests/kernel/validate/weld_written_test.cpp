@@ -1,6 +1,6 @@
 #include "kernel/validate/weld_written.h"
 
-#include "kernel/model/detail/index.h"
+#include "kernel/base/index.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 

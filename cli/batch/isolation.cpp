@@ -1,0 +1,319 @@
+#include "cli/batch/isolation.h"
+
+#include "cli/batch/outcome_json.h"
+#include "cli/batch/work_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <new>
+#include <poll.h>
+#include <stdexcept>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <type_traits>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+namespace {
+
+/// A batch is over when it has so many records, or so many bytes of lines: a fork costs about as
+/// much as one building, and records wait in memory.
+constexpr std::size_t kMostBatchRecords = 16;
+constexpr std::size_t kMostBatchBytes = 4 << 20;
+/// Batches for each worker that are read, worked on or wait for those before them.
+constexpr std::size_t kBatchesPerJob = 2;
+constexpr std::size_t kPipeChunk = 1 << 16;
+
+/// Where a worker is; the parent reads it when the worker is gone.
+volatile std::size_t* building_at_hand = nullptr;
+/// What a worker may be at one building for, unless that is lost already.
+itimerval most_time{};
+const Arrival* arrival_at_hand = nullptr;
+
+[[noreturn]] void give_up(const char* what) {
+  throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(errno)));
+}
+
+/// A message of a worker: what came of one record. Sizes of its pieces, then these: the outcome
+/// (CBOR), the milliseconds of the stages, the bytes of all parts.
+static_assert(std::is_trivially_copyable_v<Timings>);
+struct Head {
+  std::uint64_t outcome = 0;
+  std::array<std::uint64_t, kParts> parts{};
+};
+
+std::string message_of(const Arrival& arrival) {
+  const Product& product = arrival.outcome.product;
+  const auto outcome = nlohmann::ordered_json::to_cbor(to_json(arrival.outcome));
+  Head head;
+  head.outcome = outcome.size();
+  for (std::size_t i = 0; i < kParts; ++i) head.parts[i] = product.bytes[i].size();
+  std::string message(sizeof head + sizeof(Timings), '\0');
+  std::memcpy(message.data(), &head, sizeof head);
+  std::memcpy(message.data() + sizeof head, &arrival.timings, sizeof(Timings));
+  message.append(outcome.begin(), outcome.end());
+  for (const std::string& bytes : product.bytes) message += bytes;
+  return message;
+}
+
+/// Takes a whole message from `bytes` at `at`, which goes behind it; false if it is not whole.
+bool take_message(const std::string& bytes, std::size_t& at, Arrival& arrival) {
+  Head head;
+  constexpr std::size_t kFixed = sizeof head + sizeof(Timings);
+  if (bytes.size() - at < kFixed) return false;
+  std::memcpy(&head, bytes.data() + at, sizeof head);
+  std::size_t whole = kFixed + head.outcome;
+  for (const std::uint64_t part : head.parts) whole += part;
+  if (bytes.size() - at < whole) return false;
+  std::memcpy(&arrival.timings, bytes.data() + at + sizeof head, sizeof(Timings));
+  const char* piece = bytes.data() + at + kFixed;
+  arrival.outcome = outcome_of(nlohmann::ordered_json::from_cbor(piece, piece + head.outcome));
+  piece += head.outcome;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    arrival.outcome.product.bytes[i].assign(piece, head.parts[i]);
+    piece += head.parts[i];
+  }
+  at += whole;
+  return true;
+}
+
+bool send(int pipe, const std::string& message) {
+  for (std::size_t at = 0; at < message.size();) {
+    const ssize_t count = ::write(pipe, message.data() + at, message.size() - at);
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) at += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+itimerval once_after(double seconds) {
+  const auto whole = static_cast<time_t>(seconds);
+  const auto micros = static_cast<suseconds_t>((seconds - static_cast<double>(whole)) * 1e6);
+  return {{}, {whole, micros}};
+}
+
+bool is_work(const Arrival& arrival) {
+  return arrival.kind == Arrival::Kind::record && arrival.record.value && !arrival.was_done &&
+         !arrival.is_reused;
+}
+
+std::size_t bytes_of(const Arrival& arrival) {
+  return arrival.record.value ? source_line(*arrival.record.value).size() : 0;
+}
+
+}  // namespace
+
+void now_at_building(std::size_t building) {
+  if (building_at_hand == nullptr) return;
+  *building_at_hand = building;
+  const itimerval none{};
+  const bool is_timed = building != kNoBuilding && !arrival_at_hand->lost.contains(building);
+  ::setitimer(ITIMER_REAL, is_timed ? &most_time : &none, nullptr);
+}
+
+struct Isolation::Place {
+  std::size_t building = kNoBuilding;
+};
+
+struct Isolation::Batch {
+  std::vector<std::shared_ptr<Arrival>> arrivals;
+  std::size_t answered = 0;  ///< arrivals before this one are done
+  std::size_t settled = 0;
+  pid_t worker = 0;
+  int pipe = -1;
+  Place* place = nullptr;
+  std::string received;
+
+  void pass_over_workless() {
+    while (answered < arrivals.size() && !is_work(*arrivals[answered])) ++answered;
+  }
+  [[nodiscard]] bool is_answered() const { return answered == arrivals.size(); }
+  [[nodiscard]] bool is_running() const { return pipe >= 0; }
+};
+
+Isolation::Isolation(int jobs, double most_seconds, Steps steps)
+    : jobs_(jobs), most_seconds_(most_seconds), steps_(std::move(steps)) {
+  const auto count = static_cast<std::size_t>(jobs_);
+  void* shared = ::mmap(nullptr, count * sizeof(Place), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) give_up("no memory to share with workers");
+  places_ = new (shared) Place[count];
+  for (std::size_t i = 0; i < count; ++i) free_places_.push_back(places_ + i);
+}
+
+Isolation::~Isolation() {
+  for (const auto& batch : batches_) {
+    if (!batch->is_running()) continue;
+    ::kill(batch->worker, SIGKILL);
+    ::close(batch->pipe);
+    ::waitpid(batch->worker, nullptr, 0);
+  }
+  ::munmap(places_, static_cast<std::size_t>(jobs_) * sizeof(Place));
+}
+
+void Isolation::run() {
+  while (true) {
+    while (fill()) {
+    }
+    settle_front();
+    if (batches_.empty() && is_over_) return;
+    if (!batches_.empty()) receive();
+  }
+}
+
+/// Reads a batch and gives it to a worker; false if there is nothing to read or nobody to work.
+bool Isolation::fill() {
+  const auto most = kBatchesPerJob * static_cast<std::size_t>(jobs_);
+  if (is_over_ || free_places_.empty() || batches_.size() >= most) return false;
+  auto batch = std::make_unique<Batch>();
+  for (std::size_t bytes = 0;
+       batch->arrivals.size() < kMostBatchRecords && bytes < kMostBatchBytes;) {
+    auto arrival = steps_.next();
+    is_over_ = !arrival;
+    if (is_over_) break;
+    bytes += bytes_of(*arrival);
+    batch->arrivals.push_back(std::move(arrival));
+  }
+  if (batch->arrivals.empty()) return false;
+  batch->pass_over_workless();
+  batches_.push_back(std::move(batch));
+  if (!batches_.back()->is_answered()) start(*batches_.back());
+  return !is_over_;
+}
+
+void Isolation::start(Batch& batch) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) give_up("no pipe to a worker");
+  batch.place = free_places_.back();
+  free_places_.pop_back();
+  batch.place->building = kNoBuilding;
+  const pid_t parent = ::getpid();
+  batch.worker = ::fork();
+  if (batch.worker < 0) give_up("no process for a worker");
+  if (batch.worker == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(0);
+    be_worker(batch, ends[1]);
+  }
+  ::close(ends[1]);
+  batch.pipe = ends[0];
+}
+
+/// Ctrl-C and the like are for the parent, with which its workers end. What else ends a worker does
+/// so without the parent's handlers. An exception is a crash as any other.
+void Isolation::be_worker(const Batch& batch, int pipe) const noexcept {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGALRM, SIGPIPE, SIGXCPU, SIGXFSZ}) std::signal(signal, SIG_DFL);
+  most_time = once_after(most_seconds_);
+  building_at_hand = &batch.place->building;
+  for (std::size_t i = batch.answered; i < batch.arrivals.size(); ++i) {
+    Arrival& arrival = *batch.arrivals[i];
+    if (!is_work(arrival)) continue;
+    arrival_at_hand = &arrival;
+    steps_.work(arrival);
+    if (!send(pipe, message_of(arrival))) break;
+    now_at_building(kNoBuilding);
+  }
+  ::_exit(0);
+}
+
+/// Waits until some worker has something to say.
+void Isolation::receive() {
+  std::vector<pollfd> pipes;
+  std::vector<Batch*> from;
+  for (const auto& batch : batches_) {
+    if (!batch->is_running()) continue;
+    pipes.push_back({batch->pipe, POLLIN, 0});
+    from.push_back(batch.get());
+  }
+  if (pipes.empty()) return;
+  if (::poll(pipes.data(), pipes.size(), -1) < 0) {
+    if (errno == EINTR) return;
+    give_up("workers cannot be heard");
+  }
+  for (std::size_t i = 0; i < pipes.size(); ++i)
+    if (pipes[i].revents != 0) read_from(*from[i]);
+}
+
+void Isolation::read_from(Batch& batch) {
+  const std::size_t had = batch.received.size();
+  batch.received.resize(had + kPipeChunk);
+  const ssize_t count = ::read(batch.pipe, batch.received.data() + had, kPipeChunk);
+  batch.received.resize(had + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  if (count < 0 && errno == EINTR) return;
+  if (count < 0) give_up("a worker cannot be heard");
+  std::size_t at = 0;
+  while (!batch.is_answered() &&
+         take_message(batch.received, at, *batch.arrivals[batch.answered])) {
+    ++batch.answered;
+    batch.pass_over_workless();
+  }
+  batch.received.erase(0, at);
+  if (count == 0) end(batch);
+}
+
+/// The worker is gone. What it has not answered is for another one.
+void Isolation::end(Batch& batch) {
+  int status = 0;
+  while (::waitpid(batch.worker, &status, 0) < 0 && errno == EINTR) {
+  }
+  ::close(batch.pipe);
+  batch.pipe = -1;
+  free_places_.push_back(batch.place);
+  if (batch.is_answered()) return;
+  blame(batch, status);
+  batch.received.clear();
+  start(batch);
+}
+
+std::string Isolation::cause_of(int status) const {
+  if (!WIFSIGNALED(status)) return fmt::format("exit code {}", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  if (signal == SIGALRM && most_seconds_ > 0)
+    return fmt::format("the clock: it took more than {} s (--most-seconds)", most_seconds_);
+  const char* name = ::sigabbrev_np(signal);
+  return fmt::format("signal {} (SIG{})", signal, name != nullptr ? name : "?");
+}
+
+void Isolation::blame(Batch& batch, int status) {
+  Arrival& arrival = *batch.arrivals[batch.answered];
+  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  const std::string how = cause_of(status);
+  const std::size_t at = batch.place->building;
+  std::size_t from = at, to = at + 1;
+  if (at >= buildings.size() || arrival.lost.contains(at)) from = 0, to = buildings.size();
+  bool is_new = false;
+  for (std::size_t i = from; i < to; ++i)
+    is_new |= arrival.lost
+                  .emplace(i, building_issue(Severity::error, "E123", buildings[i].id,
+                                             "its worker was ended by " + how))
+                  .second;
+  if (!is_new)
+    throw std::runtime_error(
+        fmt::format("{} ended a worker by {}", arrival.record.value->name, how));
+}
+
+void Isolation::settle_front() {
+  while (!batches_.empty()) {
+    Batch& batch = *batches_.front();
+    for (; batch.settled < batch.answered; ++batch.settled) {
+      steps_.settle(*batch.arrivals[batch.settled]);
+      batch.arrivals[batch.settled].reset();
+    }
+    if (!batch.is_answered() || batch.is_running()) return;
+    batches_.erase(batches_.begin());
+  }
+}
+
+}  // namespace oriel::cli

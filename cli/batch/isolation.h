@@ -1,0 +1,63 @@
+#pragma once
+
+#include "cli/batch/intake.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Works on records in forked processes, so that a hard crash costs one building. A worker gets a
+/// batch of records, which it has in its memory from the start, and sends back what came of each.
+/// If a signal ends it, the building that it was at is lost (E123), and another worker goes on with
+/// that record. This process has one thread only and works on nothing itself: it reads, and takes
+/// what comes in the order of the inputs.
+class Isolation {
+ public:
+  struct Steps {
+    /// The next arrival, or null after the last.
+    std::function<std::shared_ptr<Arrival>()> next;
+    /// Fills the outcome of an arrival; runs in a worker.
+    std::function<void(Arrival&)> work;
+    /// An arrival is done, in its order.
+    std::function<void(Arrival&)> settle;
+  };
+
+  /// Up to `jobs` workers at the same time. A worker that is at one building for longer than
+  /// `most_seconds`, if that is more than 0, ends by SIGALRM.
+  Isolation(int jobs, double most_seconds, Steps steps);
+  ~Isolation();
+  Isolation(const Isolation&) = delete;
+  Isolation& operator=(const Isolation&) = delete;
+
+  /// All arrivals. Throws std::runtime_error if the system gives no process or pipe, or if a record
+  /// ends its worker though all its buildings are lost already.
+  void run();
+
+ private:
+  struct Batch;
+  struct Place;
+
+  bool fill();
+  void start(Batch& batch);
+  void receive();
+  void read_from(Batch& batch);
+  void end(Batch& batch);
+  void blame(Batch& batch, int status);
+  void settle_front();
+  [[noreturn]] void be_worker(const Batch& batch, int pipe) const noexcept;
+
+  [[nodiscard]] std::string cause_of(int status) const;
+
+  int jobs_;
+  double most_seconds_;
+  Steps steps_;
+  std::vector<std::unique_ptr<Batch>> batches_;  ///< in the order of their records
+  std::vector<Place*> free_places_;
+  Place* places_ = nullptr;  ///< shared with the workers, one for each
+  bool is_over_ = false;     ///< nothing more comes
+};
+
+}  // namespace oriel::cli

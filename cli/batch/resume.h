@@ -1,0 +1,59 @@
+#pragma once
+
+#include "cli/batch/journal.h"
+#include "cli/commands/options.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// A run of a command that may be killed at any moment and goes on after its last whole record when
+/// the same command is given again. What it needs to know stands in STEM.journal; outputs grow as
+/// PATH.partial and come to their place by rename.
+class Resume {
+ public:
+  /// Where a run stands in its inputs.
+  struct Position {
+    std::size_t input = 0;
+    std::size_t records = 0;  ///< of that input
+    std::string sha256;       ///< of what was read of it
+  };
+
+  /// `rules_sha256` and the command line say whether it is the same run. Throws InputError E117 if
+  /// the journal is that of another command, or the outputs it tells of are not there.
+  Resume(const LineArguments& arguments, const std::string& rules_sha256);
+
+  /// What went before: empty for a run that begins.
+  [[nodiscard]] const std::optional<nlohmann::ordered_json>& state() const { return state_; }
+  [[nodiscard]] const Position& position() const { return position_; }
+  /// The exit code of a run that is over, if its inputs and outputs still have their hashes.
+  [[nodiscard]] std::optional<int> finished() const;
+
+  /// A record, or an input, is done. Files that are open are written so far.
+  void note(const Position& position, nlohmann::ordered_json state);
+  /// An input is read to its end.
+  void note_read(const std::string& input, const std::string& sha256);
+  void remove() { journal_.remove(); }
+
+  /// Files that were put in their place, and inputs that were read, by this run and those before.
+  [[nodiscard]] FileMarks done() const;
+  [[nodiscard]] FileMarks read() const;
+  [[nodiscard]] const std::string& command_sha256() const { return command_sha256_; }
+
+ private:
+  const LineArguments& arguments_;
+  Journal journal_;
+  std::string command_sha256_;
+  std::optional<nlohmann::ordered_json> state_;
+  Position position_;
+  FileMarks read_;  ///< since the last note
+};
+
+/// The SHA-256 of the program that runs.
+std::string program_sha256();
+/// That of a file, empty if it cannot be read.
+std::string sha256_of_file(const std::string& path);
+
+}  // namespace oriel::cli

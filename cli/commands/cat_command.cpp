@@ -1,0 +1,94 @@
+#include "cli/batch/run.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/options.h"
+#include "cli/streams/common_header.h"
+#include "cli/streams/stream_lines.h"
+#include "kernel/io/files/output_file.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace oriel::cli {
+
+namespace {
+
+struct Arguments : LineArguments {
+  std::string out = "-";
+};
+
+/// One stream of all inputs, under the header of the first.
+class Cat {
+ public:
+  Cat(const Arguments& arguments, Run& run)
+      : arguments_(arguments),
+        run_(run),
+        lines_({[&](const std::string& line) { add_header(line); },
+                [&](const std::string& line) { append(line); }},
+               arguments.selection) {}
+
+  ExitCode go() {
+    Run::Visitor visitor;
+    visitor.begin = [&](std::size_t input) {
+      lines_.begin();
+      input_ = input;
+      if (input == 0) has_header_ = false;
+      if (!out_ && run_.is_last_run()) out_ = std::make_unique<OutputFile>(arguments_.out);
+    };
+    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+      run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
+    };
+    visitor.end = [&](std::size_t) { has_ended_ = true; };
+    visitor.commit = [&] {
+      if (out_ && has_ended_) out_->commit();
+    };
+    const ExitCode code = run_.go(visitor);
+    run_.tell_summary("passed on", {});
+    return code;
+  }
+
+ private:
+  void add_header(const std::string& line) {
+    if (const auto issue = header_.check(line, arguments_.inputs[input_])) throw InputError(*issue);
+    if (!has_header_) append(line);
+    has_header_ = true;
+  }
+  void append(const std::string& line) {
+    if (out_) out_->append(line);
+  }
+
+  const Arguments& arguments_;
+  Run& run_;
+  StreamLines lines_;
+  CommonHeader header_;
+  std::unique_ptr<OutputFile> out_;  ///< of the last run
+  std::size_t input_ = 0;
+  bool has_header_ = false;
+  bool has_ended_ = false;  ///< an input did
+};
+
+ExitCode work(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  Run run(arguments, nullptr, report);
+  return Cat(arguments, run).go();
+}
+
+}  // namespace
+
+void add_cat(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->ends_at_reading = true;
+  CLI::App* command = app.add_subcommand(
+      "cat", "Write buildings as a stream (CityJSONSeq): a header, then a line for each");
+  add_input_arguments(*command, *arguments, true);
+  command->add_option("-o,--output", arguments->out, "File, or - for stdout")
+      ->capture_default_str();
+  add_run_arguments(*command, *arguments);
+  command->footer(
+      "Several inputs become one stream if they have one transform and reference system.\n"
+      "Example:\n  oriel cat city.city.json | oriel label - | oriel generalise - --scale 1:5000 | "
+      "oriel collect - -o out.city.json");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

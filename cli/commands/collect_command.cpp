@@ -1,0 +1,96 @@
+#include "cli/batch/run.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/options.h"
+#include "cli/streams/common_header.h"
+#include "cli/streams/stream_lines.h"
+#include "kernel/io/cityjson/cityjson_collector.h"
+#include "kernel/io/files/output_file.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+struct Arguments : LineArguments {
+  std::string out = "-";
+};
+
+/// One CityJSON file of all inputs, under the header of the first.
+class Collect {
+ public:
+  Collect(const Arguments& arguments, Run& run)
+      : arguments_(arguments),
+        run_(run),
+        lines_({[&](const std::string& line) { add_header(line); },
+                [&](const std::string& line) { add_feature(line); }},
+               arguments.selection) {}
+
+  ExitCode go() {
+    Run::Visitor visitor;
+    visitor.begin = [&](std::size_t input) {
+      lines_.begin();
+      input_ = input;
+      if (input == 0) collector_ = {};
+    };
+    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+      run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
+    };
+    visitor.end = [&](std::size_t) { has_ended_ = true; };
+    visitor.commit = [&] {
+      if (has_ended_) write_file(arguments_.out, collector_.text());
+    };
+    const ExitCode code = run_.go(visitor);
+    run_.tell_summary("collected", {});
+    return code;
+  }
+
+ private:
+  void add_header(const std::string& line) {
+    if (const auto issue = header_.check(line, arguments_.inputs[input_])) throw InputError(*issue);
+    if (!collector_.has_lines()) collector_.add(line);
+  }
+  void add_feature(const std::string& line) {
+    const auto twin = collector_.add(line);
+    if (!twin) return;
+    run_.set_aside(building_issue(Severity::error, "E207", *twin,
+                                  "an earlier feature has a CityObject with this id; that one is "
+                                  "collected"));
+  }
+
+  const Arguments& arguments_;
+  Run& run_;
+  StreamLines lines_;
+  CommonHeader header_;
+  CityJsonCollector collector_;
+  std::size_t input_ = 0;
+  bool has_ended_ = false;  ///< an input did
+};
+
+ExitCode work(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  Run run(arguments, nullptr, report);
+  return Collect(arguments, run).go();
+}
+
+}  // namespace
+
+void add_collect(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->ends_at_reading = true;
+  CLI::App* command =
+      app.add_subcommand("collect", "Put the features of streams together as one CityJSON file");
+  add_input_arguments(*command, *arguments, true);
+  command->add_option("-o,--output", arguments->out, "File, or - for stdout")
+      ->capture_default_str();
+  add_run_arguments(*command, *arguments);
+  command->footer(
+      "The file is held in memory. Several inputs need one transform and reference system.\n"
+      "Example:\n  oriel collect labelled.city.jsonl -o labelled.city.json");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,78 @@
+#include "cli/commands/commands.h"
+#include "cli/terminal/report.h"
+#include "interpret/score/label_diff.h"
+#include "kernel/io/records/feature_records.h"
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+struct Arguments {
+  std::string before;
+  std::string after;
+  std::size_t examples = 3;
+  std::optional<std::size_t> most;
+  bool is_json = false;
+};
+
+/// What a run said, of as many features as can be read; the exit code says if that is not all.
+std::vector<NamedFeature> read_run(const std::string& path, Report& report, ExitCode& code) {
+  std::vector<NamedFeature> features;
+  const auto issues = visit_feature_records(path, [&](FeatureRecord record) {
+    features.push_back({std::move(record.building),
+                        std::move(record.id),
+                        {std::move(record.label), std::move(record.rule)}});
+  });
+  report.tell(issues);
+  if (has_errors(issues))
+    code = graver(code, features.empty() ? ExitCode::input : ExitCode::set_aside);
+  return features;
+}
+
+ExitCode work(const Arguments& arguments) {
+  Report report(true);
+  ExitCode code = ExitCode::clean;
+  auto before = read_run(arguments.before, report, code);
+  auto after = read_run(arguments.after, report, code);
+  if (code == ExitCode::input) return code;
+  const LabelDiff diff = diff_labels(std::move(before), std::move(after), arguments.examples);
+  const std::string text = arguments.is_json ? to_json(diff) + "\n" : to_text(diff);
+  std::fputs(text.c_str(), stdout);
+  if (!arguments.most || diff.differences() <= *arguments.most) return code;
+  std::fputs(
+      fmt::format("{} differences; {} are allowed\n", diff.differences(), *arguments.most).c_str(),
+      stderr);
+  return graver(code, ExitCode::set_aside);
+}
+
+}  // namespace
+
+void add_diff(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "diff", "Compare the labels of two runs: what changed, by which rules, for example where");
+  command->add_option("before", arguments->before, "Records of features: .csv, .json or .jsonl")
+      ->required();
+  command->add_option("after", arguments->after, "Those of the other run")->required();
+  command->add_option("--examples", arguments->examples, "So many features of each change")
+      ->capture_default_str();
+  command->add_option("--fail-over", arguments->most,
+                      "Exit code 3 if more features than this have another label or are only in "
+                      "one run");
+  command->add_flag("--json", arguments->is_json, "As one JSON object");
+  command->footer(
+      "Example:\n  oriel interpret parts.csv --rules mine.yaml -o after.csv\n"
+      "  oriel diff parts.csv after.csv --fail-over 0");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,262 @@
+#include "cli/commands/options.h"
+
+#include "kernel/io/records/feature_records.h"
+#include "kernel/solidify/noise.h"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+ReadOptions LineArguments::read_options() const {
+  ReadOptions options;
+  if (!lod.empty()) options.lod = lod;
+  if (!from.empty()) options.format = parse_format(from);
+  return options;
+}
+
+ReadOptions LineArguments::read_options(const std::string& input) const {
+  ReadOptions options = read_options();
+  if (!options.format && input == "-") options.format = kFormatOfStdin;
+  return options;
+}
+
+bool LineArguments::is_piped_stream() const {
+  return inputs.size() == 1 && inputs[0] == "-" && read_options("-").format == Format::cityjson_seq;
+}
+
+Tolerances LineArguments::tolerances_for(const Building& building) const {
+  if (is_plane_offset_given) return tolerances;
+  return fitted_to_noise(tolerances, noise_of(building));
+}
+
+SegmentOptions LineArguments::segment_options(const Tolerances& fitted) const {
+  SegmentOptions options;
+  options.order = order == "paper" ? Order::paper : Order::natural;
+  options.tolerances = fitted;
+  options.budget = budget;
+  return options;
+}
+
+RepairOptions LineArguments::repair_options() const {
+  return {*parse_closing(close), cap_area_m2,
+          crossings == "cut" ? Crossings::cut : Crossings::leave};
+}
+
+std::string LineArguments::configuration() const {
+  return fmt::format(
+             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={} "
+             "close={} close_area_m2={} crossings={}",
+             lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
+             tolerances.value_rel, budget, close, cap_area_m2, crossings) +
+         (is_plane_offset_given ? "" : " fitted_to_noise") +
+         (ignores_semantics ? " ignore_semantics" : "");
+}
+
+bool LineArguments::allows(int set_aside, int buildings) const {
+  const double number = std::stod(allowed_bad);
+  if (allowed_bad.ends_with('%')) return set_aside * 100.0 <= number * buildings;
+  return set_aside <= number;
+}
+
+namespace {
+
+void add_selection_arguments(CLI::App& command, Selection& selection) {
+  command.add_option("--id", selection.ids, "Only the building with this id; may be repeated")
+      ->allow_extra_args(false);
+  command
+      .add_option("--bbox", selection.bbox,
+                  "Only buildings with the middle of their box in XMIN,YMIN,XMAX,YMAX")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("XMIN,YMIN,XMAX,YMAX");
+  command.add_option("--cotype", selection.cotype,
+                     "Only features of this type: Building, Road, Bridge ...");
+  command.add_option("--random", selection.one_in, "Only one in N buildings, drawn by their ids")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  command.add_option("--seed", selection.seed, "Which ones --random draws")->capture_default_str();
+  command.add_flag("--exclude", selection.is_exclusion,
+                   "All buildings but those that --id, --bbox, --cotype and --random name");
+}
+
+}  // namespace
+
+void refuse_usage(const std::string& option, const std::string& code, const std::string& sentence) {
+  throw CLI::ValidationError(option, fmt::format("{} {}", code, sentence));
+}
+
+CLI::Validator input_formats() {
+  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"});
+}
+
+void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin, a CityJSONSeq";
+  if (has_many) {
+    command.add_option("input", a.inputs, what)->required();
+  } else {
+    // Not the vector itself: it would swallow the positional arguments that follow.
+    a.inputs.resize(1);
+    command.add_option("input", a.inputs[0], what)->required();
+  }
+  command.add_option("--lod", a.lod,
+                     "Level of detail to read, as written in the input (default: the highest)");
+  command
+      .add_option("--from", a.from,
+                  "Format of the input (default: by its name; of stdin: cityjsonseq)")
+      ->check(input_formats());
+  if (has_many) add_selection_arguments(command, a.selection);
+}
+
+void add_solid_arguments(CLI::App& command, LineArguments& a) {
+  command
+      .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
+                  "Polygons share a plane if tilted by no more than this")
+      ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str();
+  command
+      .add_option("--plane-offset", a.tolerances.plane_offset_m,
+                  "... and no further off than this, in m; more where the input is noisy, if this "
+                  "is not given and buildings are segmented")
+      ->check(CLI::Range(0.0, 1.0))
+      ->each([&a](const std::string&) { a.is_plane_offset_given = true; })
+      ->capture_default_str();
+  command.add_option("--weld", a.tolerances.weld_m, "Vertices closer than this are one, in m")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
+  command
+      .add_option("--close", a.close,
+                  "Holes to close where a building is no closed shell: none, plane ones of up to "
+                  "--close-area, or any plane one")
+      ->check(CLI::IsMember({"none", "planar", "any"}))
+      ->capture_default_str();
+  command.add_option("--close-area", a.cap_area_m2, "... with --close planar, in m2")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      .add_option(
+          "--crossings", a.crossings,
+          "Where a building is no closed shell, polygons that run through each other: leave "
+          "them, or cut them along where they meet")
+      ->check(CLI::IsMember({"leave", "cut"}))
+      ->capture_default_str();
+}
+
+void add_jobs_argument(CLI::App& command, int& jobs) {
+  command
+      .add_option("-j,--jobs", jobs,
+                  "Buildings to work on at the same time; 0: one for each core. The output is the "
+                  "same")
+      ->check(CLI::Range(0, 1024))
+      ->transform([](const std::string& text) {
+        return text == "0" ? std::to_string(std::max(1U, std::thread::hardware_concurrency()))
+                           : text;
+      })
+      ->capture_default_str();
+}
+
+void add_run_arguments(CLI::App& command, LineArguments& a) {
+  command.add_option("--timings", a.timings_file,
+                     "Write the milliseconds of each stage to this file, as JSON");
+  command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_jobs_argument(command, a.jobs);
+  command
+      .add_option(
+          "--progress", a.progress,
+          "On stderr: a bar and a table at the end, JSON lines, or nothing (default: bar on "
+          "a terminal)")
+      ->check(CLI::IsMember({"bar", "json", "none"}));
+  command.add_option("--status", a.status_stem,
+                     "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
+                     "record with something set aside, and why)");
+  command
+      .add_option(
+          "--allow-bad", a.allowed_bad,
+          "Up to so many buildings (N), or of a hundred (P%), may be set aside: exit code 0")
+      ->check([](const std::string& text) {
+        const bool is_share = text.ends_with('%');
+        const std::string digits = text.substr(0, text.size() - (is_share ? 1 : 0));
+        const bool is_number = !digits.empty() && digits.size() <= 9 &&
+                               digits.find_first_not_of("0123456789.") == std::string::npos &&
+                               std::ranges::count(digits, '.') <= (is_share ? 1 : 0) &&
+                               digits != ".";
+        return is_number ? std::string()
+                         : "'" + text + "' is neither a number nor a share such as 1%";
+      })
+      ->capture_default_str();
+  command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
+}
+
+void add_resume_argument(CLI::App& command, LineArguments& a) {
+  command
+      .add_flag(
+          "--resume", a.is_resumable,
+          "Go on after the last whole record when the same command was killed; needs --status")
+      ->needs(command.get_option("--status"))
+      ->excludes(command.get_option("--repeat"));
+}
+
+void add_reuse_argument(CLI::App& command, LineArguments& a) {
+  command
+      .add_option(
+          "--reuse", a.reuse,
+          "STEM.status.json of an earlier run with --reuse: records whose source is the same "
+          "are taken from its outputs; needs --status")
+      ->needs(command.get_option("--status"))
+      ->excludes(command.get_option("--repeat"));
+}
+
+void add_isolate_argument(CLI::App& command, LineArguments& a) {
+  command.add_flag("--isolate", a.is_isolated,
+                   "Work in forked processes: a hard crash (a signal) costs one building, which is "
+                   "set aside");
+  command
+      .add_option(
+          "--most-seconds", a.most_seconds,
+          "Set a building aside that takes longer, by the clock, so that another run may do "
+          "otherwise; needs --isolate")
+      ->check(CLI::Range(0.001, 1e6))
+      ->needs(command.get_option("--isolate"));
+}
+
+void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+  add_input_arguments(command, a, has_many);
+  command
+      .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
+      ->check(CLI::IsMember({"natural", "paper"}))
+      ->capture_default_str();
+  add_solid_arguments(command, a);
+  command
+      .add_option("--value-rel", a.tolerances.value_rel, "Values within this fraction are the same")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  command.add_option("--budget", a.budget, "Half-edges that segmenting one building may look at")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_run_arguments(command, a);
+}
+
+void add_rules_argument(CLI::App& command, std::string& pack) {
+  command.add_option("--rules", pack, "Rule pack: a file, or the name of a pack that is built in")
+      ->capture_default_str();
+}
+
+void add_features_argument(CLI::App& command, std::string& file) {
+  add_records_output(command, "--features", file,
+                     "Write one record per feature: .csv, .json or .jsonl");
+}
+
+void add_records_output(CLI::App& command, const std::string& option, std::string& file,
+                        const std::string& what) {
+  command.add_option(option, file, what)->check([](const std::string& name) {
+    return record_format_of(name) ? std::string()
+                                  : "'" + name + "' does not end in .csv, .json or .jsonl";
+  });
+}
+
+}  // namespace oriel::cli

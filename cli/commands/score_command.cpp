@@ -1,0 +1,249 @@
+#include "cli/commands/commands.h"
+#include "cli/commands/labelling.h"
+#include "cli/output/score_files.h"
+#include "cli/terminal/report.h"
+#include "interpret/score/area_score.h"
+#include "interpret/score/score_spread.h"
+#include "interpret/score/surface_score.h"
+#include "kernel/io/files/output_file.h"
+#include "kernel/io/records/feature_records.h"
+#include "kernel/io/records/truth.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments : LineArguments {
+  bool is_of_surfaces = false;
+  std::string rules = "residential";
+  std::vector<std::string> truth;
+  std::vector<std::string> models;
+  double min_iou = ScoreOptions{}.min_iou;
+  std::string per_building;
+  std::string curve;
+  std::size_t samples = 0;
+  bool is_json = false;
+};
+
+/// The truth files that are named, those of a folder by their names.
+std::vector<std::string> truth_files(const std::vector<std::string>& named) {
+  std::vector<std::string> files;
+  for (const std::string& path : named) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (const auto& entry : fs::directory_iterator(path))
+      if (const std::string file = entry.path().string();
+          file.ends_with(".truth.json") || file.ends_with(".truth.jsonl"))
+        files.push_back(file);
+    std::ranges::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    if (files.size() == before) {
+      Issue issue;
+      issue.code = "E101";
+      issue.sentence = "the folder has no *.truth.json or *.truth.jsonl";
+      issue.place.file = path;
+      throw InputError(std::move(issue));
+    }
+  }
+  return files;
+}
+
+/// Predictions and true objects, and their polygons by building.
+struct Compared {
+  std::vector<Prediction> predictions;
+  std::vector<ExpectedObject> truth;
+  std::map<std::string, FacesOfBuilding> faces;
+};
+
+void append(Compared& all, std::vector<FeatureRecord> records) {
+  for (FeatureRecord& r : records) {
+    const auto& b = r.aabb_m;
+    all.predictions.push_back(
+        {r.building, r.id, r.label, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}}, r.score.value_or(0)});
+    all.faces[r.building].predictions.push_back({r.id, r.label, std::move(r.source_polygons)});
+  }
+}
+
+void append(Compared& all, const Truth& truth) {
+  FacesOfBuilding& faces = all.faces[truth.building];
+  faces.left_out = truth.capped_faces;
+  for (const TruthObject& o : truth.objects) {
+    ExpectedObject object{
+        truth.building,  o.id, o.label, o.subclass, o.feature_aabb.value_or(o.aabb),
+        !o.faces.empty()};
+    if (is_left_out(object))
+      faces.left_out.insert(faces.left_out.end(), o.faces.begin(), o.faces.end());
+    faces.truth.push_back({o.id, o.label, o.faces});
+    if (o.feature_aabb) faces.niches[o.id] = *o.feature_aabb;
+    all.truth.push_back(std::move(object));
+  }
+}
+
+Compared read(const Arguments& arguments, Report& report, ExitCode& code) {
+  Compared all;
+  for (const std::string& path : arguments.inputs) {
+    auto records = read_feature_records(path);
+    report.tell(records.issues);
+    if (has_errors(records.issues))
+      code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
+    if (records.value) append(all, std::move(*records.value));
+  }
+  for (const std::string& path : truth_files(arguments.truth)) {
+    const auto truths = read_truths(path);
+    report.tell(truths.issues);
+    if (has_errors(truths.issues)) code = graver(code, ExitCode::input);
+    if (truths.value)
+      for (const Truth& truth : *truths.value) append(all, truth);
+  }
+  return all;
+}
+
+/// Areas come from the models that were labelled: neither records nor truth know them.
+AreaScore compare_models(const Arguments& arguments, Compared& all, Report& report,
+                         ExitCode& code) {
+  LineArguments models = arguments;
+  models.inputs = arguments.models;
+  models.ends_at_reading = true;
+  Run run(models, nullptr, report);
+  AreaScore score;
+  Run::Visitor visitor;
+  visitor.record = [&](const Document& document, std::vector<OnLine>&) {
+    for (const Building& building : document.buildings) {
+      const auto faces = all.faces.find(building.id);
+      if (faces == all.faces.end()) continue;
+      compare_areas(building, faces->second, ScoreOptions{}.not_scored, score);
+      all.faces.erase(faces);
+    }
+  };
+  code = graver(code, run.go(visitor));
+  for (const auto& [building, faces] : all.faces)
+    if (!faces.truth.empty())
+      report.tell(building_issue(Severity::warning, "E129", building,
+                                 "is in none of the models: its areas are not compared"));
+  return score;
+}
+
+ExitCode score_features(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  ExitCode code = ExitCode::clean;
+  Compared all = read(arguments, report, code);
+  ScoreOptions options;
+  options.min_iou = arguments.min_iou;
+  const auto buildings = score_by_building(all.predictions, all.truth, options);
+  const Score result = total(buildings);
+  constexpr std::size_t kShown = 20;
+  const std::size_t shown = arguments.is_verbose ? result.misses.size() : kShown;
+  std::string text = to_text(result, shown);
+  if (shown < result.misses.size()) text += "  (-v lists all of them, --json too)\n";
+  std::vector<std::string> members;
+  if (!arguments.models.empty()) {
+    const AreaScore areas = compare_models(arguments, all, report, code);
+    text += to_text(areas);
+    members.push_back(area_json(areas));
+  }
+  if (arguments.samples > 0) {
+    const Intervals intervals = bootstrap(buildings, arguments.samples);
+    text += to_text(intervals);
+    members.push_back(intervals_json(intervals));
+  }
+  if (arguments.is_json) text = to_json(result, members) + "\n";
+  if (!arguments.per_building.empty())
+    write_file(arguments.per_building, per_building_csv(buildings));
+  if (!arguments.curve.empty())
+    write_file(arguments.curve,
+               curve_csv(precision_recall_curve(all.predictions, all.truth, options)));
+  std::fputs(text.c_str(), stdout);
+  return code;
+}
+
+/// The models are labelled as if they had no semantics, and their semantics are the truth.
+ExitCode score_surfaces(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  Run run(arguments, &*rules, report);
+  SurfaceScore score;
+  Run::Visitor visitor;
+  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (lines[i].has_surfaces())
+        compare_surfaces(document.buildings[i], annotated(document.buildings[i], lines[i], *rules),
+                         lines[i].surfaces, OpeningPolicy::as_host, score);
+  };
+  const ExitCode code = run.go(visitor);
+  std::fputs((arguments.is_json ? to_json(score) + "\n" : to_text(score)).c_str(), stdout);
+  return code;
+}
+
+void add_comparison_arguments(CLI::App& command, Arguments& arguments) {
+  command.add_option("--iou", arguments.min_iou, "Boxes match from this overlap on (0 to 1)")
+      ->check([](const std::string& text) {
+        double share = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, share);
+        return is_number && share > 0 && share <= 1 ? std::string()
+                                                    : "'" + text + "' is not above 0 and at most 1";
+      })
+      ->capture_default_str();
+  command.add_option("--models", arguments.models,
+                     "The models that were labelled: also compare by the area of polygons");
+  command.add_option("--per-building", arguments.per_building,
+                     "Write what was found in each building, as CSV");
+  command.add_option("--curve", arguments.curve,
+                     "Write precision and recall over the rules' score, as CSV");
+  command
+      .add_option("--bootstrap", arguments.samples,
+                  "Also the 95 % intervals of F1 over so many samples of the buildings")
+      ->check(CLI::Range(1, 1'000'000));
+}
+
+ExitCode work(const Arguments& arguments) {
+  if (arguments.is_of_surfaces) return score_surfaces(arguments);
+  if (arguments.truth.empty()) throw CLI::RequiredError("--truth");
+  return score_features(arguments);
+}
+
+}  // namespace
+
+void add_score(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "score", "Compare labels with the truth: precision, recall and F1 of every class");
+  arguments->ignores_semantics = true;
+  command
+      ->add_option("records", arguments->inputs,
+                   "Records of features as label --features writes them; with --surfaces models")
+      ->required();
+  command->add_option("--truth", arguments->truth,
+                      "*.truth.json and *.truth.jsonl files, or folders of them");
+  command->add_flag("--surfaces", arguments->is_of_surfaces,
+                    "Name the surfaces of models as if they had no semantics, compare with those");
+  command->add_option("--lod", arguments->lod, "With --surfaces: level of detail to read");
+  command->add_option("--budget", arguments->budget,
+                      "With --surfaces: half-edges that segmenting one building may look at");
+  add_rules_argument(*command, arguments->rules);
+  add_comparison_arguments(*command, *arguments);
+  command->add_flag("--json", arguments->is_json, "As JSON, with all misses");
+  command->add_flag("-v,--verbose", arguments->is_verbose, "List all misses, not the first 20");
+  command->footer(
+      "Example:\n  oriel label data/*.stripped.city.json --features parts.jsonl\n  oriel score "
+      "parts.jsonl --truth data/ --bootstrap 1000 --models data/*.stripped.city.json\n  oriel "
+      "score --surfaces data/*.labelled.city.json");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

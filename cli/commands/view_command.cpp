@@ -1,0 +1,121 @@
+#include "cli/commands/commands.h"
+#include "cli/commands/labelling.h"
+#include "cli/view/page.h"
+#include "cli/view/page_data.h"
+#include "kernel/io/cityjson/carried_labels.h"
+#include "kernel/io/files/output_file.h"
+
+#include <map>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace oriel::cli {
+
+namespace {
+
+struct Arguments : LineArguments {
+  std::string rules = "residential";
+  std::string out;
+  std::string after;
+};
+
+[[noreturn]] void refuse(const char* code, const std::string& file, std::string sentence) {
+  Issue issue;
+  issue.code = code;
+  issue.sentence = std::move(sentence);
+  issue.place.file = file;
+  throw InputError(std::move(issue));
+}
+
+/// The buildings of a run as a further model of the page, their ids appended to `ids`. With
+/// `is_after` those that carry labels of oriel have these.
+ExitCode add_model(const LineArguments& arguments, const RuleBase& rules, Report& report,
+                   PageData& page, std::vector<std::string>& ids, bool is_after) {
+  page.begin_model(fmt::format("{}", fmt::join(arguments.inputs, ", ")));
+  Run run(arguments, &rules, report);
+  Run::Visitor visitor;
+  std::map<std::string, int> counts;
+  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    if (!run.is_last_run()) return;
+    const CarriedLabelReader reader(document);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].is_passed_over) continue;
+      const auto carried = is_after ? reader.labels_of(i) : std::nullopt;
+      if (carried) {
+        page.add(document.buildings[i], lines[i], *carried);
+        for (const CarriedFeature& feature : carried->features) ++counts[feature.label];
+      } else {
+        page.add(document.buildings[i], lines[i]);
+        for (const Verdict& verdict : lines[i].interpretation.verdicts) ++counts[verdict.label];
+      }
+      ids.push_back(document.buildings[i].id);
+    }
+  };
+  const ExitCode code = run.go(visitor);
+  run.tell_summary("shown", counts);
+  return code;
+}
+
+/// The same buildings out of the generalised file, with what was read and written for the first run
+/// left as it is.
+LineArguments arguments_after(const Arguments& arguments, std::vector<std::string> ids) {
+  LineArguments after = arguments;
+  after.inputs = {arguments.after};
+  after.selection = {};
+  after.selection.ids = std::move(ids);
+  after.lod.clear();
+  after.from.clear();
+  after.timings_file.clear();
+  after.status_stem.clear();
+  after.repeat = 1;
+  return after;
+}
+
+ExitCode work(const Arguments& arguments) {
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  PageData page(*rules);
+  std::vector<std::string> ids;
+  ExitCode code = add_model(arguments, *rules, report, page, ids, false);
+  if (page.buildings() == 0) {
+    if (code == ExitCode::input) return code;
+    refuse("E127", arguments.inputs.front(), "there is no building to show");
+  }
+  if (!arguments.after.empty()) {
+    std::vector<std::string> found;
+    const ExitCode second =
+        add_model(arguments_after(arguments, std::move(ids)), *rules, report, page, found, true);
+    if (found.empty() && second == ExitCode::input) return second;
+    if (found.empty())
+      refuse("E128", arguments.after, "has none of the buildings that it should show after");
+    code = graver(code, second);
+  }
+  write_file(arguments.out, page_of(page.json()));
+  return code;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "view", "Write a page that shows buildings: a click says what a part is called, and why");
+  add_line_arguments(*command, *arguments, true);
+  add_rules_argument(*command, arguments->rules);
+  command->add_option("-o,--output", arguments->out, "The page, one HTML file; - is stdout")
+      ->required();
+  command->add_option("--after", arguments->after,
+                      "The same buildings generalised: the page switches between the two");
+  command->footer(
+      "The page needs no other file and loads nothing; page.html#ID opens it at a feature.\n"
+      "Example:\n  oriel view house.city.json -o house.html\n"
+      "  oriel generalise house.city.json --scale 1:2500 -o small.city.json\n"
+      "  oriel view house.city.json --after small.city.json -o house.html");
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+}
+
+}  // namespace oriel::cli

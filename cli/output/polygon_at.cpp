@@ -1,0 +1,48 @@
+#include "cli/output/polygon_at.h"
+
+#include "kernel/geometry/planar.h"
+
+#include <cmath>
+#include <vector>
+
+namespace oriel::cli {
+
+namespace {
+
+/// Places are given to the centimetre or so, and recesses that matter are deeper.
+constexpr double kReach_m = 0.05;
+
+std::vector<detail::Outline> outlines_of(const Building& building, const Polygon& polygon) {
+  std::vector<detail::Outline> outlines;
+  for (const auto& ring : polygon.rings) {
+    detail::Outline& outline = outlines.emplace_back();
+    for (const int v : ring) outline.push_back(building.vertices[static_cast<std::size_t>(v)]);
+  }
+  return outlines;
+}
+
+/// Of the outer ring (Newell).
+Vec3 normal_of(const detail::Outline& outline) {
+  Vec3 sum;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    sum = sum + cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
+  return normalised(sum);
+}
+
+}  // namespace
+
+std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
+  const Vec3 local = point - building.frame.origin_m;
+  std::optional<PolygonAt> nearest;
+  for (std::size_t i = 0; i < building.polygons.size(); ++i) {
+    const auto outlines = outlines_of(building, building.polygons[i]);
+    if (outlines.empty() || outlines[0].empty()) continue;
+    const Vec3 normal = normal_of(outlines[0]);
+    const double distance = std::abs(dot(local - outlines[0][0], normal));
+    if (distance > kReach_m || (nearest && distance >= nearest->distance_m)) continue;
+    if (detail::contains(outlines, normal, local)) nearest = PolygonAt{i, distance};
+  }
+  return nearest;
+}
+
+}  // namespace oriel::cli

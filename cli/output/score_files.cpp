@@ -1,0 +1,49 @@
+#include "cli/output/score_files.h"
+
+#include "kernel/io/records/csv_line.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+std::string cell_of(double ratio) { return std::isnan(ratio) ? "" : fmt::format("{}", ratio); }
+
+void append_row(std::string& out, std::string first, std::string second, const ClassScore& counts) {
+  append_csv_line(out,
+                  {std::move(first), std::move(second), std::to_string(counts.true_positives),
+                   std::to_string(counts.false_positives), std::to_string(counts.false_negatives),
+                   cell_of(counts.precision()), cell_of(counts.recall()), cell_of(counts.f1())});
+}
+
+}  // namespace
+
+std::string per_building_csv(const std::map<std::string, Score>& buildings) {
+  std::string text = "building,class,tp,fp,fn,precision,recall,f1\n";
+  for (const auto& [building, score] : buildings) {
+    ClassScore all;
+    for (const auto& [label, counts] : score.classes) {
+      append_row(text, building, label, counts);
+      all += counts;
+    }
+    append_row(text, building, "all", all);
+  }
+  return text;
+}
+
+std::string curve_csv(const std::vector<CurvePoint>& curve) {
+  std::vector<const CurvePoint*> points;
+  points.reserve(curve.size());
+  for (const CurvePoint& point : curve) points.push_back(&point);
+  std::ranges::stable_sort(points, {}, [](const CurvePoint* point) { return point->label; });
+  std::string text = "class,threshold,tp,fp,fn,precision,recall,f1\n";
+  for (const CurvePoint* point : points)
+    append_row(text, point->label, fmt::format("{}", point->threshold), point->counts);
+  return text;
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "interpret/score/score_spread.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// A line for each building and class, then one for all its classes together ("all"), as CSV:
+/// building, class, tp, fp, fn, precision, recall, f1. Ratios without a denominator are empty.
+std::string per_building_csv(const std::map<std::string, Score>& buildings);
+
+/// A line for each point: class, threshold, tp, fp, fn, precision, recall, f1; class by class, the
+/// highest threshold first.
+std::string curve_csv(const std::vector<CurvePoint>& curve);
+
+}  // namespace oriel::cli

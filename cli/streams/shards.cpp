@@ -1,0 +1,90 @@
+#include "cli/streams/shards.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+using nlohmann::ordered_json;
+
+std::string ShardList::json() const {
+  ordered_json list = ordered_json::array();
+  std::uint64_t features = 0;
+  for (const Shard& shard : shards) {
+    list.push_back({{"name", shard.name},
+                    {"features", shard.features},
+                    {"bytes", shard.bytes},
+                    {"sha256", shard.sha256}});
+    features += shard.features;
+  }
+  return ordered_json{{"features", features}, {"shards", list}}.dump(2) + '\n';
+}
+
+ShardList ShardList::load(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    Issue issue = shard_issue(path, "cannot be read: " + std::generic_category().message(errno));
+    issue.code = "E101";
+    throw InputError(std::move(issue));
+  }
+  ShardList list;
+  try {
+    const ordered_json json = ordered_json::parse(file);
+    for (const auto& shard : json.at("shards"))
+      list.shards.push_back(
+          {shard.at("name"), shard.at("features"), shard.at("bytes"), shard.at("sha256")});
+  } catch (const ordered_json::exception& error) {
+    throw InputError(shard_issue(path, fmt::format("is no list of shards: {}", error.what())));
+  }
+  return list;
+}
+
+Issue shard_issue(const std::string& file, std::string sentence) {
+  Issue issue;
+  issue.code = "E118";
+  issue.sentence = std::move(sentence);
+  issue.place.file = file;
+  return issue;
+}
+
+ShardFile::ShardFile(const std::string& folder, std::string name)
+    : name_(std::move(name)),
+      path_((std::filesystem::path(folder) / (name_ + kShardExtension)).string()) {}
+
+void ShardFile::fail() const {
+  Issue issue = shard_issue(path_, "cannot be written: " + std::generic_category().message(errno));
+  issue.code = "E601";
+  throw OutputError(std::move(issue));
+}
+
+void ShardFile::append(std::string_view line) {
+  buffer_ += line;
+  hash_.add(line);
+  ++lines_;
+}
+
+void ShardFile::flush() {
+  errno = 0;
+  std::ofstream file(
+      path_ + ".partial",
+      std::ios::binary | (std::exchange(is_begun_, true) ? std::ios::app : std::ios::trunc));
+  file.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  file.close();
+  if (!file) fail();
+  buffer_.clear();
+}
+
+Shard ShardFile::commit() {
+  flush();
+  if (std::rename((path_ + ".partial").c_str(), path_.c_str()) != 0) fail();
+  return {name_, lines_ - 1, hash_.bytes(), hash_.digest()};
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "cli/batch/selection.h"
+#include "cli/pipeline/line.h"
+#include "kernel/io/document.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What happens with the lines of a CityJSONSeq. They have their line ends.
+struct LineVisitor {
+  std::function<void(const std::string&)> header;
+  std::function<void(const std::string&)> feature;
+};
+
+/// Turns an input into a CityJSONSeq, record by record: CityJSON, OBJ and OFF are taken apart into
+/// features, CityGML becomes lines, the lines of a CityJSONSeq stay as they are.
+class StreamLines {
+ public:
+  /// A feature of which nothing is selected is left out.
+  StreamLines(LineVisitor visitor, const Selection& selection)
+      : visitor_(std::move(visitor)), selection_(selection) {}
+
+  void begin() { is_first_ = true; }
+  /// `lines` belong to the document's buildings.
+  void add(const Document& document, const std::vector<OnLine>& lines);
+
+ private:
+  void take_apart(const Document& document, const std::vector<OnLine>& lines) const;
+
+  LineVisitor visitor_;
+  const Selection& selection_;
+  bool is_first_ = true;  ///< record of its input
+};
+
+}  // namespace oriel::cli

@@ -1,0 +1,309 @@
+#include "generalise/invariants/fineness.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/planar.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+/// An edge lies on another one, a facet in front of another one, within the rounding of doubles.
+constexpr double kRounding_m = 1e-6;
+/// The sine of the angle up to which an edge runs along the depth of a recess.
+constexpr double kAlong = 1e-3;
+
+using detail::Outline;
+
+FeatureId smallest_around(const Segmentation& segmentation, const std::vector<FeatureId>& removed,
+                          Vec3 p, Vec3 q) {
+  FeatureId best;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < std::ssize(segmentation.features); ++i) {
+    const Box& box = segmentation.features[at(i)].box;
+    const double size_m = length(box.max - box.min);
+    if (size_m >= least_m || !holds(box, p) || !holds(box, q)) continue;
+    if (std::ranges::binary_search(removed, FeatureId{i})) continue;
+    best = FeatureId{i};
+    least_m = size_m;
+  }
+  return best;
+}
+
+/// Adds those edges of a facet that are shorter than asked for; `is_wanted` of two vertices.
+template <class IsWanted>
+void add_edges_below(const Solid& solid, const Facet& facet, double least_m, FeatureId owner,
+                     const IsWanted& is_wanted, std::vector<ShortEdge>& edges) {
+  for (const Loop& loop : facet.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int v = loop[i], w = loop[(i + 1) % loop.size()];
+      const Vec3 p = solid.vertices[at(v)].point, q = solid.vertices[at(w)].point;
+      const double length_m = length(q - p);
+      if (length_m < least_m - kRounding_m && is_wanted(v, w))
+        edges.push_back({p, q, length_m, owner});
+    }
+}
+
+/// Edges shorter than asked for, each once, their owners not known yet.
+std::vector<ShortEdge> edges_below(const Solid& solid, double least_m) {
+  std::vector<ShortEdge> edges;
+  for (const Facet& facet : solid.facets)
+    add_edges_below(solid, facet, least_m, {}, std::less{}, edges);
+  return edges;
+}
+
+void find_owners(std::vector<ShortEdge>& edges, const Segmentation& segmentation,
+                 const std::vector<FeatureId>& removed) {
+  for (ShortEdge& edge : edges)
+    edge.feature = smallest_around(segmentation, removed, edge.from, edge.to);
+}
+
+/// The corners of a solid, sorted, to find again what stays where it was.
+class Corners {
+ public:
+  explicit Corners(const Solid& solid) {
+    for (const Facet& facet : solid.facets)
+      for (const Loop& loop : facet.loops)
+        for (const int v : loop) points_.push_back(solid.vertices[at(v)].point);
+    std::ranges::sort(points_, {}, &Vec3::x);
+  }
+
+  [[nodiscard]] bool has(Vec3 p) const {
+    auto next = std::ranges::lower_bound(points_, p.x - kOnBox_m, {}, &Vec3::x);
+    for (; next != points_.end() && next->x <= p.x + kOnBox_m; ++next)
+      if (length(*next - p) <= kOnBox_m) return true;
+    return false;
+  }
+
+ private:
+  std::vector<Vec3> points_;
+};
+
+bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
+  if (!edge.feature.is_valid()) return false;
+  const Feature& feature = segmentation.features[edge.feature.index()];
+  if (feature.sense != Sense::hole || feature.planes.empty()) return false;
+  const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
+  return length(cross(normalised(edge.to - edge.from), normal)) < kAlong;
+}
+
+/// By input polygon the feature that an operator drew, or an invalid one if it only went with that.
+std::map<int, FeatureId> drawn_polygons(const Segmentation& segmentation,
+                                        const std::vector<FeatureId>& changed,
+                                        const std::vector<FeatureId>& removed) {
+  std::map<int, FeatureId> drawn;
+  for (const FeatureId id : changed)
+    for (const int polygon : segmentation.features[id.index()].source_polygons)
+      drawn.try_emplace(polygon, id);
+  for (const FeatureId id : removed)
+    for (const int polygon : segmentation.features[id.index()].source_polygons)
+      drawn.try_emplace(polygon);
+  return drawn;
+}
+
+/// The feature that the facet was drawn for; invalid if it was not.
+FeatureId drawn_owner(const Facet& facet, const std::map<int, FeatureId>& drawn) {
+  FeatureId owner;
+  for (const int polygon : facet.polygons) {
+    const auto found = drawn.find(polygon);
+    if (found == drawn.end()) return {};
+    if (!owner.is_valid()) owner = found->second;
+  }
+  return owner;
+}
+
+/// Edges, shorter than asked for, of cells and outlines of what stays as it was: their ends.
+std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmentation,
+                                                    const std::vector<FeatureId>& changed,
+                                                    const std::vector<FeatureId>& removed,
+                                                    double least_m) {
+  std::vector<std::pair<Vec3, Vec3>> edges;
+  const auto add = [&](const Loop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec3 p = segmentation.vertices[at(loop[i])].point;
+      const Vec3 q = segmentation.vertices[at(loop[(i + 1) % loop.size()])].point;
+      if (length(q - p) < least_m + 2 * kOnBox_m) edges.emplace_back(p, q);
+    }
+  };
+  const auto stays = [&](FeatureId id) {
+    return !std::ranges::binary_search(changed, id) && !std::ranges::binary_search(removed, id);
+  };
+  for (const Cell& cell : segmentation.cells)
+    if (stays(cell.feature))
+      for (const Facet& facet : cell.facets)
+        for (const Loop& loop : facet.loops) add(loop);
+  for (int i = 0; i < std::ssize(segmentation.features); ++i)
+    if (stays(FeatureId{i})) add(segmentation.features[at(i)].outline);
+  return edges;
+}
+
+/// A facet of the solid as outlines.
+struct Sheet {
+  std::vector<Outline> outlines;
+  Vec3 normal;
+  double offset_m = 0;
+};
+
+Sheet sheet_of(const Solid& solid, const Facet& facet) {
+  const Plane& plane = solid.planes[facet.plane.index()];
+  return {detail::outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m};
+}
+
+Vec3 moved_onto(const Sheet& sheet, Vec3 p) {
+  return p + (sheet.offset_m - dot(sheet.normal, p)) * sheet.normal;
+}
+
+bool do_cross(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 normal) {
+  const auto side = [&](Vec3 from, Vec3 to, Vec3 of) {
+    const double area = dot(cross(to - from, of - from), normal);
+    return area > kRounding_m * length(to - from)    ? 1
+           : area < -kRounding_m * length(to - from) ? -1
+                                                     : 0;
+  };
+  return side(p, q, r) * side(p, q, s) < 0 && side(r, s, p) * side(r, s, q) < 0;
+}
+
+/// A point of `of` that lies over the other sheet, seen along their normal.
+std::optional<Vec3> point_over(const Sheet& of, const Sheet& other) {
+  std::vector<Vec3> points;
+  if (const auto inside = detail::interior_point(of.outlines, of.normal)) points.push_back(*inside);
+  for (const Outline& outline : of.outlines)
+    points.insert(points.end(), outline.begin(), outline.end());
+  for (const Vec3 p : points)
+    if (detail::contains_clearly(other.outlines, other.normal, moved_onto(other, p), kRounding_m))
+      return p;
+  return std::nullopt;
+}
+
+/// Where an edge of one crosses an edge of the other, seen along their normal.
+std::optional<Vec3> crossing(const Sheet& a, const Sheet& b) {
+  for (const Outline& mine : a.outlines)
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const Vec3 p = moved_onto(b, mine[i]), q = moved_onto(b, mine[(i + 1) % mine.size()]);
+      for (const Outline& yours : b.outlines)
+        for (std::size_t k = 0; k < yours.size(); ++k)
+          if (do_cross(p, q, yours[k], yours[(k + 1) % yours.size()], b.normal)) return yours[k];
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool holds(const Box& box, Vec3 p, double off_m) {
+  return p.x >= box.min.x - off_m && p.x <= box.max.x + off_m && p.y >= box.min.y - off_m &&
+         p.y <= box.max.y + off_m && p.z >= box.min.z - off_m && p.z <= box.max.z + off_m;
+}
+
+std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
+                                   const std::vector<FeatureId>& removed, double least_m) {
+  std::vector<ShortEdge> edges = edges_below(solid, least_m);
+  find_owners(edges, segmentation, removed);
+  return edges;
+}
+
+std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
+                                       const Segmentation& segmentation,
+                                       const std::vector<FeatureId>& removed, double least_m) {
+  std::vector<ShortEdge> edges = edges_below(after, least_m);
+  if (edges.empty()) return edges;
+  const Corners corners(before);
+  std::erase_if(
+      edges, [&](const ShortEdge& edge) { return corners.has(edge.from) && corners.has(edge.to); });
+  find_owners(edges, segmentation, removed);
+  std::erase_if(edges, [&](const ShortEdge& edge) { return is_depth(edge, segmentation); });
+  return edges;
+}
+
+std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& after,
+                                            const Segmentation& segmentation,
+                                            const std::vector<FeatureId>& changed,
+                                            const std::vector<FeatureId>& removed, double least_m) {
+  std::vector<ShortEdge> edges;
+  const auto drawn = drawn_polygons(segmentation, changed, removed);
+  for (const Facet& facet : after.facets)
+    if (const FeatureId owner = drawn_owner(facet, drawn); owner.is_valid())
+      add_edges_below(
+          after, facet, least_m, owner, [](int, int) { return true; }, edges);
+  if (edges.empty()) return edges;
+  const Corners corners(before);
+  std::erase_if(edges, [&](const ShortEdge& edge) {
+    return is_depth(edge, segmentation) || (corners.has(edge.from) && corners.has(edge.to));
+  });
+  return edges;
+}
+
+std::vector<ShortEdge> without_whole_edges(std::vector<ShortEdge> edges,
+                                           const Segmentation& segmentation,
+                                           const std::vector<FeatureId>& changed,
+                                           const std::vector<FeatureId>& removed, double least_m) {
+  if (edges.empty()) return edges;
+  const auto whole = edges_of_staying(segmentation, changed, removed, least_m);
+  std::erase_if(edges, [&](const ShortEdge& edge) {
+    return std::ranges::any_of(whole, [&](const auto& ends) {
+      const auto is_it = [&](Vec3 p, Vec3 q) {
+        return length(p - edge.from) <= kOnBox_m && length(q - edge.to) <= kOnBox_m;
+      };
+      return is_it(ends.first, ends.second) || is_it(ends.second, ends.first);
+    });
+  });
+  return edges;
+}
+
+std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
+                                   const std::vector<FeatureId>& removed, double least_m) {
+  std::map<std::array<std::int64_t, 3>, std::vector<Sheet>> by_normal;
+  for (const Facet& facet : solid.facets)
+    by_normal[solid.planes[facet.plane.index()].coefficients].push_back(sheet_of(solid, facet));
+  std::vector<NarrowGap> gaps;
+  for (const auto& [normal, sheets] : by_normal) {
+    const std::array<std::int64_t, 3> back{-normal[0], -normal[1], -normal[2]};
+    const auto opposite = by_normal.find(back);
+    if (opposite == by_normal.end() || back < normal) continue;
+    for (const Sheet& one : sheets)
+      for (const Sheet& other : opposite->second) {
+        const double width_m = -other.offset_m - one.offset_m;
+        if (width_m < kRounding_m || width_m >= least_m - kRounding_m) continue;
+        auto where = point_over(one, other);
+        if (!where) where = point_over(other, one);
+        if (!where) where = crossing(one, other);
+        if (!where) continue;
+        gaps.push_back({*where, width_m, smallest_around(segmentation, removed, *where, *where)});
+      }
+  }
+  return gaps;
+}
+
+bool add_fine_owners(const Generalised& generalised, const Segmentation& segmentation,
+                     const FeatureTable& table, double least_m, double most_b_m,
+                     const std::string& rule, Plan& plan) {
+  const auto has_step = [&](FeatureId id) {
+    return std::ranges::find(plan.steps, id, &Step::feature) != plan.steps.end();
+  };
+  std::set<FeatureId> owners;
+  for (const ShortEdge& edge :
+       short_edges(generalised.solid, segmentation, generalised.removed, least_m)) {
+    FeatureId id = edge.feature;
+    while (id.is_valid() && has_step(id)) {
+      const Feature& feature = segmentation.features[id.index()];
+      id = feature.parent.is_valid() ? feature.parent : feature.host;
+    }
+    if (id.is_valid() && table.number(id, "b").value_or(most_b_m) < most_b_m) owners.insert(id);
+  }
+  for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
+  std::ranges::stable_sort(plan.steps, {}, &Step::feature);
+  return !owners.empty();
+}
+
+}  // namespace oriel

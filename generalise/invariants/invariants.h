@@ -1,0 +1,87 @@
+#pragma once
+
+#include "generalise/invariants/party_walls.h"
+#include "generalise/invariants/roof_lines.h"
+#include "kernel/model/limits.h"
+#include "kernel/model/solid.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Whether a solid is fit to be written.
+enum class Fitness {
+  unfit,
+  as_it_came,  ///< not valid, but the building was not valid either
+  valid
+};
+
+/// What changed that must not.
+struct Violation {
+  /// G411: of what stays something would hang in the air; G412: it would reach out of its box; else
+  /// G405.
+  std::string code;
+  std::string sentence;  ///< "the footprint would change by 2.10 %"
+};
+
+/// Says how fit a solid is. Judging takes longer than cutting, and whoever writes judges anyway.
+struct Judge {
+  std::function<Fitness(const Solid&)> fitness_of{};
+  /// If given, what must not change that has: what would do that does not go as cells.
+  std::function<std::optional<Violation>(const Solid&)> violation_of{};
+  /// What is left after cuts is judged also if all of them went well.
+  bool is_thorough = false;
+  /// Features that went together before, ascending: they are tried first.
+  std::vector<FeatureId> settled{};
+
+  explicit operator bool() const { return static_cast<bool>(fitness_of); }
+};
+
+/// What must not change by generalising.
+struct Invariants {
+  Limits limits{};
+  /// Those of which no more may be lost or gained than the limits say.
+  std::vector<PartyWall> party_walls{};
+  /// No edge that is drawn may be shorter (short_edges_of_drawn), and none that tells of a piece
+  /// torn off (new_short_edges); 0: it may.
+  double least_edge_m = 0;
+  /// Features that may go whatever edges that leaves. Ascending.
+  std::vector<FeatureId> settled{};
+  /// If given, what has no cut of its own goes as cells where that leaves what this calls fit
+  /// (remove_cells).
+  Judge judge{};
+};
+
+/// Facets that look down are ground if they lie no higher than this over the lowest point.
+inline constexpr double kGroundReach_m = 0.5;
+
+/// What invariants look at.
+struct Measures {
+  int lumps = 0;
+  double volume_m3 = 0;
+  /// The area of facets that look down and lie within half a metre of the lowest point, as seen
+  /// from above.
+  double footprint_m2 = 0;
+  /// The area of all other facets that look down, as seen from above.
+  double overhang_m2 = 0;
+  Box box;
+  /// What Invariants ask for only.
+  RoofLines roof{};
+  double party_walls_m2 = 0;
+};
+
+/// A box that `before`, larger by `slack_m` on all sides, does not hold.
+bool reaches_out(const Box& before, const Box& after, double slack_m);
+
+Measures measures_of(const Solid& solid, const Invariants& invariants = {});
+
+/// What changed that must not, or nothing. It must never fall into more pieces than it was. The
+/// main ridge and the main eaves (main_height_m) change if less than half of their length is left
+/// at their height, give or take the limit; a roof without ridge, as a pyramid, has none to lose.
+std::optional<Violation> violation(const Measures& before, const Measures& after,
+                                   const Invariants& invariants);
+
+}  // namespace oriel

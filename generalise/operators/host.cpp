@@ -1,0 +1,124 @@
+#include "generalise/operators/host.h"
+
+#include "kernel/attach/move_facet.h"
+#include "kernel/base/index.h"
+#include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/geometry/planar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+constexpr Vec3 kUp{0, 0, 1};
+/// Facets that lean less than this (sine) from the vertical are walls: 15 degrees.
+constexpr double kWall = 0.26;
+/// A sill this close to the lower edge of its wall is on it.
+constexpr double kOnEdge_m = 0.002;
+
+/// Of a facet that lies flat: along the first wall.
+Vec3 along_a_wall(const Solid& solid) {
+  for (const Plane& plane : solid.planes)
+    if (plane.coefficients[2] == 0) return normalised(cross(kUp, plane.normal));
+  return {1, 0, 0};
+}
+
+/// The facet that looks down behind the lower edge of a wall at the middle of `where`, if that is
+/// where the edge lies.
+std::optional<FacetId> ground_under(const Solid& solid, const Host& host, const Extents& where) {
+  const double middle = (where.u0 + where.u1) / 2;
+  for (const Loop& loop : solid.facets[host.facet.index()].loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int a = loop[i], b = loop[(i + 1) % loop.size()];
+      const Vec3 p = solid.vertices[at(a)].point, q = solid.vertices[at(b)].point;
+      const bool is_low = std::abs(dot(p, host.v) - where.v0) < kOnEdge_m &&
+                          std::abs(dot(q, host.v) - where.v0) < kOnEdge_m;
+      if (!is_low || dot(p, host.u) > middle || dot(q, host.u) < middle) continue;
+      for (int f = 0; f < std::ssize(solid.facets); ++f)
+        for (const Loop& other : solid.facets[at(f)].loops)
+          for (std::size_t j = 0; j < other.size(); ++j)
+            if (other[j] == b && other[(j + 1) % other.size()] == a &&
+                solid.planes[solid.facets[at(f)].plane.index()].normal.z < -0.9)
+              return FacetId{f};
+    }
+  return std::nullopt;
+}
+
+/// A plane parallel to the host's, `out_m` in front of it, that looks out (+1) or in (-1).
+Plane parallel(const Solid& solid, const Plane& plane, double out_m, int sign) {
+  const Plane moved = plane_in_front(plane, out_m, solid.grid_m);
+  return sign > 0 ? moved : exact::opposite(moved);
+}
+
+}  // namespace
+
+std::optional<Host> host_at(const Solid& solid, const Plane& plane, Vec3 point) {
+  for (int f = 0; f < std::ssize(solid.facets); ++f) {
+    const Facet& facet = solid.facets[at(f)];
+    const Plane& its = solid.planes[facet.plane.index()];
+    if (its.coefficients != plane.coefficients || its.offset != plane.offset) continue;
+    if (!contains(outlines_of(solid.vertices, facet.loops), its.normal, point)) continue;
+    Host host{{f}, its, {}, {}, its.normal};
+    const Vec3 across = cross(kUp, its.normal);
+    host.u = length(across) > 0.01 ? normalised(across) : along_a_wall(solid);
+    host.v = cross(host.n, host.u);
+    return host;
+  }
+  return std::nullopt;
+}
+
+Extents extents_of(const Host& host, const Segmentation& segmentation, const Feature& feature) {
+  constexpr double kInf = Box::kInfinity;
+  Extents e{kInf, -kInf, kInf, -kInf, kInf, -kInf};
+  for (const int v : feature.vertices) {
+    const Vec3 p = segmentation.vertices[at(v)].point;
+    e.u0 = std::min(e.u0, dot(p, host.u));
+    e.u1 = std::max(e.u1, dot(p, host.u));
+    e.v0 = std::min(e.v0, dot(p, host.v));
+    e.v1 = std::max(e.v1, dot(p, host.v));
+    const double out = dot(p, host.n) - host.plane.offset_m;
+    e.out0 = std::min(e.out0, out);
+    e.out1 = std::max(e.out1, out);
+  }
+  return e;
+}
+
+Placed place(const Solid& solid, const std::vector<FacetId>& contacts,
+             const std::vector<Plane>& planes, Attach kind, double clear_m,
+             const std::vector<int>& polygons) {
+  Attached made = attach(solid, contacts, planes, kind, clear_m);
+  if (!made.solid) return {std::nullopt, std::move(made.reason)};
+  for (const FacetId facet : made.facets) made.solid->facets[facet.index()].polygons = polygons;
+  return {std::move(made.solid), {}};
+}
+
+Placed place_box(const Solid& solid, const Host& host, Extents where, double depth_m, Attach kind,
+                 double clear_m, const std::vector<int>& polygons) {
+  const bool is_wall = std::abs(host.n.z) < kWall;
+  const Vec3 up = is_wall ? kUp : host.v;
+  const auto point = [&](double u, double v) {
+    return u * host.u + v * host.v + host.plane.offset_m * host.n;
+  };
+  const auto plane = [&](Vec3 direction, double u, double v) {
+    return plane_through(solid, direction, point(u, v), kSameDirection_deg);
+  };
+  std::vector<Plane> planes{plane(-host.u, where.u0, where.v0), plane(host.u, where.u1, where.v0),
+                            plane(up, where.u0, where.v1)};
+  planes.push_back(kind == Attach::sink ? parallel(solid, host.plane, -depth_m, -1)
+                                        : parallel(solid, host.plane, depth_m, 1));
+  const auto ground =
+      is_wall && kind == Attach::sink ? ground_under(solid, host, where) : std::nullopt;
+  if (ground) return place(solid, {host.facet, *ground}, planes, kind, clear_m, polygons);
+  planes.push_back(plane(-up, where.u0, where.v0));
+  return place(solid, {host.facet}, planes, kind, clear_m, polygons);
+}
+
+bool is_box(const Feature& feature, const Extents& extents) {
+  return feature.volume_m3 >= kBoxShare * extents.width() * extents.height() * extents.depth();
+}
+
+}  // namespace oriel::detail

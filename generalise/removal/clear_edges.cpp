@@ -1,0 +1,101 @@
+#include "generalise/removal/clear_edges.h"
+
+#include "kernel/attach/drop_facet.h"
+#include "kernel/base/index.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+class EdgeClearer {
+ public:
+  EdgeClearer(Solid solid, const ClearOrder& order, const Judge& judge)
+      : solid_(std::move(solid)), order_(order), judge_(judge) {}
+
+  Cleared run() {
+    short_ = order_.short_edges_of(solid_);
+    if (!short_.empty() && judge_) fitness_ = judge_.fitness_of(solid_);
+    while (clear_one()) {
+    }
+    return {std::move(solid_), std::move(left_)};
+  }
+
+ private:
+  /// Drops one facet. False if none can go: then all edges are left, each with its reason.
+  bool clear_one() {
+    left_.clear();
+    for (const ShortEdge& edge : short_) {
+      std::string reason;
+      if (clear(edge, reason)) return true;
+      left_.push_back({edge.from, edge.to, std::move(reason)});
+    }
+    return false;
+  }
+
+  bool clear(const ShortEdge& edge, std::string& reason) {
+    if (!judge_) {
+      reason = "whether the building would still be valid is not asked";
+      return false;
+    }
+    for (const FacetId facet : facets_at(edge)) {
+      std::string why_not = drop(facet);
+      if (why_not.empty()) return true;
+      if (reason.empty()) reason = "a facet at it cannot go: " + std::move(why_not);
+    }
+    return false;
+  }
+
+  /// The facets beside the edge, the one with fewer corners first.
+  [[nodiscard]] std::vector<FacetId> facets_at(const ShortEdge& edge) const {
+    std::vector<FacetId> out;
+    const auto is_it = [&](int v, int w) {
+      const Vec3 p = solid_.vertices[at(v)].point, q = solid_.vertices[at(w)].point;
+      return (p == edge.from && q == edge.to) || (p == edge.to && q == edge.from);
+    };
+    for (int f = 0; f < std::ssize(solid_.facets); ++f)
+      for (const Loop& loop : solid_.facets[at(f)].loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+          if (is_it(loop[i], loop[(i + 1) % loop.size()])) out.push_back(FacetId{f});
+    const auto corners = [&](FacetId id) { return solid_.facets[id.index()].loops[0].size(); };
+    std::ranges::stable_sort(out, {}, corners);
+    return out;
+  }
+
+  /// Why the facet cannot go, or nothing: then it is gone.
+  std::string drop(FacetId facet) {
+    if (auto reason = order_.keeps_facet(solid_, solid_.facets[facet.index()]))
+      return std::move(*reason);
+    DroppedFacet dropped = drop_facet(solid_, facet, order_.reach_m);
+    if (!dropped.solid) return std::move(dropped.reason);
+    auto left = order_.short_edges_of(*dropped.solid);
+    if (left.size() >= short_.size()) return "edges as short would be left";
+    if (judge_.violation_of)
+      if (const auto violation = judge_.violation_of(*dropped.solid)) return violation->sentence;
+    const Fitness fitness = judge_.fitness_of(*dropped.solid);
+    if (fitness < fitness_) return "the building would not be valid";
+    fitness_ = fitness;
+    solid_ = std::move(*dropped.solid);
+    short_ = std::move(left);
+    return {};
+  }
+
+  Solid solid_;
+  const ClearOrder& order_;
+  const Judge& judge_;
+  Fitness fitness_ = Fitness::unfit;
+  std::vector<ShortEdge> short_;
+  std::vector<UnclearedEdge> left_;
+};
+
+}  // namespace
+
+Cleared clear_edges(Solid solid, const ClearOrder& order, const Judge& judge) {
+  return EdgeClearer(std::move(solid), order, judge).run();
+}
+
+}  // namespace oriel

@@ -1,0 +1,157 @@
+#include "generalise/removal/fill_rings.h"
+
+#include "generalise/invariants/stays.h"
+#include "kernel/base/index.h"
+#include "kernel/geometry/planar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+using detail::Outline;
+
+Outline outline_of_loop(const std::vector<Vertex>& vertices, const Loop& loop) {
+  Outline outline;
+  for (const int v : loop) outline.push_back(vertices[at(v)].point);
+  return outline;
+}
+
+class RingFiller {
+ public:
+  RingFiller(const Segmentation& segmentation, const SegmentOptions& options, Solid solid)
+      : segmentation_(segmentation), options_(options), solid_(std::move(solid)) {
+    for (int f = 0; f < std::ssize(solid_.facets); ++f)
+      for (const Loop& loop : solid_.facets[at(f)].loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+          facet_at_[{loop[i], loop[(i + 1) % loop.size()]}] = f;
+    goes_.assign(solid_.facets.size(), 0);
+  }
+
+  /// The solid without what stands in the feature's ring; nothing if that hangs on something else.
+  std::optional<Solid> without(const Feature& feature) {
+    const Plane& plane = segmentation_.planes[feature.planes[0].index()];
+    const std::vector<Outline> ring{outline_of_loop(segmentation_.vertices, feature.outline)};
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      const Facet& facet = solid_.facets[at(f)];
+      if (!lies_in(solid_.planes[facet.plane.index()], plane)) continue;
+      for (std::size_t loop = 1; loop < facet.loops.size(); ++loop)
+        if (is_within(facet.loops[loop], ring, plane.normal) && !flood(f, facet.loops[loop]))
+          return std::nullopt;
+    }
+    return rest(ring, plane);
+  }
+
+ private:
+  [[nodiscard]] bool lies_in(const Plane& its, const Plane& plane) const {
+    return its.coefficients == plane.coefficients &&
+           std::abs(its.offset_m - plane.offset_m) <= options_.tolerances.weld_m;
+  }
+
+  [[nodiscard]] bool is_within(const Loop& loop, const std::vector<Outline>& ring,
+                               Vec3 normal) const {
+    const std::vector<Outline> shape{outline_of_loop(solid_.vertices, loop)};
+    const auto point = detail::interior_point(shape, normal);
+    return point && detail::contains(ring, normal, *point);
+  }
+
+  /// Marks all that hangs on the loop; false if its own facet does so another way.
+  bool flood(int own, const Loop& loop) {
+    std::vector<int> open;
+    const auto visit = [&](int from, int to) {
+      const int facet = facet_at_.at({to, from});
+      if (goes_[at(facet)] != 0) return;
+      goes_[at(facet)] = 1;
+      open.push_back(facet);
+    };
+    for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[(i + 1) % loop.size()]);
+    while (!open.empty() && goes_[at(own)] == 0) {
+      const int facet = open.back();
+      open.pop_back();
+      for (const Loop& its : solid_.facets[at(facet)].loops)
+        for (std::size_t i = 0; i < its.size(); ++i) {
+          const int from = its[i], to = its[(i + 1) % its.size()];
+          if (facet_at_.at({to, from}) == own && is_edge_of(loop, to, from)) continue;
+          visit(from, to);
+        }
+    }
+    return goes_[at(own)] == 0;
+  }
+
+  [[nodiscard]] static bool is_edge_of(const Loop& loop, int from, int to) {
+    const auto found = std::ranges::find(loop, from);
+    if (found == loop.end()) return false;
+    return *(std::next(found) == loop.end() ? loop.begin() : std::next(found)) == to;
+  }
+
+  /// What is not marked, with the facets in the ring's plane closed over it.
+  [[nodiscard]] Solid rest(const std::vector<Outline>& ring, const Plane& plane) const {
+    Solid out = solid_;
+    out.facets.clear();
+    out.vertices.clear();
+    std::vector<FacetId> numbers(solid_.facets.size());
+    std::map<int, int> vertices;
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      if (goes_[at(f)] != 0) continue;
+      Facet facet = solid_.facets[at(f)];
+      if (lies_in(solid_.planes[facet.plane.index()], plane))
+        facet.loops.erase(
+            std::remove_if(facet.loops.begin() + 1, facet.loops.end(),
+                           [&](const Loop& loop) { return is_within(loop, ring, plane.normal); }),
+            facet.loops.end());
+      for (Loop& loop : facet.loops)
+        for (int& v : loop) {
+          const auto [entry, is_new] = vertices.emplace(v, static_cast<int>(vertices.size()));
+          if (is_new) out.vertices.push_back(solid_.vertices[at(v)]);
+          v = entry->second;
+        }
+      numbers[at(f)] = FacetId{static_cast<int>(out.facets.size())};
+      out.facets.push_back(std::move(facet));
+    }
+    for (Shell& shell : out.shells) {
+      std::erase_if(shell.facets, [&](FacetId id) { return !numbers[id.index()].is_valid(); });
+      for (FacetId& id : shell.facets) id = numbers[id.index()];
+    }
+    return out;
+  }
+
+  const Segmentation& segmentation_;
+  const SegmentOptions& options_;
+  Solid solid_;
+  std::map<std::pair<int, int>, int> facet_at_;  ///< by directed edge
+  std::vector<char> goes_;                       ///< by facet
+};
+
+}  // namespace
+
+Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, const Judge& judge,
+                     const SegmentOptions& options) {
+  std::vector<FeatureId> rings;
+  for (const Refusal& refusal : remainder.refused)
+    if (segmentation.features[refusal.feature.index()].is_uncut) rings.push_back(refusal.feature);
+  for (const FeatureId id : rings) {
+    if (std::ranges::binary_search(remainder.removed, id)) continue;  // it went with another one
+    auto made = RingFiller(segmentation, options, remainder.solid)
+                    .without(segmentation.features[id.index()]);
+    if (!made || !is_closed(*made) || volume_m3(*made) <= 0) continue;
+    std::vector<FeatureId> gone = remainder.removed;
+    gone.push_back(id);
+    gone = with_what_sits_on(segmentation, gone);
+    if (detail::loses_what_stays(remainder.solid, *made, segmentation, gone)) continue;
+    if (judge && judge.fitness_of(*made) == Fitness::unfit) continue;
+    remainder.solid = std::move(*made);
+    remainder.removed = std::move(gone);
+  }
+  std::erase_if(remainder.refused, [&](const Refusal& refusal) {
+    return std::ranges::binary_search(remainder.removed, refusal.feature);
+  });
+  return remainder;
+}
+
+}  // namespace oriel

@@ -1,0 +1,281 @@
+#include "generalise/series/series_levels.h"
+
+#include "generalise/tasks.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+bool is_same(const Step& a, const Step& b) {
+  return a.operation == b.operation && a.rule == b.rule && a.numbers == b.numbers &&
+         a.words == b.words && a.group == b.group;
+}
+
+/// Arguments that depend on the map are those of its scale from now on.
+Step fixed(Step step, double scale) {
+  if (step.operation == "omit") return step;
+  if (step.operation == "enlarge" || step.operation == "symbolise")
+    step.numbers.try_emplace("to", kToOnMap_m * scale);
+  step.numbers.try_emplace("gap", kGapOnMap_m * scale);
+  return step;
+}
+
+class Levels {
+ public:
+  Levels(const SeriesInput& input, const PlanAt& plan_at) : input_(input), plan_at_(plan_at) {}
+
+  Checked<std::vector<SeriesLevel>> run(const std::vector<double>& scales) {
+    Checked<std::vector<SeriesLevel>> out;
+    auto finest = level_of(input_, 0, {}, {}, out.issues);
+    if (!finest) return out;
+    if (auto fault = fault_of(*finest)) {
+      out.issues.push_back(std::move(*fault));
+      return out;
+    }
+    std::vector<SeriesLevel> levels{std::move(*finest)};
+    for (const double scale : scales) {
+      auto level = next(levels.back(), scale, out.issues);
+      if (!level) return out;
+      levels.push_back(std::move(*level));
+    }
+    out.value = std::move(levels);
+    return out;
+  }
+
+ private:
+  using Steps = std::map<FeatureId, Step>;
+
+  static Steps by_feature(const std::vector<Step>& steps) {
+    Steps out;
+    for (const Step& step : steps) out.emplace(step.feature, step);
+    return out;
+  }
+  static std::vector<Step> listed(const Steps& steps) {
+    std::vector<Step> out;
+    for (const auto& [feature, step] : steps) out.push_back(step);
+    return out;
+  }
+
+  /// What the plan asks for on top of what was done before.
+  [[nodiscard]] Steps wanted(const SeriesLevel& before, double scale) const {
+    Steps steps = by_feature(before.steps);
+    const Plan plan = plan_at_(scale);
+    const std::set<FeatureId> bound = bound_members(before, plan);
+    for (const Step& step : plan.steps) {
+      const auto found = steps.find(step.feature);
+      const bool is_gone =
+          found == steps.end()
+              ? std::ranges::binary_search(before.generalised.removed, step.feature)
+              : found->second.operation == "omit" || bound.contains(step.feature);
+      if (!is_gone) steps.insert_or_assign(step.feature, fixed(step, scale));
+    }
+    return steps;
+  }
+
+  /// Members of rows of which the plan asks different things, or nothing: the row stays as it is.
+  [[nodiscard]] std::set<FeatureId> bound_members(const SeriesLevel& before,
+                                                  const Plan& plan) const {
+    std::map<FeatureId, const Step*> asked;
+    for (const Step& step : plan.steps) asked.emplace(step.feature, &step);
+    std::set<FeatureId> bound;
+    const Plan old{before.scale, before.steps, {}};
+    for (const detail::PlanTask& task : detail::tasks_of(old, input_.segmentation)) {
+      if (!detail::is_for_groups(task.steps[0])) continue;
+      const auto first = asked.find(task.steps[0].feature);
+      const bool is_whole = std::ranges::all_of(task.steps, [&](const Step& step) {
+        const auto its = asked.find(step.feature);
+        return its != asked.end() && first != asked.end() &&
+               its->second->rule == first->second->rule;
+      });
+      if (!is_whole)
+        for (const Step& step : task.steps) bound.insert(step.feature);
+    }
+    return bound;
+  }
+
+  [[nodiscard]] Invariants invariants_after(const SeriesLevel& before, double scale) const {
+    Invariants invariants = input_.invariants_at ? input_.invariants_at(scale) : Invariants{};
+    invariants.settled = before.generalised.removed;
+    return invariants;
+  }
+
+  std::optional<SeriesLevel> next(const SeriesLevel& before, double scale,
+                                  std::vector<Issue>& issues) {
+    const Steps old = by_feature(before.steps);
+    Steps steps = wanted(before, scale);
+    if (asks_nothing_new(before, steps)) {
+      SeriesLevel same = before;
+      same.scale = scale;
+      return same;
+    }
+    while (true) {
+      std::vector<Issue> found;
+      auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
+      if (!level || !restore_refused(*level, old, steps)) {
+        if (level && is_setback(before, *level)) return on_top(before, steps, scale, issues);
+        if (auto fault = level ? fault_of(*level) : std::nullopt)
+          return given_up(before, std::move(*level), std::move(*fault), issues);
+        std::ranges::move(found, std::back_inserter(issues));
+        if (level && is_nothing_new(before, *level)) return unchanged(before, std::move(*level));
+        return level;
+      }
+    }
+  }
+
+  /// The same steps were carried out.
+  static bool is_nothing_new(const SeriesLevel& before, const SeriesLevel& after) {
+    return std::ranges::equal(before.steps, after.steps, [](const Step& a, const Step& b) {
+      return a.feature == b.feature && is_same(a, b);
+    });
+  }
+
+  /// What was refused may have changed how other features go; then they stay gone as they were.
+  static SeriesLevel unchanged(const SeriesLevel& before, SeriesLevel after) {
+    SeriesLevel same = before;
+    same.scale = after.scale;
+    same.refused = std::move(after.refused);
+    return same;
+  }
+
+  [[nodiscard]] std::optional<Issue> fault_of(const SeriesLevel& level) const {
+    if (!input_.fault_of) return std::nullopt;
+    return input_.fault_of(*level.redrawn.labelled.geometry);
+  }
+
+  static SeriesLevel given_up(const SeriesLevel& before, SeriesLevel after, Issue fault,
+                              std::vector<Issue>& issues) {
+    fault.severity = Severity::warning;
+    fault.sentence += fmt::format("; at 1:{} it stays as it is at the scale before", after.scale);
+    issues.push_back(std::move(fault));
+    after.refused.insert(after.refused.end(), after.steps.begin(), after.steps.end());
+    return unchanged(before, std::move(after));
+  }
+
+  /// All steps were carried out, or refused, at the level before.
+  static bool asks_nothing_new(const SeriesLevel& before, const Steps& steps) {
+    return std::ranges::all_of(steps, [&](const auto& asked) {
+      const auto is_it = [&](const Step& old) {
+        return old.feature == asked.first && is_same(old, asked.second);
+      };
+      return std::ranges::any_of(before.steps, is_it) || std::ranges::any_of(before.refused, is_it);
+    });
+  }
+
+  /// Steps that were refused give way to those that they were to take the place of. True if there
+  /// were such.
+  static bool restore_refused(const SeriesLevel& level, const Steps& old, Steps& steps) {
+    bool is_changed = false;
+    for (const CarriedOut::Refused& refused : level.generalised.refused) {
+      const auto before = old.find(refused.feature);
+      const auto now = steps.find(refused.feature);
+      if (before == old.end() || now == steps.end() || is_same(before->second, now->second))
+        continue;
+      now->second = before->second;
+      is_changed = true;
+    }
+    return is_changed;
+  }
+
+  /// Something is there that was gone already, or an old step is refused.
+  static bool is_setback(const SeriesLevel& before, const SeriesLevel& after) {
+    const Steps now = by_feature(after.steps);
+    const auto& removed = after.generalised.removed;
+    const bool has_lost_a_step = std::ranges::any_of(before.steps, [&](const Step& step) {
+      return !now.contains(step.feature) && !std::ranges::binary_search(removed, step.feature);
+    });
+    return has_lost_a_step || !std::ranges::includes(removed, before.generalised.removed);
+  }
+
+  /// The new steps on top of the old ones; tasks that would undo something, found by halving, are
+  /// left.
+  SeriesLevel on_top(const SeriesLevel& before, const Steps& wanted_steps, double scale,
+                     std::vector<Issue>& issues) {
+    SeriesLevel best = before;
+    best.scale = scale;
+    add_tasks(before, new_tasks(by_feature(before.steps), wanted_steps), best, issues);
+    return best;
+  }
+
+  void add_tasks(const SeriesLevel& before, std::span<const std::vector<Step>> tasks,
+                 SeriesLevel& best, std::vector<Issue>& issues) {
+    if (tasks.empty()) return;
+    Steps more = by_feature(best.steps);
+    for (const std::vector<Step>& task : tasks)
+      for (const Step& step : task) more.insert_or_assign(step.feature, step);
+    std::vector<Issue> found;
+    auto level =
+        level_of(input_, best.scale, listed(more), invariants_after(before, best.scale), found);
+    if (level && !is_setback(before, *level) && !fault_of(*level)) {
+      best = std::move(*level);
+      std::ranges::move(found, std::back_inserter(issues));
+    } else if (tasks.size() > 1) {
+      add_tasks(before, tasks.first(tasks.size() / 2), best, issues);
+      add_tasks(before, tasks.subspan(tasks.size() / 2), best, issues);
+    } else {
+      Issue issue = building_issue(Severity::warning, "G408", input_.table.building(),
+                                   "stays as it is: a change that was made at a larger scale would "
+                                   "be undone");
+      issue.place.feature = input_.table.id(tasks[0][0].feature);
+      issues.push_back(std::move(issue));
+    }
+  }
+
+  [[nodiscard]] std::vector<std::vector<Step>> new_tasks(const Steps& old,
+                                                         const Steps& wanted_steps) const {
+    const auto is_new = [&](const Step& step) {
+      const auto found = old.find(step.feature);
+      return found == old.end() || !is_same(found->second, step);
+    };
+    std::vector<std::vector<Step>> out;
+    for (const auto& [feature, step] : wanted_steps)
+      if (step.operation == "omit" && is_new(step)) out.push_back({step});
+    const Plan plan{0, listed(wanted_steps), {}};
+    for (const detail::PlanTask& task : detail::tasks_of(plan, input_.segmentation))
+      if (std::ranges::any_of(task.steps, is_new)) out.push_back(task.steps);
+    return out;
+  }
+
+  const SeriesInput& input_;
+  const PlanAt& plan_at_;
+};
+
+}  // namespace
+
+std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std::vector<Step> steps,
+                                    const Invariants& invariants, std::vector<Issue>& issues) {
+  const Plan plan{scale, std::move(steps), {}};
+  auto made = generalise(input.solid, input.segmentation, input.table, input.interpretation, plan,
+                         input.options, invariants);
+  std::ranges::move(made.issues, std::back_inserter(issues));
+  if (!made.value) return std::nullopt;
+  SeriesLevel level;
+  level.scale = scale;
+  const auto& refused = made.value->refused;
+  for (const Step& step : plan.steps)
+    if (std::ranges::find(refused, step.feature, &CarriedOut::Refused::feature) == refused.end())
+      level.steps.push_back(step);
+    else
+      level.refused.push_back(step);
+  level.generalised = *made.value;
+  made.value->is_drawn_anew = true;
+  level.redrawn = redraw(input.building, input.labelled, input.segmentation, input.table,
+                         input.interpretation, std::move(*made.value), input.options.tolerances);
+  if (input.finish) input.finish(level.redrawn.labelled);
+  return level;
+}
+
+Checked<std::vector<SeriesLevel>> series_levels(const SeriesInput& input,
+                                                const std::vector<double>& scales,
+                                                const PlanAt& plan_at) {
+  return Levels(input, plan_at).run(scales);
+}
+
+}  // namespace oriel

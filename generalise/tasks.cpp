@@ -1,0 +1,99 @@
+#include "generalise/tasks.h"
+
+#include "generalise/operators/aggregate.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+/// What moves a facet comes after what is put onto it, outlines come last.
+int rank_of(const std::string& operation) {
+  if (operation == "collapse") return 2;
+  return operation == "flatten" ? 1 : 0;
+}
+
+class TaskMaker {
+ public:
+  TaskMaker(const Plan& plan, const Segmentation& segmentation)
+      : plan_(plan), segmentation_(segmentation) {}
+
+  std::vector<PlanTask> run() {
+    std::map<std::tuple<std::string, PlaneId, std::string>, std::vector<Step>> groups;
+    for (const Step& step : plan_.steps) {
+      if (step.operation == "omit") continue;
+      const auto& planes = feature(step).planes;
+      if (is_for_groups(step) && !planes.empty())
+        groups[{step.rule, planes[0], step.group}].push_back(step);
+      else
+        tasks_.push_back({step.operation, {step}});
+    }
+    for (auto& [key, members] : groups)
+      if (members[0].group.empty())
+        add_rows(std::move(members));
+      else
+        add_row({members[0].operation, std::move(members)});
+    std::ranges::sort(tasks_, {}, [](const PlanTask& task) {
+      const auto first = std::ranges::min(task.steps, {}, &Step::feature).feature;
+      return std::pair{rank_of(task.operation), first};
+    });
+    return std::move(tasks_);
+  }
+
+ private:
+  [[nodiscard]] const Feature& feature(const Step& step) const {
+    return segmentation_.features[step.feature.index()];
+  }
+  [[nodiscard]] const Box& box(const Step& step) const { return feature(step).box; }
+
+  /// Features on one wall whose heights overlap by half of the lower one's are a row.
+  void add_rows(std::vector<Step> members) {
+    std::ranges::sort(members, {}, [&](const Step& step) {
+      return std::pair{box(step).min.z, step.feature};
+    });
+    std::vector<PlanTask> rows;
+    for (Step& step : members) {
+      const Box& mine = box(step);
+      const auto found = std::ranges::find_if(rows, [&](const PlanTask& row) {
+        const Box& its = box(row.steps[0]);
+        const double common = std::min(mine.max.z, its.max.z) - std::max(mine.min.z, its.min.z);
+        return common >= 0.5 * std::min(mine.max.z - mine.min.z, its.max.z - its.min.z);
+      });
+      if (found == rows.end())
+        rows.push_back({step.operation, {std::move(step)}});
+      else
+        found->steps.push_back(std::move(step));
+    }
+    for (PlanTask& row : rows) add_row(std::move(row));
+  }
+
+  void add_row(PlanTask row) {
+    const Vec3 normal = segmentation_.planes[feature(row.steps[0]).planes[0].index()].normal;
+    const Vec3 along = cross({0, 0, 1}, normal);
+    std::ranges::sort(row.steps, {}, [&](const Step& step) {
+      return std::pair{dot(along, box(step).min + box(step).max), step.feature};
+    });
+    tasks_.push_back(std::move(row));
+  }
+
+  const Plan& plan_;
+  const Segmentation& segmentation_;
+  std::vector<PlanTask> tasks_;
+};
+
+}  // namespace
+
+bool is_for_groups(const Step& step) {
+  return (step.operation == "aggregate" && !becomes_block(step)) || step.operation == "typify" ||
+         step.operation == "displace";
+}
+
+std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation) {
+  return TaskMaker(plan, segmentation).run();
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,88 @@
+#include "interpret/compile/components.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace oriel::rules {
+
+namespace {
+
+constexpr int kUnseen = -1;
+
+std::size_t index(int id) { return static_cast<std::size_t>(id); }
+
+class Tarjan {
+ public:
+  Tarjan(int nodes, const std::vector<std::pair<int, int>>& edges)
+      : targets_(index(nodes)), order_(index(nodes), kUnseen), low_(index(nodes), 0) {
+    for (const auto& [from, to] : edges) targets_[index(from)].push_back(to);
+    result_.of_node.assign(index(nodes), kUnseen);
+  }
+
+  Components run() {
+    for (int node = 0; node < static_cast<int>(order_.size()); ++node)
+      if (order_[index(node)] == kUnseen) visit(node);
+    return result_;
+  }
+
+ private:
+  struct Visit {
+    int node = 0;
+    std::size_t next = 0;
+  };
+
+  void enter(int node) {
+    order_[index(node)] = low_[index(node)] = seen_++;
+    stack_.push_back(node);
+    visits_.push_back({node, 0});
+  }
+
+  void visit(int root) {
+    enter(root);
+    while (!visits_.empty()) {
+      Visit& at = visits_.back();
+      if (at.next == targets_[index(at.node)].size()) {
+        leave();
+        continue;
+      }
+      const int target = targets_[index(at.node)][at.next++];
+      if (order_[index(target)] == kUnseen)
+        enter(target);
+      else if (result_.of_node[index(target)] == kUnseen)
+        low_[index(at.node)] = std::min(low_[index(at.node)], order_[index(target)]);
+    }
+  }
+
+  void leave() {
+    const int node = visits_.back().node;
+    visits_.pop_back();
+    if (!visits_.empty()) {
+      int& low = low_[index(visits_.back().node)];
+      low = std::min(low, low_[index(node)]);
+    }
+    if (low_[index(node)] != order_[index(node)]) return;
+    int member = kUnseen;
+    while (member != node) {
+      member = stack_.back();
+      stack_.pop_back();
+      result_.of_node[index(member)] = result_.count;
+    }
+    ++result_.count;
+  }
+
+  std::vector<std::vector<int>> targets_;
+  std::vector<int> order_;
+  std::vector<int> low_;
+  std::vector<int> stack_;
+  std::vector<Visit> visits_;
+  int seen_ = 0;
+  Components result_;
+};
+
+}  // namespace
+
+Components find_components(int nodes, const std::vector<std::pair<int, int>>& edges) {
+  return Tarjan(nodes, edges).run();
+}
+
+}  // namespace oriel::rules

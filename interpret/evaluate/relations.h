@@ -1,0 +1,21 @@
+#pragma once
+
+#include "interpret/evaluate/facts.h"
+#include "interpret/pack/pack.h"
+
+namespace oriel::rules {
+
+RelationSides sides_of(const Pack& pack, const Relation& relation);
+
+/// A relation that the pack declares; `links` is to refer to `lists`.
+struct Narrowed {
+  FeatureLinks lists;
+  Links links;
+};
+
+/// The pairs of the relation it narrows, which must be linked in `facts`, for which its condition
+/// holds or is unknown. Where that one relates all of a class, and the condition asks both of them
+/// for the same and for equal values, classes are parted and no pair is looked at.
+Narrowed narrowed(const Pack& pack, const Facts& facts, const Relation& relation);
+
+}  // namespace oriel::rules

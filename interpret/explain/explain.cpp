@@ -1,0 +1,146 @@
+#include "interpret/explain/explain.h"
+
+#include "interpret/explain/flip.h"
+#include "interpret/explain/proof.h"
+#include "interpret/labelling/labelling.h"
+
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using rules::Evaluator;
+using rules::ExprId;
+using rules::Pack;
+using rules::Prover;
+using rules::Rule;
+using rules::Truth;
+
+std::vector<ConditionReport> prove(Prover& prover, const std::vector<ExprId>& conditions) {
+  std::vector<ConditionReport> reports;
+  for (const ExprId id : conditions)
+    for (ConditionReport& report : prover.conditions(id)) reports.push_back(std::move(report));
+  return reports;
+}
+
+/// `unless` is one condition to the rule, whatever `and` joins in it.
+std::vector<ConditionReport> prove_vetoes(Prover& prover, const std::vector<ExprId>& conditions) {
+  std::vector<ConditionReport> reports;
+  reports.reserve(conditions.size());
+  for (const ExprId id : conditions) reports.push_back(prover.condition(id));
+  return reports;
+}
+
+RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, Prover& prover) {
+  const rules::Class& label = pack.classes[static_cast<std::size_t>(rule.label)];
+  RuleReport report;
+  report.id = rule.id;
+  report.label = label.name;
+  report.priority = rule.priority;
+  report.is_predicate = label.is_abstract;
+  report.place = pack.source.place(rule.span.begin);
+  rules::Judgement judgement;
+  rules::judge(pack, rule, evaluator, prover.frame(), judgement);
+  report.outcome = judgement.truth[0] == Truth::yes       ? Outcome::holds
+                   : judgement.truth[0] == Truth::unknown ? Outcome::unknown
+                                                          : Outcome::fails;
+  if (report.outcome == Outcome::holds) report.score = judgement.score[0];
+  report.require = prove(prover, rule.require);
+  report.unless = prove_vetoes(prover, rule.unless);
+  for (const rules::ScoreTerm& term : rule.score) report.terms.push_back(prover.term(term));
+  return report;
+}
+
+RoundReport round_report(const Pack& pack, const rules::Choice& choice) {
+  if (choice.rule < 0) return {};
+  const Rule& rule = pack.rules[static_cast<std::size_t>(choice.rule)];
+  const rules::Class& label = pack.classes[static_cast<std::size_t>(rule.label)];
+  return {label.name, choice.score, choice.margin, rule.id};
+}
+
+bool is_better(const RuleReport& p, const RuleReport& q) {
+  if (p.priority != q.priority) return p.priority > q.priority;
+  return p.score != q.score ? p.score > q.score : p.id < q.id;
+}
+
+std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    if (reports[i].is_predicate || reports[i].outcome != Outcome::holds) continue;
+    if (!best || is_better(reports[i], reports[*best])) best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+struct Explainer::State {
+  State(const RuleBase& rule_base, const FeatureTable& features, const FeatureGraph& features_graph,
+        const Interpretation& said)
+      : base(&rule_base),
+        table(&features),
+        graph(&features_graph),
+        interpretation(&said),
+        facts(base->pack(), features, features_graph),
+        labelling(base->pack(), facts),
+        evaluator(base->pack(), facts) {
+    labelling.run();
+  }
+
+  Explanation explain(Prover prover, FeatureId feature);
+
+  const RuleBase* base;
+  const FeatureTable* table;
+  const FeatureGraph* graph;
+  const Interpretation* interpretation;
+  rules::Facts facts;
+  rules::Labelling labelling;
+  Evaluator evaluator;
+};
+
+Explainer::Explainer(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                     const Interpretation& interpretation)
+    : state_(std::make_unique<State>(base, table, graph, interpretation)) {}
+Explainer::~Explainer() = default;
+Explainer::Explainer(Explainer&&) noexcept = default;
+Explainer& Explainer::operator=(Explainer&&) noexcept = default;
+
+Explanation Explainer::explain(FeatureId feature) const {
+  return state_->explain(
+      Prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value), feature);
+}
+
+Explanation Explainer::explain_fully(FeatureId feature) const {
+  Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
+  prover.look_for_nearest(state_->facts);
+  Explanation explanation = state_->explain(prover, feature);
+  explanation.flip = find_flip(feature);
+  return explanation;
+}
+
+Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
+  const Pack& pack = base->pack();
+  Explanation explanation;
+  explanation.building = table->building();
+  explanation.feature = table->id(feature);
+  explanation.verdict = interpretation->verdicts.at(feature.index());
+  explanation.min_score = pack.decide.min_score;
+  for (const Rule& rule : pack.rules)
+    explanation.rules.push_back(report_of(pack, rule, evaluator, prover));
+  for (const auto& round : labelling.rounds())
+    explanation.rounds.push_back(round_report(pack, round[feature.index()]));
+  explanation.best = find_best(explanation.rules);
+  return explanation;
+}
+
+FlipSearch Explainer::find_flip(FeatureId feature) const {
+  return rules::find_flip(state_->base->pack(), *state_->table, *state_->graph, feature);
+}
+
+Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                    const Interpretation& interpretation, FeatureId feature) {
+  return Explainer(base, table, graph, interpretation).explain_fully(feature);
+}
+
+}  // namespace oriel

@@ -1,0 +1,189 @@
+#pragma once
+
+#include "interpret/pack/rule_base.h"
+#include "kernel/model/description/feature_graph.h"
+#include "kernel/model/description/feature_table.h"
+#include "kernel/model/interpretation.h"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+enum class Outcome { fails, unknown, holds };
+
+/// One condition of a rule, judged for one feature.
+struct ConditionReport {
+  /// As it stands in the pack, and where.
+  std::string text;
+  Place place;
+  Outcome outcome = Outcome::unknown;
+  /// What was found, what was asked for and by how much it is missed: "height = 0.61 m",
+  /// "<= 0.60 m", "misses by 0.01 m"; empty where that makes no sense.
+  std::string value;
+  std::string bound;
+  std::string miss;
+  /// Attributes of the feature that have no value.
+  std::vector<std::string> missing;
+  /// What `and`, `or` and `not` are made of.
+  std::vector<ConditionReport> parts;
+  /// Of exists, all and counts that are too low, if it was asked for: the other feature that misses
+  /// least, as a share of the numbers compared, and what it does not fulfil: of the relation and
+  /// of what stands after `where`. Bare names in them speak of that feature.
+  std::string nearest;
+  std::vector<ConditionReport> nearest_misses;
+};
+
+/// One term of a score.
+struct TermReport {
+  std::string text;
+  Place place;
+  /// 0…1; missing where the term is unknown and drops out with its weight.
+  std::optional<double> judged;
+  double weight = 1;
+  std::string value;
+  /// "rises 1.60 m .. 2.00 m, falls 2.60 m .. 3.20 m".
+  std::string bound;
+  std::vector<std::string> missing;
+  /// As of a condition.
+  std::string nearest;
+  std::vector<ConditionReport> nearest_misses;
+};
+
+struct RuleReport {
+  std::string id;
+  std::string label;
+  int priority = 0;
+  /// True if the label is abstract: the rule does not compete.
+  bool is_predicate = false;
+  Place place;
+  Outcome outcome = Outcome::unknown;
+  /// Where the rule holds.
+  double score = 0;
+  std::vector<ConditionReport> require;
+  std::vector<ConditionReport> unless;
+  std::vector<TermReport> terms;
+};
+
+/// What one round of a pack with `iterate:` said of the feature.
+struct RoundReport {
+  /// Empty: unknown.
+  std::string label;
+  double score = 0;
+  double margin = 0;
+  std::string rule;
+};
+
+/// The smallest change of one param, as a share of its range, that gives the feature another label.
+struct Flip {
+  std::string param;
+  /// Of the param.
+  Place place;
+  /// In metres, degrees or as a share, and as text: "0.60 m", "0.61 m".
+  double from = 0;
+  double to = 0;
+  std::string from_text;
+  std::string to_text;
+  /// What the feature becomes with that value, empty: unknown; with which score, by which rule.
+  std::string label;
+  double score = 0;
+  std::string rule;
+};
+
+struct FlipSearch {
+  std::optional<Flip> nearest;
+  /// Params that have a range, in which they were moved, and those that have none and were not.
+  std::size_t params = 0;
+  std::vector<std::string> without_range;
+  /// How often the building was labelled with another value.
+  std::size_t tried = 0;
+  /// The share of each range up to which all was tried; 1: all of it.
+  double reach = 1;
+};
+
+/// Why a feature has its label, or none: the whole proof, in the order of the pack.
+struct Explanation {
+  std::string building;
+  std::string feature;
+  Verdict verdict;
+  double min_score = 0;
+  /// The rule that would be first if `min_score` were 0: an index into `rules`.
+  std::optional<std::size_t> best;
+  std::vector<RuleReport> rules;
+  /// Round by round; empty if the pack has no `iterate:`. `rules` are judged as in the last.
+  std::vector<RoundReport> rounds;
+  /// Only if it was searched for.
+  std::optional<FlipSearch> flip;
+};
+
+/// Explains features of one building: runs the pack over it again, once, then judges every
+/// condition of every rule for each feature that is asked for. `interpretation` is that of the same
+/// pack, table and graph; all four must outlive it.
+class Explainer {
+ public:
+  Explainer(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+            const Interpretation& interpretation);
+  ~Explainer();
+  Explainer(Explainer&&) noexcept;
+  Explainer& operator=(Explainer&&) noexcept;
+
+  /// `feature` must be a row of the table. Without nearest misses and without a flip.
+  [[nodiscard]] Explanation explain(FeatureId feature) const;
+
+  /// The same with both.
+  [[nodiscard]] Explanation explain_fully(FeatureId feature) const;
+
+  /// Moves every param that has a range to where something turns that a rule or a relation asks
+  /// of the feature, and to where something turns for others; labels the building with that value,
+  /// nearest first, and takes the first that gives the feature another label. What is asked of the
+  /// feature itself is tried in any case; of the others as much as comes to four million features
+  /// labelled anew. Among scores that change gradually a flip is found if there is one at a quarter
+  /// between two turning points. The value is rounded away from the pack's one to as few decimals
+  /// as give the same label, and was labelled with.
+  [[nodiscard]] FlipSearch find_flip(FeatureId feature) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The same for one feature, fully.
+Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+                    const Interpretation& interpretation, FeatureId feature);
+
+/// One line of the proof: mark ("holds", of a rule its id), what was found, what was asked for and
+/// by how much it was missed; and where that stands in the pack.
+struct ExplanationRow {
+  std::size_t indent = 0;
+  std::array<std::string, 3> cells;
+  Place place;
+};
+
+/// "f1 -> window 0.93 by window.in_wall, margin 0.93", "f2 -> unknown   no rule for a label holds".
+std::string headline(const Explanation& explanation);
+
+/// A rule: its own row, then its conditions and, if it holds, the terms of its score.
+std::vector<ExplanationRow> rows_of(const RuleReport& rule);
+
+/// "nearest flip: sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground", or that there is none.
+std::string flip_line(const FlipSearch& search);
+
+/// "file:line:column".
+std::string place_text(const Place& place);
+
+/// The reason in one line without the id: of a label its rule with what its conditions and terms
+/// found; of a feature without one the best candidate, or that no rule for a label holds.
+std::string reason(const Explanation& explanation);
+
+/// For a terminal: the verdict, then every rule with its conditions and, if it holds, the terms of
+/// its score, a line each, with file:line:column.
+std::string to_text(const Explanation& explanation);
+
+/// The same as one JSON object on one line (docs/rules.md).
+std::string to_json(const Explanation& explanation);
+
+}  // namespace oriel

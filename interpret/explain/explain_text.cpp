@@ -1,0 +1,183 @@
+#include "interpret/explain/explain.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+/// Cells wider than this do not push the others aside.
+constexpr std::size_t kWidestCell = 48;
+
+const char* mark_of(Outcome outcome) {
+  if (outcome == Outcome::unknown) return "unknown";
+  return outcome == Outcome::holds ? "holds" : "fails";
+}
+
+const char* veto_mark_of(Outcome outcome) {
+  if (outcome == Outcome::unknown) return "unless ?";
+  return outcome == Outcome::holds ? "vetoes" : "no veto";
+}
+
+void add(std::string& text, const std::string& more) {
+  if (!text.empty() && !more.empty()) text += ", ";
+  text += more;
+}
+
+void add_missing(std::string& text, const std::vector<std::string>& missing) {
+  for (const std::string& attribute : missing) add(text, attribute + " is missing");
+}
+
+/// "nearest miss f12: a = 1.40 m ~ 2.10 m by 10 %, differs 33.3 %; sense = hole = imprint".
+void add_nearest(std::string& text, const std::string& nearest,
+                 const std::vector<ConditionReport>& misses) {
+  if (nearest.empty()) return;
+  std::string all;
+  for (const ConditionReport& miss : misses) {
+    if (!all.empty()) all += "; ";
+    all += miss.value.empty() ? miss.text : miss.value;
+    if (!miss.bound.empty()) all += " " + miss.bound;
+    add(all, miss.miss);
+    add_missing(all, miss.missing);
+  }
+  add(text, fmt::format("nearest miss {}: {}", nearest, all));
+}
+
+void add_condition(const ConditionReport& report, const char* mark, std::size_t indent,
+                   std::vector<ExplanationRow>& rows) {
+  const std::string& found = report.value.empty() ? report.text : report.value;
+  std::string bound = report.bound;
+  add(bound, report.miss);
+  add_missing(bound, report.missing);
+  add_nearest(bound, report.nearest, report.nearest_misses);
+  rows.push_back({indent, {mark, found, bound}, report.place});
+  for (const ConditionReport& part : report.parts)
+    add_condition(part, mark_of(part.outcome), indent + 2, rows);
+}
+
+std::string to_string(const RoundReport& round) {
+  if (round.label.empty()) return "unknown";
+  return fmt::format("{} {:.2f} by {}, margin {:.2f}", round.label, round.score, round.rule,
+                     round.margin);
+}
+
+void pad(std::string& text, std::size_t column) {
+  text += std::string(text.size() < column ? column - text.size() : 1, ' ');
+}
+
+}  // namespace
+
+std::string place_text(const Place& place) {
+  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+std::string headline(const Explanation& explanation) {
+  const Verdict& verdict = explanation.verdict;
+  if (verdict.label.empty()) {
+    std::string text = explanation.feature + " -> unknown";
+    if (!explanation.best) return text + "   no rule for a label holds";
+    const RuleReport& best = explanation.rules[*explanation.best];
+    return text + fmt::format("   best candidate: {} {:.2f} (< min_score {:.2f})", best.label,
+                              best.score, explanation.min_score);
+  }
+  std::string text = fmt::format("{} -> {} {:.2f} by {}, margin {:.2f}", explanation.feature,
+                                 verdict.label, verdict.score, verdict.rule, verdict.margin);
+  if (!verdict.runner_up.empty()) text += ", then " + verdict.runner_up.text();
+  return text;
+}
+
+std::vector<ExplanationRow> rows_of(const RuleReport& rule) {
+  std::vector<ExplanationRow> rows;
+  std::string outcome = mark_of(rule.outcome);
+  if (rule.outcome == Outcome::holds && !rule.is_predicate)
+    outcome += fmt::format(", score {:.2f}", rule.score);
+  rows.push_back({2, {rule.id, outcome, rule.label}, rule.place});
+  for (const ConditionReport& report : rule.require)
+    add_condition(report, mark_of(report.outcome), 4, rows);
+  for (const ConditionReport& report : rule.unless)
+    add_condition(report, veto_mark_of(report.outcome), 4, rows);
+  if (rule.outcome != Outcome::holds) return rows;
+  for (const TermReport& term : rule.terms) {
+    const std::string judged = term.judged ? fmt::format("{:.2f}", *term.judged) : "-";
+    std::string bound = term.bound;
+    add_missing(bound, term.missing);
+    add_nearest(bound, term.nearest, term.nearest_misses);
+    rows.push_back(
+        {4, {fmt::format("{} x{:g}", judged, term.weight), term.value, bound}, term.place});
+  }
+  return rows;
+}
+
+std::string reason(const Explanation& explanation) {
+  const Verdict& verdict = explanation.verdict;
+  if (verdict.label.empty()) return headline(explanation).substr(explanation.feature.size() + 4);
+  std::string text = fmt::format("{} {:.2f} by {}", verdict.label, verdict.score, verdict.rule);
+  const auto rule = std::ranges::find(explanation.rules, verdict.rule.text(), &RuleReport::id);
+  if (rule == explanation.rules.end()) return text;
+  const auto rows = rows_of(*rule);
+  const char* separator = ": ";
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].indent > rows[1].indent) continue;
+    for (const std::string& cell : rows[i].cells) {
+      if (cell.empty() || cell == mark_of(Outcome::holds)) continue;
+      text += separator + cell;
+      separator = " ";
+    }
+    separator = "; ";
+  }
+  return text;
+}
+
+std::string flip_line(const FlipSearch& search) {
+  if (search.nearest) {
+    const Flip& flip = *search.nearest;
+    const std::string becomes =
+        flip.label.empty() ? "unknown"
+                           : fmt::format("{} {:.2f} by {}", flip.label, flip.score, flip.rule);
+    return fmt::format("nearest flip: {} {} -> {}: {}", flip.param, flip.from_text, flip.to_text,
+                       becomes);
+  }
+  std::string text = "nearest flip: ";
+  if (search.params == 0)
+    text += "no param has a range to be moved in";
+  else
+    text += fmt::format("no param ({}) flips the label within its range", search.params);
+  if (search.reach < 1) text += fmt::format(", as far as {:.2g} of it was searched", search.reach);
+  if (search.params > 0 && !search.without_range.empty())
+    text += fmt::format("; without a range: {}", fmt::join(search.without_range, ", "));
+  return text;
+}
+
+std::string to_text(const Explanation& explanation) {
+  std::vector<ExplanationRow> lines;
+  for (const RuleReport& rule : explanation.rules)
+    for (ExplanationRow& row : rows_of(rule)) lines.push_back(std::move(row));
+  std::array<std::size_t, 3> columns{};
+  std::size_t start = 0;
+  for (std::size_t cell = 0; cell < columns.size(); ++cell) {
+    std::size_t width = 0;
+    for (const ExplanationRow& line : lines)
+      width = std::max(
+          width, std::min(kWidestCell, line.cells[cell].size() + (cell == 0 ? line.indent : 0)));
+    start += width + 2;
+    columns[cell] = start;
+  }
+  std::string text = headline(explanation) + "\n";
+  for (std::size_t i = 0; i < explanation.rounds.size(); ++i)
+    text += fmt::format("  round {}: {}\n", i + 1, to_string(explanation.rounds[i]));
+  for (const ExplanationRow& line : lines) {
+    std::string row(line.indent, ' ');
+    for (std::size_t cell = 0; cell < columns.size(); ++cell) {
+      row += line.cells[cell];
+      pad(row, columns[cell]);
+    }
+    text += row + place_text(line.place) + "\n";
+  }
+  if (explanation.flip) text += "  " + flip_line(*explanation.flip) + "\n";
+  return text;
+}
+
+}  // namespace oriel

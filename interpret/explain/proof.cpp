@@ -1,0 +1,295 @@
+#include "interpret/explain/proof.h"
+
+#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
+#include "interpret/labelling/labelling.h"
+#include "interpret/language/quantity.h"
+#include "interpret/pack/names.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::rules {
+
+namespace {
+
+Outcome outcome_of(Truth truth) {
+  if (truth == Truth::unknown) return Outcome::unknown;
+  return truth == Truth::yes ? Outcome::holds : Outcome::fails;
+}
+
+const char* symbol_of(Op op) {
+  switch (op) {
+    case Op::less:
+      return "<";
+    case Op::less_equal:
+      return "<=";
+    case Op::greater:
+      return ">";
+    case Op::greater_equal:
+      return ">=";
+    case Op::equal:
+      return "=";
+    default:
+      return "!=";
+  }
+}
+
+/// The comparison seen from its right side.
+const char* yes_or_no(Truth truth) {
+  if (truth == Truth::unknown) return "?";
+  return truth == Truth::yes ? "yes" : "no";
+}
+
+std::string misses_by(double distance, Dimension dimension) {
+  return "misses by " + write(distance, dimension, 0);
+}
+
+}  // namespace
+
+Frame Prover::frame() const {
+  Frame frame;
+  frame.size = 1;
+  for (std::size_t level = 0; level < rows_.size(); ++level)
+    if (rows_[level] >= 0) frame.rows[level] = &rows_[level];
+  return frame;
+}
+
+std::string Prover::text_of(ExprId id) const {
+  return std::string(pack_->source.text_of(at(id).span));
+}
+
+double Prover::number(ExprId id) {
+  double value = 0;
+  evaluator_->numbers(id, frame(), std::span(&value, 1));
+  return value;
+}
+
+Truth Prover::truth(ExprId id) {
+  Truth value = Truth::unknown;
+  evaluator_->truths(id, frame(), std::span(&value, 1));
+  return value;
+}
+
+std::string Prover::show(ExprId id, double other) {
+  const Expr& expr = at(id);
+  if (expr.type == Type::text && expr.op == Op::constant) return text_of(id);
+  const double value = number(id);
+  if (std::isnan(value)) return "?";
+  if (expr.type == Type::text)
+    return table_->texts(static_cast<std::size_t>(expr.index))[feature_of(expr).index()];
+  return write(value, expr.dimension, std::isnan(other) ? value : other);
+}
+
+std::string Prover::show_named(ExprId id, double other) {
+  if (at(id).op == Op::count) return show_tally(id);
+  if (is_aggregate(at(id).op)) return show_aggregate(id, other);
+  return text_of(id) + " = " + show(id, other);
+}
+
+/// "exists(contains where is opening) = 1 of 3".
+std::string Prover::show_tally(ExprId id) {
+  Evaluator::Tally tally;
+  evaluator_->tally(id, frame(), std::span(&tally, 1));
+  std::string text = fmt::format("{} = {} of {}", text_of(id), tally.yes, tally.total());
+  if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
+  return text;
+}
+
+/// "mean(height of in_row) = 2.31 m of 4".
+std::string Prover::show_aggregate(ExprId id, double other) {
+  Evaluator::Tally tally;
+  evaluator_->tally(id, frame(), std::span(&tally, 1));
+  std::string text = fmt::format("{} = {} of {}", text_of(id), show(id, other), tally.yes);
+  if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
+  return text;
+}
+
+/// What the relation of a quantifier is, where the pack declares it.
+std::string Prover::show_relation(const Expr& expr) const {
+  const std::size_t built_in = relation_schema().size();
+  const auto number = static_cast<std::size_t>(expr.index);
+  if (number < built_in) return "";
+  const Relation& relation = pack_->relations[number - built_in];
+  return fmt::format("{}: {} where {}", relation.name,
+                     relation_names(*pack_)[static_cast<std::size_t>(relation.within)],
+                     text_of(relation.where));
+}
+
+void Prover::find_missing(ExprId id, std::vector<std::string>& missing) const {
+  if (id == kNoExpr) return;
+  const Expr& expr = at(id);
+  for (const ExprId arg : expr.args) find_missing(arg, missing);
+  const bool is_attribute = expr.op == Op::attribute || expr.op == Op::flag;
+  if (!is_known(expr.level) || (!is_attribute && expr.op != Op::facet_is)) return;
+  const Attribute& attribute = expr.op == Op::facet_is
+                                   ? feature_schema()[column_of("host_inclination").value()]
+                                   : feature_schema()[static_cast<std::size_t>(expr.index)];
+  const FeatureId feature = feature_of(expr);
+  const bool has_value = attribute.unit == Unit::text
+                             ? !table_->text(feature, attribute.name).empty()
+                             : table_->number(feature, attribute.name).has_value();
+  if (!has_value && std::ranges::find(missing, attribute.name) == missing.end())
+    missing.push_back(attribute.name);
+}
+
+std::vector<ConditionReport> Prover::conditions(ExprId id) {
+  if (at(id).op != Op::all_of) return {condition(id)};
+  std::vector<ConditionReport> reports;
+  for (const ExprId arg : at(id).args)
+    for (ConditionReport& report : conditions(arg)) reports.push_back(std::move(report));
+  return reports;
+}
+
+ConditionReport Prover::condition(ExprId id) {
+  const Expr& expr = at(id);
+  ConditionReport report;
+  report.text = text_of(id);
+  report.place = pack_->source.place(expr.span.begin);
+  const Truth judged = truth(id);
+  report.outcome = outcome_of(judged);
+  if (judged == Truth::unknown) find_missing(id, report.missing);
+  switch (expr.op) {
+    case Op::in_range:
+      range(expr.args[0], number(expr.args[1]), number(expr.args[2]), report);
+      break;
+    case Op::in_list:
+      list(expr, report);
+      break;
+    case Op::similar:
+      similarity(expr, report);
+      break;
+    case Op::flag:
+    case Op::is_class:
+      report.value = report.text + " = " + yes_or_no(judged);
+      break;
+    case Op::facet_is:
+      facet(expr, report);
+      break;
+    case Op::negation:
+      negation(expr, report);
+      break;
+    case Op::all_of:
+    case Op::any_of:
+      for (const ExprId arg : expr.args) report.parts.push_back(condition(arg));
+      break;
+    case Op::exists:
+    case Op::none:
+    case Op::all:
+      report.value = show_tally(id);
+      report.bound = show_relation(expr);
+      judge_others(expr, report);
+      break;
+    default:
+      compare(expr, report);
+  }
+  if (report.outcome != Outcome::fails) report.miss.clear();
+  if (report.outcome == Outcome::fails) judge_tally(expr, report);
+  return report;
+}
+
+void Prover::compare(const Expr& expr, ConditionReport& report) {
+  const bool is_turned = is_constant(at(expr.args[0])) && !is_constant(at(expr.args[1]));
+  const ExprId left = expr.args[is_turned ? 1 : 0];
+  const ExprId right = expr.args[is_turned ? 0 : 1];
+  const Op op = is_turned ? mirrored(expr.op) : expr.op;
+  const double value = number(left);
+  const double bound = number(right);
+  report.value = show_named(left, bound);
+  report.bound = fmt::format("{} {}", symbol_of(op), show(right, value));
+  if (at(right).op != Op::constant) report.bound += " (" + text_of(right) + ")";
+  const double distance = std::abs(value - bound);
+  if (at(left).type == Type::number && distance > 0)
+    report.miss = misses_by(distance, at(left).dimension);
+}
+
+void Prover::range(ExprId value, double low, double high, ConditionReport& report) {
+  const Dimension dimension = at(value).dimension;
+  const double found = number(value);
+  const double nearest = found < low ? low : high;
+  report.value = show_named(value, nearest);
+  report.bound =
+      fmt::format("in {} .. {}", write(low, dimension, found), write(high, dimension, found));
+  report.miss = misses_by(std::abs(found - nearest), dimension);
+}
+
+void Prover::list(const Expr& expr, ConditionReport& report) {
+  report.value = show_named(expr.args[0], kUnknown);
+  std::string members;
+  for (std::size_t i = 1; i < expr.args.size(); ++i)
+    members += (i > 1 ? ", " : "") + show(expr.args[i], kUnknown);
+  report.bound = "in [" + members + "]";
+}
+
+void Prover::similarity(const Expr& expr, ConditionReport& report) {
+  const double left = number(expr.args[0]);
+  const double right = number(expr.args[1]);
+  const double tolerance = number(expr.args[2]);
+  report.value = show_named(expr.args[0], right);
+  report.bound = fmt::format("~ {} by {:.3g} %", show(expr.args[1], left), tolerance * 100);
+  const double larger = std::max(std::abs(left), std::abs(right));
+  report.miss = fmt::format("differs {:.3g} %", std::abs(left - right) / larger * 100);
+}
+
+void Prover::facet(const Expr& expr, ConditionReport& report) {
+  const auto kind = static_cast<HostKind>(expr.index);
+  const HostRange range = range_of(pack_->hosts, kind);
+  const auto found = table_->number(feature_of(expr), "host_inclination");
+  constexpr Dimension kAngle{0, 1};
+  report.value = "host_inclination = " + (found ? write(*found, kAngle) : "?");
+  report.bound =
+      fmt::format("in {} .. {}", write(range.low_deg, kAngle), write(range.high_deg, kAngle));
+  if (!found) return;
+  const double distance = std::max(range.low_deg - *found, *found - range.high_deg);
+  if (distance > 0) report.miss = misses_by(distance, kAngle);
+}
+
+/// "not natural": what stands below is shown, turned round.
+void Prover::negation(const Expr& expr, ConditionReport& report) {
+  ConditionReport inner = condition(expr.args[0]);
+  if (!inner.parts.empty()) {
+    report.parts.push_back(std::move(inner));
+    return;
+  }
+  report.value = inner.bound.empty() ? "not " + inner.value : inner.value;
+  if (!inner.bound.empty()) report.bound = "not " + inner.bound;
+  const Expr& negated = at(expr.args[0]);
+  if (negated.op == Op::exists && inner.outcome == Outcome::holds)
+    report.miss = in_the_way(negated, Truth::yes);
+}
+
+TermReport Prover::term(const ScoreTerm& term) {
+  TermReport report;
+  report.text = text_of(term.value);
+  report.place = pack_->source.place(at(term.value).span.begin);
+  report.weight = term.weight;
+  double judged = 0;
+  judge_term(*pack_, term, *evaluator_, frame(), std::span(&judged, 1));
+  if (std::isnan(judged))
+    find_missing(term.value, report.missing);
+  else
+    report.judged = judged;
+  const Dimension dimension = at(term.value).dimension;
+  if (at(term.value).type == Type::yes_no) {
+    const ConditionReport inner = condition(term.value);
+    report.value = inner.value.empty() ? inner.text : inner.value;
+    report.bound = inner.bound;
+    return report;
+  }
+  report.value = show_named(term.value, kUnknown);
+  const auto describe = [&](const char* verb, const std::optional<Ramp>& ramp) {
+    if (!ramp) return;
+    const double from = fold(*pack_, ramp->from).value_or(kUnknown);
+    const double to = fold(*pack_, ramp->to).value_or(kUnknown);
+    report.bound += fmt::format("{}{} {} .. {}", report.bound.empty() ? "" : ", ", verb,
+                                write(from, dimension, to), write(to, dimension, from));
+  };
+  describe("rises", term.rise);
+  describe("falls", term.fall);
+  judge_tally(term, report);
+  return report;
+}
+
+}  // namespace oriel::rules

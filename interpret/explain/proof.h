@@ -1,0 +1,82 @@
+#pragma once
+
+#include "interpret/evaluate/evaluator.h"
+#include "interpret/explain/explain.h"
+#include "interpret/pack/pack.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace oriel::rules {
+
+/// Judges conditions for one feature and says why.
+class Prover {
+ public:
+  Prover(const Pack& pack, const FeatureTable& table, Evaluator& evaluator, int row)
+      : pack_(&pack), table_(&table), evaluator_(&evaluator), rows_{row, -1} {}
+
+  /// From now on conditions on others say which of them misses least.
+  void look_for_nearest(const Facts& facts) { facts_ = &facts; }
+
+  /// A condition; what `and` joins at its top becomes several.
+  std::vector<ConditionReport> conditions(ExprId id);
+  ConditionReport condition(ExprId id);
+  TermReport term(const ScoreTerm& term);
+  /// The frame of the feature.
+  [[nodiscard]] Frame frame() const;
+
+ private:
+  void compare(const Expr& expr, ConditionReport& report);
+  void range(ExprId value, double low, double high, ConditionReport& report);
+  void list(const Expr& expr, ConditionReport& report);
+  void similarity(const Expr& expr, ConditionReport& report);
+  void facet(const Expr& expr, ConditionReport& report);
+  void negation(const Expr& expr, ConditionReport& report);
+
+  // Of others (nearest_miss.cpp).
+  /// How far it is from holding, in shares of the numbers compared: 0 where it holds.
+  double gap(ExprId id);
+  /// The conditions that the other feature has to fulfil, of the relation and after `where`.
+  [[nodiscard]] std::vector<ExprId> demands_of(const Expr& quantifier) const;
+  /// Others that the relation leads to, with those it would if its own condition held.
+  [[nodiscard]] std::vector<int> others_of(const Expr& quantifier) const;
+  template <class Report>
+  void add_nearest(const Expr& quantifier, Report& report);
+  /// "in the way: f3, f7" for those that answer so.
+  std::string in_the_way(const Expr& quantifier, Truth answer);
+  void judge_others(const Expr& quantifier, ConditionReport& report);
+  void judge_tally(const Expr& comparison, ConditionReport& report);
+  void judge_tally(const ScoreTerm& term, TermReport& report);
+
+  [[nodiscard]] const Expr& at(ExprId id) const {
+    return pack_->code[static_cast<std::size_t>(id)];
+  }
+  [[nodiscard]] std::string text_of(ExprId id) const;
+  double number(ExprId id);
+  Truth truth(ExprId id);
+  /// "0.61 m", "hole", or "?" where it is missing; apart from `other` if they differ.
+  std::string show(ExprId id, double other);
+  std::string show_named(ExprId id, double other);
+  std::string show_tally(ExprId id);
+  std::string show_aggregate(ExprId id, double other);
+  [[nodiscard]] std::string show_relation(const Expr& expr) const;
+  void find_missing(ExprId id, std::vector<std::string>& missing) const;
+
+  [[nodiscard]] bool is_known(int level) const {
+    return level < 2 && rows_[static_cast<std::size_t>(level)] >= 0;
+  }
+  [[nodiscard]] FeatureId feature_of(const Expr& expr) const {
+    return FeatureId{rows_[static_cast<std::size_t>(expr.level)]};
+  }
+
+  const Pack* pack_;
+  const FeatureTable* table_;
+  Evaluator* evaluator_;
+  /// Null: nearest misses are not looked for.
+  const Facts* facts_ = nullptr;
+  /// The feature, and for conditions of a pair the other one.
+  std::array<int, 2> rows_;
+};
+
+}  // namespace oriel::rules

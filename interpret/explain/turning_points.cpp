@@ -1,0 +1,297 @@
+#include "interpret/explain/turning_points.h"
+
+#include "interpret/evaluate/arithmetic.h"
+#include "interpret/evaluate/evaluator.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace oriel::rules {
+
+namespace {
+
+/// Below this share of the values at its ends a difference is a straight line of the param.
+constexpr double kStraight = 1e-9;
+/// So often a range is halved until its ends are neighbours.
+constexpr int kHalvings = 60;
+
+/// What turns where both sides are equal, and the relations that lead to the features it speaks of.
+struct Turn {
+  ExprId left = kNoExpr;
+  ExprId right = kNoExpr;
+  std::array<int, kMostLevels> relations{};
+};
+
+/// Goes through all that the rules ask and keeps what depends on the param.
+class TurnFinder {
+ public:
+  TurnFinder(Pack& pack, std::size_t param) : pack_(pack), param_(param) {}
+
+  std::vector<Turn> run() {
+    for (const Rule& rule : pack_.rules) {
+      for (const ExprId id : rule.require) visit(id);
+      for (const ExprId id : rule.unless) visit(id);
+      for (const ScoreTerm& term : rule.score) visit(term);
+    }
+    for (const Relation& relation : pack_.relations) {
+      relations_[0] = root_of(relation.within);
+      visit(relation.where);
+    }
+    is_gradual_ = is_gradual_ || depends_on(pack_, pack_.decide.min_score_of, param_, true);
+    return std::move(turns_);
+  }
+
+  [[nodiscard]] bool is_gradual() const { return is_gradual_; }
+
+ private:
+  [[nodiscard]] Expr at(ExprId id) const { return pack_.code[static_cast<std::size_t>(id)]; }
+
+  /// The built-in relation that it narrows in the end: which pairs it leaves may change.
+  [[nodiscard]] int root_of(int relation) const {
+    const auto built_in = static_cast<int>(relation_schema().size());
+    while (relation >= built_in)
+      relation = pack_.relations[static_cast<std::size_t>(relation - built_in)].within;
+    return relation;
+  }
+
+  void add(ExprId left, ExprId right) {
+    if (depends_on(pack_, left, param_, false) || depends_on(pack_, right, param_, false))
+      turns_.push_back({left, right, relations_});
+  }
+
+  ExprId make(Op op, std::vector<ExprId> args) {
+    Expr expr{.op = op, .args = std::move(args)};
+    for (const ExprId arg : expr.args) expr.levels |= at(arg).levels;
+    pack_.code.push_back(std::move(expr));
+    return static_cast<ExprId>(pack_.code.size()) - 1;
+  }
+
+  void visit(const ScoreTerm& term) {
+    visit(term.value);
+    const bool is_number = at(term.value).type == Type::number;
+    is_gradual_ = is_gradual_ || (is_number && depends_on(pack_, term.value, param_, true));
+    for (const auto& ramp : {term.rise, term.fall}) {
+      if (!ramp) continue;
+      for (const ExprId end : {ramp->from, ramp->to}) {
+        is_gradual_ = is_gradual_ || depends_on(pack_, end, param_, true);
+        add(term.value, end);
+      }
+    }
+  }
+
+  void visit(ExprId id) {
+    if (id == kNoExpr || !(depends_on(pack_, id, param_, true) || is_facet(id))) return;
+    const Expr expr = at(id);
+    switch (expr.op) {
+      case Op::less:
+      case Op::less_equal:
+      case Op::greater:
+      case Op::greater_equal:
+      case Op::equal:
+      case Op::not_equal:
+      case Op::in_range:
+      case Op::in_list:
+        for (std::size_t i = 1; i < expr.args.size(); ++i) add(expr.args[0], expr.args[i]);
+        break;
+      case Op::similar:
+        visit_similarity(expr);
+        break;
+      case Op::facet_is:
+        visit_facet(expr);
+        break;
+      default:
+        break;
+    }
+    for (const ExprId arg : expr.args) visit(arg);
+    if (is_quantifier(expr.op))
+      relations_[static_cast<std::size_t>(expr.level)] = root_of(expr.index);
+    for (const ExprId part : {expr.filter, expr.join, expr.value}) visit(part);
+  }
+
+  /// Whether tests of facets stand in it; what they ask for is not among its expressions.
+  [[nodiscard]] bool is_facet(ExprId id) const {
+    if (id == kNoExpr) return false;
+    const Expr& expr = pack_.code[static_cast<std::size_t>(id)];
+    if (expr.op == Op::facet_is) return true;
+    const auto is = [&](ExprId part) { return is_facet(part); };
+    return std::ranges::any_of(expr.args, is) || is(expr.filter) || is(expr.join) || is(expr.value);
+  }
+
+  /// |x - y| = t max(|x|, |y|).
+  void visit_similarity(const Expr& expr) {
+    const auto [x, y, t] = std::tuple(expr.args[0], expr.args[1], expr.args[2]);
+    const ExprId larger = make(Op::maximum, {make(Op::absolute, {x}), make(Op::absolute, {y})});
+    add(make(Op::absolute, {make(Op::subtract, {x, y})}), make(Op::multiply, {t, larger}));
+  }
+
+  /// The inclination of the host's facet and the ends of walls, roofs and grounds: walls go first.
+  void visit_facet(const Expr& expr) {
+    Expr inclination{.op = Op::attribute,
+                     .index = static_cast<int>(column_of("host_inclination").value()),
+                     .level = expr.level,
+                     .levels = expr.levels};
+    pack_.code.push_back(inclination);
+    const auto id = static_cast<ExprId>(pack_.code.size()) - 1;
+    for (const HostRange& range : {pack_.hosts.wall, pack_.hosts.roof, pack_.hosts.ground})
+      for (const ExprId end : {range.low, range.high})
+        if (end != kNoExpr) add(id, end);
+  }
+
+  Pack& pack_;
+  std::size_t param_;
+  std::vector<Turn> turns_;
+  std::array<int, kMostLevels> relations_{};
+  bool is_gradual_ = false;
+};
+
+/// For whom a turn is asked: a feature for each level that it speaks of.
+struct Slots {
+  std::array<std::vector<int>, kMostLevels> rows;
+  std::vector<bool> is_own;
+};
+
+Slots slots_of(const Pack& pack, const Turn& turn, const Facts& facts, int row) {
+  const unsigned levels = pack.code[static_cast<std::size_t>(turn.left)].levels |
+                          pack.code[static_cast<std::size_t>(turn.right)].levels;
+  Slots slots;
+  if (levels == 0) slots.is_own = {true};
+  if (levels == 0) return slots;
+  const auto level = static_cast<std::size_t>(std::countr_zero(levels));
+  if (std::has_single_bit(levels)) {
+    slots.rows[level] = facts.row_numbers;
+    for (const int self : facts.row_numbers) slots.is_own.push_back(level == 0 && self == row);
+    return slots;
+  }
+  const Links& links = facts.relations[static_cast<std::size_t>(turn.relations[level])];
+  for (const int self : facts.row_numbers)
+    for (const int other : links.others_of(self)) {
+      slots.rows[level].push_back(self);
+      slots.rows[level + 1].push_back(other);
+      slots.is_own.push_back(level == 0 && self == row);
+    }
+  return slots;
+}
+
+/// How far the sides of one turn are apart at values of the param.
+class Differences {
+ public:
+  Differences(WhatIf& what_if, std::size_t param)
+      : pack_(what_if.pack()), param_(param), evaluator_(pack_, what_if.facts()) {}
+
+  void add_to(TurningPoints& points, const Turn& turn, const Slots& slots) {
+    const Param& param = pack_.params[param_];
+    const auto [low, high] = *param.range;
+    const double said = param.value;
+    for (std::size_t begin = 0; begin < slots.is_own.size(); begin += kBlock) {
+      const std::size_t size = std::min(kBlock, slots.is_own.size() - begin);
+      Block at_low, at_said, at_high;
+      find(turn, slots, begin, size, low, at_low);
+      find(turn, slots, begin, size, high, at_high);
+      find(turn, slots, begin, size, said, at_said);
+      for (std::size_t i = 0; i < size; ++i) {
+        auto& values = slots.is_own[begin + i] ? points.own : points.others;
+        const auto root = [&](double x, double dx, double y, double dy) {
+          if (const auto value = root_of(turn, slots, begin + i, {x, dx, y, dy}))
+            values.push_back(*value);
+        };
+        root(low, at_low[i], said, at_said[i]);
+        root(said, at_said[i], high, at_high[i]);
+      }
+    }
+    set(said);
+  }
+
+ private:
+  using Block = std::array<double, kBlock>;
+  struct Segment {
+    double x, dx, y, dy;
+  };
+
+  void set(double value) {
+    pack_.params[param_].value = value;
+    evaluator_.forget();
+  }
+
+  void find(const Turn& turn, const Slots& slots, std::size_t begin, std::size_t size, double value,
+            Block& out) {
+    set(value);
+    Frame frame;
+    frame.size = size;
+    for (std::size_t level = 0; level < slots.rows.size(); ++level)
+      if (!slots.rows[level].empty()) frame.rows[level] = slots.rows[level].data() + begin;
+    Block right;
+    evaluator_.numbers(turn.left, frame, std::span(out).first(size));
+    evaluator_.numbers(turn.right, frame, std::span(right).first(size));
+    for (std::size_t i = 0; i < size; ++i) out[i] -= right[i];
+  }
+
+  double difference(const Turn& turn, const Slots& slots, std::size_t slot, double value) {
+    Block out;
+    find(turn, slots, slot, 1, value, out);
+    return out[0];
+  }
+
+  /// Where the difference is 0 between the ends of the segment: exactly where a side is the param
+  /// itself, else as a straight line goes, else by halving.
+  std::optional<double> root_of(const Turn& turn, const Slots& slots, std::size_t slot, Segment s) {
+    if (s.x == s.y || std::isnan(s.dx) || std::isnan(s.dy) || s.dx == s.dy) return std::nullopt;
+    if ((s.dx < 0) == (s.dy < 0) && s.dx != 0 && s.dy != 0) return std::nullopt;
+    const Expr& left = pack_.code[static_cast<std::size_t>(turn.left)];
+    const Expr& right = pack_.code[static_cast<std::size_t>(turn.right)];
+    if (right.op == Op::parameter || left.op == Op::parameter) {
+      const bool is_left = left.op == Op::parameter;
+      if (!depends_on(pack_, is_left ? turn.right : turn.left, param_, true))
+        return side(is_left ? turn.right : turn.left, slots, slot);
+    }
+    const double line = s.x + (s.y - s.x) * (s.dx / (s.dx - s.dy));
+    const double off = difference(turn, slots, slot, line);
+    if (std::abs(off) <= kStraight * std::max(std::abs(s.dx), std::abs(s.dy))) return line;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (s.x + s.y) / 2;
+      const bool is_like_first = (difference(turn, slots, slot, middle) < 0) == (s.dx < 0);
+      (is_like_first ? s.x : s.y) = middle;
+    }
+    return s.y;
+  }
+
+  double side(ExprId id, const Slots& slots, std::size_t slot) {
+    Frame frame;
+    frame.size = 1;
+    for (std::size_t level = 0; level < slots.rows.size(); ++level)
+      if (!slots.rows[level].empty()) frame.rows[level] = slots.rows[level].data() + slot;
+    double value = kUnknown;
+    evaluator_.numbers(id, frame, std::span(&value, 1));
+    return value;
+  }
+
+  Pack& pack_;
+  std::size_t param_;
+  Evaluator evaluator_;
+};
+
+void tidy(std::vector<double>& values, std::pair<double, double> range) {
+  std::erase_if(values, [&](double v) { return !(v >= range.first && v <= range.second); });
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row) {
+  TurningPoints points;
+  TurnFinder finder(what_if.pack(), param);
+  const std::vector<Turn> turns = finder.run();
+  points.is_gradual = finder.is_gradual();
+  Differences differences(what_if, param);
+  for (const Turn& turn : turns)
+    differences.add_to(points, turn, slots_of(what_if.pack(), turn, what_if.facts(), row));
+  tidy(points.own, *what_if.pack().params[param].range);
+  tidy(points.others, *what_if.pack().params[param].range);
+  return points;
+}
+
+}  // namespace oriel::rules

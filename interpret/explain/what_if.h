@@ -1,0 +1,47 @@
+#pragma once
+
+#include "interpret/evaluate/facts.h"
+#include "interpret/labelling/labelling.h"
+#include "interpret/pack/pack.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace oriel::rules {
+
+/// Labels one building with the params of a pack at other values than the pack says. The table and
+/// the graph must outlive it.
+class WhatIf {
+ public:
+  WhatIf(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+
+  /// What is decided for the feature in `row` with that param at `value` and all others as the pack
+  /// says; nothing if the pack would be refused with it (an empty range, hosts that overlap).
+  std::optional<Choice> label(std::size_t param, double value, std::size_t row);
+
+  /// The pack as it says, which may be changed for a while, and the building as it was labelled
+  /// with it.
+  [[nodiscard]] Pack& pack() { return pack_; }
+  [[nodiscard]] const Facts& facts() const { return *facts_; }
+
+ private:
+  [[nodiscard]] bool set(std::size_t param, double value);
+  [[nodiscard]] bool is_sound() const;
+  [[nodiscard]] bool is_sound(const Ramp& ramp) const;
+  std::vector<Choice> run(Facts& facts) const;
+
+  Pack pack_;
+  const FeatureTable* table_;
+  const FeatureGraph* graph_;
+  /// As the pack says, and the one that is labelled anew with another value.
+  std::optional<Facts> facts_, changed_;
+  /// `changed_` has relations or kinds of host facets of another value.
+  bool is_laid_out_anew_ = false;
+};
+
+/// True if the expression's value depends on the param, not counting what quantifiers in it ask of
+/// others; with them if `is_thorough`.
+bool depends_on(const Pack& pack, ExprId id, std::size_t param, bool is_thorough);
+
+}  // namespace oriel::rules

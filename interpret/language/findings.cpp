@@ -1,0 +1,42 @@
+#include "interpret/language/findings.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace oriel::rules {
+
+namespace {
+constexpr std::size_t kMostFindings = 200;
+/// Nobody reads more, and repetitions must not fill the memory.
+constexpr std::size_t kMostKept = 10'000;
+}  // namespace
+
+void Findings::error(std::string code, Span where, std::string sentence) {
+  ++errors_;
+  if (findings_.size() < kMostKept)
+    findings_.push_back({where, Severity::error, std::move(code), std::move(sentence)});
+}
+
+void Findings::warning(std::string code, Span where, std::string sentence) {
+  if (findings_.size() < kMostKept)
+    findings_.push_back({where, Severity::warning, std::move(code), std::move(sentence)});
+}
+
+std::vector<Issue> Findings::issues() const {
+  auto sorted = findings_;
+  std::ranges::sort(sorted);
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  if (sorted.size() > kMostFindings) {
+    // Errors before warnings, so that what makes the pack invalid is not among what is left out.
+    std::stable_partition(sorted.begin(), sorted.end(),
+                          [](const Finding& f) { return f.severity == Severity::error; });
+    sorted.resize(kMostFindings);
+  }
+  std::vector<Issue> issues;
+  for (const Finding& f : sorted)
+    issues.push_back(
+        {f.severity, f.code, f.sentence, source_->place(f.where.begin), source_->excerpt(f.where)});
+  return issues;
+}
+
+}  // namespace oriel::rules

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "interpret/language/source.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel::rules {
+
+/// Collects what is wrong with a pack, each finding with its place and excerpt.
+class Findings {
+ public:
+  explicit Findings(const Source& source) : source_(&source) {}
+
+  void error(std::string code, Span where, std::string sentence);
+  void warning(std::string code, Span where, std::string sentence);
+
+  [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  [[nodiscard]] std::size_t error_count() const { return errors_; }
+  [[nodiscard]] const Source& source() const { return *source_; }
+
+  /// All findings in the order of the text, without repetition; of a great many the first 200.
+  [[nodiscard]] std::vector<Issue> issues() const;
+
+ private:
+  struct Finding {
+    Span where;
+    Severity severity = Severity::error;
+    std::string code;
+    std::string sentence;
+    friend auto operator<=>(const Finding&, const Finding&) = default;
+  };
+  const Source* source_;
+  std::vector<Finding> findings_;
+  std::size_t errors_ = 0;
+};
+
+}  // namespace oriel::rules

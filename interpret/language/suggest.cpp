@@ -1,0 +1,63 @@
+#include "interpret/language/suggest.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace oriel::rules {
+
+namespace {
+
+/// Names longer than this are not compared: nobody's typo is that long.
+constexpr std::size_t kLongestName = 64;
+
+/// Optimal string alignment: the edits that make one name of the other.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  const std::size_t columns = to.size() + 1;
+  std::vector<std::size_t> before(columns), above(columns), row(columns);
+  for (std::size_t j = 0; j < columns; ++j) above[j] = j;
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j < columns; ++j) {
+      const std::size_t replaced = above[j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
+      const bool is_swap = i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1];
+      if (is_swap) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(above);
+    above.swap(row);
+  }
+  return above[to.size()];
+}
+
+}  // namespace
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
+  if (name.size() > kLongestName) return "";
+  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;
+  std::string found;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestName || candidate == name) continue;
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance >= best || distance >= candidate.size()) continue;
+    best = distance;
+    found = candidate;
+  }
+  return found;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string found = nearest(name, candidates);
+  return found.empty() ? "" : "; did you mean '" + found + "'?";
+}
+
+std::string join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace oriel::rules

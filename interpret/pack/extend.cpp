@@ -1,0 +1,190 @@
+#include "interpret/pack/extend.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace oriel::rules {
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+YamlNode* find(YamlNode& map, std::string_view key) {
+  for (YamlEntry& entry : map.entries)
+    if (entry.key.text == key) return &entry.value;
+  return nullptr;
+}
+
+const YamlNode* find(const YamlNode& map, std::string_view key) {
+  return find(const_cast<YamlNode&>(map), key);
+}
+
+/// Entries of `over` replace those of the same key, or with `levels` left are put over them.
+void put_over(YamlNode& base, YamlNode over, int levels) {
+  if (base.kind != Kind::map || over.kind != Kind::map) {
+    base = std::move(over);
+    return;
+  }
+  for (YamlEntry& entry : over.entries) {
+    YamlNode* beneath = find(base, entry.key.text);
+    if (beneath == nullptr)
+      base.entries.push_back(std::move(entry));
+    else if (levels > 1)
+      put_over(*beneath, std::move(entry.value), levels - 1);
+    else
+      *beneath = std::move(entry.value);
+  }
+}
+
+bool is_removal(const YamlNode& item) {
+  const YamlNode* remove = find(item, "remove");
+  return remove != nullptr && remove->is_plain && remove->text == "true";
+}
+
+/// Puts the items of a list over those with the same id.
+class ListMerge {
+ public:
+  ListMerge(YamlNode& base, Findings& findings)
+      : base_(&base), findings_(&findings), is_replaced_(base.items.size(), false) {}
+
+  void put(YamlNode item) {
+    const YamlNode* id = find(item, "id");
+    const auto beneath = id == nullptr ? npos : find_beneath(id->text);
+    if (!is_removal(item)) {
+      if (beneath == npos)
+        base_->items.push_back(std::move(item));
+      else
+        base_->items[beneath] = std::move(item);
+    } else if (beneath == npos) {
+      findings_->error("R246", item.span, "nothing of this id is beneath that could be removed");
+    } else {
+      removed_.insert(beneath);
+    }
+    if (beneath != npos) is_replaced_[beneath] = true;
+  }
+
+  void end() {
+    for (auto i = removed_.rbegin(); i != removed_.rend(); ++i)
+      base_->items.erase(base_->items.begin() + static_cast<std::ptrdiff_t>(*i));
+  }
+
+ private:
+  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+
+  /// An id that stands twice above must not hide itself: it replaces once.
+  [[nodiscard]] std::size_t find_beneath(std::string_view id) const {
+    for (std::size_t i = 0; i < is_replaced_.size(); ++i) {
+      const YamlNode* other = find(base_->items[i], "id");
+      if (other != nullptr && other->text == id) return is_replaced_[i] ? npos : i;
+    }
+    return npos;
+  }
+
+  YamlNode* base_;
+  Findings* findings_;
+  std::vector<bool> is_replaced_;
+  std::set<std::size_t> removed_;
+};
+
+void put_section(std::string_view key, YamlNode& base, YamlNode over, Findings& findings) {
+  const bool is_list = key == "rules" || key == "surfaces" || key == "generalise";
+  if (is_list && base.kind == Kind::sequence && over.kind == Kind::sequence) {
+    ListMerge merge(base, findings);
+    for (YamlNode& item : over.items) merge.put(std::move(item));
+    merge.end();
+    return;
+  }
+  const bool is_whole = key == "schema" || key == "pack" || key == "iterate" || is_list;
+  const bool has_keys = key == "params" || key == "classes";
+  if (is_whole)
+    base = std::move(over);
+  else
+    put_over(base, std::move(over), has_keys ? 2 : 1);
+}
+
+/// `over` with what it does not say taken from `base`.
+YamlNode merged(YamlNode base, YamlNode over, Findings& findings) {
+  base.span = over.span;
+  for (YamlEntry& entry : over.entries) {
+    YamlNode* beneath = find(base, entry.key.text);
+    if (beneath == nullptr)
+      base.entries.push_back(std::move(entry));
+    else
+      put_section(entry.key.text, *beneath, std::move(entry.value), findings);
+  }
+  return base;
+}
+
+/// The node after `extends:`, taken out of the tree.
+std::optional<YamlNode> take_extends(YamlNode& root) {
+  const auto found = std::ranges::find(root.entries, std::string_view("extends"),
+                                       [](const YamlEntry& e) { return e.key.text; });
+  if (root.kind != Kind::map || found == root.entries.end()) return std::nullopt;
+  YamlNode node = std::move(found->value);
+  root.entries.erase(found);
+  return node;
+}
+
+/// A name without folders: nothing outside the pack's own folder is read.
+bool is_plain_name(const YamlNode& node) {
+  if (node.kind != Kind::scalar || node.text.empty() || node.text.front() == '.') return false;
+  return std::ranges::all_of(node.text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  });
+}
+
+/// The text of the pack that `node` names, appended to `source`.
+std::optional<Span> append_pack(const YamlNode& node, std::set<std::string>& seen, Source& source,
+                                const PackFinder& find_pack, Findings& findings) {
+  if (!is_plain_name(node)) {
+    findings.error("R246", node.span,
+                   "after 'extends' stands a pack that is built in, or a file in the same folder, "
+                   "by its name alone");
+    return std::nullopt;
+  }
+  auto found = find_pack(node.text);
+  if (!found) {
+    findings.error("R200", node.span,
+                   "there is no pack '" + node.text +
+                       "' here: neither built in nor a file in the folder of this pack");
+    return std::nullopt;
+  }
+  if (!seen.insert(found->file).second || seen.size() > kMostBeneath + 1) {
+    findings.error("R246", node.span,
+                   seen.contains(found->file) && seen.size() <= kMostBeneath + 1
+                       ? "the pack extends itself"
+                       : "no more than 8 packs stand beneath one");
+    return std::nullopt;
+  }
+  const std::size_t bad = find_bad_byte(found->text);
+  if (bad == std::string_view::npos) return source.append(std::move(found->file), found->text);
+  findings.error("R200", node.span, "'" + node.text + "' is no UTF-8 text");
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<YamlNode> read_tree(Source& source, const PackFinder& find_pack, Findings& findings) {
+  std::vector<YamlNode> trees;
+  std::set<std::string> seen = {source.file()};
+  std::optional<Span> where = Span{0, source.text().size()};
+  while (where) {
+    auto tree = parse_yaml(*where, findings);
+    if (!tree) return std::nullopt;
+    const auto extends = take_extends(*tree);
+    trees.push_back(std::move(*tree));
+    if (!extends) break;
+    where = append_pack(*extends, seen, source, find_pack, findings);
+  }
+  if (!where) return std::nullopt;
+  YamlNode tree = std::move(trees.back());
+  for (std::size_t i = trees.size() - 1; i-- > 0;)
+    tree = merged(std::move(tree), std::move(trees[i]), findings);
+  return tree;
+}
+
+}  // namespace oriel::rules

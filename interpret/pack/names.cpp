@@ -1,0 +1,53 @@
+#include "interpret/pack/names.h"
+
+#include "kernel/model/segmentation.h"
+
+#include <algorithm>
+
+namespace oriel::rules {
+
+namespace {
+
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_name_character(char c) { return is_lower(c) || (c >= '0' && c <= '9') || c == '_'; }
+
+}  // namespace
+
+const std::vector<std::string>& words_of(std::string_view attribute) {
+  static const std::vector<std::string> senses = {to_string(Sense::protrusion),
+                                                  to_string(Sense::hole), to_string(Sense::cavity),
+                                                  to_string(Sense::imprint)};
+  static const std::vector<std::string> ground_sources = {"facet", "wall", "body"};
+  static const std::vector<std::string> facings = {"solid", "input", "position"};
+  static const std::vector<std::string> any;
+  if (attribute == "sense") return senses;
+  if (attribute == "facing") return facings;
+  return attribute == "ground_source" ? ground_sources : any;
+}
+
+int relation_number(const Pack& pack, std::string_view name) {
+  const int declared = index_of(pack.relations, name);
+  if (declared >= 0) return declared + static_cast<int>(relation_schema().size());
+  return index_of(relation_schema(), name);
+}
+
+std::vector<std::string> relation_names(const Pack& pack) {
+  std::vector<std::string> names = rules::names_of(relation_schema());
+  for (const Relation& relation : pack.relations) names.push_back(relation.name);
+  return names;
+}
+
+bool is_identifier(std::string_view text) {
+  return !text.empty() && is_lower(text.front()) && std::ranges::all_of(text, is_name_character);
+}
+
+bool is_rule_id(std::string_view text) {
+  while (true) {
+    const std::size_t dot = text.find('.');
+    if (!is_identifier(text.substr(0, dot))) return false;
+    if (dot == std::string_view::npos) return true;
+    text.remove_prefix(dot + 1);
+  }
+}
+
+}  // namespace oriel::rules

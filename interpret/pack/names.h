@@ -1,0 +1,68 @@
+#pragma once
+
+#include "interpret/language/findings.h"
+#include "interpret/language/syntax.h"
+#include "interpret/pack/pack.h"
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oriel::rules {
+
+/// A named condition or value; it is checked anew wherever it is used.
+struct Macro {
+  std::string name;
+  Syntax body;
+  Span span;
+  bool is_used = false;
+  /// True while it is being expanded: a macro that meets itself is an error.
+  bool is_open = false;
+};
+
+/// What expressions may name, besides what stands in the pack: known only while it is loaded.
+struct Names {
+  std::vector<Macro> macros;
+  /// Macros whose body is no expression: their uses are not reported again.
+  std::vector<std::string> broken_macros;
+  /// The same for params; parallel to Pack::params.
+  std::vector<std::string> broken_params;
+  std::vector<bool> is_param_used;
+  /// Relations of the pack that are no relations: their uses are not reported again.
+  std::vector<std::string> broken_relations;
+  /// Numbers of the relations that something leads over.
+  std::set<int> used_relations;
+};
+
+/// The number of the relation called `name`, of the pack or else built in, or -1.
+int relation_number(const Pack& pack, std::string_view name);
+/// All of them, in the order of their numbers.
+std::vector<std::string> relation_names(const Pack& pack);
+
+/// The element of `list` called `name`: its index, or -1.
+template <class Named>
+int index_of(const std::vector<Named>& list, std::string_view name) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& list) {
+  std::vector<std::string> names;
+  names.reserve(list.size());
+  for (const Named& element : list) names.push_back(element.name);
+  return names;
+}
+
+/// The words a text attribute can have; empty if it may have any.
+const std::vector<std::string>& words_of(std::string_view attribute);
+
+/// A lower-case identifier: a letter, then letters, digits and _.
+bool is_identifier(std::string_view text);
+
+/// Dotted identifiers such as `door.ground`.
+bool is_rule_id(std::string_view text);
+
+}  // namespace oriel::rules

@@ -1,0 +1,242 @@
+#pragma once
+
+#include "interpret/language/expr.h"
+#include "interpret/language/source.h"
+#include "kernel/base/name.h"
+#include "kernel/model/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel::rules {
+
+using ClassId = int;
+inline constexpr ClassId kNoClass = -1;
+
+struct Param {
+  std::string name;
+  double value = 0;
+  Dimension dimension;
+  std::optional<std::pair<double, double>> range;
+  std::string why;
+  Span span;
+};
+
+/// How often a class is expected: `typical: {per storey: 2 .. 12}`.
+struct Typical {
+  std::string per;
+  double low = 0;
+  double high = 0;
+};
+
+/// How objects of a class are written: `emit:`.
+struct Emission {
+  std::string type;
+  std::string class_code;
+  /// Code list -> code.
+  std::map<std::string, std::string> function;
+  /// What its faces that look up are.
+  std::string top;
+};
+
+struct Class {
+  std::string name;
+  ClassId parent = kNoClass;
+  bool is_abstract = false;
+  /// True if a rule names it as its label. An abstract class without rules is the union of its
+  /// subclasses.
+  bool has_rules = false;
+  /// What a feature of it is, too: itself first, then what is the union of its subclasses. Found
+  /// when all of the pack is read.
+  std::vector<ClassId> raised;
+  std::vector<Typical> typical;
+  std::optional<Emission> emission;
+  Span span;
+};
+
+/// A ramp from 0 to 1 (rise) or from 1 to 0 (fall).
+struct Ramp {
+  ExprId from = kNoExpr;
+  ExprId to = kNoExpr;
+};
+
+/// One term of a score: a number judged by its ramps, or a condition (1 if it holds, else 0).
+struct ScoreTerm {
+  ExprId value = kNoExpr;
+  std::optional<Ramp> rise;
+  std::optional<Ramp> fall;
+  double weight = 1;
+};
+
+struct Rule {
+  std::string id;
+  ClassId label = kNoClass;
+  /// The label as verdicts carry it, once the pack is read.
+  Name name_of_label;
+  int priority = 0;
+  std::vector<ExprId> require;
+  std::vector<ExprId> unless;
+  std::vector<ScoreTerm> score;
+  Span span;
+};
+
+/// The id of a rule and its label as verdicts carry them.
+struct NamesOfRule {
+  Name id;
+  Name label;
+};
+
+/// Rules that are run together: those of one strongly connected component of predicates, or all
+/// rules of one stratum that compete for the label.
+struct Step {
+  bool is_decision = false;
+  /// Predicates that need each other run to their least fixpoint.
+  bool is_recursive = false;
+  /// A rule of a decision has a score.
+  bool is_scored = false;
+  /// Indices into Pack::rules; of a decision in the order in which they win where scores are equal.
+  std::vector<int> rules;
+};
+
+/// An angle's range that makes a facet a wall, a roof or a ground; bounds included, walls first.
+struct HostRange {
+  double low_deg = 0;
+  double high_deg = 0;
+  /// What they were folded from; kNoExpr: they were not written.
+  ExprId low = kNoExpr;
+  ExprId high = kNoExpr;
+};
+
+inline bool is_overlapping(const HostRange& p, const HostRange& q) {
+  return std::max(p.low_deg, q.low_deg) < std::min(p.high_deg, q.high_deg);
+}
+
+struct Hosts {
+  HostRange wall{75, 105};
+  HostRange roof{0, 75};
+  HostRange ground{105, 180};
+  /// A face that looks down is ground if it lies no higher than this over the building's lowest
+  /// point.
+  double ground_reach_m = 0.5;
+};
+
+struct Decide {
+  double min_score = 0;
+  double ambiguous_below = 0;
+  /// What min_score was folded from; kNoExpr: it was not written.
+  ExprId min_score_of = kNoExpr;
+};
+
+/// What a relation asks of its pairs.
+struct RelationSides {
+  /// The conditions on self alone, on the other alone, and on both.
+  std::vector<ExprId> of_self, of_other, of_both;
+  /// If they ask both for the same and for equal values, and for nothing else: these values, of
+  /// self.
+  std::optional<std::vector<ExprId>> keys;
+};
+
+/// A relation that the pack declares: the pairs of another one for which a condition holds.
+/// Relations are numbered: those of relation_schema(), then those of the pack in their order.
+struct Relation {
+  std::string name;
+  /// The number of the relation that it narrows, below its own.
+  int within = -1;
+  /// Over self (level 0) and other (level 1); neither classes nor quantifiers stand in it.
+  ExprId where = kNoExpr;
+  /// What `where` says, once the pack is read.
+  RelationSides sides;
+  Span span;
+};
+
+/// Features of a class that hang together by a relation: `groups:`.
+struct GroupKind {
+  std::string name;
+  ClassId of = kNoClass;
+  /// The number of the relation.
+  int by = -1;
+  int at_least = 2;
+  Span span;
+};
+
+/// An entry of `generalise:`.
+struct Entry {
+  std::string id;
+  double scale_from = 0;
+  double scale_to = 0;
+  /// kNoClass: any feature.
+  ClassId target = kNoClass;
+  /// The members of the groups of this kind (Pack::groups) in place of a class, or -1.
+  int group = -1;
+  ExprId when = kNoExpr;
+  std::string operation;
+  /// The operator's arguments: constants, or words.
+  struct Argument {
+    std::string name;
+    ExprId value = kNoExpr;
+    std::string word;
+  };
+  std::vector<Argument> arguments;
+  Span span;
+};
+
+struct SurfaceRules;
+
+/// A pack, checked: every name is looked up and every expression has a type.
+/// What a pack reads of a building.
+struct Reads {
+  /// Columns of texts and of numbers, yes/no included.
+  std::vector<std::size_t> texts;
+  std::vector<std::size_t> numbers;
+  /// By HostKind: whether it asks that of host facets.
+  std::array<bool, 4> host_kinds{};
+  /// By number: whether an expression or a group leads over the relation, or one that narrows it.
+  std::vector<bool> relations;
+  /// Pack::words, each with its number.
+  std::map<std::string, std::size_t, std::less<>> words;
+};
+
+struct Pack {
+  explicit Pack(Source text) : source(std::move(text)) {}
+
+  Source source;
+  std::string sha256;
+  std::string name;
+  std::string version;
+  Hosts hosts;
+  std::vector<Param> params;
+  std::vector<Class> classes;
+  std::vector<Relation> relations;
+  std::vector<GroupKind> groups;
+  std::vector<Rule> rules;
+  /// Of the rule i at i + 1, so that the first are those of no rule; once the pack is read.
+  std::vector<NamesOfRule> names_of_rules;
+  std::vector<Step> steps;
+  Decide decide;
+  /// How often the pack is run at most; 0: once, without `iterate:`.
+  int rounds = 0;
+  std::vector<Entry> entries;
+  Limits limits;  ///< `invariants:`
+  /// Null: the pack says nothing of surfaces but `hosts:`.
+  std::shared_ptr<const SurfaceRules> surfaces;
+  Code code;
+  /// The words that texts are compared with; the value of a text is the number of its word.
+  std::vector<std::string> words;
+  /// Found when all of it is read.
+  Reads reads;
+};
+
+/// True if `id` is `ancestor` or beneath it.
+inline bool is_within(const std::vector<Class>& classes, ClassId id, ClassId ancestor) {
+  while (id != kNoClass && id != ancestor) id = classes[static_cast<std::size_t>(id)].parent;
+  return id == ancestor && id != kNoClass;
+}
+
+}  // namespace oriel::rules

@@ -1,0 +1,188 @@
+#include "interpret/language/parser.h"
+#include "interpret/language/quantity.h"
+#include "interpret/language/suggest.h"
+#include "interpret/pack/loader.h"
+#include "interpret/yaml/section.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::rules {
+
+namespace {
+
+/// Names that say something else in a pack already.
+const std::vector<std::string>& taken_names() {
+  static const std::vector<std::string> names = {"wall",    "roof", "ground",
+                                                 "unknown", "any",  "group"};
+  return names;
+}
+
+bool is_version(std::string_view text) {
+  int parts = 0;
+  while (true) {
+    const std::size_t dot = text.find('.');
+    const std::string_view part = text.substr(0, dot);
+    const bool is_number = !part.empty() && part.size() <= 6 &&
+                           part.find_first_not_of("0123456789") == std::string_view::npos;
+    if (!is_number) return false;
+    ++parts;
+    if (dot == std::string_view::npos) return parts == 3;
+    text.remove_prefix(dot + 1);
+  }
+}
+
+std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
+  if (!expect_name(entry.key, "a param", loader.findings)) return std::nullopt;
+  Section section(entry.value, "a param", {"value", "range", "why"}, loader.findings);
+  const YamlNode* value_node = section.require("value");
+  if (value_node == nullptr) return std::nullopt;
+  Param param;
+  param.name = entry.key.text;
+  param.span = entry.key.span;
+  if (const YamlNode* why = section.find("why"))
+    param.why = read_text(*why, "'why'", loader.findings).value_or("");
+  const auto value = read_quantity(*value_node, {}, loader);
+  if (!value) return std::nullopt;
+  param.value = value->value;
+  param.dimension = value->dimension;
+  const YamlNode* range_node = section.find("range");
+  if (range_node == nullptr) return param;
+  const auto range = read_range(*range_node, param.dimension, loader);
+  if (!range) return param;
+  param.range = {range->low, range->high};
+  if (param.value < range->low || param.value > range->high)
+    loader.findings.error("R212", value_node->span, "the value is outside its range");
+  return param;
+}
+
+void read_typical(const YamlNode& node, Class& c, Loader& loader) {
+  Section section(node, "'typical'", {"per storey", "per facade", "per building"}, loader.findings);
+  for (const YamlEntry& entry : node.entries)
+    if (const auto range = read_range(entry.value, Dimension{}, loader))
+      c.typical.push_back({entry.key.text, range->low, range->high});
+}
+
+void read_class_body(const YamlNode& node, Class& c, Loader& loader) {
+  if (node.kind == YamlNode::Kind::null) return;
+  Section section(node, "a class", {"is", "abstract", "typical"}, loader.findings);
+  if (const YamlNode* parent = section.find("is"))
+    c.parent = read_class(*parent, "the class after 'is'", loader);
+  if (const YamlNode* flag = section.find("abstract"))
+    c.is_abstract = read_flag(*flag, "'abstract'", loader.findings).value_or(false);
+  if (const YamlNode* typical = section.find("typical")) read_typical(*typical, c, loader);
+}
+
+/// Deeper trees say nothing more, and would make the checks of a pack from a stranger slow.
+constexpr std::size_t kDeepestClassTree = 16;
+
+/// The classes above `id`, nearest first: no more than the deepest tree has.
+std::vector<ClassId> ancestors_of(const std::vector<Class>& classes, ClassId id) {
+  std::vector<ClassId> ancestors;
+  ClassId above = classes[static_cast<std::size_t>(id)].parent;
+  while (above != kNoClass && ancestors.size() <= kDeepestClassTree) {
+    ancestors.push_back(above);
+    above = classes[static_cast<std::size_t>(above)].parent;
+  }
+  return ancestors;
+}
+
+/// A class that is its own ancestor (R244) or has too many (R213) gets no parent.
+void check_tree(Loader& loader) {
+  auto& classes = loader.pack.classes;
+  for (ClassId id = 0; id < static_cast<ClassId>(classes.size()); ++id) {
+    Class& c = classes[static_cast<std::size_t>(id)];
+    const auto ancestors = ancestors_of(classes, id);
+    const bool is_circle = std::ranges::find(ancestors, id) != ancestors.end();
+    if (!is_circle && ancestors.size() < kDeepestClassTree) continue;
+    if (is_circle)
+      loader.findings.error("R244", c.span,
+                            fmt::format("the class '{}' is its own ancestor", c.name));
+    else
+      loader.findings.error("R213", c.span, "a class tree is no deeper than 16 levels");
+    c.parent = kNoClass;
+  }
+}
+
+}  // namespace
+
+bool expect_name(const YamlNode& node, const std::string& what, Findings& findings) {
+  const std::string& name = node.text;
+  const char* problem = nullptr;
+  if (!is_identifier(name))
+    problem = "a name is a small letter, then small letters, digits and _";
+  else if (contains(reserved_words(), name))
+    problem = "this is a word of the language";
+  else if (contains(taken_names(), name))
+    problem = "this name has a meaning of its own";
+  if (problem == nullptr) return true;
+  findings.error("R216", node.span, what + " cannot be called '" + name + "': " + problem);
+  return false;
+}
+
+void read_header(const YamlNode& node, Loader& loader) {
+  Section section(node, "'pack'", {"name", "version"}, loader.findings);
+  if (const YamlNode* name = section.require("name"))
+    if (read_text(*name, "a pack's name", loader.findings) &&
+        expect_name(*name, "a pack", loader.findings))
+      loader.pack.name = name->text;
+  const YamlNode* version = section.require("version");
+  if (version == nullptr || !read_text(*version, "a pack's version", loader.findings)) return;
+  if (!is_version(version->text))
+    loader.findings.error("R212", version->span,
+                          "a version is three numbers such as 1.0.0, not '" + version->text + "'");
+  loader.pack.version = version->text;
+}
+
+void read_params(const YamlNode& node, Loader& loader) {
+  if (!expect_map(node, "'params'", loader.findings)) return;
+  std::vector<Param> params;
+  for (const YamlEntry& entry : node.entries) {
+    if (auto param = read_param(entry, loader))
+      params.push_back(std::move(*param));
+    else
+      loader.names.broken_params.push_back(entry.key.text);
+  }
+  loader.pack.params = std::move(params);
+  loader.names.is_param_used.assign(loader.pack.params.size(), false);
+}
+
+void read_classes(const YamlNode& node, Loader& loader) {
+  if (!expect_map(node, "'classes'", loader.findings)) return;
+  auto& classes = loader.pack.classes;
+  for (const YamlEntry& entry : node.entries) {
+    // A badly named class is kept, so that what refers to it is not reported besides.
+    expect_name(entry.key, "a class", loader.findings);
+    Class c;
+    c.name = entry.key.text;
+    c.span = entry.key.span;
+    classes.push_back(std::move(c));
+  }
+  for (std::size_t i = 0; i < node.entries.size(); ++i)
+    read_class_body(node.entries[i].value, classes[i], loader);
+  check_tree(loader);
+}
+
+void read_macros(const YamlNode& node, Loader& loader) {
+  if (!expect_map(node, "'macros'", loader.findings)) return;
+  for (const YamlEntry& entry : node.entries) {
+    const bool is_named = expect_name(entry.key, "a macro", loader.findings);
+    if (is_named && column_of(entry.key.text))
+      loader.findings.error(
+          "R216", entry.key.span,
+          "a macro cannot be called '" + entry.key.text + "': there is an attribute of this name");
+    if (entry.key.text == kScaleName)
+      loader.findings.error("R216", entry.key.span,
+                            "a macro cannot be called 'scale': it is the target scale's N");
+    const auto where = expression_span(entry.value, loader.findings);
+    auto body = where ? parse_expression(*where, loader.findings) : std::nullopt;
+    if (is_named && body)
+      loader.names.macros.push_back({entry.key.text, std::move(*body), entry.key.span});
+    else
+      loader.names.broken_macros.push_back(entry.key.text);
+  }
+}
+
+}  // namespace oriel::rules

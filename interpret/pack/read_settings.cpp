@@ -1,0 +1,133 @@
+#include "interpret/language/suggest.h"
+#include "interpret/pack/loader.h"
+#include "interpret/yaml/section.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace oriel::rules {
+
+namespace {
+
+/// SIG3D's class of building installations on the outside of a building.
+constexpr const char* kOuterCharacteristics = "1000";
+
+/// What has not settled by then goes round in circles.
+constexpr int kMostRounds = 8;
+
+const std::vector<std::string>& emitted_types() {
+  static const std::vector<std::string> types = {"Window", "Door", "BuildingInstallation"};
+  return types;
+}
+
+const std::vector<std::string>& top_types() {
+  static const std::vector<std::string> types = {"RoofSurface", "OuterFloorSurface"};
+  return types;
+}
+
+std::optional<std::string> read_choice(const YamlNode& node, const std::string& what,
+                                       const std::vector<std::string>& choices,
+                                       Findings& findings) {
+  auto text = read_text(node, what, findings);
+  if (!text || std::ranges::find(choices, *text) != choices.end()) return text;
+  findings.error("R212", node.span,
+                 what + " is one of " + join(choices) + ", not '" + *text + "'" +
+                     did_you_mean(*text, choices));
+  return std::nullopt;
+}
+
+/// A code of a code list. Bare digits would be a number to other readers, and 0100 is not 100.
+std::optional<std::string> read_code(const YamlNode& node, Findings& findings) {
+  auto code = read_text(node, "a code", findings);
+  if (!code || !node.is_plain || code->find_first_not_of("0123456789.") != std::string::npos)
+    return code;
+  findings.error("R211", node.span, "a code is a text: write \"" + *code + "\"");
+  return std::nullopt;
+}
+
+std::optional<Emission> read_emission(const YamlNode& node, Loader& loader) {
+  Section section(node, "an emitted object", {"type", "class", "function", "top"}, loader.findings);
+  const YamlNode* type_node = section.require("type");
+  if (type_node == nullptr) return std::nullopt;
+  Emission emission{"", kOuterCharacteristics, {}, "RoofSurface"};
+  const auto type = read_choice(*type_node, "an emitted type", emitted_types(), loader.findings);
+  if (!type) return std::nullopt;
+  emission.type = *type;
+  if (const YamlNode* code = section.find("class"))
+    emission.class_code = read_code(*code, loader.findings).value_or("");
+  if (const YamlNode* top = section.find("top"))
+    emission.top = read_choice(*top, "'top'", top_types(), loader.findings).value_or("");
+  const YamlNode* function = section.find("function");
+  if (function == nullptr || !expect_map(*function, "'function'", loader.findings)) return emission;
+  for (const YamlEntry& entry : function->entries)
+    if (auto code = read_code(entry.value, loader.findings))
+      emission.function[entry.key.text] = *code;
+  return emission;
+}
+
+void read_facet_range(const YamlNode* node, HostRange& range, Loader& loader) {
+  if (node == nullptr) return;
+  const auto read = read_range(*node, Dimension{0, 1}, loader);
+  if (!read) return;
+  range = {read->low, read->high, read->low_expr, read->high_expr};
+  if (range.low_deg < 0 || range.high_deg > 180)
+    loader.findings.error("R212", node->span, "an inclination lies in 0 deg .. 180 deg");
+}
+
+/// What it was folded from, or kNoExpr.
+ExprId read_share(const YamlNode* node, const std::string& what, double& share, Loader& loader) {
+  const auto value = node == nullptr ? std::nullopt : read_quantity(*node, Dimension{}, loader);
+  if (!value) return kNoExpr;
+  share = value->value;
+  if (share < 0 || share > 1) loader.findings.error("R212", node->span, what + " lies in 0 .. 1");
+  return value->expr;
+}
+
+}  // namespace
+
+void read_hosts(const YamlNode& node, Loader& loader) {
+  Section section(node, "'hosts'", {"wall", "roof", "ground", "ground_reach"}, loader.findings);
+  Hosts& hosts = loader.pack.hosts;
+  read_facet_range(section.find("wall"), hosts.wall, loader);
+  read_facet_range(section.find("roof"), hosts.roof, loader);
+  read_facet_range(section.find("ground"), hosts.ground, loader);
+  if (is_overlapping(hosts.wall, hosts.roof) || is_overlapping(hosts.wall, hosts.ground) ||
+      is_overlapping(hosts.roof, hosts.ground))
+    loader.findings.error("R212", node.span, "wall, roof and ground overlap");
+  const YamlNode* reach = section.find("ground_reach");
+  if (reach == nullptr) return;
+  if (const auto value = read_quantity(*reach, Dimension{1, 0}, loader))
+    hosts.ground_reach_m = value->value;
+}
+
+void read_decide(const YamlNode& node, Loader& loader) {
+  Section section(node, "'decide'", {"min_score", "ambiguous_below", "otherwise"}, loader.findings);
+  Decide& decide = loader.pack.decide;
+  decide.min_score_of =
+      read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
+  read_share(section.find("ambiguous_below"), "'ambiguous_below'", decide.ambiguous_below, loader);
+  if (const YamlNode* otherwise = section.find("otherwise"))
+    read_choice(*otherwise, "'otherwise'", {"unknown"}, loader.findings);
+}
+
+void read_iterate(const YamlNode& node, Loader& loader) {
+  Section section(node, "'iterate'", {"rounds"}, loader.findings);
+  const YamlNode* rounds = section.require("rounds");
+  if (rounds == nullptr) return;
+  const auto count = read_integer(*rounds, "'rounds'", loader.findings);
+  if (count && (*count < 2 || *count > kMostRounds))
+    loader.findings.error("R212", rounds->span, "'rounds' lies in 2 .. 8");
+  loader.pack.rounds = count.value_or(0);
+}
+
+void read_emit(const YamlNode& node, Loader& loader) {
+  if (!expect_map(node, "'emit'", loader.findings)) return;
+  for (const YamlEntry& entry : node.entries) {
+    auto emission = read_emission(entry.value, loader);
+    const ClassId id = read_class(entry.key, "a class", loader);
+    if (id != kNoClass)
+      loader.pack.classes[static_cast<std::size_t>(id)].emission = std::move(emission);
+  }
+}
+
+}  // namespace oriel::rules

@@ -1,0 +1,185 @@
+#include "interpret/plan/plan.h"
+
+#include "interpret/compile/fold.h"
+#include "interpret/labelling/group_gap.h"
+#include "interpret/labelling/labelling.h"
+#include "interpret/pack/names.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::ClassId;
+using rules::Entry;
+using rules::ExprId;
+using rules::kBlock;
+using rules::Truth;
+
+InputError bad_scale(double scale) {
+  Issue issue;
+  issue.code = "R250";
+  issue.sentence = fmt::format("a target scale is 1:N with N of at least 1, not 1:{}", scale);
+  return InputError(std::move(issue));
+}
+
+/// The class of every feature, kNoClass for those without a label of this pack.
+std::vector<ClassId> labels_of(const rules::Pack& pack, const Interpretation& interpretation,
+                               std::size_t rows) {
+  std::vector<ClassId> labels(rows, rules::kNoClass);
+  for (const Verdict& verdict : interpretation.verdicts)
+    if (verdict.feature.is_valid() && verdict.feature.index() < rows)
+      labels[verdict.feature.index()] = rules::index_of(pack.classes, verdict.label);
+  return labels;
+}
+
+/// Predicates are found again by their rules; a decided class is what the interpretation says.
+void set_membership(const rules::Pack& pack, const std::vector<ClassId>& labels,
+                    rules::Facts& facts) {
+  rules::Labelling(pack, facts).run();
+  for (ClassId id = 0; id < static_cast<ClassId>(pack.classes.size()); ++id) {
+    const rules::Class& c = pack.classes[static_cast<std::size_t>(id)];
+    if (c.is_abstract && c.has_rules) continue;
+    auto& members = facts.membership[static_cast<std::size_t>(id)];
+    for (std::size_t row = 0; row < facts.rows; ++row)
+      members[row] = rules::truth_of(rules::is_within(pack.classes, labels[row], id));
+  }
+}
+
+bool is_asking_for_class(const rules::Code& code, rules::ExprId id) {
+  if (id == rules::kNoExpr) return false;
+  const rules::Expr& expr = code[static_cast<std::size_t>(id)];
+  if (expr.op == rules::Op::is_class) return true;
+  for (const rules::ExprId arg : expr.args)
+    if (is_asking_for_class(code, arg)) return true;
+  return is_asking_for_class(code, expr.filter) || is_asking_for_class(code, expr.join) ||
+         is_asking_for_class(code, expr.value);
+}
+
+/// Marks the features that an entry is for.
+void mark_targets(const rules::Pack& pack, const Entry& entry, const std::vector<ClassId>& labels,
+                  const Interpretation& interpretation, std::vector<Truth>& fits) {
+  std::ranges::fill(fits, Truth::no);
+  if (entry.group < 0) {
+    for (std::size_t row = 0; row < fits.size(); ++row)
+      fits[row] = rules::truth_of(entry.target == rules::kNoClass ||
+                                  rules::is_within(pack.classes, labels[row], entry.target));
+    return;
+  }
+  const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
+  for (const Group& group : interpretation.groups)
+    for (const FeatureId member : group.members)
+      if (group.kind == kind) fits[member.index()] = Truth::yes;
+}
+
+/// Takes back the marks of features whose `when` is not true.
+void judge_condition(ExprId when, const rules::Facts& facts, rules::Evaluator& evaluator,
+                     std::vector<Truth>& fits) {
+  if (when == rules::kNoExpr) return;
+  std::array<Truth, kBlock> answers;
+  for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
+    rules::Frame frame;
+    frame.size = std::min(kBlock, facts.rows - begin);
+    frame.rows[0] = facts.row_numbers.data() + begin;
+    frame.needed = fits.data() + begin;
+    evaluator.truths(when, frame, std::span(answers).first(frame.size));
+    for (std::size_t i = 0; i < frame.size; ++i)
+      fits[begin + i] = std::min(fits[begin + i], answers[i]);
+  }
+}
+
+/// A group is redrawn as a whole: an entry fits it if it fits all its members.
+void keep_whole_groups(const std::string& kind, const Interpretation& interpretation,
+                       std::vector<Truth>& fits) {
+  for (const Group& group : interpretation.groups) {
+    if (group.kind != kind) continue;
+    const auto is_fit = [&](FeatureId member) { return fits[member.index()] == Truth::yes; };
+    if (std::ranges::all_of(group.members, is_fit)) continue;
+    for (const FeatureId member : group.members) fits[member.index()] = Truth::no;
+  }
+}
+
+/// The group of the entry's kind that the feature is in; empty if the entry is not for groups.
+std::string group_of(const rules::Pack& pack, const Entry& entry, FeatureId feature,
+                     const Interpretation& interpretation) {
+  if (entry.group < 0) return {};
+  const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
+  for (const Group& group : interpretation.groups)
+    if (group.kind == kind && std::ranges::binary_search(group.members, feature)) return group.id;
+  return {};
+}
+
+Step step_of(const rules::Pack& pack, const Entry& entry, FeatureId feature, double scale,
+             const Interpretation& interpretation) {
+  Step step{feature, entry.operation, entry.id};
+  step.group = group_of(pack, entry, feature, interpretation);
+  for (const Entry::Argument& argument : entry.arguments)
+    if (argument.value == rules::kNoExpr)
+      step.words[argument.name] = argument.word;
+    else if (const auto value = rules::fold(pack, argument.value, scale))
+      step.numbers[argument.name] = *value;
+  return step;
+}
+
+}  // namespace
+
+Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
+          const Interpretation& interpretation, double scale_denominator) {
+  if (!std::isfinite(scale_denominator) || scale_denominator < 1)
+    throw bad_scale(scale_denominator);
+  const rules::Pack& pack = base.pack();
+  const std::vector<ClassId> labels = labels_of(pack, interpretation, table.rows());
+  rules::Facts facts(pack, table, graph);
+  facts.scale = scale_denominator;
+  const bool needs_classes = std::ranges::any_of(
+      pack.entries, [&](const Entry& e) { return is_asking_for_class(pack.code, e.when); });
+  if (needs_classes) set_membership(pack, labels, facts);
+
+  std::vector<const Entry*> chosen(facts.rows, nullptr);
+  std::vector<Truth> fits(facts.rows);
+  // gap(members) stands behind the columns of the schema.
+  std::vector<double> gaps;
+  facts.columns.emplace_back();
+  rules::Evaluator evaluator(pack, facts);
+  for (const Entry& entry : pack.entries) {
+    if (scale_denominator < entry.scale_from || scale_denominator > entry.scale_to) continue;
+    mark_targets(pack, entry, labels, interpretation, fits);
+    if (entry.group >= 0) {
+      const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
+      facts.columns.back() = gaps = rules::group_gaps(kind, table, graph, interpretation);
+    }
+    judge_condition(entry.when, facts, evaluator, fits);
+    if (entry.group >= 0)
+      keep_whole_groups(pack.groups[static_cast<std::size_t>(entry.group)].name, interpretation,
+                        fits);
+    for (std::size_t row = 0; row < fits.size(); ++row)
+      if (fits[row] == Truth::yes && chosen[row] == nullptr) chosen[row] = &entry;
+  }
+
+  Plan result;
+  result.scale = scale_denominator;
+  for (std::size_t row = 0; row < chosen.size(); ++row)
+    if (chosen[row] != nullptr)
+      result.steps.push_back(step_of(pack, *chosen[row], FeatureId{static_cast<int>(row)},
+                                     scale_denominator, interpretation));
+  return result;
+}
+
+std::vector<double> plan_bounds(const RuleBase& base) {
+  std::vector<double> bounds;
+  for (const Entry& entry : base.pack().entries)
+    for (const double bound : {entry.scale_from, entry.scale_to})
+      if (std::isfinite(bound)) bounds.push_back(bound);
+  std::ranges::sort(bounds);
+  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+  return bounds;
+}
+
+}  // namespace oriel

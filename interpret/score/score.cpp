@@ -1,0 +1,214 @@
+#include "interpret/score/score.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <tuple>
+
+namespace oriel {
+
+namespace {
+
+constexpr const char* kNothing = "-";
+
+double volume(const Box& box) {
+  if (box.is_empty()) return 0;
+  return (box.max.x - box.min.x) * (box.max.y - box.min.y) * (box.max.z - box.min.z);
+}
+
+Box grown(const Box& box, double by) {
+  if (box.is_empty()) return box;
+  return {box.min - Vec3{by, by, by}, box.max + Vec3{by, by, by}};
+}
+
+double iou(const Box& p, const Box& q) {
+  const Box common = {
+      {std::max(p.min.x, q.min.x), std::max(p.min.y, q.min.y), std::max(p.min.z, q.min.z)},
+      {std::min(p.max.x, q.max.x), std::min(p.max.y, q.max.y), std::min(p.max.z, q.max.z)}};
+  if (common.is_empty() || common.min.y > common.max.y || common.min.z > common.max.z) return 0;
+  const double shared = volume(common);
+  const double all = volume(p) + volume(q) - shared;
+  return all > 0 ? shared / all : 0;
+}
+
+double ratio(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// A prediction and an object whose boxes meet.
+struct Pair {
+  double iou = 0;
+  const ExpectedObject* truth = nullptr;
+  const Prediction* prediction = nullptr;
+};
+
+bool is_better(const Pair& p, const Pair& q) {
+  if (p.iou != q.iou) return p.iou > q.iou;
+  return std::tie(p.truth->id, p.prediction->id) < std::tie(q.truth->id, q.prediction->id);
+}
+
+/// Predictions and objects of one building.
+class Matcher {
+ public:
+  Matcher(std::vector<const Prediction*> predictions, std::vector<const ExpectedObject*> truth,
+          const ScoreOptions& options, Score& score)
+      : predictions_(std::move(predictions)),
+        truth_(std::move(truth)),
+        options_(options),
+        score_(score) {}
+
+  void run() {
+    find_pairs();
+    match([](const Pair& p) { return p.truth->label == p.prediction->label; },
+          [&](const Pair& p) { add_hit(p); });
+    drop_neutral();
+    match([](const Pair&) { return true; }, [&](const Pair& p) { add_confusion(p); });
+    add_rest();
+  }
+
+ private:
+  [[nodiscard]] bool is_scored(const ExpectedObject& object) const {
+    return std::ranges::find(options_.not_scored, object.label) == options_.not_scored.end();
+  }
+
+  void find_pairs() {
+    for (const ExpectedObject* truth : truth_)
+      for (const Prediction* prediction : predictions_) {
+        const double overlap =
+            iou(grown(truth->box, options_.grow_m), grown(prediction->box, options_.grow_m));
+        if (overlap >= options_.min_iou) pairs_.push_back({overlap, truth, prediction});
+      }
+    std::ranges::stable_sort(pairs_, is_better);
+  }
+
+  /// One to one, the best first, among what is not matched yet.
+  template <class Wanted, class Add>
+  void match(Wanted is_wanted, Add add) {
+    for (const Pair& pair : pairs_) {
+      if (is_left_out(*pair.truth) || !is_wanted(pair)) continue;
+      if (is_done_.contains(pair.truth) || is_done_.contains(pair.prediction)) continue;
+      is_done_.insert(pair.truth);
+      is_done_.insert(pair.prediction);
+      add(pair);
+    }
+  }
+
+  void add_hit(const Pair& pair) {
+    ++score_.classes[pair.truth->label].true_positives;
+    ++score_.confusion[{pair.truth->label, pair.prediction->label}];
+  }
+
+  void drop_neutral() {
+    for (const Pair& pair : pairs_)
+      if (is_left_out(*pair.truth) && is_done_.insert(pair.prediction).second) ++score_.neutral;
+  }
+
+  void add_confusion(const Pair& pair) {
+    const ExpectedObject& truth = *pair.truth;
+    const Prediction& prediction = *pair.prediction;
+    ++score_.confusion[{truth.label, prediction.label}];
+    ++score_.classes[prediction.label].false_positives;
+    if (is_scored(truth)) ++score_.classes[truth.label].false_negatives;
+    score_.misses.push_back(
+        {truth.building, truth.id, truth.label, prediction.id, prediction.label, pair.iou});
+  }
+
+  void add_rest() {
+    for (const ExpectedObject* truth : truth_) {
+      if (is_left_out(*truth) || !is_scored(*truth) || is_done_.contains(truth)) continue;
+      ++score_.classes[truth->label].false_negatives;
+      ++score_.confusion[{truth->label, kNothing}];
+      score_.misses.push_back({truth->building, truth->id, truth->label, "", "", 0});
+    }
+    for (const Prediction* prediction : predictions_) {
+      if (is_done_.contains(prediction)) continue;
+      ++score_.classes[prediction->label].false_positives;
+      ++score_.confusion[{kNothing, prediction->label}];
+      score_.misses.push_back({prediction->building, "", "", prediction->id, prediction->label, 0});
+    }
+  }
+
+  std::vector<const Prediction*> predictions_;
+  std::vector<const ExpectedObject*> truth_;
+  const ScoreOptions& options_;
+  Score& score_;
+  std::vector<Pair> pairs_;
+  std::set<const void*> is_done_;
+};
+
+}  // namespace
+
+bool is_left_out(const ExpectedObject& object) {
+  return !object.has_faces || (object.label == "other" && object.subclass == "installation");
+}
+
+ClassScore& ClassScore::operator+=(const ClassScore& other) {
+  true_positives += other.true_positives;
+  false_positives += other.false_positives;
+  false_negatives += other.false_negatives;
+  return *this;
+}
+
+double ClassScore::precision() const {
+  return ratio(true_positives, true_positives + false_positives);
+}
+
+double ClassScore::recall() const {
+  return ratio(true_positives, true_positives + false_negatives);
+}
+
+double ClassScore::f1() const {
+  return ratio(2 * true_positives, 2 * true_positives + false_positives + false_negatives);
+}
+
+double Score::macro_f1() const {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const auto& [label, counts] : classes) {
+    if (counts.true_positives + counts.false_negatives == 0) continue;
+    sum += counts.f1();
+    ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
+}
+
+std::map<std::string, Score> score_by_building(const std::vector<Prediction>& predictions,
+                                               const std::vector<ExpectedObject>& truth,
+                                               const ScoreOptions& options) {
+  struct Content {
+    std::vector<const Prediction*> predictions;
+    std::vector<const ExpectedObject*> truth;
+  };
+  std::map<std::string, Content> buildings;
+  for (const Prediction& prediction : predictions)
+    if (!prediction.label.empty())
+      buildings[prediction.building].predictions.push_back(&prediction);
+  for (const ExpectedObject& object : truth) buildings[object.building].truth.push_back(&object);
+  std::map<std::string, Score> scores;
+  for (auto& [building, content] : buildings)
+    Matcher(std::move(content.predictions), std::move(content.truth), options, scores[building])
+        .run();
+  return scores;
+}
+
+Score total(const std::map<std::string, Score>& buildings) {
+  Score sum;
+  for (const auto& [building, score] : buildings) {
+    for (const auto& [label, counts] : score.classes) sum.classes[label] += counts;
+    for (const auto& [labels, count] : score.confusion) sum.confusion[labels] += count;
+    sum.misses.insert(sum.misses.end(), score.misses.begin(), score.misses.end());
+    sum.neutral += score.neutral;
+  }
+  std::ranges::stable_sort(sum.misses, {}, [](const Miss& m) {
+    return std::tie(m.building, m.truth_label, m.truth_id, m.prediction_label, m.prediction_id);
+  });
+  return sum;
+}
+
+Score score(const std::vector<Prediction>& predictions, const std::vector<ExpectedObject>& truth,
+            const ScoreOptions& options) {
+  return total(score_by_building(predictions, truth, options));
+}
+
+}  // namespace oriel

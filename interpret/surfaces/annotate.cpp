@@ -1,0 +1,286 @@
+#include "interpret/surfaces/annotate.h"
+
+#include "interpret/compile/role.h"
+#include "interpret/explain/explain.h"
+#include "interpret/pack/pack.h"
+#include "interpret/surfaces/polygon_shape.h"
+#include "interpret/surfaces/surfaces.h"
+#include "kernel/model/version.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+using rules::Emission;
+using rules::Role;
+
+std::size_t index(int id) { return static_cast<std::size_t>(id); }
+
+/// Four digits are enough to compare and keep the files short.
+double rounded(double score) { return std::round(score * 1e4) / 1e4; }
+
+/// Ids of groups, joined by ';' as in feature records: members are flat.
+std::string joined(const std::vector<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "" : ";") + id;
+  return text;
+}
+
+class Annotator {
+ public:
+  Annotator(const Building& building, const Segmentation& segmentation, const FeatureTable& table,
+            const FeatureGraph& graph, const SurfaceTable& surfaces,
+            const Interpretation& interpretation, const RuleBase& base,
+            const AnnotateOptions& options)
+      : building_(building),
+        segmentation_(segmentation),
+        table_(table),
+        surfaces_(surfaces),
+        interpretation_(interpretation),
+        base_(base),
+        options_(options) {
+    if (options.has_reasons && table.rows() > 0)
+      explainer_.emplace(base, table, graph, interpretation);
+  }
+
+  LabelledBuilding run();
+
+ private:
+  void find_roles();
+  void find_owners();
+  void name_surfaces();
+  void add_surfaces();
+  void add_parents();
+  void add_installations();
+  void add_attributes();
+
+  /// Features that list a polygon, the smallest first.
+  [[nodiscard]] std::span<const int> features_of(const Polygon& polygon) const {
+    return (*owners_)[index(polygon.source)];
+  }
+  /// The smallest feature that lists the polygon and has a role, or -1.
+  [[nodiscard]] int find_labelled(const Polygon& polygon) const;
+  [[nodiscard]] int surface_around(const Feature& opening) const;
+  [[nodiscard]] int nearest_surface(const Box& box, Vec3 normal,
+                                    const std::vector<int>& sources) const;
+  [[nodiscard]] Members members_of(int feature) const;
+  [[nodiscard]] bool is_host_surface(const Polygon& polygon) const;
+
+  const Building& building_;
+  const Segmentation& segmentation_;
+  const FeatureTable& table_;
+  const SurfaceTable& surfaces_;
+  const Interpretation& interpretation_;
+  const RuleBase& base_;
+  const AnnotateOptions& options_;
+  std::optional<Explainer> explainer_;
+  std::vector<Role> roles_;
+  /// What each feature is written as, in short: every polygon asks for it.
+  enum class Kind : char { nothing, opening, installation };
+  std::vector<Kind> kinds_;
+  /// By feature, the ids of its groups.
+  std::vector<std::vector<std::string>> groups_;
+  /// By source; null for numbers that no polygon has.
+  std::vector<const Polygon*> polygons_;
+  PolygonOwners own_owners_;
+  const PolygonOwners* owners_ = nullptr;
+  /// By row; reasons if they are asked for.
+  std::vector<SurfaceVerdict> own_verdicts_;
+  std::span<const SurfaceVerdict> verdicts_;
+  std::vector<std::string> reasons_;
+  /// By feature, the surface of every opening that has one, or -1.
+  std::vector<int> opening_surfaces_;
+  LabelledBuilding result_;
+};
+
+LabelledBuilding Annotator::run() {
+  result_.building = building_.id;
+  find_roles();
+  find_owners();
+  add_surfaces();
+  add_parents();
+  add_installations();
+  add_attributes();
+  return std::move(result_);
+}
+
+void Annotator::find_roles() {
+  roles_.resize(segmentation_.features.size());
+  kinds_.resize(roles_.size(), Kind::nothing);
+  opening_surfaces_.resize(roles_.size(), -1);
+  for (const Verdict& verdict : interpretation_.verdicts) {
+    if (verdict.label.empty()) continue;
+    Role& role = roles_[verdict.feature.index()];
+    role = rules::role_of(base_.pack(), verdict.label);
+    if (role.emission == nullptr) continue;
+    kinds_[verdict.feature.index()] = role.is_opening() ? Kind::opening : Kind::installation;
+  }
+  groups_ = groups_by_feature(interpretation_);
+}
+
+void Annotator::find_owners() {
+  if (options_.owners != nullptr) {
+    owners_ = options_.owners;
+    return;
+  }
+  own_owners_ = polygon_owners(segmentation_, building_);
+  owners_ = &own_owners_;
+}
+
+int Annotator::find_labelled(const Polygon& polygon) const {
+  for (const int feature : features_of(polygon))
+    if (kinds_[index(feature)] != Kind::nothing) return feature;
+  return -1;
+}
+
+/// They may be named already.
+void Annotator::name_surfaces() {
+  verdicts_ = options_.surfaces;
+  SurfaceTable with;
+  const SurfaceTable* table = &surfaces_;
+  if (verdicts_.empty()) {
+    with = with_parts(surfaces_, building_, segmentation_, interpretation_, base_);
+    table = &with;
+    verdicts_ = own_verdicts_ = interpret_surfaces(base_, with);
+  }
+  if (options_.has_reasons)
+    reasons_ = surface_reasons(base_, *table, {verdicts_.begin(), verdicts_.end()});
+}
+
+void Annotator::add_surfaces() {
+  name_surfaces();
+  result_.surface_of_polygon.assign(owners_->polygons(), -1);
+  polygons_.assign(owners_->polygons(), nullptr);
+  result_.surfaces.reserve(building_.polygons.size());
+  for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
+    const Polygon& polygon = building_.polygons[row];
+    const auto next = static_cast<int>(result_.surfaces.size());
+    polygons_[index(polygon.source)] = &polygon;
+    int& surface = result_.surface_of_polygon[index(polygon.source)];
+    const int feature = find_labelled(polygon);
+    if (feature < 0 || kinds_[index(feature)] != Kind::opening) {
+      surface = next;
+      result_.surfaces.emplace_back().type = verdicts_[row].type;
+      if (options_.has_reasons)
+        result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons_[row]));
+      continue;
+    }
+    surface = opening_surfaces_[index(feature)];
+    if (surface >= 0) continue;
+    surface = opening_surfaces_[index(feature)] = next;
+    result_.surfaces.push_back({roles_[index(feature)].emission->type, -1, members_of(feature)});
+  }
+}
+
+bool Annotator::is_host_surface(const Polygon& polygon) const {
+  const int surface = result_.surface_of_polygon[index(polygon.source)];
+  if (surface < 0) return false;
+  const std::string& type = result_.surfaces[index(surface)].type;
+  return type == "WallSurface" || type == "RoofSurface";
+}
+
+/// The surface of the polygon that the opening was cut into: one of those that make up its host's
+/// facet or, where a cut made that facet, one of all.
+int Annotator::surface_around(const Feature& opening) const {
+  if (!opening.host_facet) return -1;
+  const Cell& cell = segmentation_.cells[opening.host_facet->cell.index()];
+  const Facet& facet = cell.facets[index(opening.host_facet->facet)];
+  const Vec3 normal = segmentation_.planes[facet.plane.index()].normal;
+  const int surface = nearest_surface(opening.box, normal, facet.polygons);
+  if (surface >= 0) return surface;
+  std::vector<int> all;
+  for (const Polygon& polygon : building_.polygons) all.push_back(polygon.source);
+  return nearest_surface(opening.box, normal, all);
+}
+
+/// Of the polygons that are walls or roofs the nearest one; of several the one that lies most in
+/// the direction of the facet, then the largest, then the first.
+int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<int>& sources) const {
+  std::optional<std::tuple<double, double, double, int>> best;
+  for (const int source : sources) {
+    const Polygon* polygon = polygons_[index(source)];
+    if (polygon == nullptr || !is_host_surface(*polygon)) continue;
+    const Vec3 area = rules::area_vector(building_, *polygon);
+    const double percent_aligned = std::round(100 * std::abs(dot(normalised(area), normal)));
+    const double distance = rules::distance_m(rules::box_of(building_, *polygon), box);
+    const std::tuple key(distance, -percent_aligned, -length(area), source);
+    if (!best || key < *best) best = key;
+  }
+  return best ? result_.surface_of_polygon[index(std::get<3>(*best))] : -1;
+}
+
+void Annotator::add_parents() {
+  for (std::size_t feature = 0; feature < opening_surfaces_.size(); ++feature)
+    if (const int surface = opening_surfaces_[feature]; surface >= 0)
+      result_.surfaces[index(surface)].parent = surface_around(segmentation_.features[feature]);
+}
+
+Members Annotator::members_of(int feature) const {
+  const Verdict& verdict = interpretation_.verdicts[index(feature)];
+  const Role& role = roles_[index(feature)];
+  Members members = {{"oriel_id", table_.id(verdict.feature)}, {"oriel_label", role.label}};
+  if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
+  members.emplace_back("oriel_score", rounded(verdict.score));
+  members.emplace_back("oriel_rule", verdict.rule);
+  if (const auto& groups = groups_[index(feature)]; !groups.empty())
+    members.emplace_back("oriel_groups", joined(groups));
+  if (explainer_) members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
+  return members;
+}
+
+void Annotator::add_installations() {
+  if (std::ranges::find(kinds_, Kind::installation) == kinds_.end()) return;
+  std::vector<std::vector<int>> polygons(roles_.size());
+  for (const Polygon& polygon : building_.polygons)
+    for (const int feature : features_of(polygon))
+      if (kinds_[index(feature)] == Kind::installation) {
+        polygons[index(feature)].push_back(polygon.source);
+        break;
+      }
+  for (std::size_t feature = 0; feature < roles_.size(); ++feature) {
+    if (polygons[feature].empty()) continue;
+    const Emission& emission = *roles_[feature].emission;
+    Installation installation;
+    installation.id = table_.id(FeatureId{static_cast<int>(feature)});
+    installation.attributes = {{"class", emission.class_code}};
+    const auto code = emission.function.find(options_.codelist);
+    if (code != emission.function.end()) {
+      installation.attributes.emplace_back("function", code->second);
+      installation.attributes.emplace_back("oriel_codelist", options_.codelist);
+    }
+    for (auto& member : members_of(static_cast<int>(feature)))
+      installation.attributes.push_back(std::move(member));
+    std::ranges::sort(polygons[feature]);
+    for (const int polygon : polygons[feature])
+      installation.surfaces.push_back(result_.surface_of_polygon[index(polygon)]);
+    installation.polygons = std::move(polygons[feature]);
+    result_.installations.push_back(std::move(installation));
+  }
+}
+
+void Annotator::add_attributes() {
+  result_.attributes = {{"oriel_version", std::string(kVersion)},
+                        {"oriel_pack", base_.name() + " " + base_.version()},
+                        {"oriel_pack_sha256", base_.sha256()}};
+  for (const auto& attribute : options_.attributes) result_.attributes.push_back(attribute);
+}
+
+}  // namespace
+
+LabelledBuilding annotate(const Building& building, const Segmentation& segmentation,
+                          const FeatureTable& table, const FeatureGraph& graph,
+                          const SurfaceTable& surfaces, const Interpretation& interpretation,
+                          const RuleBase& base, const AnnotateOptions& options) {
+  return Annotator(building, segmentation, table, graph, surfaces, interpretation, base, options)
+      .run();
+}
+
+}  // namespace oriel

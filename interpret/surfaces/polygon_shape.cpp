@@ -1,0 +1,48 @@
+#include "interpret/surfaces/polygon_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace oriel::rules {
+
+namespace {
+
+Vec3 vertex(const Building& building, int index) {
+  return building.vertices[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+
+Vec3 area_vector(const Building& building, const Polygon& polygon) {
+  Vec3 sum;
+  if (polygon.rings.empty() || polygon.rings[0].size() < 3) return sum;
+  const auto& ring = polygon.rings[0];
+  const Vec3 base = vertex(building, ring[0]);
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    sum = sum + cross(vertex(building, ring[i]) - base, vertex(building, ring[i + 1]) - base);
+  return 0.5 * sum;
+}
+
+double inclination_deg(Vec3 direction) {
+  if (direction == Vec3{}) return 90;
+  const double across = std::hypot(direction.x, direction.y);
+  return std::atan2(across, direction.z) * 180 / std::numbers::pi;
+}
+
+Box box_of(const Building& building, const Polygon& polygon) {
+  Box box;
+  if (polygon.rings.empty()) return box;
+  for (const int index : polygon.rings[0]) box.grow(vertex(building, index));
+  return box;
+}
+
+double distance_m(const Box& p, const Box& q) {
+  const auto gap = [](double low, double high, double other_low, double other_high) {
+    return std::max({0.0, low - other_high, other_low - high});
+  };
+  return length({gap(p.min.x, p.max.x, q.min.x, q.max.x), gap(p.min.y, p.max.y, q.min.y, q.max.y),
+                 gap(p.min.z, p.max.z, q.min.z, q.max.z)});
+}
+
+}  // namespace oriel::rules

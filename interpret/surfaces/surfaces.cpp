@@ -1,0 +1,283 @@
+#include "interpret/surfaces/surfaces.h"
+
+#include "interpret/compile/role.h"
+#include "interpret/evaluate/evaluator.h"
+#include "interpret/evaluate/facts.h"
+#include "interpret/pack/names.h"
+#include "interpret/surfaces/surface_decider.h"
+#include "interpret/surfaces/surface_rules.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::Frame;
+using rules::HostKind;
+using rules::Pack;
+using rules::SurfaceRule;
+using rules::SurfaceRules;
+using rules::Truth;
+
+/// What faces that look up are on a part of that label, or null if nothing is said.
+const std::string* top_of(const Pack& pack, const std::string& label) {
+  for (rules::ClassId id = rules::index_of(pack.classes, label); id != rules::kNoClass;
+       id = pack.classes[static_cast<std::size_t>(id)].parent)
+    if (const auto& emission = pack.classes[static_cast<std::size_t>(id)].emission)
+      return &emission->top;
+  return nullptr;
+}
+
+std::string top_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
+  if (const std::string* top = top_of(pack, table.text(row, "part"))) return *top;
+  const auto host = table.number(row, "host_inclination");
+  const bool is_in_wall = host && rules::kind_of_facet(pack.hosts, *host) == HostKind::wall;
+  return is_in_wall && table.text(row, "sense") == "hole" ? "OuterFloorSurface" : "RoofSurface";
+}
+
+std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
+  const auto inclination = table.number(row, "inclination");
+  if (!inclination) return "WallSurface";
+  switch (rules::kind_of_facet(pack.hosts, *inclination)) {
+    case HostKind::roof:
+      return top_by_default(pack, table, row);
+    case HostKind::ground:
+      return table.number(row, "height").value_or(0) <= pack.hosts.ground_reach_m
+                 ? "GroundSurface"
+                 : "OuterCeilingSurface";
+    default:
+      return "WallSurface";
+  }
+}
+
+std::vector<int> all_rows(const SurfaceTable& table) {
+  std::vector<int> rows(table.rows());
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+/// By row; of rows that are not asked for -1. The order of the three-valued logic sees to it that
+/// what is decided while values are missing stays so when they are filled in.
+std::vector<int> decide_with_more(const SurfaceRules& surfaces, const SurfaceTable& table,
+                                  std::span<const int> rows, MoreAttributes& more) {
+  rules::SurfaceDecider decider(surfaces, table, &more);
+  std::vector<int> deciding(table.rows(), -1);
+  std::vector<int> open(rows.begin(), rows.end());
+  for (;;) {
+    const auto found = decider.decide(open);
+    for (std::size_t i = 0; i < open.size(); ++i)
+      deciding[static_cast<std::size_t>(open[i])] = found[i];
+    open = decider.undecided();
+    if (open.empty()) break;
+    more.measure(open);
+    decider.look_again();
+  }
+  return deciding;
+}
+
+std::string shown(const Attribute& attribute, double value) {
+  if (attribute.unit == Unit::yes_no) return value != 0 ? "yes" : "no";
+  const std::string_view suffix = suffix_of(attribute.unit);
+  return fmt::format("{:.2f}{}{}", value, suffix.empty() ? "" : " ", suffix);
+}
+
+std::string attribute_lines(const SurfaceTable& table, std::size_t row) {
+  std::string text;
+  for (const Attribute& attribute : surface_schema()) {
+    std::string value = "?";
+    if (attribute.unit == Unit::text) {
+      if (const auto& word = table.text(row, attribute.name); !word.empty()) value = word;
+    } else if (const auto number = table.number(row, attribute.name)) {
+      value = shown(attribute, *number);
+    }
+    text += fmt::format("  {:<17} {:>12}   {}\n", attribute.name, value, attribute.meaning);
+  }
+  return text;
+}
+
+/// The place of an expression as messages show it.
+std::string place_of(const Pack& pack, rules::Span span) {
+  const Place place = pack.source.place(span.begin);
+  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, std::size_t row,
+                       int last) {
+  const rules::Facts facts(surfaces.pack, table);
+  rules::Evaluator evaluator(surfaces.pack, facts);
+  const int number = static_cast<int>(row);
+  Frame frame;
+  frame.size = 1;
+  frame.rows[0] = &number;
+  std::string text;
+  for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
+    const SurfaceRule& rule = surfaces.rules[r];
+    text += fmt::format("  {} -> {}\n", rule.id, rule.type);
+    for (const rules::ExprId id : rule.when) {
+      Truth truth = Truth::unknown;
+      evaluator.truths(id, frame, std::span(&truth, 1));
+      const char* outcome = truth == Truth::yes  ? "holds"
+                            : truth == Truth::no ? "fails"
+                                                 : "unknown";
+      const rules::Span span = surfaces.pack.code[static_cast<std::size_t>(id)].span;
+      text += fmt::format("    {:<8} {}   {}\n", outcome, surfaces.pack.source.text_of(span),
+                          place_of(surfaces.pack, span));
+    }
+    if (static_cast<int>(r) == last) break;
+  }
+  return text;
+}
+
+/// By `deciding`, the rule that decided.
+SurfaceVerdict verdict_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+                          int deciding) {
+  if (deciding < 0) return {type_by_default(pack, table, row), ""};
+  const SurfaceRule& rule = pack.surfaces->rules[static_cast<std::size_t>(deciding)];
+  return {rule.type, rule.id};
+}
+
+/// The same row by row.
+std::vector<SurfaceVerdict> verdicts_of(const Pack& pack, const SurfaceTable& table,
+                                        const std::vector<int>& deciding) {
+  std::vector<SurfaceVerdict> verdicts;
+  verdicts.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    verdicts.push_back(verdict_of(pack, table, row, deciding[row]));
+  return verdicts;
+}
+
+std::vector<int> decide_all(const Pack& pack, const SurfaceTable& table) {
+  if (pack.surfaces) return rules::SurfaceDecider(*pack.surfaces, table).decide(all_rows(table));
+  return std::vector<int>(table.rows(), -1);
+}
+
+std::string explanation_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+                           const SurfaceVerdict& verdict, int deciding) {
+  std::string text =
+      fmt::format("{} by {}\n", verdict.type, verdict.rule.empty() ? "hosts" : verdict.rule);
+  text += attribute_lines(table, row);
+  if (pack.surfaces) text += rule_lines(*pack.surfaces, table, row, deciding);
+  return text;
+}
+
+std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
+                      const SurfaceVerdict& verdict, const SurfaceRule* rule) {
+  if (rule == nullptr) {
+    const auto inclination = table.number(row, "inclination");
+    return fmt::format("{} by hosts: inclination = {}", verdict.type,
+                       inclination ? fmt::format("{:.2f} deg", *inclination) : "?");
+  }
+  std::string text = fmt::format("{} by {}", verdict.type, verdict.rule);
+  const char* separator = ": ";
+  for (const rules::ExprId id : rule->when) {
+    const rules::Span span = pack.surfaces->pack.code[static_cast<std::size_t>(id)].span;
+    text += separator;
+    text += pack.surfaces->pack.source.text_of(span);
+    separator = "; ";
+  }
+  return text;
+}
+
+}  // namespace
+
+SurfaceTable with_parts(SurfaceTable table, const Building& building,
+                        const Segmentation& segmentation, const Interpretation& interpretation,
+                        const RuleBase& base) {
+  const auto rows = all_rows(table);
+  return with_parts(std::move(table), building, polygon_owners(segmentation, building),
+                    interpretation, base, rows);
+}
+
+SurfaceTable with_parts(SurfaceTable table, const Building& building, const PolygonOwners& owners,
+                        const Interpretation& interpretation, const RuleBase& base,
+                        std::span<const int> rows) {
+  static const std::size_t part_column = surface_column_of("part").value();
+  if (interpretation.verdicts.empty()) return table;
+  std::vector<bool> is_emitted;
+  for (const Verdict& verdict : interpretation.verdicts)
+    is_emitted.push_back(top_of(base.pack(), verdict.label) != nullptr);
+  for (const int r : rows) {
+    const auto row = static_cast<std::size_t>(r);
+    const std::string* part = nullptr;
+    for (const int f : owners[static_cast<std::size_t>(building.polygons[row].source)]) {
+      const std::string& label = interpretation.verdicts[static_cast<std::size_t>(f)].label;
+      const bool is_written = is_emitted[static_cast<std::size_t>(f)];
+      if (!label.empty() && (part == nullptr || is_written)) part = &label;
+      if (is_written) break;
+    }
+    if (part != nullptr) table.set(row, part_column, *part);
+  }
+  return table;
+}
+
+std::vector<int> rows_to_name(const Building& building, const PolygonOwners& owners,
+                              const Interpretation& interpretation, const RuleBase& base) {
+  std::vector<rules::Role> roles;
+  for (const Verdict& verdict : interpretation.verdicts)
+    roles.push_back(rules::role_of(base.pack(), verdict.label));
+  std::vector<int> rows;
+  for (std::size_t row = 0; row < building.polygons.size(); ++row) {
+    const auto features = owners[static_cast<std::size_t>(building.polygons[row].source)];
+    const auto written = std::ranges::find_if(
+        features, [&](int f) { return roles[static_cast<std::size_t>(f)].emission != nullptr; });
+    if (written == features.end() || !roles[static_cast<std::size_t>(*written)].is_opening())
+      rows.push_back(static_cast<int>(row));
+  }
+  return rows;
+}
+
+std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table,
+                                               std::span<const int> rows, MoreAttributes& more) {
+  const Pack& pack = base.pack();
+  std::vector<int> deciding(table.rows(), -1);
+  if (pack.surfaces) deciding = decide_with_more(*pack.surfaces, table, rows, more);
+  std::vector<SurfaceVerdict> verdicts(table.rows());
+  for (const int r : rows) {
+    const auto row = static_cast<std::size_t>(r);
+    verdicts[row] = verdict_of(pack, table, row, deciding[row]);
+  }
+  return verdicts;
+}
+
+std::vector<SurfaceVerdict> interpret_surfaces(const RuleBase& base, const SurfaceTable& table) {
+  return verdicts_of(base.pack(), table, decide_all(base.pack(), table));
+}
+
+std::vector<std::string> explain_surfaces(const RuleBase& base, const SurfaceTable& table) {
+  const Pack& pack = base.pack();
+  const auto deciding = decide_all(pack, table);
+  const auto verdicts = verdicts_of(pack, table, deciding);
+  std::vector<std::string> texts;
+  texts.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    texts.push_back(explanation_of(pack, table, row, verdicts[row], deciding[row]));
+  return texts;
+}
+
+std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std::size_t row) {
+  const Pack& pack = base.pack();
+  const auto deciding = decide_all(pack, table);
+  return explanation_of(pack, table, row, verdicts_of(pack, table, deciding)[row], deciding[row]);
+}
+
+std::vector<std::string> surface_reasons(const RuleBase& base, const SurfaceTable& table,
+                                         const std::vector<SurfaceVerdict>& verdicts) {
+  const Pack& pack = base.pack();
+  std::vector<std::string> reasons;
+  reasons.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const SurfaceRule* rule = nullptr;
+    if (!verdicts[row].rule.empty())
+      rule = &*std::ranges::find(pack.surfaces->rules, verdicts[row].rule, &SurfaceRule::id);
+    reasons.push_back(reason_of(pack, table, row, verdicts[row], rule));
+  }
+  return reasons;
+}
+
+}  // namespace oriel

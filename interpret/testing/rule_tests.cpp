@@ -1,0 +1,269 @@
+#include "interpret/testing/rule_tests.h"
+
+#include "interpret/explain/explain.h"
+#include "interpret/labelling/interpret.h"
+#include "interpret/labelling/labelling.h"
+#include "interpret/testing/fixture.h"
+#include "interpret/testing/test_file.h"
+#include "interpret/yaml/section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::RuleTest;
+
+/// Counts which rules and conditions held and failed.
+class CoverageCounter {
+ public:
+  explicit CoverageCounter(const rules::Pack& pack) : pack_(&pack) {
+    for (const rules::Rule& rule : pack.rules) {
+      RuleCoverage coverage;
+      coverage.id = rule.id;
+      coverage.place = pack.source.place(rule.span.begin);
+      conditions_.emplace_back();
+      for (const rules::ExprId id : rule.require) add(id, coverage);
+      for (const rules::ExprId id : rule.unless) add(id, coverage);
+      rules_.push_back(std::move(coverage));
+    }
+  }
+
+  void count(const DescribedBuilding& building) {
+    rules::Facts facts(*pack_, building.table, building.graph);
+    if (facts.rows == 0) return;
+    rules::Labelling(*pack_, facts).run();
+    rules::Evaluator evaluator(*pack_, facts);
+    for (std::size_t begin = 0; begin < facts.rows; begin += rules::kBlock) {
+      rules::Frame frame;
+      frame.size = std::min(rules::kBlock, facts.rows - begin);
+      frame.rows[0] = facts.row_numbers.data() + begin;
+      for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, frame);
+    }
+  }
+
+  [[nodiscard]] const std::vector<RuleCoverage>& rules() const { return rules_; }
+
+ private:
+  void add(rules::ExprId id, RuleCoverage& coverage) {
+    const rules::Expr& expr = pack_->code[static_cast<std::size_t>(id)];
+    if (expr.op == rules::Op::all_of) {
+      for (const rules::ExprId arg : expr.args) add(arg, coverage);
+      return;
+    }
+    conditions_.back().push_back(id);
+    coverage.conditions.push_back(
+        {std::string(pack_->source.text_of(expr.span)), pack_->source.place(expr.span.begin)});
+  }
+
+  void count_rule(std::size_t i, rules::Evaluator& evaluator, const rules::Frame& frame) {
+    rules::Judgement judgement;
+    rules::judge(*pack_, pack_->rules[i], evaluator, frame, judgement);
+    rules_[i].held += static_cast<std::size_t>(std::count(
+        judgement.truth.begin(), judgement.truth.begin() + static_cast<std::ptrdiff_t>(frame.size),
+        rules::Truth::yes));
+    std::array<rules::Truth, rules::kBlock> answers;
+    for (std::size_t c = 0; c < conditions_[i].size(); ++c) {
+      const auto some = std::span(answers).first(frame.size);
+      evaluator.truths(conditions_[i][c], frame, some);
+      ConditionCoverage& coverage = rules_[i].conditions[c];
+      coverage.held += static_cast<std::size_t>(std::ranges::count(some, rules::Truth::yes));
+      coverage.failed += static_cast<std::size_t>(std::ranges::count(some, rules::Truth::no));
+    }
+  }
+
+  const rules::Pack* pack_;
+  std::vector<RuleCoverage> rules_;
+  std::vector<std::vector<rules::ExprId>> conditions_;
+};
+
+const char* name_of(Outcome outcome) {
+  if (outcome == Outcome::unknown) return "unknown";
+  return outcome == Outcome::holds ? "holds" : "fails";
+}
+
+/// True if a condition with that text, or a part of one, has that outcome.
+bool has_condition(const std::vector<ConditionReport>& reports, const std::string& text,
+                   Outcome outcome) {
+  return std::ranges::any_of(reports, [&](const ConditionReport& report) {
+    return (report.text == text && report.outcome == outcome) ||
+           has_condition(report.parts, text, outcome);
+  });
+}
+
+/// One test at work on its buildings.
+class TestRun {
+ public:
+  TestRun(const RuleBase& base, const RuleTest& test, std::vector<std::string>& failures)
+      : base_(base), test_(test), failures_(failures) {}
+
+  void run(const std::vector<DescribedBuilding>& buildings) {
+    for (const DescribedBuilding& building : buildings) {
+      interpretations_.push_back(interpret(base_, building.table, building.graph));
+      for (const Group& group : interpretations_.back().groups) ++groups_[group.kind];
+      for (const Verdict& verdict : interpretations_.back().verdicts) ++counts_[verdict.label];
+    }
+    for (const rules::Expectation& expected : test_.labels) check_labels(expected, buildings);
+    for (const auto& [label, count] : test_.counts)
+      check_count("features labelled " + label, counts_[label == "unknown" ? "" : label], count);
+    for (const auto& [group, count] : test_.groups)
+      check_count("groups " + group, groups_[group], count);
+    if (test_.perturbation) check_property(buildings);
+  }
+
+ private:
+  void fail(std::string sentence) { failures_.push_back(std::move(sentence)); }
+
+  void check_count(const std::string& what, std::size_t found, std::size_t wanted) {
+    if (found != wanted) fail(fmt::format("{} {}, expected {}", found, what, wanted));
+  }
+
+  void check_labels(const rules::Expectation& expected,
+                    const std::vector<DescribedBuilding>& buildings) {
+    bool has_match = false;
+    for (std::size_t b = 0; b < buildings.size(); ++b)
+      for (const Verdict& verdict : interpretations_[b].verdicts) {
+        const std::string& id = buildings[b].table.id(verdict.feature);
+        if (!rules::is_match(expected.pattern, id)) continue;
+        has_match = true;
+        check_label(expected, id, verdict);
+        for (const rules::Reason& reason : test_.because)
+          check_reason(reason, id, buildings[b], interpretations_[b], verdict.feature);
+      }
+    if (!has_match) fail(fmt::format("nothing is called '{}'", expected.pattern));
+  }
+
+  void check_label(const rules::Expectation& expected, const std::string& id,
+                   const Verdict& verdict) {
+    const rules::Pack& pack = base_.pack();
+    const rules::ClassId label = rules::index_of(pack.classes, verdict.label);
+    const bool is_one =
+        expected.label == "unknown"
+            ? verdict.label.empty()
+            : rules::is_within(pack.classes, label, rules::index_of(pack.classes, expected.label));
+    if (is_one != expected.is_negated) return;
+    std::string found = verdict.label.empty() ? "unknown" : verdict.label;
+    if (!verdict.rule.empty()) found += fmt::format(" {:.2f} by {}", verdict.score, verdict.rule);
+    fail(fmt::format("{} is {}, expected {}{}", id, found, expected.is_negated ? "not " : "",
+                     expected.label));
+  }
+
+  void check_reason(const rules::Reason& reason, const std::string& id,
+                    const DescribedBuilding& building, const Interpretation& interpretation,
+                    FeatureId feature) {
+    const Explanation why =
+        Explainer(base_, building.table, building.graph, interpretation).explain(feature);
+    const auto rule = std::ranges::find(why.rules, reason.rule, &RuleReport::id);
+    if (reason.condition.empty()) {
+      if (rule->outcome != reason.outcome)
+        fail(fmt::format("{}: {} {}, expected that it {}", id, reason.rule, name_of(rule->outcome),
+                         name_of(reason.outcome)));
+      return;
+    }
+    if (rule->outcome == reason.outcome &&
+        (has_condition(rule->require, reason.condition, reason.outcome) ||
+         has_condition(rule->unless, reason.condition, Outcome::holds)))
+      return;
+    fail(fmt::format("{}: {} {}, expected that it {} at \"{}\"", id, reason.rule,
+                     name_of(rule->outcome), name_of(reason.outcome), reason.condition));
+  }
+
+  /// Every copy with noise must have the labels of the original.
+  void check_property(const std::vector<DescribedBuilding>& buildings) {
+    const rules::Perturbation& p = *test_.perturbation;
+    rules::Noise noise;
+    for (int round = 1; round <= p.times; ++round)
+      for (std::size_t b = 0; b < buildings.size(); ++b) {
+        const FeatureTable moved = rules::perturbed(buildings[b].table, p, noise);
+        const auto verdicts = interpret(base_, moved, buildings[b].graph).verdicts;
+        for (std::size_t row = 0; row < verdicts.size(); ++row) {
+          const std::string& before = interpretations_[b].verdicts[row].label;
+          if (verdicts[row].label == before) continue;
+          fail(fmt::format("perturbation {} makes {} {} of {}", round,
+                           moved.id(verdicts[row].feature),
+                           verdicts[row].label.empty() ? "unknown" : verdicts[row].label,
+                           before.empty() ? "unknown" : before));
+          return;
+        }
+      }
+  }
+
+  const RuleBase& base_;
+  const RuleTest& test_;
+  std::vector<std::string>& failures_;
+  std::vector<Interpretation> interpretations_;
+  std::map<std::string, std::size_t> groups_;
+  std::map<std::string, std::size_t> counts_;
+};
+
+/// The buildings of a test, or its failures.
+std::vector<DescribedBuilding> buildings_of(const RuleTest& test, const std::string& folder,
+                                            const BuildingReader& read,
+                                            std::vector<std::string>& failures) {
+  std::vector<DescribedBuilding> buildings;
+  if (test.building.empty()) {
+    buildings.push_back(rules::make_building(test.name, test.fixture));
+    return buildings;
+  }
+  auto read_back = read((std::filesystem::path(folder) / test.building).string());
+  if (read_back.value) buildings = std::move(*read_back.value);
+  std::size_t features = 0;
+  for (const DescribedBuilding& building : buildings) features += building.table.rows();
+  if (features > 0) return buildings;
+  failures.push_back("nothing was found in '" + test.building + "'");
+  for (const Issue& issue : read_back.issues) failures.push_back(to_string(issue));
+  return buildings;
+}
+
+}  // namespace
+
+std::size_t RuleTestReport::failed() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      tests, [](const RuleTestResult& result) { return !result.failures.empty(); }));
+}
+
+double RuleTestReport::rule_coverage() const {
+  if (rules.empty()) return 1;
+  const auto covered =
+      std::ranges::count_if(rules, [](const RuleCoverage& rule) { return rule.held > 0; });
+  return static_cast<double>(covered) / static_cast<double>(rules.size());
+}
+
+double RuleTestReport::condition_coverage() const {
+  std::size_t all = 0, covered = 0;
+  for (const RuleCoverage& rule : rules)
+    for (const ConditionCoverage& condition : rule.conditions) {
+      ++all;
+      covered += condition.is_covered() ? 1 : 0;
+    }
+  return all == 0 ? 1 : static_cast<double>(covered) / static_cast<double>(all);
+}
+
+Checked<RuleTestReport> run_rule_tests(const std::string& path, const BuildingReader& read) {
+  Checked<RuleTestReport> checked;
+  const auto file = rules::read_test_file(path, checked.issues);
+  if (!file) return checked;
+  RuleTestReport report;
+  report.file = path;
+  report.pack = file->base->file();
+  CoverageCounter coverage(file->base->pack());
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  for (const RuleTest& test : file->tests) {
+    RuleTestResult result{test.name, test.place, {}};
+    const auto buildings = buildings_of(test, folder, read, result.failures);
+    if (result.failures.empty()) TestRun(*file->base, test, result.failures).run(buildings);
+    for (const DescribedBuilding& building : buildings) coverage.count(building);
+    report.tests.push_back(std::move(result));
+  }
+  report.rules = coverage.rules();
+  checked.value = std::move(report);
+  return checked;
+}
+
+}  // namespace oriel

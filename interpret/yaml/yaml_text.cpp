@@ -1,0 +1,202 @@
+#include "interpret/yaml/yaml_text.h"
+
+#include "interpret/yaml/yaml_comments.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel::rules {
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+/// Lines longer than this are hard to read beside a picture of a building.
+constexpr std::size_t kMostColumns = 120;
+constexpr std::size_t kIndent = 2;
+
+std::string quoted(const std::string& text) {
+  const bool has_control = std::ranges::any_of(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+  if (!has_control && text.find_first_of("\"\\") == std::string::npos) return '"' + text + '"';
+  if (!has_control && text.find('\'') == std::string::npos) return '\'' + text + '\'';
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out.append({'\\', c});
+    else if (static_cast<unsigned char>(c) < 0x20)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+std::string scalar_text(const YamlNode& node) {
+  if (node.kind == Kind::null) return "~";
+  return node.is_plain ? node.text : quoted(node.text);
+}
+
+/// The node in one line; nothing if a plain scalar in it would have to be quoted there.
+bool append_inline(const YamlNode& node, std::string& out) {
+  if (node.kind == Kind::scalar || node.kind == Kind::null) {
+    out += scalar_text(node);
+    return !node.is_plain || node.text.find_first_of(",[]{}") == std::string::npos;
+  }
+  const char* separator = "";
+  out += node.kind == Kind::map ? '{' : '[';
+  for (const YamlNode& item : node.items) {
+    out += std::exchange(separator, ", ");
+    if (!append_inline(item, out)) return false;
+  }
+  for (const YamlEntry& entry : node.entries) {
+    out += std::exchange(separator, ", ");
+    if (!append_inline(entry.key, out)) return false;
+    out += ": ";
+    if (!append_inline(entry.value, out)) return false;
+  }
+  out += node.kind == Kind::map ? '}' : ']';
+  return true;
+}
+
+class Printer {
+ public:
+  /// `is_spaced`: an empty line parts sections; else those among the comments do.
+  Printer(std::vector<YamlComment> comments, bool is_spaced)
+      : comments_(std::move(comments)), is_spaced_(is_spaced) {}
+
+  std::string print(const YamlNode& root) {
+    static constexpr std::array<std::string_view, 3> kSmall = {"pack", "decide", "iterate"};
+    for (const YamlEntry& entry : root.entries) {
+      if (is_spaced_ && !out_.empty()) out_ += out_.ends_with('\n') ? "\n" : "\n\n";
+      begin_line(entry.key.span.begin, 0);
+      const bool is_small = std::ranges::find(kSmall, entry.key.text) != kSmall.end();
+      is_in_rules_ = entry.key.text == "rules";
+      print_entry(entry, 0, is_small);
+    }
+    end_line(std::string::npos);
+    print_comments(std::string::npos, 0);
+    while (out_.ends_with("\n\n")) out_.pop_back();
+    return std::move(out_);
+  }
+
+ private:
+  /// What follows begins at `offset` of the text that was read.
+  void begin_line(std::size_t offset, std::size_t indent) {
+    end_line(offset);
+    print_comments(offset, indent);
+    out_.append(indent, ' ');
+  }
+
+  /// Puts the comments behind the line at hand that stood behind it, or in what it says.
+  void end_line(std::size_t offset) {
+    if (out_.empty() || out_.back() == '\n') return;
+    while (next_ < comments_.size() && comments_[next_].offset < offset &&
+           !comments_[next_].is_own_line)
+      out_ += "  " + comments_[next_++].text;
+    out_ += '\n';
+  }
+
+  void print_comments(std::size_t offset, std::size_t indent) {
+    for (; next_ < comments_.size() && comments_[next_].offset < offset; ++next_) {
+      const std::string& text = comments_[next_].text;
+      if (!text.empty()) out_ += std::string(indent, ' ') + text;
+      if (!text.empty() || !(out_.empty() || out_.ends_with("\n\n"))) out_ += '\n';
+    }
+  }
+
+  [[nodiscard]] std::size_t column() const {
+    const std::size_t line = out_.rfind('\n');
+    return line == std::string::npos ? out_.size() : out_.size() - line - 1;
+  }
+
+  /// Prints the node behind what stands on the line, if there is room for all of it.
+  bool print_inline(const YamlNode& node) {
+    std::string text;
+    if (!append_inline(node, text) || column() + text.size() > kMostColumns) return false;
+    out_ += text;
+    return true;
+  }
+
+  void print_entry(const YamlEntry& entry, std::size_t indent, bool is_inline) {
+    const YamlNode& value = entry.value;
+    out_ += scalar_text(entry.key) + ':';
+    if (value.kind == Kind::null) return;
+    out_ += ' ';
+    if (value.kind == Kind::scalar) {
+      out_ += scalar_text(value);
+      return;
+    }
+    const bool is_empty = value.items.empty() && value.entries.empty();
+    const bool has_maps = std::ranges::find(value.items, Kind::map, &YamlNode::kind) !=
+                          value.items.end();  // terms of a score
+    if (((is_inline && !has_maps) || is_empty) && print_inline(value)) return;
+    out_.pop_back();
+    print_block(value, indent + kIndent);
+  }
+
+  void print_block(const YamlNode& node, std::size_t indent) {
+    for (const YamlEntry& entry : node.entries) {
+      begin_line(entry.key.span.begin, indent);
+      print_entry(entry, indent, true);
+    }
+    for (const YamlNode& item : node.items) {
+      begin_line(begin_of(item), indent);
+      out_ += "- ";
+      print_item(item, indent + kIndent);
+    }
+  }
+
+  /// A rule stands in a block, and so does what has one key only: a term of a score.
+  void print_item(const YamlNode& item, std::size_t indent) {
+    if (item.kind == Kind::scalar || item.kind == Kind::null) {
+      out_ += scalar_text(item);
+      return;
+    }
+    const bool is_rule = is_in_rules_ && indent == 2 * kIndent;
+    const bool is_block = item.kind == Kind::map && (is_rule || item.entries.size() == 1);
+    if (!is_block && print_inline(item)) return;
+    for (std::size_t i = 0; i < item.entries.size(); ++i) {
+      if (i > 0) begin_line(item.entries[i].key.span.begin, indent);
+      print_entry(item.entries[i], indent, true);
+    }
+    if (!item.items.empty()) {
+      out_.pop_back();
+      print_block(item, indent);
+    }
+    if (item.items.empty() && item.entries.empty()) out_ += item.kind == Kind::map ? "{}" : "[]";
+  }
+
+  static std::size_t begin_of(const YamlNode& item) {
+    return item.entries.empty() ? item.span.begin : item.entries[0].key.span.begin;
+  }
+
+  std::vector<YamlComment> comments_;
+  bool is_spaced_;
+  std::size_t next_ = 0;
+  bool is_in_rules_ = false;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string to_yaml(const YamlNode& root) { return Printer({}, true).print(root); }
+
+std::string to_yaml(const YamlNode& root, std::string_view text) {
+  return Printer(find_comments(root, text), false).print(root);
+}
+
+bool is_same(const YamlNode& p, const YamlNode& q) {
+  const auto is_entry_same = [](const YamlEntry& a, const YamlEntry& b) {
+    return is_same(a.key, b.key) && is_same(a.value, b.value);
+  };
+  return p.kind == q.kind && p.text == q.text && p.is_plain == q.is_plain &&
+         std::ranges::equal(p.items, q.items, is_same) &&
+         std::ranges::equal(p.entries, q.entries, is_entry_same);
+}
+
+}  // namespace oriel::rules

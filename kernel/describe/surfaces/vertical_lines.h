@@ -1,0 +1,68 @@
+#pragma once
+
+#include "kernel/describe/surfaces/plan_figure.h"
+#include "kernel/describe/surfaces/surface_faces.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Where a vertical line meets a face.
+struct LineCrossing {
+  double z = 0;
+  int face = -1;
+};
+
+/// What lies straight above and below points: the faces that are not steep, in a grid seen from
+/// above. Refers to the faces, which must outlive it.
+class VerticalLines {
+ public:
+  explicit VerticalLines(const SurfaceFaces& faces);
+
+  /// All crossings of the vertical line through `point`, from below; of equal heights by number.
+  [[nodiscard]] std::vector<LineCrossing> at(Vec3 point) const;
+  /// Of them the first above `z`.
+  [[nodiscard]] std::optional<LineCrossing> next_above(Vec3 point, double z) const;
+  /// Of them the last that is not above `z`.
+  [[nodiscard]] std::optional<LineCrossing> next_below(Vec3 point, double z) const;
+
+ private:
+  /// A face that is not steep: its box seen from above and the heights it can be met at, which most
+  /// faces of a cell are left out by, then what it is.
+  struct Entry {
+    double x0, x1, y0, y1, z0, z1;
+    int face;
+  };
+  /// What else is needed of a face that a line may meet.
+  struct Met {
+    PlanFigure figure;
+    Vec3 middle;
+  };
+  /// The cells that a box touches.
+  struct Cells {
+    int row0, row1, column0, column1;
+  };
+  [[nodiscard]] static Entry entry_of(const SurfaceFace& face, int number);
+  void fill_cells();
+  [[nodiscard]] int column_of(double x) const;
+  [[nodiscard]] int row_of(double y) const;
+  [[nodiscard]] Cells cells_of(const Entry& entry) const;
+  [[nodiscard]] std::span<const int> cell_of(Vec3 point) const;
+  [[nodiscard]] std::optional<LineCrossing> crossing(std::size_t entry, Vec3 point) const;
+
+  const SurfaceFaces& faces_;
+  Box box_;
+  int side_ = 1;
+  /// By z0, then by number.
+  std::vector<Entry> entries_;
+  /// Of entries, made when they are asked for: most faces are left out by their boxes.
+  mutable std::vector<std::optional<Met>> met_;
+  /// The entries whose box touches a cell, in their order, row by row: those of cell c begin at
+  /// first_[c].
+  std::vector<int> in_cells_;
+  std::vector<int> first_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,135 @@
+#include "kernel/geometry/near_points.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/disjoint_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+namespace oriel::detail {
+
+namespace {
+
+using exact::GridPoint;
+
+/// Finds the points that may have another one within reach. Cut wherever the next point along an
+/// axis is out of reach, a list falls into pieces that cannot reach each other; cut along all three
+/// axes, in most buildings into single points.
+class Candidates {
+ public:
+  Candidates(std::span<const GridPoint> points, double reach)
+      : points_(points), reach_(static_cast<std::int64_t>(std::ceil(reach))) {}
+
+  /// Of sorted points.
+  Numbers find() {
+    if (points_.empty()) return {};
+    Numbers all(points_.size());
+    std::iota(all.begin(), all.end(), 0);
+    cut(all, 0);
+    return std::move(found_);
+  }
+
+ private:
+  /// `piece` is sorted by the axis and not empty.
+  void cut(std::span<int> piece, std::size_t axis) {
+    const GridPoint* const points = points_.data();
+    std::size_t start = 0;
+    std::int64_t before = points[piece[0]][axis];
+    for (std::size_t i = 1; i < piece.size(); ++i) {
+      const std::int64_t here = points[piece[i]][axis];
+      if (here - before >= reach_) {
+        if (i - start > 1) keep(piece.subspan(start, i - start), axis);
+        start = i;
+      }
+      before = here;
+    }
+    if (piece.size() - start > 1) keep(piece.subspan(start), axis);
+  }
+
+  /// What was not cut along `axis` is cut along the next one.
+  void keep(std::span<int> piece, std::size_t axis) {
+    if (axis == 2) {
+      found_.insert(found_.end(), piece.begin(), piece.end());
+      return;
+    }
+    if (!is_sorted(piece, axis + 1))
+      std::ranges::sort(piece, {}, [&](int i) { return points_[at(i)][axis + 1]; });
+    cut(piece, axis + 1);
+  }
+
+  [[nodiscard]] bool is_sorted(std::span<const int> piece, std::size_t axis) const {
+    const GridPoint* const points = points_.data();
+    std::int64_t before = points[piece[0]][axis];
+    for (const int i : piece) {
+      if (points[i][axis] < before) return false;
+      before = points[i][axis];
+    }
+    return true;
+  }
+
+  std::span<const GridPoint> points_;
+  std::int64_t reach_;  ///< a whole number is below this one if it is below the one told
+  Numbers found_;
+};
+
+struct Bucket {
+  std::int64_t x, y, z;
+  friend bool operator==(const Bucket&, const Bucket&) = default;
+};
+
+struct BucketHash {
+  std::size_t operator()(const Bucket& b) const noexcept {
+    std::uint64_t h = static_cast<std::uint64_t>(b.x) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ (h >> 31)) + static_cast<std::uint64_t>(b.y) * 0xBF58476D1CE4E5B9ULL;
+    h = (h ^ (h >> 29)) + static_cast<std::uint64_t>(b.z) * 0x94D049BB133111EBULL;
+    return h ^ (h >> 32);
+  }
+};
+
+double distance2(const GridPoint& p, const GridPoint& q) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto d = static_cast<double>(p[i] - q[i]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Unites the pairs among `members` that are closer than `reach`.
+void unite_near(std::span<const GridPoint> points, std::span<const int> members, double reach,
+                DisjointSets& groups) {
+  const auto edge = static_cast<std::int64_t>(std::ceil(reach));
+  const auto floor_div = [edge](std::int64_t c) {
+    return c >= 0 ? c / edge : -((-c + edge - 1) / edge);
+  };
+  std::unordered_map<Bucket, Numbers, BucketHash> buckets;
+  for (const int i : members) {
+    const auto& p = points[at(i)];
+    const Bucket home{floor_div(p[0]), floor_div(p[1]), floor_div(p[2])};
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const auto found =
+          buckets.find({home.x + n % 3 - 1, home.y + n / 3 % 3 - 1, home.z + n / 9 - 1});
+      if (found == buckets.end()) continue;
+      for (const int j : found->second)
+        if (distance2(p, points[at(j)]) < reach * reach) groups.unite(i, j);
+    }
+    buckets[home].push_back(i);
+  }
+}
+
+}  // namespace
+
+Numbers group_near_points(std::span<const GridPoint> points, double reach) {
+  Numbers first(points.size());
+  std::iota(first.begin(), first.end(), 0);
+  const Numbers candidates = Candidates(points, reach).find();
+  if (candidates.empty()) return first;
+  DisjointSets groups(points.size());
+  unite_near(points, candidates, reach, groups);
+  for (const int i : candidates) first[at(i)] = groups.find(i);
+  return first;
+}
+
+}  // namespace oriel::detail

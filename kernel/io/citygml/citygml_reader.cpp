@@ -1,0 +1,178 @@
+#include "kernel/io/citygml/citygml_reader.h"
+
+#include "kernel/io/citygml/citygml_objects.h"
+#include "kernel/io/citygml/citygml_stream.h"
+#include "kernel/io/citygml/citygml_text.h"
+#include "kernel/io/citygml/gml_geometry.h"
+#include "kernel/io/citygml/xml_links.h"
+#include "kernel/io/cityjson/cityjson_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// The first srsName in `node`.
+std::string_view srs_name_in(const XmlNode& node) {
+  if (const std::string_view name = node.attribute("srsName"); !name.empty()) return name;
+  for (const XmlNode& child : node.children)
+    if (const std::string_view name = srs_name_in(child); !name.empty()) return name;
+  return {};
+}
+
+/// E213 if the building is so small that its coordinates must be degrees.
+std::optional<Fault> find_degrees(const GmlVertices& vertices, Vec3 origin) {
+  constexpr double kSmallest = 0.01;
+  Box box;
+  for (const auto& [x, y, z] : vertices.positions())
+    box.grow(origin + kCityGmlScale * Vec3{static_cast<double>(x), static_cast<double>(y),
+                                           static_cast<double>(z)});
+  if (box.is_empty()) return std::nullopt;
+  const Vec3 size = box.max - box.min;
+  const bool is_on_globe = std::max(std::abs(box.min.x), std::abs(box.max.x)) <= 180 &&
+                           std::max(std::abs(box.min.y), std::abs(box.max.y)) <= 180;
+  if (!is_on_globe || size.x > kSmallest || size.y > kSmallest) return std::nullopt;
+  return Fault{"E213",
+               "the building is less than 1 cm wide: its coordinates look like degrees; "
+               "expected metres"};
+}
+
+}  // namespace
+
+struct CityGmlReader::State {
+  State(Input& input, TextName called, std::optional<std::string> lod)
+      : name(std::move(called)), stream(input, name), cityjson(std::move(lod)) {}
+
+  Checked<Document> read_header();
+  Checked<Document> read_member(const XmlNode& member);
+  std::string id_for(const XmlNode& member);
+  std::optional<Fault> claim_ids(const CityGmlBuilding& building);
+  Issue issue_at(const XmlNode& node, Severity severity, const std::string& building,
+                 Fault fault) const;
+
+  TextName name;
+  CityGmlStream stream;
+  CityJsonReader cityjson;
+  std::optional<SequenceHeader> header;
+  /// The building that was read to make the header.
+  std::optional<XmlNode> first;
+  /// The ids of all objects so far: the one thing that grows with the file.
+  std::unordered_set<std::string> ids;
+  std::size_t members = 0;
+  bool is_done = false;
+};
+
+CityGmlReader::CityGmlReader(Input& input, TextName name, std::optional<std::string> lod)
+    : state_(std::make_unique<State>(input, std::move(name), std::move(lod))) {}
+
+CityGmlReader::~CityGmlReader() = default;
+
+std::optional<Checked<Document>> CityGmlReader::next() {
+  if (state_->is_done) return std::nullopt;
+  if (!state_->header) return state_->read_header();
+  std::optional<XmlNode> member = std::move(state_->first);
+  state_->first.reset();
+  if (!member) member = state_->stream.next();
+  if (member) return state_->read_member(*member);
+  state_->is_done = true;
+  if (!state_->stream.issue()) return std::nullopt;
+  return Checked<Document>{std::nullopt, {*state_->stream.issue()}};
+}
+
+Checked<Document> CityGmlReader::State::read_header() {
+  first = stream.next();
+  if (!first && stream.issue()) {
+    is_done = true;
+    return {std::nullopt, {*stream.issue()}};
+  }
+  header.emplace();
+  std::string crs = stream.srs_name();
+  if (first) {
+    header->transform.translate = first_position(*first);
+    if (crs.empty()) crs = srs_name_in(*first);
+  }
+  header->transform.scale = {kCityGmlScale, kCityGmlScale, kCityGmlScale};
+  header->crs = reference_system_of(crs);
+  auto source = std::make_shared<CityJsonSource>();
+  source->text = citygml_header_text(*header);
+  source->transform = header->transform;
+  source->is_feature = true;
+  Checked<Document> result;
+  result.value = Document{name.file, Format::citygml, {}, std::move(source)};
+  if (!first) {
+    result.issues.push_back(error_in(name, {"E209", "has no Building"}));
+    result.issues.back().severity = Severity::warning;
+  }
+  return result;
+}
+
+Issue CityGmlReader::State::issue_at(const XmlNode& node, Severity severity,
+                                     const std::string& building, Fault fault) const {
+  Issue issue = finding_of(name, severity, building, std::move(fault));
+  issue.place.line = node.line;
+  issue.place.column = node.column;
+  return issue;
+}
+
+/// The building's gml:id, or a name by its number if it has none.
+std::string CityGmlReader::State::id_for(const XmlNode& member) {
+  if (!member.id().empty()) return std::string(member.id());
+  std::string id = fmt::format("building_{}", members);
+  while (ids.contains(id)) id += '_';
+  return id;
+}
+
+/// Keeps the ids of all objects of a building, unless one stands in the file already.
+std::optional<Fault> CityGmlReader::State::claim_ids(const CityGmlBuilding& building) {
+  std::unordered_set<std::string> own;
+  for (const CityGmlObject& object : building.objects)
+    if (ids.contains(object.id) || !own.insert(object.id).second)
+      return Fault{"E207", fmt::format("the gml:id {} stands twice in the file; the building with "
+                                       "the first one is read",
+                                       in_quotes(object.id))};
+  ids.merge(own);
+  return std::nullopt;
+}
+
+Checked<Document> CityGmlReader::State::read_member(const XmlNode& member) {
+  ++members;
+  const std::string id = id_for(member);
+  XmlLinks links(member);
+  GmlVertices vertices(header->transform.translate);
+  GmlReader reader(links, vertices);
+  std::optional<NodeFault> fault;
+  std::optional<CityGmlBuilding> building = read_objects(member, id, links, reader, fault);
+  if (building) {
+    auto found = claim_ids(*building);
+    if (!found) found = find_degrees(vertices, header->transform.translate);
+    if (found) fault = {std::move(*found), &member};
+  }
+  Checked<Document> result;
+  if (fault) {
+    result.value = Document{fmt::format("{}:{}", name.file, member.line), Format::citygml, {}, {}};
+    result.issues.push_back(issue_at(*fault->node, Severity::error, id, std::move(fault->fault)));
+    return result;
+  }
+  result =
+      cityjson.read(citygml_feature_text(*building, vertices), {name.file, member.line}, header);
+  if (result.value) result.value->format = Format::citygml;
+  const auto tell = [&](const XmlNode* node, Severity severity, Fault what) {
+    if (node != nullptr) result.issues.push_back(issue_at(*node, severity, id, std::move(what)));
+  };
+  tell(links.duplicate(), Severity::warning,
+       {"E207", "a gml:id stands twice in the building; nothing links to it"});
+  tell(reader.open_ring(), Severity::warning,
+       {"E314",
+        "a ring does not end where it began; it is read as if it did (val3dity 103 "
+        "RING_NOT_CLOSED)"});
+  tell(building->implicit, Severity::note, {"E206", "implicit geometries are not read"});
+  return result;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "kernel/base/issue.h"
+#include "kernel/io/document.h"
+#include "kernel/io/files/input.h"
+#include "kernel/io/json/text.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace oriel::detail {
+
+/// Reads CityGML 2.0 and 3.0, a building at a time. Each becomes a CityJSONFeature, in memory, that
+/// the CityJSON reader reads: so levels of detail, families and semantics are what they are there.
+class CityGmlReader {
+ public:
+  /// `input` must outlive the reader; `lod` as in ReadOptions.
+  CityGmlReader(Input& input, TextName name, std::optional<std::string> lod);
+  ~CityGmlReader();
+  CityGmlReader(const CityGmlReader&) = delete;
+  CityGmlReader& operator=(const CityGmlReader&) = delete;
+
+  /// First a header without buildings, then a document for each Building with its parts, which has
+  /// no building if that has a fault. A document without a value where the file cannot be read on;
+  /// nothing after that, or at the end.
+  std::optional<Checked<Document>> next();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,263 @@
+#include "kernel/io/citygml/citygml_stream.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <expat.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// What stands between namespace and name in Expat's names; no byte of a name.
+constexpr char kSeparator = '\n';
+constexpr std::size_t kMaxDepth = 1000;
+/// A tag, comment or the like is parsed from its start whenever more of it has come, so an endless
+/// one would cost the square of its length.
+constexpr XML_Index kMaxToken = 16 << 20;
+
+struct Name {
+  std::string_view space;
+  std::string_view local;
+};
+
+Name split(const XML_Char* text) {
+  const std::string_view name(text);
+  const std::size_t at = name.rfind(kSeparator);
+  if (at == std::string_view::npos) return {{}, name};
+  return {name.substr(0, at), name.substr(at + 1)};
+}
+
+Vocabulary vocabulary_of(std::string_view space) {
+  constexpr std::string_view kGml = "http://www.opengis.net/gml";
+  constexpr std::string_view kCityGml = "http://www.opengis.net/citygml/";
+  if (space == kGml || space == "http://www.opengis.net/gml/3.2") return Vocabulary::gml;
+  if (!space.starts_with(kCityGml)) return Vocabulary::other;
+  space.remove_prefix(kCityGml.size());
+  if (space == "2.0" || space == "3.0") return Vocabulary::core;
+  if (!space.ends_with("/2.0") && !space.ends_with("/3.0")) return Vocabulary::other;
+  space.remove_suffix(4);
+  if (space == "building") return Vocabulary::building;
+  if (space == "construction") return Vocabulary::construction;
+  if (space == "generics") return Vocabulary::generics;
+  return Vocabulary::other;
+}
+
+/// The key under which an attribute is kept; empty for those that are not.
+std::string_view kept_key(const Name& name) {
+  constexpr std::array<std::string_view, 4> kPlain{"srsName", "srsDimension", "orientation",
+                                                   "name"};
+  if (name.space.empty() && std::ranges::find(kPlain, name.local) != kPlain.end())
+    return name.local;
+  if (name.local == "id" && vocabulary_of(name.space) == Vocabulary::gml) return "id";
+  if (name.local == "href" && name.space == "http://www.w3.org/1999/xlink") return "href";
+  return {};
+}
+
+}  // namespace
+
+struct CityGmlStream::State {
+  State(Input& from, const TextName& called);
+
+  static void on_start(void* data, const XML_Char* name, const XML_Char** attributes);
+  static void on_end(void* data, const XML_Char* name);
+  static void on_text(void* data, const XML_Char* text, int size);
+  static void on_doctype(void* data, const XML_Char* name, const XML_Char* system_id,
+                         const XML_Char* public_id, int has_subset);
+
+  void start(const Name& name, const XML_Char** attributes);
+  void end();
+  void check_root(const Name& name);
+  void note_envelope(const XmlNode& bounds);
+  void feed();
+  void refuse(Fault fault);
+  [[nodiscard]] Fault fault_of(XML_Error error, bool is_last) const;
+  [[nodiscard]] std::string_view ahead() const;
+
+  Input& input;
+  const TextName& name;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser;
+  /// The elements that are open, the root included.
+  std::size_t depth = 0;
+  /// The elements that are kept and open, from the member's object down. Only the innermost one
+  /// gets children, so that the others stay where they are.
+  std::vector<XmlNode*> open;
+  XmlNode root;
+  XML_Index root_start = 0;
+  std::deque<XmlNode> ready;
+  XML_Index fed = 0;
+  bool has_root = false;
+  bool is_done = false;
+  std::optional<Issue> issue;
+  std::string srs_name;
+};
+
+CityGmlStream::State::State(Input& from, const TextName& called)
+    : input(from), name(called), parser(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {
+  XML_SetUserData(parser.get(), this);
+  XML_SetElementHandler(parser.get(), &on_start, &on_end);
+  XML_SetCharacterDataHandler(parser.get(), &on_text);
+  XML_SetStartDoctypeDeclHandler(parser.get(), &on_doctype);
+}
+
+void CityGmlStream::State::on_start(void* data, const XML_Char* name, const XML_Char** attributes) {
+  static_cast<State*>(data)->start(split(name), attributes);
+}
+
+void CityGmlStream::State::on_end(void* data, const XML_Char* /*name*/) {
+  static_cast<State*>(data)->end();
+}
+
+void CityGmlStream::State::on_text(void* data, const XML_Char* text, int size) {
+  State& state = *static_cast<State*>(data);
+  if (!state.open.empty()) state.open.back()->text.append(text, static_cast<std::size_t>(size));
+}
+
+void CityGmlStream::State::on_doctype(void* data, const XML_Char* /*name*/,
+                                      const XML_Char* /*system_id*/, const XML_Char* /*public_id*/,
+                                      int /*has_subset*/) {
+  static_cast<State*>(data)->refuse(
+      {"E114", "has a document type declaration (DOCTYPE); expected none: entities are not read"});
+}
+
+void CityGmlStream::State::start(const Name& element, const XML_Char** attributes) {
+  if (issue) return;
+  if (++depth > kMaxDepth)
+    return refuse({"E503", fmt::format("elements are nested deeper than {}", kMaxDepth)});
+  if (depth == 1) return check_root(element);
+  XmlNode* node = nullptr;
+  if (!open.empty()) {
+    node = &open.back()->children.emplace_back();
+    if (XML_GetCurrentByteIndex(parser.get()) - root_start >
+        static_cast<XML_Index>(Input::kMaxBytes))
+      return refuse({"E505", "a building of more than 4 GB"});
+  } else {
+    const Vocabulary vocabulary = vocabulary_of(element.space);
+    const bool is_bounds =
+        depth == 2 && element.local == "boundedBy" && vocabulary == Vocabulary::gml;
+    const bool is_building =
+        depth == 3 && element.local == "Building" && vocabulary == Vocabulary::building;
+    if (!is_bounds && !is_building) return;
+    root = {};
+    root_start = XML_GetCurrentByteIndex(parser.get());
+    node = &root;
+  }
+  node->vocabulary = vocabulary_of(element.space);
+  node->name = element.local;
+  node->line = static_cast<int>(XML_GetCurrentLineNumber(parser.get()));
+  node->column = static_cast<int>(XML_GetCurrentColumnNumber(parser.get())) + 1;
+  for (; *attributes != nullptr; attributes += 2)
+    if (const std::string_view key = kept_key(split(*attributes)); !key.empty())
+      node->attributes.emplace_back(key, attributes[1]);
+  open.push_back(node);
+}
+
+void CityGmlStream::State::end() {
+  if (issue) return;
+  --depth;
+  if (open.empty()) return;
+  open.pop_back();
+  if (!open.empty()) return;
+  if (root.name == "boundedBy")
+    note_envelope(root);
+  else
+    ready.push_back(std::move(root));
+}
+
+void CityGmlStream::State::check_root(const Name& element) {
+  has_root = true;
+  if (element.local != "CityModel" || element.space.find("citygml") == std::string_view::npos)
+    return refuse({"E107", fmt::format("is XML, but not CityGML: its root is {}; expected a "
+                                       "CityModel",
+                                       in_quotes(element.local))});
+  if (vocabulary_of(element.space) != Vocabulary::core)
+    refuse({"E115", fmt::format("a CityModel of the namespace {}; expected CityGML 2.0 or 3.0 "
+                                "(citygml-tools brings older files up to date)",
+                                in_quotes(element.space))});
+}
+
+void CityGmlStream::State::note_envelope(const XmlNode& bounds) {
+  for (const XmlNode& envelope : bounds.children) srs_name = envelope.attribute("srsName");
+}
+
+void CityGmlStream::State::feed() {
+  const std::string_view chunk = input.read_some();
+  fed += static_cast<XML_Index>(chunk.size());
+  const bool is_last = chunk.empty();
+  const XML_Status status = XML_Parse(parser.get(), chunk.data(), static_cast<int>(chunk.size()),
+                                      static_cast<int>(is_last));
+  is_done = is_last;
+  if (issue) {
+    is_done = true;
+  } else if (status == XML_STATUS_ERROR) {
+    refuse(fault_of(XML_GetErrorCode(parser.get()), is_last));
+  } else if (!is_last && fed - XML_GetCurrentByteIndex(parser.get()) > kMaxToken) {
+    refuse({"E505", "a tag, comment or other markup of more than 16 MB"});
+  }
+}
+
+/// What stands in the parser's buffer from the current place on.
+std::string_view CityGmlStream::State::ahead() const {
+  int offset = 0;
+  int size = 0;
+  const char* context = XML_GetInputContext(parser.get(), &offset, &size);
+  if (context == nullptr || offset < 0 || offset >= size) return {};
+  return {context + offset, static_cast<std::size_t>(size - offset)};
+}
+
+Fault CityGmlStream::State::fault_of(XML_Error error, bool is_last) const {
+  if (fed == 0) return {"E102", "the file is empty"};
+  const std::string_view rest = ahead();
+  if (error == XML_ERROR_UNKNOWN_ENCODING || error == XML_ERROR_INCORRECT_ENCODING)
+    return {"E103",
+            "the encoding that the XML declaration names is not read; expected UTF-8, "
+            "UTF-16 or ISO-8859-1"};
+  if (!is_last && !has_root && !rest.starts_with('<'))
+    return {"E107", fmt::format("is not XML: it starts with {}; expected a CityGML file",
+                                in_quotes(rest.substr(0, 8)))};
+  if (error == XML_ERROR_INVALID_TOKEN && find_non_utf8(rest.substr(0, 4)) == std::size_t{0})
+    return {"E103", "a byte that is not UTF-8"};
+  if (is_last && error == XML_ERROR_NO_ELEMENTS && !has_root)
+    return {"E102", "the file has no element"};
+  if (is_last) return {"E105", "the file ends inside the XML document"};
+  return {"E113", fmt::format("not valid XML: {}", XML_ErrorString(error))};
+}
+
+void CityGmlStream::State::refuse(Fault fault) {
+  if (issue) return;
+  int offset = 0;
+  int size = 0;
+  const char* context = XML_GetInputContext(parser.get(), &offset, &size);
+  const std::string_view text = context == nullptr
+                                    ? std::string_view()
+                                    : std::string_view(context, static_cast<std::size_t>(size));
+  Issue found =
+      error_at(name, text, static_cast<std::size_t>(std::max(offset, 0)), std::move(fault));
+  if (text.empty()) found.excerpt.clear();
+  found.place.line = static_cast<int>(XML_GetCurrentLineNumber(parser.get()));
+  found.place.column = static_cast<int>(XML_GetCurrentColumnNumber(parser.get())) + 1;
+  issue = std::move(found);
+  is_done = true;
+  XML_StopParser(parser.get(), XML_FALSE);
+}
+
+CityGmlStream::CityGmlStream(Input& input, const TextName& name)
+    : state_(std::make_unique<State>(input, name)) {}
+
+CityGmlStream::~CityGmlStream() = default;
+
+const std::optional<Issue>& CityGmlStream::issue() const { return state_->issue; }
+const std::string& CityGmlStream::srs_name() const { return state_->srs_name; }
+
+std::optional<XmlNode> CityGmlStream::next() {
+  while (state_->ready.empty() && !state_->is_done) state_->feed();
+  if (state_->ready.empty()) return std::nullopt;
+  XmlNode member = std::move(state_->ready.front());
+  state_->ready.pop_front();
+  return member;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,170 @@
+#include "kernel/io/cityjson/cityjson_objects.h"
+
+#include "kernel/io/cityjson/families.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Reads one element of "geometry" into `entry`; says what is wrong.
+std::optional<Fault> list_geometry(dom::element element, std::size_t number, ObjectEntry& entry) {
+  const auto object = as_object(element);
+  const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+  if (!type)
+    return Fault{"E202", fmt::format("geometry {} is not an object with the text 'type'", number)};
+  if (*type == "GeometryInstance") entry.has_instances = true;
+  if (*type == "GeometryInstance" || *type == "MultiPoint" || *type == "MultiLineString")
+    return std::nullopt;
+  const auto kind = kind_of_geometry(*type);
+  if (!kind)
+    return Fault{"E204", fmt::format("geometry {} has the unknown type {}; expected Solid, "
+                                     "MultiSolid, CompositeSolid, MultiSurface or CompositeSurface",
+                                     number, in_quotes(*type))};
+  const auto lod = member(*object, "lod");
+  if (!lod) return Fault{"E201", fmt::format("geometry {} has no 'lod'", number)};
+  if (!lod->is_string())
+    return Fault{"E202", fmt::format("the 'lod' of geometry {} is {}; expected a text such as "
+                                     "\"2.2\"",
+                                     number, found_kind(lod))};
+  entry.geometries.push_back({number, *object, *kind, *as_string(lod)});
+  return std::nullopt;
+}
+
+std::optional<Fault> list_geometries(dom::object object, ObjectEntry& entry) {
+  const auto geometry = member(object, "geometry");
+  if (!geometry) return std::nullopt;
+  const auto elements = as_array(geometry);
+  if (!elements)
+    return Fault{"E202", fmt::format("'geometry' is {}; expected an array", found_kind(geometry))};
+  std::size_t number = 0;
+  for (const dom::element element : *elements)
+    if (auto fault = list_geometry(element, number++, entry)) return fault;
+  return std::nullopt;
+}
+
+void list_relatives(dom::object object, ObjectEntry& entry) {
+  for (const std::string_view key : {"parents", "children"}) {
+    const auto ids = as_array(member(object, key));
+    if (!ids) continue;
+    for (const dom::element id : *ids)
+      if (const auto text = as_string(id)) entry.relatives.push_back(*text);
+  }
+}
+
+/// The number of the family of each entry.
+std::vector<std::size_t> families_of_entries(const std::vector<ObjectEntry>& entries) {
+  std::vector<Relative> members;
+  members.reserve(entries.size());
+  for (const ObjectEntry& entry : entries) members.push_back({entry.id, entry.relatives});
+  return families_of(members);
+}
+
+/// Orders lods by number ("0" < "1.2" < "2" < "2.2"), then by text.
+bool is_lower(std::string_view a, std::string_view b) {
+  const auto key = [](std::string_view lod) {
+    double number = -1;
+    std::from_chars(lod.data(), lod.data() + lod.size(), number);
+    return std::pair(number, lod);
+  };
+  return key(a) < key(b);
+}
+
+/// What is known of a family before a geometry is chosen.
+struct Family {
+  std::set<std::string_view, decltype(&is_lower)> lods{&is_lower};
+  bool was_reported = false;
+};
+
+const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod) {
+  const GeometryEntry* surfaces = nullptr;
+  for (const GeometryEntry& geometry : entry.geometries) {
+    if (geometry.lod != lod) continue;
+    if (geometry.kind.is_solid) return &geometry;
+    if (surfaces == nullptr) surfaces = &geometry;
+  }
+  return surfaces;
+}
+
+template <class Lods>
+std::string list_of(const Lods& lods) {
+  std::string text;
+  for (const std::string_view lod : lods) text += (text.empty() ? "" : ", ") + std::string(lod);
+  return text;
+}
+
+GeometryChoice choose(const ObjectEntry& entry, Family& family,
+                      const std::optional<std::string>& lod) {
+  if (entry.fault) return {nullptr, entry.fault, Severity::error};
+  if (family.lods.empty()) {
+    if (std::exchange(family.was_reported, true)) return {};
+    return {nullptr,
+            Fault{"E209", entry.has_instances ? "has template geometry only, which is not read"
+                                              : "has no geometry"},
+            Severity::warning};
+  }
+  const bool is_there = !lod || family.lods.contains(*lod);
+  const std::string_view chosen = lod ? std::string_view(*lod) : *family.lods.rbegin();
+  if (const GeometryEntry* geometry = geometry_at(entry, chosen)) return {geometry, {}, {}};
+  if (!is_there && !std::exchange(family.was_reported, true))
+    return {nullptr,
+            Fault{"E205", fmt::format("has no geometry at lod {}; it has {}", chosen,
+                                      list_of(family.lods))},
+            Severity::error};
+  if (!is_there || entry.geometries.empty()) return {};
+  return {nullptr,
+          Fault{"E205", fmt::format("has no geometry at lod {}, which its family has; it is not "
+                                    "labelled",
+                                    chosen)},
+          Severity::note};
+}
+
+}  // namespace
+
+std::vector<ObjectEntry> list_objects(dom::object objects) {
+  std::vector<ObjectEntry> entries;
+  std::unordered_set<std::string_view> ids;
+  std::size_t number = 0;
+  for (const dom::key_value_pair field : objects) {
+    ObjectEntry entry{number++, field.key, {}, {}, {}, false};
+    const auto object = as_object(field.value);
+    const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+    if (!object)
+      entry.fault = {"E202", fmt::format("is {}; expected a CityObject", found_kind(field.value))};
+    else if (!type)
+      entry.fault = {"E201", "has no 'type', or one that is no text"};
+    else if (*type != "Building" && *type != "BuildingPart")
+      continue;
+    else if (!ids.insert(field.key).second)
+      entry.fault = {"E207", "the id stands twice in 'CityObjects'; the first one is read"};
+    else
+      entry.fault = list_geometries(*object, entry);
+    if (object) list_relatives(*object, entry);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
+                                              const std::optional<std::string>& lod) {
+  const std::vector<std::size_t> family_of = families_of_entries(entries);
+  std::vector<Family> families(entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (const GeometryEntry& geometry : entries[i].geometries)
+      families[family_of[i]].lods.insert(geometry.lod);
+  std::vector<GeometryChoice> choices;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    choices.push_back(choose(entries[i], families[family_of[i]], lod));
+  return choices;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "kernel/io/cityjson/cityjson_geometry.h"
+#include "kernel/io/json/dom.h"
+#include "kernel/io/json/text.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A geometry that can be read: polygons of a solid or of surfaces.
+struct GeometryEntry {
+  /// Its number in the object's "geometry".
+  std::size_t number = 0;
+  dom::object object;
+  GeometryKind kind;
+  std::string_view lod;
+};
+
+/// A Building or BuildingPart of "CityObjects".
+struct ObjectEntry {
+  /// Its number among all members of "CityObjects".
+  std::size_t number = 0;
+  std::string_view id;
+  std::vector<GeometryEntry> geometries;
+  /// Ids of its parents and children.
+  std::vector<std::string_view> relatives;
+  /// Why it cannot be read.
+  std::optional<Fault> fault;
+  /// True if it has GeometryInstances, which are not read.
+  bool has_instances = false;
+};
+
+/// What to do with an entry: the geometry to read, or a finding, or neither (no geometry, nothing
+/// to say).
+struct GeometryChoice {
+  const GeometryEntry* geometry = nullptr;
+  std::optional<Fault> finding;
+  Severity severity = Severity::error;
+};
+
+/// The buildings and parts of `objects`, in the order of the file. Members that are no CityObjects
+/// come too, with their fault (E201, E202); an id that stands twice has the fault E207.
+std::vector<ObjectEntry> list_objects(dom::object objects);
+
+/// The geometry to read of each entry, parallel to `entries`: that of the level of detail `lod`, or
+/// of the highest one in the family (objects linked by parents and children); a solid before
+/// surfaces. Without one: an error for the family that has none at the lod asked for (E205), a note
+/// for a member of a family that has it elsewhere, a warning for a family without any geometry
+/// (E209). Entries with a fault get that.
+std::vector<GeometryChoice> choose_geometries(const std::vector<ObjectEntry>& entries,
+                                              const std::optional<std::string>& lod);
+
+}  // namespace oriel::detail

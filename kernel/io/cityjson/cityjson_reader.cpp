@@ -1,0 +1,294 @@
+#include "kernel/io/cityjson/cityjson_reader.h"
+
+#include "kernel/io/cityjson/cityjson_geometry.h"
+#include "kernel/io/cityjson/cityjson_objects.h"
+#include "kernel/io/cityjson/id_set.h"
+#include "kernel/io/cityjson/stream_header.h"
+#include "kernel/io/json/dom.h"
+#include "kernel/io/json/json_check.h"
+#include "kernel/io/json/plain_arrays.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Vec3> as_vector(const std::optional<dom::element>& element) {
+  const auto array = as_array(element);
+  if (!array) return std::nullopt;
+  std::array<double, 3> numbers{};
+  std::size_t count = 0;
+  for (const dom::element value : *array) {
+    const auto number = as_number(value);
+    if (!number || count == 3) return std::nullopt;
+    numbers[count++] = *number;
+  }
+  if (count != 3) return std::nullopt;
+  return Vec3{numbers[0], numbers[1], numbers[2]};
+}
+
+/// Checks the members that say what kind of file this is.
+std::optional<Fault> check_type(dom::object root, std::string_view expected) {
+  const auto type = member(root, "type");
+  if (as_string(type) != expected)
+    return Fault{"E107", fmt::format("is JSON, but not {}: its 'type' is {}", expected,
+                                     type && type->is_string() ? in_quotes(*as_string(type))
+                                                               : std::string(found_kind(type)))};
+  if (expected != "CityJSON") return std::nullopt;
+  const auto version = member(root, "version");
+  const std::string_view text = as_string(version).value_or(std::string_view());
+  if (text == "1.1" || text == "2.0") return std::nullopt;
+  return Fault{"E108",
+               fmt::format("CityJSON version {}; expected \"1.1\" or \"2.0\" (cjio upgrade "
+                           "brings older files up to date)",
+                           text.empty() ? std::string(found_kind(version)) : in_quotes(text))};
+}
+
+std::optional<Fault> read_transform(dom::object root, Transform& transform) {
+  const auto element = member(root, "transform");
+  if (!element) return Fault{"E201", "has no 'transform', which CityJSON 1.1 and 2.0 require"};
+  const auto object = as_object(element);
+  const auto scale = object ? as_vector(member(*object, "scale")) : std::nullopt;
+  const auto translate = object ? as_vector(member(*object, "translate")) : std::nullopt;
+  if (!scale || !translate)
+    return Fault{"E202", "'transform' must hold 'scale' and 'translate', three numbers each"};
+  if (!(scale->x > 0 && scale->y > 0 && scale->z > 0))
+    return Fault{"E202", "'scale' of 'transform' must be three numbers above 0"};
+  transform = {*scale, *translate};
+  return std::nullopt;
+}
+
+/// The file's vertices; NaN for one that is not three whole numbers.
+std::vector<Vec3> read_vertices(dom::array array) {
+  std::vector<Vec3> vertices;
+  vertices.reserve(array.size());
+  for (const dom::element element : array) {
+    const Vec3 v = as_vector(element).value_or(Vec3{kNaN, kNaN, kNaN});
+    const bool is_whole =
+        v.x == std::floor(v.x) && v.y == std::floor(v.y) && v.z == std::floor(v.z);
+    vertices.push_back(is_whole ? v : Vec3{kNaN, kNaN, kNaN});
+  }
+  return vertices;
+}
+
+std::string read_crs(dom::object root) {
+  const auto metadata = as_object(member(root, "metadata"));
+  const auto crs = metadata ? as_string(member(*metadata, "referenceSystem")) : std::nullopt;
+  return std::string(crs.value_or(std::string_view()));
+}
+
+/// What it says to the lines that follow, but the transform.
+SequenceHeader read_header(dom::object root, const std::string& text) {
+  const auto version = as_string(member(root, "version"));
+  return {{},
+          read_crs(root),
+          std::string(version.value_or(std::string_view())),
+          stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")))};
+}
+
+/// The members that hold the model.
+struct Model {
+  dom::object objects;
+  /// As GeometryReader wants them: of `plain`, or `own`.
+  const std::vector<Vec3>* vertices = nullptr;
+  std::vector<Vec3> own;
+};
+
+/// `plain` is given if the root is that of PlainArrays::rest.
+std::optional<Fault> read_model(dom::object root, const PlainArrays* plain, Model& model) {
+  const auto objects = member(root, "CityObjects");
+  const auto vertices = member(root, "vertices");
+  for (const auto& [name, element] : {std::pair("CityObjects", objects), {"vertices", vertices}})
+    if (!element) return Fault{"E201", fmt::format("has no '{}'", name)};
+  if (!objects->is_object())
+    return Fault{"E202",
+                 fmt::format("'CityObjects' is {}; expected an object", found_kind(objects))};
+  if (!vertices->is_array())
+    return Fault{"E202", fmt::format("'vertices' is {}; expected an array", found_kind(vertices))};
+  model.objects = *as_object(objects);
+  if (plain == nullptr) model.own = read_vertices(*as_array(vertices));
+  model.vertices = plain != nullptr ? &plain->vertices(number_of_array(*vertices)) : &model.own;
+  return std::nullopt;
+}
+
+/// The type of a CityObject; empty if there is none.
+std::string type_of(dom::object objects, std::string_view id) {
+  const auto object = as_object(member(objects, id));
+  const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+  return std::string(type.value_or(std::string_view()));
+}
+
+}  // namespace
+
+struct CityJsonReader::State {
+  dom::parser parser;
+  PlainArrays plain;
+  bool is_plain = false;  ///< what was parsed is plain.rest()
+  std::optional<std::string> lod;
+  SequenceHeader header;
+  std::string refused;
+  IdSet ids;               ///< of the features so far
+  bool is_astray = false;  ///< the last header was not that of the stream
+
+  std::optional<Fault> check_feature(dom::object root, const SequenceHeader& of);
+  std::optional<Fault> check_header(const std::string& text, const SequenceHeader& of);
+  bool parse_plain(dom::object& root);
+  std::optional<Issue> parse(const std::string& text, const TextName& name, dom::object& root);
+  void read_buildings(const Model& model, const std::string& text, const TextName& name,
+                      Document& document, CityJsonSource& source, std::vector<Issue>& issues) const;
+};
+
+CityJsonReader::CityJsonReader(std::optional<std::string> lod) : state_(std::make_unique<State>()) {
+  state_->lod = std::move(lod);
+}
+
+CityJsonReader::~CityJsonReader() = default;
+
+const std::string& CityJsonReader::refused() const { return state_->refused; }
+
+const SequenceHeader& CityJsonReader::header() const { return state_->header; }
+
+bool CityJsonReader::State::parse_plain(dom::object& root) {
+  dom::element element;
+  return parser.parse(plain.rest()).get(element) == simdjson::SUCCESS &&
+         element.get(root) == simdjson::SUCCESS;
+}
+
+std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const TextName& name,
+                                                  dom::object& root) {
+  is_plain = plain.read(text) && parse_plain(root);
+  if (is_plain) return std::nullopt;
+  const bool has_padding = text.capacity() - text.size() >= simdjson::SIMDJSON_PADDING;
+  dom::element element;
+  const auto error = parser.parse(text.data(), text.size(), !has_padding).get(element);
+  if (error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS) return std::nullopt;
+  if (auto issue = find_json_error(name, text)) return issue;
+  return error_in(name,
+                  {"E104", fmt::format("not valid JSON: {}", simdjson::error_message(error))});
+}
+
+void CityJsonReader::State::read_buildings(const Model& model, const std::string& text,
+                                           const TextName& name, Document& document,
+                                           CityJsonSource& source,
+                                           std::vector<Issue>& issues) const {
+  const std::vector<ObjectEntry> entries = list_objects(model.objects);
+  const std::vector<GeometryChoice> choices = choose_geometries(entries, lod);
+  GeometryReader geometries(*model.vertices, source.transform);
+  if (is_plain) geometries.use(plain, text);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const ObjectEntry& entry = entries[i];
+    const auto report = [&](Severity severity, const Fault& fault) {
+      issues.push_back(finding_of(name, severity, entry.id, fault));
+    };
+    if (entry.has_instances)
+      report(Severity::note, {"E206", "geometry templates (GeometryInstance) are not read"});
+    if (choices[i].finding) report(choices[i].severity, *choices[i].finding);
+    const GeometryEntry* chosen = choices[i].geometry;
+    if (chosen == nullptr) continue;
+    Building building;
+    building.id = entry.id;
+    building.lod = chosen->lod;
+    building.frame.crs = header.crs;
+    if (const auto fault = geometries.read(chosen->object, chosen->kind, building)) {
+      report(Severity::error, *fault);
+      continue;
+    }
+    for (const Fault& warning : geometries.warnings()) report(Severity::warning, warning);
+    document.buildings.push_back(std::move(building));
+    source.places.push_back({entry.number, chosen->number});
+  }
+  if (entries.empty() && name.line == 0) {
+    issues.push_back(error_in(name, {"E209", "has no Building and no BuildingPart"}));
+    issues.back().severity = Severity::warning;
+  }
+}
+
+/// A header among the features: nothing is wrong with the one that the stream has.
+std::optional<Fault> CityJsonReader::State::check_header(const std::string& text,
+                                                         const SequenceHeader& of) {
+  const std::string facts =
+      stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")));
+  is_astray = facts != of.facts;
+  if (!is_astray) return std::nullopt;
+  return Fault{"E116",
+               fmt::format("is a header {}, but that of the stream is {}", facts, of.facts)};
+}
+
+std::optional<Fault> CityJsonReader::State::check_feature(dom::object root,
+                                                          const SequenceHeader& of) {
+  if (is_astray) return Fault{"E116", "stands behind a header that is not that of the stream"};
+  const auto version = member(root, "version");
+  if (version && as_string(version) != of.version)
+    return Fault{"E108", fmt::format("its 'version' is {}; the header says \"{}\"",
+                                     version->is_string() ? in_quotes(*as_string(version))
+                                                          : std::string(found_kind(version)),
+                                     of.version)};
+  const auto id = as_string(member(root, "id"));
+  if (id && !ids.insert(*id))
+    return Fault{"E207", "an earlier line of the stream has this id; that one is read"};
+  return std::nullopt;
+}
+
+Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
+                                       const std::optional<SequenceHeader>& header) {
+  Checked<Document> result;
+  std::string id;  // of a feature
+  const auto refuse = [&](const Fault& fault) {
+    result.issues.push_back(error_in(name, fault));
+    state_->refused = std::move(text);
+    if (result.issues[0].place.building.empty() && !id.empty())
+      result.issues[0].place.building = id;
+    return std::move(result);
+  };
+  dom::object root;
+  if (auto issue = state_->parse(text, name, root)) {
+    result.issues.push_back(std::move(*issue));
+    state_->refused = std::move(text);
+    return result;
+  }
+  if (header && as_string(member(root, "type")) == "CityJSON") {
+    if (const auto fault = state_->check_header(text, *header)) return refuse(*fault);
+    return result;
+  }
+  if (const auto fault = check_type(root, header ? "CityJSONFeature" : "CityJSON"))
+    return refuse(*fault);
+  if (header) {
+    id = as_string(member(root, "id")).value_or(std::string_view());
+    if (const auto fault = state_->check_feature(root, *header)) return refuse(*fault);
+  }
+  state_->header = header ? *header : read_header(root, text);
+  if (!header)
+    if (const auto fault = read_transform(root, state_->header.transform)) return refuse(*fault);
+  Model model;
+  if (const auto fault = read_model(root, state_->is_plain ? &state_->plain : nullptr, model))
+    return refuse(*fault);
+
+  auto source = std::make_shared<CityJsonSource>();
+  source->transform = state_->header.transform;
+  source->is_feature = header.has_value();
+  if (state_->is_plain)
+    for (std::size_t i = 0; i < state_->plain.size(); ++i)
+      source->arrays.push_back(state_->plain.place(i));
+  Document document;
+  document.name = name.line > 0 ? fmt::format("{}:{}", name.file, name.line) : name.file;
+  document.format = name.line > 0 ? Format::cityjson_seq : Format::cityjson;
+  if (header) {
+    document.feature_id = id;
+    document.feature_type = type_of(model.objects, id);
+  }
+  state_->read_buildings(model, text, name, document, *source, result.issues);
+  source->text = std::move(text);
+  document.source = std::move(source);
+  result.value = std::move(document);
+  return result;
+}
+
+}  // namespace oriel::detail

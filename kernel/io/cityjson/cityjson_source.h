@@ -1,0 +1,39 @@
+#pragma once
+
+#include "kernel/io/json/json_scan.h"
+#include "kernel/model/vec3.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace oriel::detail {
+
+/// CityJSON's transform: input coordinate = translate + scale × integer, per axis.
+struct Transform {
+  Vec3 scale{1, 1, 1};
+  Vec3 translate;
+};
+
+/// Where a building's geometry stands in its text.
+struct GeometryPlace {
+  /// The number of the member of "CityObjects".
+  std::size_t object = 0;
+  /// The number of the element of its "geometry".
+  std::size_t geometry = 0;
+};
+
+/// The text that a CityJSON document was read from: valid JSON (simdjson parsed all of it), whose
+/// root is an object with "CityObjects".
+struct CityJsonSource {
+  std::string text;
+  Transform transform;
+  /// True for a line of a CityJSONSeq, which takes its transform from the header line.
+  bool is_feature = false;
+  /// Where arrays of numbers stand in the text, ascending; none has to be there.
+  std::vector<TextRange> arrays;
+  /// Parallel to Document::buildings.
+  std::vector<GeometryPlace> places;
+};
+
+}  // namespace oriel::detail

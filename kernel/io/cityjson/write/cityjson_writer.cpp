@@ -1,0 +1,376 @@
+#include "kernel/io/cityjson/cityjson_geometry.h"
+#include "kernel/io/cityjson/write/fresh_cityjson.h"
+#include "kernel/io/cityjson/write/geometry_text.h"
+#include "kernel/io/cityjson/write/semantics_text.h"
+#include "kernel/io/cityjson/write/vertex_pool.h"
+#include "kernel/io/json/json_text.h"
+#include "kernel/io/json/raw_json.h"
+#include "kernel/io/writer.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using detail::append_json;
+using detail::decoded;
+using detail::RawNode;
+
+/// The root object of `text`, which is JSON: only white space stands around it.
+std::string_view root_of(std::string_view text) {
+  const std::size_t start = text.find('{');
+  return text.substr(start, text.rfind('}') + 1 - start);
+}
+
+/// Sets members in the object under `key`, which is made if it is not there.
+void set_members(RawNode& node, std::string_view key, const Members& members) {
+  if (members.empty()) return;
+  const std::string_view existing = node.value_of(key);
+  RawNode object(RawNode::is_object(existing) ? existing : "{}");
+  for (const auto& [name, value] : members) {
+    std::string text;
+    std::visit([&](const auto& known) { append_json(text, known); }, value);
+    object.set(name, std::move(text));
+  }
+  node.set(key, object.text());
+}
+
+/// Takes members out of the object under `key`.
+void drop_members(RawNode& node, std::string_view key, const std::vector<std::string>& names) {
+  const std::string_view existing = node.value_of(key);
+  if (names.empty() || !RawNode::is_object(existing)) return;
+  RawNode object(existing);
+  for (const std::string& name : names) object.erase(name);
+  node.set(key, object.text());
+}
+
+/// Adds to the array of ids under `key` those that are not in it.
+void add_ids(RawNode& node, std::string_view key, const std::vector<Installation>& added) {
+  const std::string_view existing = node.value_of(key);
+  RawNode array(RawNode::is_array(existing) ? existing : "[]");
+  std::unordered_set<std::string> ids;
+  for (std::size_t i = 0; i < array.size(); ++i) ids.insert(decoded(array.value(i)));
+  bool is_changed = false;
+  for (const Installation& installation : added) {
+    if (!ids.insert(installation.id).second) continue;
+    std::string text;
+    append_json(text, std::string_view(installation.id));
+    array.push_back(std::move(text));
+    is_changed = true;
+  }
+  if (is_changed) node.set(key, array.text());
+}
+
+/// Takes ids out of the array under `key`; an array that gets empty goes too.
+bool remove_ids(RawNode& node, std::string_view key, const std::unordered_set<std::string>& ids) {
+  const std::string_view existing = node.value_of(key);
+  if (!RawNode::is_array(existing)) return false;
+  RawNode array(existing);
+  std::size_t removed = 0;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    if (!ids.contains(decoded(array.value(i)))) continue;
+    array.erase(i);
+    ++removed;
+  }
+  if (removed == array.size() && removed > 0)
+    node.erase(key);
+  else if (removed > 0)
+    node.set(key, array.text());
+  return removed > 0;
+}
+
+std::vector<std::string_view> arrays_of(const detail::CityJsonSource& source) {
+  std::vector<std::string_view> arrays;
+  for (const auto [begin, end] : source.arrays)
+    arrays.push_back(std::string_view(source.text).substr(begin, end - begin));
+  return arrays;
+}
+
+class CityJsonWriter {
+ public:
+  CityJsonWriter(const detail::CityJsonSource& source, const Document& document,
+                 const WriteOptions& options)
+      : existing_(options.existing),
+        least_digits_(options.finer_digits),
+        source_(source),
+        document_(document),
+        arrays_(arrays_of(source)),
+        root_(root_of(source.text), arrays_),
+        objects_(root_.value_of("CityObjects"), arrays_) {
+    for (std::size_t i = 0; i < document.buildings.size(); ++i)
+      building_of_.try_emplace(document.buildings[i].id, i);
+  }
+
+  std::string write(const std::vector<LabelledBuilding>& labelled,
+                    const std::vector<std::string>& removed) {
+    make_pool(labelled);
+    for (const LabelledBuilding& building : labelled) relabel(building);
+    if (!removed.empty()) remove({removed.begin(), removed.end()});
+    if (pool_) exchange_vertices();
+    root_.set("CityObjects", std::move(objects_));
+    const std::string_view text = source_.text;
+    const std::string_view root = root_of(text);
+    const auto start = static_cast<std::size_t>(root.data() - text.data());
+    std::string result;
+    result += text.substr(0, start);
+    root_.append_text(result);
+    result += text.substr(start + root.size());
+    if (document_.format == Format::cityjson_seq || document_.format == Format::citygml)
+      result += '\n';
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::size_t building_index(const std::string& id) const {
+    const auto found = building_of_.find(id);
+    if (found == building_of_.end())
+      throw std::logic_error("no building '" + id + "' in " + document_.name);
+    return found->second;
+  }
+
+  /// Starts the exchange of vertices if a geometry is replaced.
+  void make_pool(const std::vector<LabelledBuilding>& labelled) {
+    std::vector<detail::PlacedSolid> solids;
+    int asked_for = least_digits_;
+    for (const LabelledBuilding& building : labelled) {
+      if (!building.geometry) continue;
+      asked_for = std::max(asked_for, building.digits);
+      solids.push_back(
+          {&*building.geometry, &document_.buildings[building_index(building.building)].frame});
+    }
+    if (solids.empty()) return;
+    if (!source_.is_feature)
+      digits_ = std::max(asked_for, detail::finer_digits(source_.transform, solids));
+    pool_.emplace(root_.value_of("vertices"), source_.transform, digits_);
+  }
+
+  void relabel(const LabelledBuilding& labelled) {
+    const std::size_t index = building_index(labelled.building);
+    const detail::GeometryPlace place = source_.places[index];
+    RawNode object(objects_.value(place.object), arrays_);
+    RawNode geometries(object.value_of("geometry"), arrays_);
+    const std::size_t number = make_room(geometries, place, labelled);
+    RawNode geometry(geometries.value(number), arrays_);
+    std::vector<std::string> facets;
+    std::vector<std::string_view> polygons;
+    if (labelled.geometry) {
+      facets = replace_geometry(geometry, labelled, document_.buildings[index].frame);
+      polygons.assign(facets.begin(), facets.end());
+    } else {
+      polygons = fill_geometry(geometry, labelled);
+    }
+    if (!labelled.lod.empty()) geometry.set("lod", '"' + labelled.lod + '"');
+    // While what `polygons` are slices of is there.
+    std::vector<std::string> installations;
+    for (const Installation& installation : labelled.installations)
+      installations.push_back(
+          installation_text(installation, labelled, polygons, geometry.value_of("lod")));
+    geometries.set(number, std::move(geometry));
+    object.set("geometry", std::move(geometries));
+    if (labelled.geometry) object.erase("geographicalExtent");
+    drop_members(object, "attributes", labelled.dropped_attributes);
+    set_members(object, "attributes", labelled.attributes);
+    add_ids(object, "children", labelled.installations);
+    objects_.set(place.object, object.text());
+    for (std::size_t i = 0; i < installations.size(); ++i)
+      put_object(labelled.installations[i].id, std::move(installations[i]));
+  }
+
+  /// Which element of "geometry" a labelled building is written to. Geometries that have its level
+  /// of detail already leave, so that an object never has two solids of one level.
+  std::size_t make_room(RawNode& geometries, detail::GeometryPlace place,
+                        const LabelledBuilding& labelled) {
+    std::size_t number = place.geometry;
+    if (labelled.lod.empty()) return number;
+    if (!has_place_.insert(labelled.building).second) {
+      geometries.push_back(R"({"type":"Solid"})");
+      number = geometries.size() - 1;
+    }
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      if (i == number || geometries.is_erased(i) || !RawNode::is_object(geometries.value(i)))
+        continue;
+      const std::string_view lod = RawNode(geometries.value(i)).value_of("lod");
+      if (lod.starts_with('"') && decoded(lod) == labelled.lod) geometries.erase(i);
+    }
+    return number;
+  }
+
+  /// Adds the labels to a geometry that stays. Returns the texts of its polygons if an installation
+  /// shares them.
+  [[nodiscard]] std::vector<std::string_view> fill_geometry(
+      RawNode& geometry, const LabelledBuilding& labelled) const {
+    const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
+    auto [shape, polygons] = detail::geometry_of(geometry.value_of("boundaries"), kind->depth,
+                                                 !labelled.installations.empty());
+    const std::string_view there = geometry.value_of("semantics");
+    const std::string_view existing =
+        existing_ == ExistingSemantics::replace ? std::string_view() : there;
+    std::string semantics =
+        detail::filled_semantics(existing, shape, labelled.surface_of_polygon, labelled.surfaces,
+                                 existing_ == ExistingSemantics::keep);
+    if (semantics != there) geometry.set("semantics", std::move(semantics));
+    return std::move(polygons);
+  }
+
+  /// Puts the labelled building's own geometry in the place of the one that is there. Returns the
+  /// texts of its facets.
+  std::vector<std::string> replace_geometry(RawNode& geometry, const LabelledBuilding& labelled,
+                                            const Frame& frame) {
+    detail::SolidText solid =
+        detail::solid_text(*labelled.geometry, pool_->add({&*labelled.geometry, &frame}));
+    std::vector<int> surfaces;
+    for (const int facet : solid.order) {
+      const auto index = static_cast<std::size_t>(facet);
+      const bool has_surface = index < labelled.surface_of_polygon.size();
+      surfaces.push_back(has_surface ? labelled.surface_of_polygon[index] : -1);
+    }
+    const std::string existing =
+        labelled.keeps_semantics ? carried_semantics(geometry, labelled, solid) : "";
+    std::string type;
+    append_json(type, solid.type);
+    geometry.set("type", std::move(type));
+    geometry.set("boundaries", std::move(solid.boundaries));
+    for (const std::string_view key : {"semantics", "material", "texture"}) geometry.erase(key);
+    std::string semantics =
+        detail::filled_semantics(existing, solid.shape, surfaces, labelled.surfaces);
+    if (!semantics.empty()) geometry.set("semantics", std::move(semantics));
+    return std::move(solid.facets);
+  }
+
+  /// What the facets that are written keep of the geometry's semantics.
+  static std::string carried_semantics(const RawNode& geometry, const LabelledBuilding& labelled,
+                                       const detail::SolidText& solid) {
+    const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
+    const auto old = detail::geometry_of(geometry.value_of("boundaries"), kind->depth, false);
+    std::vector<std::vector<int>> sources;
+    for (const int facet : solid.order)
+      sources.push_back(labelled.geometry->facets.at(static_cast<std::size_t>(facet)).polygons);
+    return detail::carried_semantics(geometry.value_of("semantics"), old.shape, solid.shape,
+                                     sources);
+  }
+
+  static std::string installation_text(const Installation& installation,
+                                       const LabelledBuilding& labelled,
+                                       const std::vector<std::string_view>& polygons,
+                                       std::string_view lod) {
+    constexpr std::size_t kUsual = 1024;  // bytes without the boundaries
+    std::string text;
+    std::size_t size = kUsual;
+    for (const int polygon : installation.polygons)
+      size += polygons.at(static_cast<std::size_t>(polygon)).size() + 1;
+    text.reserve(size);
+    text += R"({"type":"BuildingInstallation","attributes":{)";
+    for (const auto& [key, value] : installation.attributes) {
+      if (key == "oriel_geometry") continue;
+      detail::append_json_key(text, key);
+      std::visit([&](const auto& known) { append_json(text, known); }, value);
+    }
+    detail::append_json_key(text, "oriel_geometry");
+    append_json(text, std::string_view("shared"));
+    text += R"(},"parents":[)";
+    append_json(text, std::string_view(labelled.building));
+    text += R"(],"geometry":[{"type":"MultiSurface","lod":)";
+    text += lod;
+    text += R"(,"boundaries":[)";
+    std::vector<int> surfaces;
+    surfaces.reserve(installation.polygons.size());
+    for (std::size_t i = 0; i < installation.polygons.size(); ++i) {
+      const std::string_view polygon = polygons[static_cast<std::size_t>(installation.polygons[i])];
+      if (polygon.empty()) continue;
+      if (!surfaces.empty()) text += ',';
+      text += polygon;
+      surfaces.push_back(i < installation.surfaces.size() ? installation.surfaces[i] : -1);
+    }
+    text += ']';
+    const detail::GeometryShape shape{0, {{static_cast<int>(surfaces.size())}}};
+    const std::string semantics = detail::filled_semantics("", shape, surfaces, labelled.surfaces);
+    if (!semantics.empty()) {
+      text += R"(,"semantics":)";
+      text += semantics;
+    }
+    text += "}]}";
+    return text;
+  }
+
+  /// Replaces the CityObject `id`, or appends it.
+  void put_object(const std::string& id, std::string text) {
+    if (object_of_.empty())
+      for (std::size_t i = 0; i < objects_.size(); ++i) object_of_.try_emplace(objects_.key(i), i);
+    const auto [found, is_new] = object_of_.try_emplace(id, objects_.size());
+    if (is_new)
+      objects_.append(id, std::move(text));
+    else
+      objects_.set(found->second, std::move(text));
+  }
+
+  void remove(const std::unordered_set<std::string>& ids) {
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (ids.contains(objects_.key(i))) {
+        objects_.erase(i);
+        continue;
+      }
+      if (!RawNode::is_object(objects_.value(i))) continue;
+      RawNode object(objects_.value(i));
+      const bool lost_children = remove_ids(object, "children", ids);
+      const bool lost_parents = remove_ids(object, "parents", ids);
+      if (lost_children || lost_parents) objects_.set(i, object.text());
+    }
+  }
+
+  /// Drops the vertices that nothing uses any more and writes the new numbers everywhere.
+  void exchange_vertices() {
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      if (!objects_.is_erased(i)) pool_->mark_used(objects_.value(i));
+    pool_->renumber();
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      objects_.set(i, pool_->renumbered(objects_.value(i)));
+    root_.set("vertices", pool_->text());
+    if (digits_ == 0) return;
+    const Vec3 scale = source_.transform.scale;
+    std::string text;
+    detail::append_json_array(text, std::array{detail::scaled_down(scale.x, digits_),
+                                               detail::scaled_down(scale.y, digits_),
+                                               detail::scaled_down(scale.z, digits_)});
+    RawNode transform(root_.value_of("transform"));
+    transform.set("scale", std::move(text));
+    root_.set("transform", transform.text());
+  }
+
+  ExistingSemantics existing_;
+  int least_digits_ = 0;
+  const detail::CityJsonSource& source_;
+  const Document& document_;
+  /// Slices of the source's text that are long, for RawNode.
+  std::vector<std::string_view> arrays_;
+  RawNode root_;
+  RawNode objects_;
+  /// Buildings whose chosen geometry was replaced by one with a level of detail of its own.
+  std::unordered_set<std::string> has_place_;
+  /// Indices into Document::buildings by id.
+  std::unordered_map<std::string_view, std::size_t> building_of_;
+  /// Members of `objects_` by id, made when the first is looked for.
+  std::unordered_map<std::string, std::size_t> object_of_;
+  std::optional<detail::FileVertices> pool_;
+  /// By how many powers of ten the file's scale gets finer.
+  int digits_ = 0;
+};
+
+}  // namespace
+
+std::string write_cityjson(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                           const WriteOptions& options) {
+  if (!document.source && document.format == Format::citygml) return {};
+  if (document.source)
+    return CityJsonWriter(*document.source, document, options).write(labelled, options.removed);
+  const detail::CityJsonSource fresh = detail::fresh_cityjson(document.buildings);
+  return CityJsonWriter(fresh, document, options).write(labelled, options.removed);
+}
+
+}  // namespace oriel

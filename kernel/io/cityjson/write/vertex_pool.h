@@ -1,0 +1,73 @@
+#pragma once
+
+#include "kernel/io/cityjson/cityjson_source.h"
+#include "kernel/model/building.h"
+#include "kernel/model/solid.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A solid that goes into a file, and its frame.
+struct PlacedSolid {
+  const Solid* solid = nullptr;
+  const Frame* frame = nullptr;
+};
+
+/// `number` × 10^-digits, rounded once: 0.001 and 1 give the double nearest to 0.0001.
+double scaled_down(double number, int digits);
+
+/// The transform with a scale finer by powers of ten.
+Transform finer(const Transform& transform, int digits);
+
+/// The integers that stand for a local point in a file, and the local point that they stand for.
+std::array<std::int64_t, 3> rounded(Vec3 local, const Frame& frame, const Transform& transform);
+Vec3 local_point(const std::array<std::int64_t, 3>& key, const Frame& frame,
+                 const Transform& transform);
+
+/// By how many powers of ten the transform's scale may get finer at most.
+int spare_digits(const Transform& transform);
+
+/// By how many powers of ten the transform's scale must get finer so that it is no coarser than
+/// 1 mm, no vertex leaves the plane of one of its facets by more than 2 mm, and no two vertices of
+/// a solid become one; at most as many as make it 1e-6.
+int finer_digits(const Transform& transform, const std::vector<PlacedSolid>& solids);
+
+/// The vertices of a CityJSON file while geometries are exchanged.
+class FileVertices {
+ public:
+  /// `vertices` is the text of the array that is there; every whole number in it becomes 10^digits
+  /// times as large, exactly.
+  FileVertices(std::string_view vertices, const Transform& transform, int digits);
+
+  /// The file's vertex at each vertex of `solid`; vertices that are not there yet are added.
+  std::vector<int> add(const PlacedSolid& solid);
+
+  /// Marks the vertices that the CityObject `object` uses.
+  void mark_used(std::string_view object);
+  /// Closes the marking: numbers the vertices that are used in their old order.
+  void renumber();
+  /// `object` with the new numbers in all its boundaries.
+  [[nodiscard]] std::string renumbered(std::string_view object) const;
+  /// The array of the vertices that are used.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  using Key = std::array<std::int64_t, 3>;
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const noexcept;
+  };
+
+  Transform transform_;
+  std::vector<std::string> texts_;
+  std::unordered_map<Key, int, KeyHash> number_of_;
+  std::vector<bool> is_used_;
+  std::vector<int> new_number_;
+};
+
+}  // namespace oriel::detail

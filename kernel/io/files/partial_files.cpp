@@ -1,0 +1,106 @@
+#include "kernel/io/files/partial_files.h"
+
+#include "kernel/io/files/resolved_path.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+namespace oriel {
+
+namespace {
+
+enum class Care { none, watch, keep };
+
+/// What an earlier run left in a file.
+struct Left {
+  std::uint64_t bytes = 0, lines = 0;
+  Sha256 hash;
+};
+
+Care care = Care::none;
+std::vector<OutputFile*> open_files;
+std::map<std::string, Left> left_by_target;
+FileMarks done;
+
+Left left_in(const std::string& path, std::uint64_t bytes) {
+  Left left;
+  std::ifstream file(path, std::ios::binary);
+  std::string chunk(std::size_t{1} << 18U, '\0');
+  while (left.bytes < bytes && file) {
+    file.read(chunk.data(), static_cast<std::streamsize>(
+                                std::min<std::uint64_t>(chunk.size(), bytes - left.bytes)));
+    const std::string_view got(chunk.data(), static_cast<std::size_t>(file.gcount()));
+    left.hash.add(got);
+    left.bytes += got.size();
+    left.lines += static_cast<std::uint64_t>(std::ranges::count(got, '\n'));
+  }
+  return left;
+}
+
+FileMark mark_of_left(const Left& left) { return {left.bytes, left.lines, left.hash.digest()}; }
+
+using detail::resolved;
+
+}  // namespace
+
+void PartialFiles::watch() { care = std::max(care, Care::watch); }
+void PartialFiles::keep() { care = Care::keep; }
+bool PartialFiles::are_watched() { return care != Care::none; }
+bool PartialFiles::are_kept() { return care == Care::keep; }
+
+std::string PartialFiles::name_of(const std::string& target) { return target + ".partial"; }
+
+FileMark PartialFiles::mark_of(const std::string& path, std::uint64_t bytes) {
+  return mark_of_left(left_in(path, bytes));
+}
+
+bool PartialFiles::restore(const FileMarks& marks) {
+  std::map<std::string, Left> found;
+  std::vector<std::pair<std::string, std::string>> moves;
+  for (const auto& [path, mark] : marks) {
+    const std::string target = resolved(path), partial = name_of(target);
+    Left left = left_in(partial, mark.bytes);
+    if (mark_of_left(left) != mark) {
+      left = left_in(target, mark.bytes);
+      if (mark_of_left(left) != mark) return false;
+      moves.emplace_back(target, partial);
+    }
+    found.emplace(target, std::move(left));
+  }
+  for (const auto& [target, partial] : moves) std::filesystem::rename(target, partial);
+  left_by_target = std::move(found);
+  return true;
+}
+
+FileMarks PartialFiles::flush() {
+  FileMarks marks;
+  for (OutputFile* file : open_files) {
+    file->flush();
+    marks[file->path_] = {file->size_, file->lines_, file->hash_.digest()};
+  }
+  return marks;
+}
+
+FileMarks PartialFiles::take_done() { return std::exchange(done, {}); }
+
+void PartialFiles::enter(OutputFile& file) {
+  open_files.push_back(&file);
+  const auto left = left_by_target.find(file.target_);
+  if (left == left_by_target.end()) return;
+  file.size_ = left->second.bytes;
+  file.lines_ = left->second.lines;
+  file.hash_ = std::move(left->second.hash);
+  left_by_target.erase(left);
+}
+
+void PartialFiles::leave(OutputFile& file) { std::erase(open_files, &file); }
+
+void PartialFiles::note_done(const OutputFile& file) {
+  std::erase(open_files, &file);
+  if (care != Care::none) done[file.path_] = {file.size_, file.lines_, file.hash_.digest()};
+}
+
+}  // namespace oriel

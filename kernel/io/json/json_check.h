@@ -1,0 +1,19 @@
+#pragma once
+
+#include "kernel/io/json/text.h"
+
+#include <optional>
+#include <string_view>
+
+namespace oriel::detail {
+
+/// How deep a JSON text may be nested for sure; simdjson gives up at 1024.
+constexpr std::size_t kMaxDepth = 1000;
+
+/// What is wrong with a text that simdjson refused, found by a second, slow parse: E102 empty, E107
+/// no JSON object, E103 not UTF-8, E503 nested too deep, E105 truncated, E104 not JSON, E504 a
+/// number that no double or 64-bit integer holds. Always an error with its place; nothing if the
+/// text is a JSON object after all.
+std::optional<Issue> find_json_error(const TextName& name, std::string_view text);
+
+}  // namespace oriel::detail

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "kernel/io/json/text.h"
+#include "kernel/io/records/feature_records.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Appends the record as a line of CSV, or as a JSON object without line end.
+void append_csv_record(std::string& out, const FeatureRecord& record);
+void append_json_record(std::string& out, const FeatureRecord& record);
+
+/// Positions of fields in record_fields(): attributes follow these, then relations, then groups.
+namespace record_field {
+inline constexpr std::size_t building = 0, id = 1, label = 2, score = 3, margin = 4, rule = 5,
+                             runner_up = 6, parent = 7, host = 8, aabb_m = 9, source_polygons = 10,
+                             first_attribute = 11;
+}
+
+/// The values of a record in their CSV form, by position in record_fields(); empty where missing.
+using RecordCells = std::vector<std::string_view>;
+
+/// Takes a record; its cells are valid during the call only. Says what is wrong with it.
+using RecordTaker = std::function<std::optional<std::string>(const RecordCells&)>;
+
+/// Gives `take` the records of a text, in their order. What is wrong with one of them is an issue
+/// E111. False if the text is no table of records at all.
+bool visit_csv_records(std::string_view text, const TextName& name, const RecordTaker& take,
+                       std::vector<Issue>& issues);
+/// The same of an array of records, or with `is_lines` of one object a line.
+bool visit_json_records(std::string_view text, const TextName& name, bool is_lines,
+                        const RecordTaker& take, std::vector<Issue>& issues);
+/// The same of a file, by its extension. Throws InputError as read_feature_records does.
+bool visit_records(const std::string& path, const RecordTaker& take, std::vector<Issue>& issues);
+
+/// The relations that have a field rel_NAME, in its order: all but "host".
+const std::vector<RelationKind>& recorded_relations();
+
+/// What is no number in a field of numbers.
+std::string no_number(std::string_view field, std::string_view cell);
+
+/// Calls `visit` with each part of a list joined by ';'.
+template <class Visit>
+void for_each_part(std::string_view list, const Visit& visit) {
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(';'), list.size());
+    visit(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+}
+
+}  // namespace oriel::detail

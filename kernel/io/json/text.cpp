@@ -1,0 +1,127 @@
+#include "kernel/io/json/text.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Bytes of a line shown on each side of a finding.
+constexpr std::size_t kShown = 40;
+/// Bytes of a text shown in a message.
+constexpr std::size_t kQuoted = 40;
+
+constexpr bool is_continuation(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
+
+/// The length of the UTF-8 sequence at `text[at]`, 0 if there is none.
+std::size_t sequence_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80U) return 1;
+  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
+  if (first < 0xC2U || first > 0xF4U) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if (!is_continuation(static_cast<unsigned char>(byte(i)))) return 0;
+  // Overlong forms, surrogates and code points beyond U+10FFFF.
+  if ((first == 0xE0U && byte(1) < 0xA0U) || (first == 0xEDU && byte(1) > 0x9FU)) return 0;
+  if ((first == 0xF0U && byte(1) < 0x90U) || (first == 0xF4U && byte(1) > 0x8FU)) return 0;
+  return length;
+}
+
+/// `text` with everything that a terminal would not show replaced by '?'.
+std::string printable(std::string_view text) {
+  std::string result(text);
+  std::size_t at = 0;
+  while (at < result.size()) {
+    const std::size_t length = sequence_length(result, at);
+    const auto byte = static_cast<unsigned char>(result[at]);
+    if (length == 0 || byte < 0x20U || byte == 0x7FU) result[at] = '?';
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
+/// The line around `offset`, cut to what fits a terminal, and a caret under the place.
+std::string excerpt(std::string_view line, std::size_t offset) {
+  std::size_t from = offset > kShown ? offset - kShown : 0;
+  while (from > 0 && is_continuation(static_cast<unsigned char>(line[from]))) --from;
+  std::size_t to = std::min(line.size(), offset + kShown);
+  while (to < line.size() && is_continuation(static_cast<unsigned char>(line[to]))) ++to;
+  const std::string before = printable(line.substr(from, offset - from));
+  const auto columns = std::ranges::count_if(
+      before, [](char c) { return !is_continuation(static_cast<unsigned char>(c)); });
+  return "  " + printable(line.substr(from, to - from)) + "\n  " +
+         std::string(static_cast<std::size_t>(columns), ' ') + "^";
+}
+
+}  // namespace
+
+Issue error_at(const TextName& name, std::string_view text, std::size_t offset, Fault fault) {
+  offset = std::min(offset, text.size());
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t newline = before.rfind('\n');
+  const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;
+  const std::size_t end = std::min(text.find('\n', start), text.size());
+  Issue issue = error_in(name, std::move(fault));
+  issue.place.line = std::max(name.line, 1) + static_cast<int>(std::ranges::count(before, '\n'));
+  issue.place.column = static_cast<int>(offset - start) + 1;
+  issue.excerpt = excerpt(text.substr(start, end - start), offset - start);
+  return issue;
+}
+
+Issue error_in(const TextName& name, Fault fault) {
+  return {Severity::error,
+          std::move(fault.code),
+          std::move(fault.sentence),
+          {name.file, name.line, 0, "", ""},
+          ""};
+}
+
+Issue finding_of(const TextName& name, Severity severity, std::string_view building, Fault fault) {
+  Issue issue = error_in(name, std::move(fault));
+  issue.severity = severity;
+  issue.place.building = building;
+  return issue;
+}
+
+std::optional<std::size_t> find_non_utf8(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = sequence_length(text, at);
+    if (length == 0) return at;
+    at += length;
+  }
+  return std::nullopt;
+}
+
+std::string_view without_bom(std::string_view text) {
+  constexpr std::string_view kBom = "\xEF\xBB\xBF";
+  if (text.starts_with(kBom)) text.remove_prefix(kBom.size());
+  return text;
+}
+
+std::string in_quotes(std::string_view text) {
+  const bool is_cut = text.size() > kQuoted;
+  std::size_t end = std::min(text.size(), kQuoted);
+  while (end < text.size() && is_continuation(static_cast<unsigned char>(text[end]))) ++end;
+  text = text.substr(0, end);
+  std::string result = "'";
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = sequence_length(text, at);
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (length == 0 || byte < 0x20U || byte == 0x7FU)
+      result += fmt::format("\\x{:02X}", byte);
+    else
+      result += text.substr(at, length);
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result + (is_cut ? "…'" : "'");
+}
+
+}  // namespace oriel::detail

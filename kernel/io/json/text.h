@@ -1,0 +1,44 @@
+#pragma once
+
+#include "kernel/base/issue.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace oriel::detail {
+
+/// Where a text comes from: a file, and for a line of a CityJSONSeq the line's number (else 0).
+struct TextName {
+  std::string file;
+  int line = 0;
+};
+
+/// A finding without its place: what a reader of a part says to the one that knows where it is.
+struct Fault {
+  std::string code;
+  std::string sentence;
+};
+
+/// An error at byte `offset` of `text`: line and column (bytes, from 1), and the line with a caret.
+/// Long lines are cut around the place.
+Issue error_at(const TextName& name, std::string_view text, std::size_t offset, Fault fault);
+
+/// An error in the text as a whole.
+Issue error_in(const TextName& name, Fault fault);
+
+/// A finding of one building.
+Issue finding_of(const TextName& name, Severity severity, std::string_view building, Fault fault);
+
+/// The offset of the first byte that is not UTF-8 (RFC 3629), or nothing.
+std::optional<std::size_t> find_non_utf8(std::string_view text);
+
+/// `text` without a byte order mark at its start.
+std::string_view without_bom(std::string_view text);
+
+/// `text` as it may stand in a message: in single quotes, control bytes and what is not UTF-8 as
+/// \xHH, cut after 40 bytes.
+std::string in_quotes(std::string_view text);
+
+}  // namespace oriel::detail

@@ -1,0 +1,167 @@
+#include "kernel/io/levels/level_file.h"
+
+#include "kernel/io/json/text.h"
+#include "kernel/io/levels/written_grid.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace oriel {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Vec3 vector_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+MemberValue value_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  return json.get<std::string>();
+}
+
+/// The members of an object but some.
+Members members_of(const Json& json, const std::set<std::string>& but) {
+  Members out;
+  for (const auto& [name, value] : json.items())
+    if (!but.contains(name)) out.emplace_back(name, value_of(value));
+  return out;
+}
+
+class LevelReader {
+ public:
+  LevelReader(const Json& root, const Json& header, const std::string& lod)
+      : objects_(root.at("CityObjects")), vertices_(root.at("vertices")), lod_(lod) {
+    const Json& transform = header.at("transform");
+    scale_ = vector_of(transform.at("scale"));
+    translate_ = vector_of(transform.at("translate"));
+  }
+
+  LevelState state(const std::string& id) {
+    LevelState state;
+    state.building = id;
+    const Json& object = objects_.at(id);
+    add_geometry(chosen_geometry(object.at("geometry")), state);
+    if (const auto found = object.find("attributes"); found != object.end())
+      for (const auto& [name, value] : found->items())
+        if (name.starts_with("oriel_removed_")) state.attributes[name] = value_of(value);
+    if (const auto children = object.find("children"); children != object.end())
+      for (const Json& child : *children) add_installation(child.get<std::string>(), state);
+    return state;
+  }
+
+ private:
+  [[nodiscard]] GridRing ring_of(const Json& numbers) const {
+    GridRing ring;
+    for (const Json& number : numbers)
+      ring.push_back(
+          grid_point(vertices_.at(number.get<std::size_t>()).get<std::array<std::int64_t, 3>>(),
+                     scale_, translate_));
+    if (ring.size() < 3) throw std::runtime_error("a ring has fewer than three points");
+    std::ranges::rotate(ring, std::ranges::min_element(ring));
+    return ring;
+  }
+
+  /// Calls visit(polygon, its value) with each polygon under `boundaries`, nested `depth` deep.
+  template <class Visit>
+  static void for_each_polygon(const Json& boundaries, const Json* values, int depth,
+                               const Visit& visit) {
+    for (std::size_t i = 0; i < boundaries.size(); ++i) {
+      const Json* value = values != nullptr && values->is_array() ? &values->at(i) : nullptr;
+      if (depth == 0)
+        visit(boundaries[i], value);
+      else
+        for_each_polygon(boundaries[i], value, depth - 1, visit);
+    }
+  }
+
+  /// Of the solids the first of the level of detail, or of the highest, as the Reader chooses.
+  [[nodiscard]] const Json& chosen_geometry(const Json& geometries) const {
+    const Json* chosen = nullptr;
+    for (const Json& geometry : geometries) {
+      const std::string type = geometry.at("type").get<std::string>();
+      if (type != "Solid" && type != "MultiSolid") continue;
+      if (!lod_.empty() && geometry.at("lod") != lod_) continue;
+      if (chosen == nullptr || geometry.at("lod") > chosen->at("lod")) chosen = &geometry;
+    }
+    if (chosen == nullptr) throw std::runtime_error("it has no solid");
+    return *chosen;
+  }
+
+  void add_geometry(const Json& geometry, LevelState& state) const {
+    const std::string type = geometry.at("type").get<std::string>();
+    const auto semantics = geometry.find("semantics");
+    const Json* values = semantics == geometry.end() ? nullptr : &semantics->at("values");
+    for_each_polygon(geometry.at("boundaries"), values, type == "Solid" ? 1 : 2,
+                     [&](const Json& polygon, const Json* value) {
+                       LevelFacet facet;
+                       for (std::size_t i = 1; i < polygon.size(); ++i)
+                         facet.holes.push_back(ring_of(polygon[i]));
+                       std::ranges::sort(facet.holes);
+                       if (value != nullptr && value->is_number()) {
+                         const Json& surface =
+                             semantics->at("surfaces").at(value->get<std::size_t>());
+                         facet.type = surface.at("type").get<std::string>();
+                         facet.members = members_of(surface, {"type", "parent", "children"});
+                       }
+                       state.facets.emplace(ring_of(polygon.at(0)), std::move(facet));
+                     });
+  }
+
+  /// Children that share facets of the building and are labelled.
+  void add_installation(const std::string& id, LevelState& state) const {
+    const auto object = objects_.find(id);
+    if (object == objects_.end() || !object->contains("attributes") ||
+        !object->at("attributes").contains("oriel_geometry"))
+      return;
+    state.installations[id] = members_of(object->at("attributes"), {"oriel_geometry"});
+    for (const Json& polygon : object->at("geometry").at(0).at("boundaries")) {
+      const auto facet = state.facets.find(ring_of(polygon.at(0)));
+      if (facet == state.facets.end()) throw std::runtime_error("'" + id + "' has its own facets");
+      auto& ids = facet->second.installations;
+      ids.insert(std::ranges::lower_bound(ids, id), id);
+    }
+  }
+
+  const Json& objects_;
+  const Json& vertices_;
+  const std::string& lod_;
+  Vec3 scale_, translate_;
+};
+
+}  // namespace
+
+Checked<std::vector<LevelState>> read_level(std::string_view text, const std::string& file,
+                                            const std::vector<std::string>& ids,
+                                            std::string_view header, const std::string& lod) {
+  Checked<std::vector<LevelState>> out;
+  std::vector<LevelState> states;
+  std::string building;
+  try {
+    const Json root = Json::parse(text);
+    const Json above = header.empty() ? Json() : Json::parse(header);
+    LevelReader reader(root, header.empty() ? root : above, lod);
+    for (const std::string& id : ids) {
+      building = id;
+      states.push_back(reader.state(id));
+    }
+  } catch (const std::exception& fault) {
+    std::string sentence = "is no level of a series: ";
+    sentence += fault.what();
+    Issue issue = detail::error_in({file, 0}, {"E120", std::move(sentence)});
+    issue.place.building = building;
+    out.issues.push_back(std::move(issue));
+    return out;
+  }
+  out.value = std::move(states);
+  return out;
+}
+
+}  // namespace oriel

@@ -1,0 +1,96 @@
+#include "kernel/io/levels/written_grid.h"
+
+#include "kernel/io/cityjson/write/fresh_cityjson.h"
+#include "kernel/io/cityjson/write/vertex_pool.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oriel {
+
+namespace {
+
+constexpr double kMicrometres = 1e6;
+/// A micrometre has so many decimals of a metre.
+constexpr int kDecimals = 6;
+
+struct Grid {
+  detail::Transform transform;
+  bool is_fixed = false;  ///< by the header of a stream
+};
+
+Grid grid_of(const Document& document) {
+  if (document.source) return {document.source->transform, document.source->is_feature};
+  return {detail::fresh_cityjson(document.buildings).transform, false};
+}
+
+const Frame* frame_of(const Document& document, const std::string& id) {
+  const auto found = std::ranges::find(document.buildings, id, &Building::id);
+  return found == document.buildings.end() ? nullptr : &found->frame;
+}
+
+/// How many decimals of a metre a whole number of micrometres has.
+int decimals_of(std::int64_t number) {
+  int decimals = kDecimals;
+  while (decimals > 0 && number % 10 == 0) {
+    number /= 10;
+    --decimals;
+  }
+  return decimals;
+}
+
+void note_decimals(const GridRing& ring, int& decimals) {
+  for (const GridPoint& p : ring)
+    for (const std::int64_t number : p) decimals = std::max(decimals, decimals_of(number));
+}
+
+}  // namespace
+
+WrittenGrid::WrittenGrid(const Document& document,
+                         const std::vector<const LabelledBuilding*>& labelled) {
+  const Grid grid = grid_of(document);
+  std::vector<detail::PlacedSolid> solids;
+  for (const LabelledBuilding* building : labelled)
+    if (!grid.is_fixed) digits_ = std::max(digits_, building->digits);
+  for (const LabelledBuilding* building : labelled)
+    if (const Frame* frame = frame_of(document, building->building); frame && building->geometry)
+      solids.push_back({&*building->geometry, frame});
+  if (!grid.is_fixed && !solids.empty())
+    digits_ = std::max(digits_, detail::finer_digits(grid.transform, solids));
+  const detail::Transform transform = detail::finer(grid.transform, digits_);
+  scale_ = transform.scale;
+  translate_ = transform.translate;
+}
+
+WrittenGrid::WrittenGrid(const Document& document, const std::vector<LevelState>& states) {
+  const Grid grid = grid_of(document);
+  int decimals = 0;
+  for (const LevelState& state : states)
+    for (const auto& [outer, facet] : state.facets) {
+      note_decimals(outer, decimals);
+      for (const GridRing& hole : facet.holes) note_decimals(hole, decimals);
+    }
+  const Vec3 s = grid.transform.scale;
+  // Half a step more: a scale of 0.001 is not exactly that.
+  const double finest = 1.5 * std::pow(10, -decimals);
+  while (!grid.is_fixed && digits_ < kDecimals &&
+         std::max({s.x, s.y, s.z}) * std::pow(10, -digits_) > finest)
+    ++digits_;
+  const detail::Transform transform = detail::finer(grid.transform, digits_);
+  scale_ = transform.scale;
+  translate_ = transform.translate;
+}
+
+GridPoint WrittenGrid::place(Vec3 local_m, const Frame& frame) const {
+  return grid_point(detail::rounded(local_m, frame, {scale_, translate_}), scale_, translate_);
+}
+
+GridPoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate) {
+  const auto whole = [](std::int64_t number, double one, double from) {
+    return std::llround((from + one * static_cast<double>(number)) * kMicrometres);
+  };
+  return {whole(vertex[0], scale.x, translate.x), whole(vertex[1], scale.y, translate.y),
+          whole(vertex[2], scale.z, translate.z)};
+}
+
+}  // namespace oriel

@@ -1,0 +1,152 @@
+#include "kernel/io/mesh/mesh_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+/// The text of the member `name`, or empty.
+std::string text_of(const Members& members, std::string_view name) {
+  for (const auto& [key, value] : members)
+    if (key == name && std::holds_alternative<std::string>(value))
+      return std::get<std::string>(value);
+  return "";
+}
+
+/// "WallSurface" as "wall".
+std::string label_of_type(std::string type) {
+  constexpr std::string_view kSuffix = "Surface";
+  if (type.ends_with(kSuffix)) type.resize(type.size() - kSuffix.size());
+  for (char& c : type) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return type;
+}
+
+MeshGroup group_of(const std::string& building, const SemanticSurface& surface) {
+  const std::string label = text_of(surface.members, "oriel_label");
+  return {building, label.empty() ? label_of_type(surface.type) : label,
+          text_of(surface.members, "oriel_id")};
+}
+
+MeshGroup group_of(const std::string& building, const Installation& installation) {
+  const std::string label = text_of(installation.attributes, "oriel_label");
+  return {building, label.empty() ? "installation" : label, installation.id};
+}
+
+/// The semantic surface of a polygon, or null.
+const SemanticSurface* surface_of(const LabelledBuilding& labelled, std::size_t polygon) {
+  const int index =
+      polygon < labelled.surface_of_polygon.size() ? labelled.surface_of_polygon[polygon] : -1;
+  return index < 0 ? nullptr : &labelled.surfaces.at(static_cast<std::size_t>(index));
+}
+
+std::string class_of(const LabelledBuilding& labelled, std::size_t polygon) {
+  const SemanticSurface* surface = surface_of(labelled, polygon);
+  return surface == nullptr ? std::string() : surface->type;
+}
+
+/// The group of each of `count` polygons.
+std::vector<MeshGroup> groups_of(const LabelledBuilding& labelled, std::size_t count) {
+  std::vector<MeshGroup> groups(count, {labelled.building, "unlabelled", ""});
+  const auto surface = [&](std::size_t polygon) { return surface_of(labelled, polygon); };
+  for (std::size_t i = 0; i < count; ++i)
+    if (surface(i) != nullptr) groups[i] = group_of(labelled.building, *surface(i));
+  for (const Installation& installation : labelled.installations)
+    for (const int polygon : installation.polygons) {
+      const auto i = static_cast<std::size_t>(polygon);
+      const bool is_opening =
+          surface(i) != nullptr && (surface(i)->type == "Window" || surface(i)->type == "Door");
+      if (!is_opening) groups.at(i) = group_of(labelled.building, installation);
+    }
+  return groups;
+}
+
+/// Twice the area vector of a ring (Newell), as a unit vector.
+Vec3 normal_of(const std::vector<Vec3>& points, const std::vector<int>& ring) {
+  const auto at = [&](std::size_t i) { return points[static_cast<std::size_t>(ring[i])]; };
+  Vec3 sum;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    sum = sum + cross(at(i) - at(0), at(i + 1) - at(0));
+  return normalised(sum);
+}
+
+/// Gathers the faces of one building.
+class MeshBuilder {
+ public:
+  MeshBuilder(LabelledMesh& mesh, Vec3 origin_m)
+      : mesh_(mesh), origin_m_(origin_m), first_(static_cast<int>(mesh.vertices.size())) {}
+
+  void add_vertex(Vec3 local) { mesh_.vertices.push_back(local + origin_m_); }
+
+  void add_face(std::vector<std::vector<int>> rings, Vec3 normal, const MeshGroup& group,
+                std::string surface_class) {
+    std::erase_if(rings, [](const std::vector<int>& ring) {
+      return std::set<int>(ring.begin(), ring.end()).size() < 3;
+    });
+    if (rings.empty()) return;
+    for (auto& ring : rings)
+      for (int& v : ring) v += first_;
+    mesh_.faces.push_back({std::move(rings), normal, number_of(group), std::move(surface_class)});
+  }
+
+ private:
+  int number_of(const MeshGroup& group) {
+    const auto [found, is_new] =
+        numbers_.try_emplace({group.label, group.id}, static_cast<int>(mesh_.groups.size()));
+    if (is_new) mesh_.groups.push_back(group);
+    return found->second;
+  }
+
+  LabelledMesh& mesh_;
+  Vec3 origin_m_;
+  int first_;
+  std::map<std::pair<std::string, std::string>, int> numbers_;
+};
+
+void add_polygons(LabelledMesh& mesh, const Building& building, const LabelledBuilding& labelled) {
+  MeshBuilder builder(mesh, building.frame.origin_m);
+  for (const Vec3 p : building.vertices) builder.add_vertex(p);
+  int count = 0;
+  for (const Polygon& polygon : building.polygons) count = std::max(count, polygon.source + 1);
+  const std::vector<MeshGroup> groups = groups_of(labelled, static_cast<std::size_t>(count));
+  for (const Polygon& polygon : building.polygons)
+    if (!polygon.rings.empty())
+      builder.add_face(polygon.rings, normal_of(building.vertices, polygon.rings[0]),
+                       groups[static_cast<std::size_t>(polygon.source)],
+                       class_of(labelled, static_cast<std::size_t>(polygon.source)));
+}
+
+void add_solid(LabelledMesh& mesh, const Solid& solid, Vec3 origin_m,
+               const LabelledBuilding& labelled) {
+  MeshBuilder builder(mesh, origin_m);
+  for (const Vertex& vertex : solid.vertices) builder.add_vertex(vertex.point);
+  const std::vector<MeshGroup> groups = groups_of(labelled, solid.facets.size());
+  for (std::size_t f = 0; f < solid.facets.size(); ++f)
+    builder.add_face(solid.facets[f].loops, solid.planes[solid.facets[f].plane.index()].normal,
+                     groups[f], class_of(labelled, f));
+}
+
+}  // namespace
+
+void append_mesh(LabelledMesh& mesh, const Document& document,
+                 const std::vector<LabelledBuilding>& labelled) {
+  std::map<std::string_view, const LabelledBuilding*> labels_of;
+  for (const LabelledBuilding& one : labelled) labels_of.try_emplace(one.building, &one);
+  for (const Building& building : document.buildings) {
+    LabelledBuilding bare;
+    bare.building = building.id;
+    const auto found = labels_of.find(building.id);
+    const LabelledBuilding& labels = found == labels_of.end() ? bare : *found->second;
+    if (labels.geometry)
+      add_solid(mesh, *labels.geometry, building.frame.origin_m, labels);
+    else
+      add_polygons(mesh, building, labels);
+  }
+}
+
+}  // namespace oriel

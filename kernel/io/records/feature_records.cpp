@@ -1,0 +1,274 @@
+#include "kernel/io/records/feature_records.h"
+
+#include "kernel/io/files/input.h"
+#include "kernel/io/json/json_text.h"
+#include "kernel/io/json/record_text.h"
+#include "kernel/io/json/words.h"
+#include "kernel/io/records/csv_line.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+std::string id_of(const FeatureTable& table, FeatureId feature) {
+  return feature.is_valid() ? table.id(feature) : "";
+}
+
+std::vector<RecordValue> attributes_of(const FeatureTable& table, FeatureId row) {
+  std::vector<RecordValue> values;
+  for (std::size_t c = 0; c < feature_schema().size(); ++c) {
+    values.emplace_back();
+    if (feature_schema()[c].unit == Unit::text) {
+      const std::string& text = table.texts(c)[row.index()];
+      if (!text.empty()) values.back() = text;
+    } else if (const auto number = table.number(row, c)) {
+      values.back() = *number;
+    }
+  }
+  return values;
+}
+
+RecordFormat format_to_use(const std::string& path) {
+  const auto format = record_format_of(path);
+  if (format) return *format;
+  throw InputError(detail::error_in(
+      {path, 0}, {"E106",
+                  "the format of the feature records is unknown; expected a name in .csv, .json or "
+                  ".jsonl"}));
+}
+
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> parts;
+  detail::for_each_part(list, [&](std::string_view part) { parts.emplace_back(part); });
+  return parts;
+}
+
+std::optional<std::string> set_number(std::optional<double>& value, std::size_t field,
+                                      std::string_view cell) {
+  if (cell.empty()) return std::nullopt;
+  value = detail::as_double(cell);
+  if (!value) return detail::no_number(record_fields()[field], cell);
+  return std::nullopt;
+}
+
+std::optional<std::string> set_box(FeatureRecord& record, std::string_view cell) {
+  if (cell.empty()) return std::nullopt;
+  const std::vector<std::string> parts = split(cell);
+  for (std::size_t i = 0; i < record.aabb_m.size(); ++i) {
+    const auto number = i < parts.size() ? detail::as_double(parts[i]) : std::nullopt;
+    if (!number || parts.size() != record.aabb_m.size())
+      return fmt::format("'aabb_m' is {}; expected six numbers", detail::in_quotes(cell));
+    record.aabb_m[i] = *number;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> set_polygons(FeatureRecord& record, std::string_view cell) {
+  for (const std::string& part : split(cell)) {
+    const auto number = detail::as_whole(part);
+    if (!number || *number < 0 || *number > std::numeric_limits<int>::max())
+      return fmt::format("'source_polygons' holds {}; expected whole numbers",
+                         detail::in_quotes(part));
+    record.source_polygons.push_back(static_cast<int>(*number));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> add_attribute(FeatureRecord& record, const Attribute& attribute,
+                                         std::string_view cell) {
+  RecordValue& value = record.attributes.emplace_back();
+  if (cell.empty()) return std::nullopt;
+  if (attribute.unit == Unit::text) {
+    value = std::string(cell);
+    return std::nullopt;
+  }
+  const auto number = detail::as_double(cell);
+  if (!number) return detail::no_number(record_name(attribute), cell);
+  value = *number;
+  return std::nullopt;
+}
+
+std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells& cells) {
+  namespace field = detail::record_field;
+  record.building = cells[field::building];
+  record.id = cells[field::id];
+  record.label = cells[field::label];
+  record.rule = cells[field::rule];
+  record.runner_up = cells[field::runner_up];
+  record.parent = cells[field::parent];
+  record.host = cells[field::host];
+  if (auto fault = set_number(record.score, field::score, cells[field::score])) return fault;
+  if (auto fault = set_number(record.margin, field::margin, cells[field::margin])) return fault;
+  if (auto fault = set_box(record, cells[field::aabb_m])) return fault;
+  if (auto fault = set_polygons(record, cells[field::source_polygons])) return fault;
+  std::size_t at = field::first_attribute;
+  for (const Attribute& attribute : feature_schema())
+    if (auto fault = add_attribute(record, attribute, cells[at++])) return fault;
+  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
+    record.relations.push_back(split(cells[at++]));
+  record.groups = split(cells[at]);
+  return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<std::string>& record_fields() {
+  static const std::vector<std::string> fields = [] {
+    std::vector<std::string> names{"building", "id",     "label",          "score",
+                                   "margin",   "rule",   "runner_up",      "parent",
+                                   "host",     "aabb_m", "source_polygons"};
+    for (const Attribute& attribute : feature_schema()) names.push_back(record_name(attribute));
+    for (const RelationKind& relation : detail::recorded_relations())
+      names.push_back("rel_" + relation.name);
+    names.emplace_back("groups");
+    return names;
+  }();
+  return fields;
+}
+
+std::vector<FeatureRecord> feature_records(const Building& building,
+                                           const Segmentation& segmentation,
+                                           const FeatureTable& table, const FeatureGraph& graph,
+                                           const Interpretation* interpretation) {
+  std::vector<FeatureRecord> records;
+  for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
+    const Feature& feature = segmentation.features[i];
+    const FeatureId row{static_cast<int>(i)};
+    FeatureRecord record;
+    record.building = building.id;
+    record.id = table.id(row);
+    record.parent = id_of(table, feature.parent);
+    record.host = id_of(table, feature.host);
+    const Box box = feature.box.moved(building.frame.origin_m);
+    record.aabb_m = {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
+    record.source_polygons = feature.source_polygons;
+    record.attributes = attributes_of(table, row);
+    for (const RelationKind& relation : detail::recorded_relations()) {
+      record.relations.emplace_back();
+      for (const FeatureId other : graph.others(relation.name, row))
+        record.relations.back().push_back(table.id(other));
+    }
+    records.push_back(std::move(record));
+  }
+  if (interpretation == nullptr) return records;
+  auto groups = groups_by_feature(*interpretation);
+  for (const Verdict& verdict : interpretation->verdicts) {
+    const std::size_t row = verdict.feature.index();
+    set_verdict(records.at(row), verdict, std::move(groups.at(row)));
+  }
+  return records;
+}
+
+void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups) {
+  record.label = verdict.label;
+  record.score = verdict.score;
+  record.margin = verdict.margin;
+  record.rule = verdict.rule;
+  record.runner_up = verdict.runner_up;
+  record.groups = std::move(groups);
+}
+
+std::optional<RecordFormat> record_format_of(std::string_view path) {
+  if (path.ends_with(".csv")) return RecordFormat::csv;
+  if (path.ends_with(".json")) return RecordFormat::json;
+  if (path.ends_with(".jsonl")) return RecordFormat::jsonl;
+  return std::nullopt;
+}
+
+FeatureRecordWriter::FeatureRecordWriter(const std::string& path)
+    : format_(format_to_use(path)), file_(path) {
+  is_empty_ = file_.size() <= 1;
+  if (file_.size() > 0) return;  // it goes on
+  std::string head = format_ == RecordFormat::json ? "[" : "";
+  if (format_ == RecordFormat::csv) append_csv_line(head, record_fields());
+  file_.append(head);
+}
+
+std::string FeatureRecordWriter::text(RecordFormat format,
+                                      const std::vector<FeatureRecord>& records) {
+  std::string text;
+  for (const FeatureRecord& record : records) {
+    if (format == RecordFormat::csv) {
+      detail::append_csv_record(text, record);
+      continue;
+    }
+    if (format == RecordFormat::json && !text.empty()) text += ",\n";
+    detail::append_json_record(text, record);
+    if (format == RecordFormat::jsonl) text += '\n';
+  }
+  return text;
+}
+
+void FeatureRecordWriter::append(std::string_view text) {
+  if (text.empty()) return;
+  if (format_ == RecordFormat::json) file_.append(std::exchange(is_empty_, false) ? "\n" : ",\n");
+  file_.append(text);
+}
+
+void FeatureRecordWriter::append(const std::vector<FeatureRecord>& records) {
+  append(text(format_, records));
+}
+
+void FeatureRecordWriter::commit() {
+  if (format_ == RecordFormat::json) file_.append(is_empty_ ? "]\n" : "\n]\n");
+  file_.commit();
+}
+
+std::vector<Issue> visit_feature_records(const std::string& path,
+                                         const std::function<void(FeatureRecord)>& visit) {
+  std::vector<Issue> issues;
+  const auto take = [&](const detail::RecordCells& cells) {
+    FeatureRecord record;
+    auto fault = fill(record, cells);
+    if (!fault) visit(std::move(record));
+    return fault;
+  };
+  detail::visit_records(path, take, issues);
+  return issues;
+}
+
+Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path) {
+  Checked<std::vector<FeatureRecord>> result;
+  std::vector<FeatureRecord> records;
+  const auto take = [&](const detail::RecordCells& cells) {
+    FeatureRecord record;
+    auto fault = fill(record, cells);
+    if (!fault) records.push_back(std::move(record));
+    return fault;
+  };
+  if (detail::visit_records(path, take, result.issues)) result.value = std::move(records);
+  return result;
+}
+
+namespace detail {
+
+bool visit_records(const std::string& path, const RecordTaker& take, std::vector<Issue>& issues) {
+  const RecordFormat format = format_to_use(path);
+  const std::string text = Input(path).read_all();
+  const std::string_view bare = without_bom(text);
+  if (format == RecordFormat::csv) return visit_csv_records(bare, {path, 0}, take, issues);
+  return visit_json_records(bare, {path, 0}, format == RecordFormat::jsonl, take, issues);
+}
+
+const std::vector<RelationKind>& recorded_relations() {
+  static const std::vector<RelationKind> without_host = [] {
+    std::vector<RelationKind> all = relation_schema();
+    std::erase_if(all, [](const RelationKind& relation) { return relation.name == "host"; });
+    return all;
+  }();
+  return without_host;
+}
+
+std::string no_number(std::string_view field, std::string_view cell) {
+  return fmt::format("'{}' is {}; expected a number", field, in_quotes(cell));
+}
+
+}  // namespace detail
+
+}  // namespace oriel

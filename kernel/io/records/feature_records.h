@@ -1,0 +1,101 @@
+#pragma once
+
+#include "kernel/io/files/output_file.h"
+#include "kernel/model/building.h"
+#include "kernel/model/description/feature_graph.h"
+#include "kernel/model/description/feature_table.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/segmentation.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace oriel {
+
+/// A missing value, a number, or a text.
+using RecordValue = std::variant<std::monostate, double, std::string>;
+
+/// One feature of one building as it stands in a table of features: what the segmentation, the
+/// attributes, the relations and (if there were rules) the verdict say of it. Ids are
+/// content-based.
+struct FeatureRecord {
+  std::string building;
+  std::string id;
+  /// The verdict; texts empty and numbers missing where there was no interpretation.
+  std::string label;
+  std::optional<double> score;
+  std::optional<double> margin;
+  std::string rule;
+  std::string runner_up;
+  /// Ids of the feature in whose subtree it was found and of the one it stands on; empty: the body.
+  std::string parent;
+  std::string host;
+  /// xmin, ymin, zmin, xmax, ymax, zmax in the input's coordinates, in metres.
+  std::array<double, 6> aabb_m{};
+  /// Polygon::source of the polygons in it, sorted.
+  std::vector<int> source_polygons;
+  /// One value for each attribute of feature_schema(), in its order; yes/no is 1 and 0.
+  std::vector<RecordValue> attributes;
+  /// The ids it is related to, for each relation of relation_schema() but "host", in its order.
+  std::vector<std::vector<std::string>> relations;
+  /// Ids of the groups it is in.
+  std::vector<std::string> groups;
+};
+
+/// The names of a record's fields: building, id, label, score, margin, rule, runner_up, parent,
+/// host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME,
+/// then groups.
+const std::vector<std::string>& record_fields();
+
+/// The records of one building, in feature order. `table` and `graph` are those of `segmentation`;
+/// `interpretation` may be null.
+std::vector<FeatureRecord> feature_records(const Building& building,
+                                           const Segmentation& segmentation,
+                                           const FeatureTable& table, const FeatureGraph& graph,
+                                           const Interpretation* interpretation);
+
+/// Puts a verdict and the ids of its groups into a record in place of what it says.
+void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups);
+
+/// The formats of records, by extension: .csv, .json (an array), .jsonl (an object a line).
+enum class RecordFormat { csv, json, jsonl };
+std::optional<RecordFormat> record_format_of(std::string_view path);
+
+/// Writes records to a file, building by building. Numbers have the fewest digits that read back to
+/// the same double. CSV is RFC 4180 with LF line ends: lists are joined by ';', missing values are
+/// empty. JSON has arrays and null. Throws InputError E106 for another extension, OutputError E601.
+class FeatureRecordWriter {
+ public:
+  explicit FeatureRecordWriter(const std::string& path);
+  void append(const std::vector<FeatureRecord>& records);
+  /// The same in two steps, of which several threads may do the first: records as the format has
+  /// them, without what stands before and between them; and putting such a text into the file.
+  static std::string text(RecordFormat format, const std::vector<FeatureRecord>& records);
+  void append(std::string_view text);
+  /// Puts the file in its place, as OutputFile does.
+  void commit();
+  /// How many bytes it has so far.
+  [[nodiscard]] std::uint64_t size() const { return file_.size(); }
+
+ private:
+  RecordFormat format_;
+  OutputFile file_;
+  bool is_empty_ = true;
+};
+
+/// Reads records back. Fields may come in any order, unknown ones are passed over, absent ones are
+/// missing; "building" and "id" are needed. E111 with the line (of a JSON array: the record's
+/// number) for a record that cannot be read, which is left out; E102 to E105 where the text is not
+/// even CSV or JSON. Throws InputError: E101 the file cannot be read, E106 unknown extension.
+Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path);
+
+/// The same for tables that are large: `visit` gets one record after the other. Returns the issues.
+std::vector<Issue> visit_feature_records(const std::string& path,
+                                         const std::function<void(FeatureRecord)>& visit);
+
+}  // namespace oriel

@@ -1,0 +1,172 @@
+#include "kernel/io/records/feature_tables.h"
+
+#include "kernel/io/json/record_text.h"
+#include "kernel/io/json/words.h"
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+namespace field = detail::record_field;
+
+struct TextHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view text) const {
+    return std::hash<std::string_view>()(text);
+  }
+};
+
+/// Collects the records of one building after the other.
+class TableBuilder {
+ public:
+  explicit TableBuilder(Checked<std::vector<DescribedBuilding>>& result) : result_(&result) {
+    result_->value.emplace();
+  }
+
+  /// Says what is wrong with the record.
+  std::optional<std::string> add(const detail::RecordCells& cells);
+  /// The last record was added.
+  void finish();
+
+ private:
+  std::optional<std::string> add_attributes(const detail::RecordCells& cells);
+  [[nodiscard]] FeatureTable make_table() const;
+  FeatureGraph make_graph();
+  std::vector<FeatureGraph::Pair> make_pairs(std::size_t relation);
+
+  Checked<std::vector<DescribedBuilding>>* result_;
+  std::string building_;
+  /// The rows so far, by id.
+  std::unordered_map<std::string, int, TextHash, std::equal_to<>> rows_;
+  /// Of the building at hand, row by row: its numbers, and its texts (id first).
+  std::vector<double> numbers_;
+  std::vector<std::string> texts_;
+  /// Row by row the ids that each relation leads to, and the host: where they stand in `lists_`.
+  std::string lists_;
+  std::vector<std::size_t> list_ends_;
+  /// Relations that lead to what is not there, and the first such id.
+  std::size_t dangling_ = 0;
+  std::string first_dangling_;
+};
+
+std::optional<std::string> TableBuilder::add(const detail::RecordCells& cells) {
+  if (cells[field::building] != building_) {
+    finish();
+    building_ = cells[field::building];
+  }
+  if (rows_.contains(cells[field::id]))
+    return fmt::format("the building '{}' has a feature '{}' already", building_, cells[field::id]);
+  const std::size_t numbers = numbers_.size(), texts = texts_.size();
+  texts_.emplace_back(cells[field::id]);
+  if (auto fault = add_attributes(cells)) {
+    numbers_.resize(numbers);
+    texts_.resize(texts);
+    return fault;
+  }
+  rows_.emplace(cells[field::id], static_cast<int>(rows_.size()));
+  const std::size_t first = field::first_attribute + feature_schema().size();
+  for (std::size_t r = 0; r <= detail::recorded_relations().size(); ++r) {
+    lists_ += r == 0 ? cells[field::host] : cells[first + r - 1];
+    list_ends_.push_back(lists_.size());
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> TableBuilder::add_attributes(const detail::RecordCells& cells) {
+  std::size_t at = field::first_attribute;
+  for (const Attribute& attribute : feature_schema()) {
+    const std::string_view cell = cells[at++];
+    if (attribute.unit == Unit::text) {
+      texts_.emplace_back(cell);
+      continue;
+    }
+    const auto number =
+        cell.empty() ? std::numeric_limits<double>::quiet_NaN() : detail::as_double(cell);
+    if (!number) return detail::no_number(record_name(attribute), cell);
+    numbers_.push_back(*number);
+  }
+  return std::nullopt;
+}
+
+FeatureTable TableBuilder::make_table() const {
+  FeatureTable table(building_, rows_.size());
+  auto number = numbers_.begin();
+  auto text = texts_.begin();
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+    const FeatureId row{i};
+    table.set_id(row, *text++);
+    for (std::size_t column = 0; column < feature_schema().size(); ++column) {
+      if (feature_schema()[column].unit == Unit::text)
+        table.set(row, column, *text++);
+      else if (const double value = *number++; !std::isnan(value))
+        table.set(row, column, value);
+    }
+  }
+  return table;
+}
+
+/// The pairs of the host (0) or of a recorded relation (1 …).
+std::vector<FeatureGraph::Pair> TableBuilder::make_pairs(std::size_t relation) {
+  std::vector<FeatureGraph::Pair> pairs;
+  const std::size_t lists = detail::recorded_relations().size() + 1;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::size_t list = row * lists + relation;
+    const std::size_t begin = list == 0 ? 0 : list_ends_[list - 1];
+    const std::string_view ids = std::string_view(lists_).substr(begin, list_ends_[list] - begin);
+    detail::for_each_part(ids, [&](std::string_view id) {
+      const auto found = rows_.find(id);
+      if (found != rows_.end())
+        pairs.emplace_back(FeatureId{static_cast<int>(row)}, FeatureId{found->second});
+      else if (dangling_++ == 0)
+        first_dangling_ = id;
+    });
+  }
+  return pairs;
+}
+
+FeatureGraph TableBuilder::make_graph() {
+  FeatureGraph graph;
+  graph.set("host", make_pairs(0));
+  for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
+    graph.set(detail::recorded_relations()[r].name, make_pairs(r + 1));
+  return graph;
+}
+
+void TableBuilder::finish() {
+  if (!rows_.empty()) result_->value->push_back({make_table(), make_graph()});
+  if (dangling_ > 0)
+    result_->issues.push_back(building_issue(
+        Severity::warning, "E121", building_,
+        fmt::format("{} relations lead to features that are not in the file, such as '{}'; labels "
+                    "may differ from those of the whole building",
+                    dangling_, first_dangling_)));
+  rows_.clear();
+  numbers_.clear();
+  texts_.clear();
+  lists_.clear();
+  list_ends_.clear();
+  dangling_ = 0;
+}
+
+}  // namespace
+
+Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path) {
+  Checked<std::vector<DescribedBuilding>> result;
+  TableBuilder builder(result);
+  const auto add = [&](const detail::RecordCells& cells) { return builder.add(cells); };
+  if (detail::visit_records(path, add, result.issues))
+    builder.finish();
+  else
+    result.value.reset();
+  return result;
+}
+
+}  // namespace oriel

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kernel/base/issue.h"
+#include "kernel/model/described_building.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Reads feature records (see feature_records.h) as what rules ask for: attributes and relations,
+/// one building after the other in the order of the file. Interpreting them gives the verdicts that
+/// the building itself would get. A building's records stand together.
+///
+/// Issues beside those of read_feature_records: E111 for a second record of the same id in a
+/// building, which is left out; E121 (warning) for each building whose relations lead to features
+/// that are not in the file. Throws InputError as read_feature_records does.
+Checked<std::vector<DescribedBuilding>> read_feature_tables(const std::string& path);
+
+}  // namespace oriel

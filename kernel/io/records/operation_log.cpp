@@ -1,0 +1,249 @@
+#include "kernel/io/records/operation_log.h"
+
+#include "kernel/io/files/input.h"
+#include "kernel/io/json/text.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace oriel {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMicrometres = 1e6;
+
+Json json_of(const MemberValue& value) {
+  return std::visit([](const auto& known) { return Json(known); }, value);
+}
+
+Json json_of(const Members& members) {
+  Json out = Json::object();
+  for (const auto& [name, value] : members) out[name] = json_of(value);
+  return out;
+}
+
+Json json_of(const GridRing& ring) {
+  Json out = Json::array();
+  for (const GridPoint& p : ring) {
+    Json point = Json::array();
+    for (const std::int64_t number : p) point.push_back(static_cast<double>(number) / kMicrometres);
+    out.push_back(std::move(point));
+  }
+  return out;
+}
+
+Json json_of(const std::vector<GridRing>& rings) {
+  Json out = Json::array();
+  for (const GridRing& ring : rings) out.push_back(json_of(ring));
+  return out;
+}
+
+Json json_of(const std::vector<std::pair<GridRing, LevelFacet>>& facets) {
+  Json out = Json::array();
+  for (const auto& [outer, facet] : facets) {
+    Json one;
+    one["rings"] = Json::array({json_of(outer)});
+    for (const GridRing& hole : facet.holes) one["rings"].push_back(json_of(hole));
+    one["type"] = facet.type;
+    if (!facet.members.empty()) one["members"] = json_of(facet.members);
+    if (!facet.installations.empty()) one["installations"] = facet.installations;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+template <class Map>
+Json json_of_changed(const Map& changed) {
+  Json out = Json::object();
+  for (const auto& [key, value] : changed) out[key] = value ? json_of(*value) : Json();
+  return out;
+}
+
+Json json_of(const Change& change) {
+  Json out = Json::object();
+  if (!change.removed.empty()) out["remove"] = json_of(change.removed);
+  if (!change.added.empty()) out["add"] = json_of(change.added);
+  for (const auto& [outer, holes] : change.holes) {
+    Json one{{"of", json_of(outer)}};
+    if (!holes.removed.empty()) one["remove"] = json_of(holes.removed);
+    if (!holes.added.empty()) one["add"] = json_of(holes.added);
+    out["holes"].push_back(std::move(one));
+  }
+  if (!change.installations.empty()) out["installations"] = json_of_changed(change.installations);
+  if (!change.attributes.empty()) out["attributes"] = json_of_changed(change.attributes);
+  return out;
+}
+
+MemberValue member_value(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  return json.get<std::string>();
+}
+
+Members read_members(const Json& json) {
+  Members out;
+  for (const auto& [name, value] : json.items()) out.emplace_back(name, member_value(value));
+  return out;
+}
+
+GridRing ring_of(const Json& json) {
+  GridRing ring;
+  for (const Json& point : json) {
+    GridPoint p{};
+    for (std::size_t i = 0; i < p.size(); ++i)
+      p[i] = std::llround(point.at(i).get<double>() * kMicrometres);
+    ring.push_back(p);
+  }
+  if (ring.size() < 3) throw std::runtime_error("a ring has fewer than three points");
+  return ring;
+}
+
+std::vector<GridRing> rings_of(const Json& json, const char* key) {
+  std::vector<GridRing> rings;
+  if (const auto found = json.find(key); found != json.end())
+    for (const Json& ring : *found) rings.push_back(ring_of(ring));
+  return rings;
+}
+
+std::vector<std::pair<GridRing, LevelFacet>> facets_of(const Json& json, const char* key) {
+  std::vector<std::pair<GridRing, LevelFacet>> facets;
+  const auto found = json.find(key);
+  if (found == json.end()) return facets;
+  for (const Json& one : *found) {
+    std::vector<GridRing> rings = rings_of(one, "rings");
+    if (rings.empty()) throw std::runtime_error("a facet has no rings");
+    LevelFacet facet;
+    facet.holes.assign(rings.begin() + 1, rings.end());
+    facet.type = one.at("type").get<std::string>();
+    if (one.contains("members")) facet.members = read_members(one.at("members"));
+    if (one.contains("installations")) one.at("installations").get_to(facet.installations);
+    facets.emplace_back(std::move(rings[0]), std::move(facet));
+  }
+  return facets;
+}
+
+template <class Value, class Read>
+void read_changed(const Json& json, const char* key,
+                  std::map<std::string, std::optional<Value>>& changed, const Read& read) {
+  const auto found = json.find(key);
+  if (found == json.end()) return;
+  for (const auto& [name, value] : found->items())
+    changed[name] = value.is_null() ? std::nullopt : std::optional<Value>(read(value));
+}
+
+Change change_of(const Json& json) {
+  Change change;
+  change.removed = facets_of(json, "remove");
+  change.added = facets_of(json, "add");
+  if (const auto holes = json.find("holes"); holes != json.end())
+    for (const Json& one : *holes)
+      change.holes[ring_of(one.at("of"))] = {rings_of(one, "remove"), rings_of(one, "add")};
+  read_changed(json, "installations", change.installations, read_members);
+  read_changed(json, "attributes", change.attributes, member_value);
+  return change;
+}
+
+SeriesOperation operation_of(const Json& json) {
+  SeriesOperation operation;
+  json.at("building").get_to(operation.building);
+  if (json.contains("lod")) json.at("lod").get_to(operation.lod);
+  json.at("oriel_id").get_to(operation.oriel_id);
+  json.at("label").get_to(operation.label);
+  json.at("operation").get_to(operation.operation);
+  json.at("rule").get_to(operation.rule);
+  json.at("scale").get_to(operation.scale);
+  if (json.contains("with")) json.at("with").get_to(operation.with);
+  const Json& box = json.at("aabb");
+  if (!box.is_null()) {
+    operation.aabb_m.min = {box.at(0), box.at(1), box.at(2)};
+    operation.aabb_m.max = {box.at(3), box.at(4), box.at(5)};
+  }
+  operation.forward = change_of(json.at("forward"));
+  operation.inverse = change_of(json.at("inverse"));
+  return operation;
+}
+
+SeriesOperation operation_in(std::string_view line, const detail::TextName& name) {
+  try {
+    return operation_of(Json::parse(line));
+  } catch (const std::exception& fault) {
+    std::string sentence = "is no operation of a series: ";
+    sentence += fault.what();
+    throw InputError(detail::error_in(name, {"E119", std::move(sentence)}));
+  }
+}
+
+}  // namespace
+
+std::string operation_line(const SeriesOperation& operation) {
+  Json out;
+  out["building"] = operation.building;
+  if (!operation.lod.empty()) out["lod"] = operation.lod;
+  out["oriel_id"] = operation.oriel_id;
+  out["label"] = operation.label;
+  out["operation"] = operation.operation;
+  out["rule"] = operation.rule;
+  out["scale"] = operation.scale;
+  if (!operation.with.empty()) out["with"] = operation.with;
+  const Box& box = operation.aabb_m;
+  out["aabb"] = box.is_empty() ? Json() : Json{box.min.x, box.min.y, box.min.z,
+                                               box.max.x, box.max.y, box.max.z};
+  out["forward"] = json_of(operation.forward);
+  out["inverse"] = json_of(operation.inverse);
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Checked<std::vector<SeriesOperation>> read_operations(std::string_view text,
+                                                      const std::string& file) {
+  Checked<std::vector<SeriesOperation>> out;
+  std::vector<SeriesOperation> operations;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    try {
+      operations.push_back(operation_in(line, {file, number}));
+    } catch (const InputError& fault) {
+      out.issues.push_back(fault.issue());
+      return out;
+    }
+  }
+  out.value = std::move(operations);
+  return out;
+}
+
+struct OperationReader::File {
+  explicit File(const std::string& path) : name{path, 0}, input(path) {}
+  detail::TextName name;
+  detail::Input input;
+  std::string line;
+};
+
+OperationReader::OperationReader(const std::string& file) : file_(std::make_unique<File>(file)) {
+  read();
+}
+
+OperationReader::~OperationReader() = default;
+
+void OperationReader::read() {
+  next_.reset();
+  if (!file_->input.read_line(file_->line)) return;
+  ++file_->name.line;
+  next_ = operation_in(file_->line, file_->name);
+}
+
+SeriesOperation OperationReader::take() {
+  SeriesOperation taken = std::move(*next_);
+  read();
+  return taken;
+}
+
+}  // namespace oriel

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kernel/segment/boundary/boundary.h"
+
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// The living edges and facets of a body, close together: for questions that all of them are asked
+/// again and again while the body stays as it is. Listed when they are first asked for.
+class FlatBody {
+ public:
+  explicit FlatBody(const Boundary& body) : body_(body) {}
+
+  struct Edge {
+    int from, to;  ///< points
+  };
+  /// A facet and where its plane stands among those of its class.
+  struct Facet {
+    int number;
+    int normal_class;
+    int rank;
+  };
+
+  [[nodiscard]] const Boundary& body() const { return body_; }
+  /// Each edge once, in one of its directions.
+  [[nodiscard]] std::span<const Edge> edges();
+  [[nodiscard]] std::span<const Facet> facets();
+
+ private:
+  const Boundary& body_;
+  std::vector<Edge> edges_;
+  std::vector<Facet> facets_;
+};
+
+}  // namespace oriel::detail

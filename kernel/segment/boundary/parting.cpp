@@ -1,0 +1,164 @@
+#include "kernel/segment/boundary/parting.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/exact.h"
+#include "kernel/segment/boundary/facet_copier.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Adds the facets that hang together with `start` and are not in `seen` yet.
+void add_piece(const Boundary& body, int start, StampSet& seen, std::vector<int>& piece) {
+  seen.insert(start);
+  piece.push_back(start);
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    body.for_each_edge(piece[i], [&](int e) {
+      const int g = body.facet_of(body.twin(e));
+      if (seen.insert(g)) piece.push_back(g);
+    });
+}
+
+/// The living facets in connected pieces, in the order of their first facets.
+std::vector<std::vector<int>> pieces_of(const Boundary& body) {
+  std::vector<std::vector<int>> pieces;
+  StampSet& seen = body.world().scratch.facets_of_piece;
+  seen.start(body.facet_count());
+  for (int start = 0; start < body.facet_count(); ++start) {
+    if (!body.is_alive(start) || seen.contains(start)) continue;
+    add_piece(body, start, seen, pieces.emplace_back());
+    std::ranges::sort(pieces.back());
+  }
+  return pieces;
+}
+
+double volume_of(const Boundary& body, const std::vector<int>& facets) {
+  double sum = 0;
+  for (const int f : facets) sum += body.world().planes.offset_m(body.facet(f).side) * body.area(f);
+  return sum / 3;
+}
+
+/// How often the facets wind around a point: 1 inside, 0 outside.
+double winding_number(const Boundary& body, const std::vector<int>& facets, Vec3 eye) {
+  double sum = 0;
+  for (const int f : facets) sum += winding_part(body.outlines(f), eye);
+  return sum;
+}
+
+Boundary copy_facets(const Boundary& body, const std::vector<int>& facets, bool is_turned) {
+  FacetCopier copier(body, is_turned);
+  copier.add(facets);
+  return std::move(copier.boundary());
+}
+
+}  // namespace
+
+bool is_connected(const Boundary& body) {
+  StampSet& seen = body.world().scratch.facets_of_piece;
+  seen.start(body.facet_count());
+  std::vector<int> piece;
+  for (int f = 0; f < body.facet_count(); ++f) {
+    if (!body.is_alive(f) || seen.contains(f)) continue;
+    if (!piece.empty()) return false;
+    add_piece(body, f, seen, piece);
+  }
+  return true;
+}
+
+Boundary compacted(const Boundary& body) { return copy_facets(body, body.living_facets(), false); }
+
+std::vector<Boundary> part_into_lumps(const Boundary& body) {
+  std::vector<Boundary> lumps;
+  std::vector<std::vector<int>> outers, cavities;
+  for (const auto& piece : pieces_of(body))
+    (volume_of(body, piece) > 0 ? outers : cavities).push_back(piece);
+  std::vector<std::vector<int>> all = outers;
+  for (const auto& cavity : cavities) {
+    const Vec3 eye = body.at(body.loop(body.facet(cavity[0]).loops[0]).first);
+    for (std::size_t i = 0; i < outers.size(); ++i)
+      if (winding_number(body, outers[i], eye) > 0.5) {
+        all[i].insert(all[i].end(), cavity.begin(), cavity.end());
+        break;
+      }
+  }
+  for (const auto& facets : all) lumps.push_back(copy_facets(body, facets, false));
+  return lumps;
+}
+
+std::vector<Boundary> take_out_cavities(Boundary& body) {
+  std::vector<Boundary> cavities;
+  if (is_connected(body)) return cavities;
+  const auto pieces = pieces_of(body);
+  for (const auto& piece : pieces) {
+    if (volume_of(body, piece) > 0) continue;
+    cavities.push_back(copy_facets(body, piece, true));
+    body.remove(piece);
+  }
+  return cavities;
+}
+
+bool fill_cavity(Boundary& body, const Box& box) {
+  for (const auto& piece : pieces_of(body)) {
+    Box around;
+    for (const int f : piece) body.for_each_edge(f, [&](int e) { around.grow(body.at(e)); });
+    if (volume_of(body, piece) >= 0 || around != box) continue;
+    body.remove(piece);
+    return true;
+  }
+  return false;
+}
+
+Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
+               const std::set<int>& gone) {
+  Solid solid;
+  solid.grid_m = original.grid_m;
+  solid.planes = original.planes;
+  std::map<int, int> number;
+  const auto vertex = [&](const World& world, int point) {
+    const auto [entry, is_new] = number.emplace(point, static_cast<int>(solid.vertices.size()));
+    if (is_new) solid.vertices.push_back({world.points.at(point), world.points.is_meeting(point)});
+    return entry->second;
+  };
+  // A cap may lie in a plane that the original has in the other orientation only.
+  std::map<Side, PlaneId> turned;
+  const auto plane = [&](const World& world, Side side) {
+    if (const PlaneId id = world.planes.id_of(side); id.is_valid()) return id;
+    const auto [entry, is_new] =
+        turned.emplace(side, PlaneId{static_cast<int>(solid.planes.size())});
+    if (is_new) {
+      const Plane& given = world.planes.plane(side >> 1);
+      solid.planes.push_back((side & 1) != 0 ? exact::opposite(given) : given);
+    }
+    return entry->second;
+  };
+  int lump = 0;
+  for (const Boundary& body : bodies)
+    for (const Boundary& part : part_into_lumps(body)) {
+      const Corners corners(part);
+      for (const auto& piece : pieces_of(part)) {
+        Shell shell{{}, lump, volume_of(part, piece) < 0};
+        for (const int f : piece) {
+          Facet facet{plane(part.world(), part.facet(f).side), corners.loops(f), {}};
+          for (Loop& loop : facet.loops)
+            for (int& v : loop) v = vertex(part.world(), v);
+          for (const int source : part.facet(f).sources)
+            for (const int polygon : original.facets[at(source)].polygons)
+              if (!gone.contains(polygon)) facet.polygons.push_back(polygon);
+          std::ranges::sort(facet.polygons);
+          shell.facets.push_back(FacetId{static_cast<int>(solid.facets.size())});
+          solid.facets.push_back(std::move(facet));
+        }
+        solid.shells.push_back(std::move(shell));
+      }
+      ++lump;
+    }
+  std::ranges::stable_sort(solid.shells, {},
+                           [](const Shell& s) { return std::pair(s.lump, s.is_cavity); });
+  return solid;
+}
+
+}  // namespace oriel::detail

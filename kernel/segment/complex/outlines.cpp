@@ -1,0 +1,128 @@
+#include "kernel/segment/complex/outlines.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Two planes, the smaller id first: the line in which they meet.
+using Line = std::pair<PlaneId, PlaneId>;
+
+class Outlines {
+ public:
+  Outlines(std::vector<std::vector<Facet>> bodies, const std::vector<PlaneId>& sheets,
+           const VertexPool& pool)
+      : sheets_(sheets), pool_(pool), bodies_(std::move(bodies)) {
+    for (auto& facets : bodies_)
+      for (Facet& facet : facets)
+        for (Loop& loop : facet.loops) represent(loop);
+    find_incidences();
+  }
+
+  std::vector<std::vector<Facet>> whole() {
+    std::vector<std::vector<Facet>> whole = bodies_;
+    for (std::size_t c = 0; c < bodies_.size(); ++c) {
+      const auto across = facets_by_edge(bodies_[c]);
+      for (Facet& facet : whole[c])
+        for (Loop& loop : facet.loops) loop = whole_loop(loop, sheet_of(facet), across);
+    }
+    return whole;
+  }
+
+ private:
+  using SheetByEdge = std::map<std::pair<int, int>, PlaneId>;
+
+  [[nodiscard]] PlaneId sheet_of(const Facet& facet) const { return sheets_[facet.plane.index()]; }
+
+  void represent(Loop& loop) const {
+    for (int& v : loop) v = pool_.represented_by(v);
+    loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+  }
+
+  /// Which vertices lie on which lines.
+  void find_incidences() {
+    std::map<int, std::set<PlaneId>> sheets_at;
+    for (const auto& facets : bodies_)
+      for (const Facet& facet : facets)
+        for (const Loop& loop : facet.loops)
+          for (const int v : loop) sheets_at[v].insert(sheet_of(facet));
+    for (const auto& [v, sheets] : sheets_at)
+      for (auto p = sheets.begin(); p != sheets.end(); ++p)
+        for (auto q = std::next(p); q != sheets.end(); ++q) on_line_[{*p, *q}].push_back(v);
+  }
+
+  [[nodiscard]] SheetByEdge facets_by_edge(const std::vector<Facet>& facets) const {
+    SheetByEdge across;
+    for (const Facet& facet : facets)
+      for (const Loop& loop : facet.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+          across[{loop[i], loop[(i + 1) % loop.size()]}] = sheet_of(facet);
+    return across;
+  }
+
+  [[nodiscard]] Loop whole_loop(const Loop& loop, PlaneId sheet, const SheetByEdge& across) const {
+    Loop whole;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int from = loop[i], to = loop[(i + 1) % loop.size()];
+      whole.push_back(from);
+      const auto other = across.find({to, from});
+      if (other == across.end()) continue;
+      const auto on = on_line_.find(std::minmax(sheet, other->second));
+      if (on == on_line_.end()) continue;
+      const auto between = vertices_between(from, to, on->second);
+      whole.insert(whole.end(), between.begin(), between.end());
+    }
+    return whole;
+  }
+
+  [[nodiscard]] std::vector<int> vertices_between(int a, int b, const std::vector<int>& on) const {
+    const Vec3 from = pool_.at(a), to = pool_.at(b);
+    const double size = length(to - from);
+    std::vector<std::pair<double, int>> between;
+    for (const int v : on) {
+      const Vec3 at = pool_.at(v);
+      if (v == a || v == b || length(at - from) >= size || length(to - at) >= size) continue;
+      between.emplace_back(dot(at - from, to - from), v);
+    }
+    std::ranges::sort(between);
+    std::vector<int> vertices;
+    vertices.reserve(between.size());
+    for (const auto& [position, v] : between) vertices.push_back(v);
+    return vertices;
+  }
+
+  const std::vector<PlaneId>& sheets_;
+  const VertexPool& pool_;
+  std::vector<std::vector<Facet>> bodies_;
+  std::map<Line, std::vector<int>> on_line_;
+};
+
+}  // namespace
+
+std::vector<PlaneId> sheets_of(const std::vector<Plane>& planes) {
+  std::vector<PlaneId> sheets;
+  std::map<std::array<std::int64_t, 4>, PlaneId> first;
+  for (int p = 0; p < std::ssize(planes); ++p) {
+    const Plane& plane = planes[static_cast<std::size_t>(p)];
+    const auto& normal = plane.coefficients;
+    const std::array key{normal[0], normal[1], normal[2], plane.offset};
+    const std::array opposite{-normal[0], -normal[1], -normal[2], -plane.offset};
+    sheets.push_back(first.try_emplace(std::max(key, opposite), PlaneId{p}).first->second);
+  }
+  return sheets;
+}
+
+std::vector<std::vector<Facet>> whole_outlines(std::vector<std::vector<Facet>> bodies,
+                                               const std::vector<PlaneId>& sheets,
+                                               const VertexPool& pool) {
+  return Outlines(std::move(bodies), sheets, pool).whole();
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+#include "kernel/segment/complex/vertex_pool.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// For each plane the one with the smallest id that is the same geometric plane, of either
+/// orientation: their facets are one sheet.
+std::vector<PlaneId> sheets_of(const std::vector<Plane>& planes);
+
+/// The facets of closed bodies, as cells are, with all vertices that lie on their edges.
+///
+/// Loops leave out vertices on straight edges, and vertices by decree are on an edge
+/// whatever their coordinates. So incidence says which ones are: a vertex lies on the edge between
+/// two facets if some bodies have it in facets of both planes, and it shortens the edge on both
+/// sides. Vertices are those of the pool.
+std::vector<std::vector<Facet>> whole_outlines(std::vector<std::vector<Facet>> bodies,
+                                               const std::vector<PlaneId>& sheets,
+                                               const VertexPool& pool);
+
+}  // namespace oriel::detail

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "kernel/segment/boundary/flat_body.h"
+#include "kernel/segment/cuts/carve.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A feature that several planes cut off: a connected patch of facets with the caps that close it.
+/// The caps meet in free edges, in the open (a door's threshold) or inside the body (under a ridge
+/// chimney).
+struct Patch {
+  bool is_hole = false;
+  std::vector<int> facets;
+  std::vector<Cap> caps;
+  double new_area = 0;
+  double old_area = 0;
+  double volume = 0;
+  /// The cut follows existing edges and splits no facet.
+  bool is_natural = true;
+  /// The body with the planes imprinted, in which the facets and rims are numbered; null: the body
+  /// itself.
+  std::shared_ptr<const Boundary> imprinted = nullptr;
+  /// The split planes: those of its caps but the ground.
+  [[nodiscard]] std::vector<Side> sides() const;
+};
+
+/// Facets that may become a patch.
+struct Component {
+  std::vector<int> facets;  ///< ascending
+  std::vector<int> rim;     ///< half-edges of its facets, their twins beyond; ascending
+  std::vector<Side> sides;  ///< on which the rim lies, ascending
+  Side ground = -1;         ///< one of the sides, if the patch stands on the ground
+};
+
+/// The side among `sides` that a rim half-edge lies on: that of the facet beyond it, else one whose
+/// plane holds both ends; -1: none.
+Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e);
+
+/// The component with caps on all its sides. Nothing if it does not lie in the corner that they
+/// make, if the caps do not close, have no area or are pierced, or if it has no volume.
+std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
+                                   std::int64_t& work);
+
+}  // namespace oriel::detail

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "kernel/segment/boundary/boundary.h"
+#include "kernel/segment/cuts/lump.h"
+#include "kernel/segment/sections/section.h"
+
+#include <vector>
+
+namespace oriel::detail {
+
+/// One edge of a cap as the rest has it: along the rim of the lump (the half-edge there), or free:
+/// in the open, or inside the body, where two planes of the cut meet.
+struct CapEdge {
+  int rim = -1;
+  int from = -1, to = -1;  ///< points
+};
+
+/// A closed outline of a cap, counter-clockwise about the outward normal of the rest there.
+struct CapLoop {
+  std::vector<CapEdge> edges;
+};
+
+/// A cap: the new facet that closes the rest where a lump was.
+struct Cap {
+  Side side = -1;
+  std::vector<CapLoop> loops;
+  /// Facets of the opposite side under the cap: they vanish into the body, and so does the cap over
+  /// them.
+  std::vector<int> covered;
+  /// No new facet, but a part of an old one (of the ground, under a lump) that goes with the lump:
+  /// the facet beyond the rim, whose side is the opposite of `side`.
+  bool is_taken = false;
+};
+
+/// What a cut has made.
+struct Carved {
+  Boundary lump;
+  /// A point inside the largest cap.
+  Vec3 cap_point;
+  /// Points of everything that has changed: an edge without any of them between its ends is as it
+  /// was.
+  std::vector<int> touched;
+  /// Edges of the rest run along the caps' outlines: the caps are no mere pieces of the facets
+  /// around them.
+  bool has_rim_left = false;
+  /// The rim was a hole of one facet, and is gone without a trace.
+  bool is_ring = false;
+};
+
+/// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.
+struct Filled {
+  Vec3 cap_point;      ///< a point inside its cap
+  double volume = 0;   ///< of the body it would have been
+  double surface = 0;  ///< its area without the cap
+};
+
+/// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and
+/// returns its caps. Points that were made and the ends of edges that were split are added to
+/// `touched`.
+std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lump,
+                         std::vector<int>& touched);
+
+/// Takes the lump inside the rims of `caps` off the body. A protrusion goes with its surface; a
+/// hole is filled: its walls leave the body, and the lump is the air that was there, turned right
+/// side out. Caps close both, and facets of the rest are made maximal again. `mark` is left on the
+/// largest cap of the rest.
+///
+/// Throws GeometryError if the rims do not separate a lump; the body is then not to be used any
+/// more.
+Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
+                std::vector<int> touched);
+
+/// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
+/// pocket, ascending; `cap`: what closes the rest.
+Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facets, bool is_hole,
+                   FeatureId mark);
+
+}  // namespace oriel::detail

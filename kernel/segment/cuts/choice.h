@@ -1,0 +1,138 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+#include "kernel/segment/cuts/corner_holes.h"
+#include "kernel/segment/cuts/lump.h"
+#include "kernel/segment/cuts/pockets.h"
+#include "kernel/segment/cuts/slots.h"
+#include "kernel/segment/segment.h"
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// What the planes of one cut split off in one step: an n-ary node of the tree. Either lumps in
+/// front of one plane, or patches that several planes cap.
+struct Choice {
+  bool is_hole = false;
+  bool is_natural = false;
+  double value = 0;    ///< the key the order sorts by, of the best part
+  double quality = 0;  ///< new area / old area of the best part
+  double volume = 0;   ///< of all parts
+  std::vector<Side> sides;
+  double old_area = 0;
+
+  const Section* section = nullptr;  ///< for one plane
+  std::vector<Lump> lumps;
+  const Pockets* pockets = nullptr;  ///< that the lumps may be
+  std::vector<Patch> patches;        ///< for several
+  /// The body that the patches are of, if planes were imprinted for them.
+  std::shared_ptr<const Boundary> imprinted;
+};
+
+/// Planes and kind of a cut.
+struct CutKey {
+  std::vector<Side> sides;
+  bool is_hole = false;
+  friend auto operator<=>(const CutKey&, const CutKey&) = default;
+};
+
+/// Finds the best cut of one body, step after step.
+class Chooser {
+ public:
+  /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
+  /// body.
+  Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
+          std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work);
+
+  /// The best cut by the order that is not `banned`, or nothing: the body is a leaf.
+  std::optional<Choice> next(const std::set<CutKey>& banned);
+
+  /// Tells that the body has changed in this way and no other.
+  void changed(const std::vector<Change>& changes) {
+    slots_.changed(changes);
+    pockets_.changed(changes);
+  }
+
+ private:
+  using Slot = Slots::Slot;
+  /// The passes differ in which regions they take, and by what they sort them.
+  enum class Pass { natural, wide_natural, strict };
+  static constexpr std::size_t kPasses = 3;
+  /// The least key of a slot's regions in a pass, as the slot was when it was looked at so often.
+  struct Least {
+    int looks = -1;
+    double key = 0;
+  };
+  /// A region as a candidate of the pass at hand.
+  struct Candidate {
+    std::size_t number = 0;  ///< of its slot
+    const Slot* slot = nullptr;
+    int region = -1;
+    int lump = -1;  ///< in lumps_ once the flood has found it
+    double key = 0;
+  };
+  [[nodiscard]] const Lump& lump_of(const Candidate& candidate) const {
+    return lumps_[static_cast<std::size_t>(candidate.lump)];
+  }
+  std::optional<Choice> natural_next();
+  std::optional<Choice> paper_next();
+  std::optional<Choice> best_section_cut(Pass pass);
+  [[nodiscard]] std::optional<double> key_of(Pass pass, const Region& region, double new_area,
+                                             double old_area) const;
+  [[nodiscard]] double least_key(std::size_t number, Pass pass);
+  void wait_for_slots(Pass pass);
+  void take_candidates(std::vector<Candidate>& candidates, Pass pass, double most);
+  template <class Visit>
+  void for_each_candidate(const Slot& slot, Pass pass, Visit visit) const;
+  void check_leaders(std::vector<Candidate>& candidates, Pass pass);
+  bool check(Candidate& candidate, Pass pass, bool is_alone);
+  Lump lump_at(const Candidate& candidate, bool is_alone);
+  Lump lump_of(int pocket, const Candidate& candidate);
+  Lump flood(const Candidate& candidate);
+  std::optional<Choice> best_patch_cut(std::span<const Patch> patches, int min_order,
+                                       int max_order);
+  Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
+  Choice choice_of(std::span<const Patch* const> patches, const Patch& first) const;
+  [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
+  [[nodiscard]] bool is_banned(const Section& section, const Region& region) const {
+    return !banned_->empty() &&
+           banned_->contains({{section.split_side(region)}, !region.is_material});
+  }
+  [[nodiscard]] bool is_banned(const Patch& patch) const {
+    return !banned_->empty() && banned_->contains({patch.sides(), patch.is_hole});
+  }
+  std::vector<Patch> patches(bool is_hole, double most);
+  std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
+  std::optional<Choice> first_of_least_order(std::span<const Patch> patches);
+  [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
+
+  const Boundary& body_;
+  World& world_;
+  const SegmentOptions& options_;
+  Side free_side_;
+  std::vector<int> own_planes_;
+  SegmentationStats& stats_;
+  std::int64_t& work_;
+  Slots slots_;
+  const std::set<CutKey>* banned_ = nullptr;
+  Pockets pockets_;
+  std::array<std::vector<Least>, kPasses> leasts_;  ///< by slot
+  // Found in the pass at hand.
+  /// Slots by the least key of what was not taken of them, a heap.
+  std::vector<std::pair<double, std::size_t>> waiting_;
+  std::vector<Lump> lumps_;
+  const Slot* flooded_ = nullptr;  ///< the slot that finder_ is for
+  std::optional<LumpFinder> finder_;
+  std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
+};
+
+}  // namespace oriel::detail

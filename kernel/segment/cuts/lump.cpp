@@ -1,0 +1,230 @@
+#include "kernel/segment/cuts/lump.h"
+
+#include "kernel/base/index.h"
+
+#include <algorithm>
+
+namespace oriel::detail {
+
+LumpFinder::LumpFinder(const Boundary& body, const Section& section)
+    : body_(body),
+      section_(section),
+      ranks_(body.world().points.ranks(body.world().planes.class_of(section.plane))),
+      plane_rank_(body.world().planes.rank_of(section.plane)),
+      scratch_(body.world().scratch),
+      next_in_facet_(section.crossings.size(), -1),
+      previous_(section.crossings.size(), -1),
+      region_of_(section.loops.size(), {-1, -1}),
+      crossing_stamp_(section.crossings.size(), 0) {
+  if (std::ssize(scratch_.crossing_of_edge) < body.half_edge_count())
+    scratch_.crossing_of_edge.resize(at(body.half_edge_count()));
+  if (std::ssize(scratch_.last_chord_in) < body.facet_count())
+    scratch_.last_chord_in.resize(at(body.facet_count()));
+  scratch_.facets_with_chord.start(body.facet_count());
+  for (int c = 0; c < std::ssize(section.crossings); ++c) {
+    const Crossing& crossing = section.crossings[at(c)];
+    scratch_.crossing_of_edge[at(crossing.edge)] = c;
+    previous_[at(crossing.next)] = c;
+    const int f = body.facet_of(crossing.edge);
+    if (!scratch_.facets_with_chord.insert(f))
+      next_in_facet_[at(c)] = scratch_.last_chord_in[at(f)];
+    scratch_.last_chord_in[at(f)] = c;
+  }
+  for (int r = 0; r < std::ssize(section.regions); ++r)
+    for (const int l : section.regions[at(r)].loops)
+      region_of_[at(l)][section.regions[at(r)].is_material ? 1 : 0] = r;
+}
+
+Lump LumpFinder::find(int region) {
+  const Region& start = section_.regions[at(region)];
+  is_material_ = start.is_material;
+  ++stamp_;
+  scratch_.flooded_edges.start(body_.half_edge_count());
+  scratch_.flooded_facets.start(body_.facet_count());
+  stack_.clear();
+  facets_.clear();
+  patch_volume_ = 0;
+  lump_ = {};
+  for (const int l : start.loops) push(section_.crossings[at(section_.loops[at(l)].first)].edge);
+  do {
+    while (!stack_.empty()) {
+      const int e = stack_.back();
+      stack_.pop_back();
+      visit(e);
+    }
+    tie_enclosed_loops();
+    // A region that was reached is a contact as a whole: the loops inside it belong to the lump
+    // too.
+    for (const int r : lump_.regions)
+      for (const int l : section_.regions[at(r)].loops)
+        push(section_.crossings[at(section_.loops[at(l)].first)].edge);
+  } while (!stack_.empty());
+
+  std::ranges::sort(lump_.regions);
+  const Side looking = section_.looking();
+  double cap_area = 0;
+  for (const int r : lump_.regions) {
+    cap_area += section_.regions[at(r)].area;
+    lump_.new_area += section_.regions[at(r)].new_area;
+  }
+  lump_.volume = (is_material_ ? 1 : -1) * patch_volume_ -
+                 body_.world().planes.offset_m(looking) * cap_area / 3;
+  return lump_;
+}
+
+void LumpFinder::push(int e) {
+  if (scratch_.flooded_edges.insert(e)) stack_.push_back(e);
+}
+
+/// Half-edges that start on the looked-at side. From each the flood goes on along its facet and
+/// over to the neighbour.
+void LumpFinder::visit(int e) {
+  const int f = body_.facet_of(e);
+  if (scratch_.flooded_facets.insert(f)) facets_.push_back(f);
+  const int t = body_.twin(e);
+  if (!lump_.has_bend && body_.is_reflex(e)) lump_.has_bend = true;
+  if (is_up(body_.target(e))) {
+    add_segment(e, body_.at(e), body_.at(t));
+    push(body_.next(e));
+    push(t);
+  } else {
+    reach(crossing_of(e));
+  }
+  push(body_.next(t));
+  const int before = body_.prev(e);
+  push(is_up(body_.origin(before)) ? before : body_.twin(before));
+}
+
+void LumpFinder::reach(int c) {
+  if (crossing_stamp_[at(c)] == stamp_) return;
+  crossing_stamp_[at(c)] = stamp_;
+  const Crossing& crossing = section_.crossings[at(c)];
+  const Crossing& partner = section_.crossings[at(crossing.next)];
+  const int up = body_.twin(crossing.edge);
+  add_segment(crossing.edge, body_.at(crossing.edge), crossing.at);
+  add_segment(crossing.edge, crossing.at, partner.at);
+  add_segment(up, crossing.at, body_.at(crossing.edge));
+  push(partner.edge);
+
+  if (!has_sound_pieces(c)) lump_.is_sound = false;
+  const int region = region_of_[at(crossing.loop)][is_material_ ? 1 : 0];
+  if (region < 0)
+    lump_.is_finite = false;
+  else if (std::ranges::find(lump_.regions, region) == lump_.regions.end())
+    lump_.regions.push_back(region);
+}
+
+/// The outline of the piece of a facet that the chord from crossing c bounds.
+template <class Visit>
+void LumpFinder::visit_piece(int c, Visit visit) const {
+  const int start = c;
+  do {
+    visit(section_.crossings[at(c)].at);
+    c = section_.crossings[at(c)].next;
+    visit(section_.crossings[at(c)].at);
+    int e = body_.next(body_.twin(section_.crossings[at(c)].edge));
+    for (; is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
+    visit(body_.at(e));
+    c = crossing_of(e);
+  } while (c != start);
+}
+
+/// The outline of the piece below the chord.
+template <class Visit>
+void LumpFinder::visit_lower_piece(int c, Visit visit) const {
+  const int start = c;
+  do {
+    visit(section_.crossings[at(c)].at);
+    int e = body_.next(section_.crossings[at(c)].edge);
+    for (; !is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
+    visit(body_.at(e));
+    const int end = crossing_of(body_.twin(e));
+    visit(section_.crossings[at(end)].at);
+    c = previous_[at(end)];
+  } while (c != start);
+}
+
+/// The pieces of the facet on both sides of the chord have area.
+bool LumpFinder::has_sound_pieces(int c) const {
+  const int f = body_.facet_of(section_.crossings[at(c)].edge);
+  const Vec3 normal = body_.world().planes.normal(body_.facet(f).side);
+  const Vec3 start = section_.crossings[at(c)].at;
+  const auto area_of = [&](auto visit_points) {
+    Vec3 sum, from;
+    visit_points([&](Vec3 p) {
+      const Vec3 to = p - start;
+      sum = sum + cross(from, to);
+      from = to;
+    });
+    return dot(sum, normal) / 2;
+  };
+  const auto is_sound = [&](double area, auto visit_points) {
+    if (area > 0) return true;
+    Outline points;
+    visit_points([&](Vec3 p) { points.push_back(p); });
+    return area > -kThin_m * perimeter(points);
+  };
+  const auto upper = [&](auto visit) { visit_piece(c, visit); };
+  const auto lower = [&](auto visit) { visit_lower_piece(c, visit); };
+  const double upper_area = area_of(upper);
+  // In a facet with one loop and one chord the other piece is what is left.
+  const bool is_only_chord = scratch_.last_chord_in[at(f)] == c && next_in_facet_[at(c)] < 0;
+  if (is_only_chord && body_.facet(f).loops.size() == 1 && upper_area > 0 &&
+      body_.area(f) - upper_area >
+          -kThin_m * length(section_.crossings[at(section_.crossings[at(c)].next)].at - start))
+    return true;
+  return is_sound(upper_area, upper) && is_sound(area_of(lower), lower);
+}
+
+/// What a directed piece of a facet's outline adds to a third of offset × area.
+void LumpFinder::add_segment(int e, Vec3 from, Vec3 to) {
+  const Side side = body_.side_of_edge(e);
+  const auto& planes = body_.world().planes;
+  patch_volume_ += planes.offset_m(side) * dot(planes.normal(side), cross(from, to)) / 6;
+}
+
+/// A loop that lies wholly in a piece of a facet is not met on the way along the piece's outline,
+/// nor the outline on the way along the loop: whichever was reached brings the other.
+void LumpFinder::tie_enclosed_loops() {
+  for (std::size_t i = 0; i < facets_.size(); ++i) {
+    const int f = facets_[i];
+    const bool is_cut = scratch_.facets_with_chord.contains(f);
+    const auto& loops = body_.facet(f).loops;
+    // The only loop was reached: nothing else to tie.
+    if (loops.size() == 1) continue;
+    for (const int l : loops) {
+      if (!is_wholly_up(l)) continue;
+      if (is_cut)
+        tie_loop_to_piece(f, l);
+      else
+        push(body_.loop(l).first);
+    }
+  }
+}
+
+bool LumpFinder::is_wholly_up(int loop) const {
+  const int first = body_.loop(loop).first;
+  int e = first;
+  do {
+    if (!is_up(body_.origin(e))) return false;
+    e = body_.next(e);
+  } while (e != first);
+  return true;
+}
+
+void LumpFinder::tie_loop_to_piece(int facet, int loop) {
+  const int first = body_.loop(loop).first;
+  const bool has_loop = is_reached(first);
+  const Vec3 normal = body_.world().planes.normal(body_.facet(facet).side);
+  for (int c = scratch_.last_chord_in[at(facet)]; c >= 0; c = next_in_facet_[at(c)]) {
+    const bool has_piece = crossing_stamp_[at(c)] == stamp_;
+    if (has_piece == has_loop) continue;
+    Outline piece;
+    visit_piece(c, [&](Vec3 p) { piece.push_back(p); });
+    if (!contains({&piece, 1}, normal, body_.at(first))) continue;
+    push(has_piece ? first : section_.crossings[at(c)].edge);
+    return;
+  }
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "kernel/segment/sections/section.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A connected piece of material (or air) in front of a section plane: what a cut there would split
+/// off.
+struct Lump {
+  Few<int, 2> regions;  ///< of the section, ascending: all its contacts with the plane
+  double new_area = 0;
+  double volume = 0;
+  double value = 0;  ///< the key that the order sorts it by
+  int pocket = -1;   ///< its number among the pockets, if it is one that was looked for
+  /// Its value is like that of no other lump of its section: it is congruent to none.
+  bool is_alone = false;
+  /// Of air: it does not run out into the open. Material is always finite.
+  bool is_finite = true;
+  /// Its pieces of facets have positive area. A hole that pokes out of its facet (bad input) makes
+  /// pieces turned inside out, and no cut there separates anything.
+  bool is_sound = true;
+  /// Its wall holds a reflex edge of the body, so it lies in two or more planes.
+  bool has_bend = false;
+};
+
+/// Finds lumps by flooding the surface from a region, without cutting anything: the cost is the
+/// lump's size.
+class LumpFinder {
+ public:
+  /// Only one finder at a time may be in use.
+  LumpFinder(const Boundary& body, const Section& section);
+
+  /// The lump in front of region `region`.
+  [[nodiscard]] Lump find(int region);
+
+ private:
+  void push(int e);
+  void visit(int e);
+  void reach(int crossing);
+  [[nodiscard]] bool has_sound_pieces(int crossing) const;
+  void add_segment(int e, Vec3 from, Vec3 to);
+  void tie_enclosed_loops();
+  void tie_loop_to_piece(int facet, int loop);
+  [[nodiscard]] bool is_wholly_up(int loop) const;
+  template <class Visit>
+  void visit_piece(int crossing, Visit visit) const;
+  template <class Visit>
+  void visit_lower_piece(int crossing, Visit visit) const;
+  [[nodiscard]] bool is_up(int point) const {
+    return (ranks_[static_cast<std::size_t>(point)] - plane_rank_) * section_.direction > 0;
+  }
+  [[nodiscard]] int crossing_of(int e) const {
+    return scratch_.crossing_of_edge[static_cast<std::size_t>(e)];
+  }
+  [[nodiscard]] bool is_reached(int e) const { return scratch_.flooded_edges.contains(e); }
+
+  const Boundary& body_;
+  const Section& section_;
+  std::span<const int> ranks_;
+  int plane_rank_;
+  Scratch& scratch_;
+  std::vector<int> next_in_facet_;  ///< of crossings where a chord begins: another in its facet
+  std::vector<int> previous_;       ///< where the chord that ends at a crossing begins
+  /// For each loop the region of air and of material that it bounds, -1: none.
+  std::vector<std::array<int, 2>> region_of_;
+
+  // The flood at hand.
+  bool is_material_ = true;
+  int stamp_ = 0;
+  std::vector<int> crossing_stamp_;
+  std::vector<int> stack_, facets_;
+  double patch_volume_ = 0;
+  Lump lump_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,407 @@
+#include "kernel/segment/cuts/patch.h"
+
+#include "kernel/base/index.h"
+#include "kernel/segment/cuts/cap_areas.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+namespace {
+
+/// A component with more planes is no single feature.
+constexpr std::size_t kMostLimits = 6;
+
+/// Sets of its planes, at most.
+constexpr std::size_t kMostSets = 1U << kMostLimits;
+
+/// How many bits numbers have.
+constexpr auto kOrders = [] {
+  std::array<int, kMostSets> orders{};
+  for (unsigned mask = 0; mask < orders.size(); ++mask) orders[mask] = std::popcount(mask);
+  return orders;
+}();
+
+class PatchFinder {
+ public:
+  PatchFinder(const Boundary& body, bool is_hole, const PatchOptions& options, std::int64_t& work)
+      : body_(body),
+        flat_(body),
+        world_(body.world()),
+        is_hole_(is_hole),
+        options_(options),
+        work_(work),
+        number_of_(at(body.facet_count()), -1) {}
+
+  std::vector<Patch> run() {
+    grow_all();
+    for (int f = 0; f < body_.facet_count(); ++f)
+      if (body_.is_alive(f)) surface_ += body_.area(f);
+    Component alone, widened;
+    met_groups_.reserve(4 * grown_.size());
+    const std::size_t most = options_.max_order < 0 ? 0 : at(options_.max_order);
+    for (int n = 0; n < std::ssize(grown_); ++n) {
+      start_with(n);
+      if (!find_sides(alone, std::max(most, kMostLimits))) continue;
+      offer(alone);
+      for_fewer_sides(n, alone, [&](unsigned limits) {
+        widen(n, limits);
+        if (is_met_first() && find_sides(widened, most)) offer(widened);
+      });
+    }
+    return std::move(patches_);
+  }
+
+  /// The groups themselves.
+  std::vector<Component> components() {
+    grow_all();
+    std::vector<Component> all;
+    for (int n = 0; n < std::ssize(grown_); ++n) {
+      start_with(n);
+      find_sides(all.emplace_back(), std::numeric_limits<std::size_t>::max());
+      find_facets(all.back());
+    }
+    return all;
+  }
+
+ private:
+  void grow_all() {
+    facets_.reserve(at(body_.facet_count()));
+    sides_.reserve(at(body_.facet_count()));
+    grown_.reserve(at(body_.facet_count()));
+    rims_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()));
+    for (int f = 0; f < body_.facet_count(); ++f)
+      if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
+    find_neighbours();
+  }
+
+  /// Inside a hole surfaces meet in reflex edges, on a protrusion in convex ones.
+  [[nodiscard]] bool ties(int e) const { return body_.is_reflex(e) == is_hole_; }
+
+  [[nodiscard]] bool is_ground(int f) const {
+    return !is_hole_ && body_.facet(f).side == options_.free_side;
+  }
+
+  /// Where what is listed of a group stands among that of all groups.
+  struct Place {
+    std::size_t first = 0, last = 0;
+    template <class T>
+    [[nodiscard]] std::span<const T> of(const std::vector<T>& all) const {
+      return std::span(all).subspan(first, last - first);
+    }
+  };
+  /// Facets that hang together, with what is around them.
+  struct Grown {
+    Place facets;
+    double area = 0;
+    Vec3 open;     ///< the sum of area × normal, which caps have to make up for
+    Place rim;     ///< half-edges to other groups or the ground
+    Place sides;   ///< of its own facets, ascending
+    Place beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
+    bool meets_ground = false;
+  };
+  /// A half-edge of a rim, and the facet beyond it.
+  struct RimEdge {
+    int edge, beyond;
+  };
+
+  /// Sorts what stands from `first` on, each once.
+  template <class T>
+  static Place close(std::vector<T>& all, std::size_t first) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    std::ranges::sort(begin, all.end());
+    all.erase(std::unique(begin, all.end()), all.end());
+    return {first, all.size()};
+  }
+
+  /// Collects the facets that hang together with `start`.
+  void grow(int start) {
+    const int number = static_cast<int>(grown_.size());
+    const std::size_t first = facets_.size(), first_rim = rims_.size(), first_side = sides_.size();
+    Grown& group = grown_.emplace_back();
+    facets_.push_back(start);
+    number_of_[at(start)] = number;
+    for (std::size_t i = first; i < facets_.size(); ++i) {
+      sides_.push_back(body_.facet(facets_[i]).side);
+      const double area = body_.area(facets_[i]);
+      group.area += area;
+      group.open = group.open + area * world_.planes.normal(sides_.back());
+      body_.for_each_edge(facets_[i], [&](int e) {
+        const int g = body_.facet_of(body_.twin(e));
+        if (number_of_[at(g)] == number) return;
+        if (number_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) {
+          rims_.push_back({e, g});
+          return;
+        }
+        number_of_[at(g)] = number;
+        facets_.push_back(g);
+      });
+    }
+    // An edge may have been met before its other side joined the group.
+    const auto is_inside = [&](const RimEdge& e) { return number_of_[at(e.beyond)] == number; };
+    const auto rim = rims_.begin() + static_cast<std::ptrdiff_t>(first_rim);
+    rims_.erase(std::remove_if(rim, rims_.end(), is_inside), rims_.end());
+    group.facets = {first, facets_.size()};
+    group.rim = {first_rim, rims_.size()};
+    group.sides = close(sides_, first_side);
+  }
+
+  void find_neighbours() {
+    beyond_.reserve(rims_.size());
+    for (Grown& group : grown_) {
+      const std::size_t first = beyond_.size();
+      for (const RimEdge& e : group.rim.of(rims_)) {
+        if (is_ground(e.beyond))
+          group.meets_ground = true;
+        else
+          beyond_.emplace_back(body_.facet(e.beyond).side, number_of_[at(e.beyond)]);
+      }
+      group.beyond = close(beyond_, first);
+    }
+    at_hand_.assign(grown_.size(), {});
+    queue_.resize(grown_.size() + 1);
+  }
+
+  /// One group alone.
+  void start_with(int n) {
+    queue_[0] = n;
+    widened_ = std::span(queue_).first(1);
+    at_hand_[at(n)].stamp = ++last_stamp_;
+  }
+  [[nodiscard]] bool is_widened(int n) const { return at_hand_[at(n)].stamp == last_stamp_; }
+
+  /// The groups at hand, several, were not at hand before.
+  bool is_met_first() {
+    std::uint64_t name = 0;  // that of the same groups in any order
+    for (const int n : widened_) name += scrambled(n);
+    const auto [first, last] = met_.equal_range(name);
+    if (std::any_of(first, last, [&](const auto& met) { return is_at_hand(met.second); }))
+      return false;
+    const std::size_t begin = met_groups_.size();
+    met_groups_.insert(met_groups_.end(), widened_.begin(), widened_.end());
+    met_.emplace(name, Place{begin, met_groups_.size()});
+    return true;
+  }
+  [[nodiscard]] bool is_at_hand(const Place& set) const {
+    const auto groups = set.of(met_groups_);
+    return groups.size() == widened_.size() &&
+           std::ranges::all_of(groups, [&](int n) { return is_widened(n); });
+  }
+  static std::uint64_t scrambled(int n) {
+    std::uint64_t x = (static_cast<std::uint64_t>(n) + 1) * 0x9E3779B97F4A7C15U;
+    x ^= x >> 32;
+    return x * x;
+  }
+
+  /// Of the groups at hand as one component: the sides on which its rim lies. False, and not all of
+  /// them, if these are more than `most` without the ground.
+  bool find_sides(Component& component, std::size_t most) const {
+    std::vector<Side>& sides = component.sides;
+    sides.clear();
+    component.ground = -1;
+    for (const int n : widened_) {
+      const Grown& group = grown_[at(n)];
+      for (const auto& [side, other] : group.beyond.of(beyond_)) {
+        if (is_widened(other) || std::ranges::find(sides, side) != sides.end()) continue;
+        if (sides.size() == most) return false;
+        sides.push_back(side);
+      }
+      if (group.meets_ground) component.ground = options_.free_side;
+    }
+    if (component.ground >= 0) sides.push_back(component.ground);
+    std::ranges::sort(sides);
+    return true;
+  }
+
+  /// The same of its facets and its rim.
+  void find_facets(Component& component) const {
+    component.facets.clear();
+    component.rim.clear();
+    for (const int n : widened_) {
+      const Grown& group = grown_[at(n)];
+      const auto facets = group.facets.of(facets_);
+      component.facets.insert(component.facets.end(), facets.begin(), facets.end());
+      for (const RimEdge& e : group.rim.of(rims_))
+        if (is_ground(e.beyond) || !is_widened(number_of_[at(e.beyond)]))
+          component.rim.push_back(e.edge);
+    }
+    std::ranges::sort(component.facets);
+    std::ranges::sort(component.rim);
+  }
+
+  /// Visits the sets of two or more of a component's split planes that leave one out at least, as
+  /// bits of limit_bits_, and between which group `n`, which the component is, can be widened.
+  template <class Visit>
+  void for_fewer_sides(int n, const Component& component, const Visit& visit) {
+    Few<Side, kMostLimits> sides;
+    for (const Side side : component.sides)
+      if (side != component.ground) sides.push_back(side);
+    if (sides.size() < 3 || sides.size() > kMostLimits) return;
+    if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
+    for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
+    for (std::size_t i = 0; i < grown_.size(); ++i) {
+      unsigned own = 0;
+      for (const Side side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
+      at_hand_[i].own_limits = own;
+    }
+    // Widened once more there, as few as they are: in ascending order, which ties are decided by.
+    const auto sets = sets_to_widen_in(n, sides.size());
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
+    for (const Side side : sides) limit_bits_[at(side)] = 0;
+  }
+
+  /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
+  /// them: it becomes too large there as well, and runs into the same planes where the set has
+  /// them.
+  Few<unsigned, kMostSets> sets_to_widen_in(int n, std::size_t sides) {
+    const unsigned all = (1U << sides) - 1;
+    Few<unsigned, kMostSets> sets;
+    std::array<unsigned, kMostSets> run_into;
+    run_into[all] = at_hand_[at(n)].own_limits;
+    for (unsigned set = all - 1; set > 0; --set) {
+      unsigned& met = run_into[set] = 0;
+      for (unsigned others = all & ~set; others != 0; others &= others - 1)
+        met |= run_into[set | (others & -others)];
+      const int order = kOrders[set];
+      if ((met & set) != 0 || order < 2 || order > options_.max_order) continue;
+      met |= widen(n, set);
+      if ((met & set) == 0) sets.push_back(set);
+    }
+    return sets;
+  }
+
+  /// Makes widened_ a group with all that lies beyond its rim but for the given planes (bits): a
+  /// chimney's shaft with its head. Returns the planes that it runs into, and stops, if it does so;
+  /// all, if it has more than half of the body's surface: then the rest is the part.
+  unsigned widen(int start, unsigned limits) {
+    std::vector<int>& groups = queue_;
+    groups[0] = start;
+    at_hand_[at(start)].stamp = ++last_stamp_;
+    std::size_t size = 1;
+    double area = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Grown& group = grown_[at(groups[i])];
+      area += group.area;
+      const auto beyond = group.beyond.of(beyond_);
+      work_ += std::ssize(beyond);
+      if (2 * area > surface_) return ~0U;
+      unsigned met = 0;
+      for (const auto& next : beyond) {  // without branches, which nobody could foresee
+        const int other = next.second;
+        auto& [stamp, own_limits] = at_hand_[at(other)];
+        const bool is_new = (stamp != last_stamp_) & ((limit_bits_[at(next.first)] & limits) == 0);
+        const int all_bits = -static_cast<int>(is_new);
+        groups[size] = other;
+        size += static_cast<std::size_t>(is_new);
+        stamp ^= (stamp ^ last_stamp_) & all_bits;
+        met |= own_limits & static_cast<unsigned>(all_bits);
+      }
+      if ((met & limits) != 0) return met & limits;
+    }
+    widened_ = std::span(groups).first(size);
+    return 0;
+  }
+
+  /// The groups at hand, whose sides the component has.
+  void offer(Component& component) {
+    if (!can_be_capped(component) || !may_be_chosen(component)) return;
+    find_facets(component);
+    if (auto patch = cap_component(flat_, is_hole_, component, work_))
+      patches_.push_back(std::move(*patch));
+  }
+
+  [[nodiscard]] bool can_be_capped(const Component& component) const {
+    const auto& sides = component.sides;
+    const std::ptrdiff_t order = std::ssize(sides) - (component.ground >= 0 ? 1 : 0);
+    if (widened_.size() == 1 && grown_[at(widened_[0])].facets.of(facets_).size() < 2) return false;
+    if (order < 2 || order > options_.max_order) return false;
+    if (component.ground >= 0 && order > 2) return false;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (std::ranges::find(options_.own_planes, sides[i] >> 1) != options_.own_planes.end())
+        return false;
+      for (std::size_t j = 0; j < i; ++j)
+        if (has_same_normal(sides[i], sides[j])) return false;
+    }
+    return true;
+  }
+
+  /// Caps that have no more than the areas that are asked for may close the groups at hand. The
+  /// ground, of which a part may be taken, tells nothing.
+  [[nodiscard]] bool may_be_chosen(const Component& component) const {
+    if (component.ground >= 0) return true;
+    Vec3 open;
+    double area = 0, old_area = 0, covered = 0;
+    for (const int n : widened_) {
+      open = open + grown_[at(n)].open;
+      area += grown_[at(n)].area;
+    }
+    Few<Vec3, 4> normals;
+    for (const Side side : component.sides) {
+      normals.push_back(world_.planes.normal(side));
+      old_area += body_.area_on(side);
+      covered += body_.area_on(side ^ 1);
+    }
+    constexpr double kOff = 0.02;  // of the area: what noise may move of it
+    const double slack = kOff * area;
+    return least_cap_area({normals.data(), normals.size()}, open, slack) <=
+           options_.most_value * old_area + covered + slack;
+  }
+
+  [[nodiscard]] bool has_same_normal(Side s, Side t) const {
+    return world_.planes.class_of(s >> 1) == world_.planes.class_of(t >> 1) && (s & 1) == (t & 1);
+  }
+
+  const Boundary& body_;
+  FlatBody flat_;
+  World& world_;
+  bool is_hole_;
+  const PatchOptions& options_;
+  std::int64_t& work_;
+  std::vector<int> number_of_;  ///< by facet, the group it is in
+  std::vector<Grown> grown_;
+  // Of the groups, one after the other.
+  std::vector<int> facets_;
+  std::vector<RimEdge> rims_;
+  std::vector<Side> sides_;
+  std::vector<std::pair<Side, int>> beyond_;
+  double surface_ = 0;  ///< of the body
+  /// A group as widenings ask about it.
+  struct AtHand {
+    int stamp = 0;            ///< of the last widening that has met it
+    unsigned own_limits = 0;  ///< the bits of its own sides in for_fewer_sides()
+  };
+  std::vector<AtHand> at_hand_;
+  int last_stamp_ = 0;
+  std::vector<int> queue_;        ///< room for all groups, and what is put there in vain
+  std::span<const int> widened_;  ///< the groups at hand, the first in queue_
+  /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
+  std::vector<unsigned> limit_bits_;
+  /// Groups that were at hand together, in met_groups_, by a name that others hardly have.
+  std::unordered_multimap<std::uint64_t, Place> met_;
+  std::vector<int> met_groups_;
+  std::vector<Patch> patches_;
+};
+
+}  // namespace
+
+std::vector<Component> hole_components(const Boundary& body, std::int64_t& work) {
+  work += body.half_edge_count();
+  return PatchFinder(body, true, {}, work).components();
+}
+
+std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options,
+                                std::int64_t& work) {
+  work += body.half_edge_count();
+  return PatchFinder(body, is_hole, options, work).run();
+}
+
+}  // namespace oriel::detail

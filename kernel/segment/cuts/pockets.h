@@ -1,0 +1,143 @@
+#pragma once
+
+#include "kernel/segment/boundary/leaf.h"
+#include "kernel/segment/cuts/carve.h"
+#include "kernel/segment/cuts/slots.h"
+#include "kernel/segment/instances/congruence.h"
+#include "kernel/segment/sections/section.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Finds pockets: lumps that leave nothing but a ring in the facet they are in (or on), a window in
+/// its wall. Equal windows are the same pocket moved, so of those of one kind one is flooded, and
+/// one is made a body; of the others it is known what would become of them.
+///
+/// A pocket has one region of its section, whose chords are edges, one each, around a hole of one
+/// facet; what lies before them are facets without marks, made of different facets of the solid,
+/// and those beside the rim have one loop.
+class Pockets {
+ public:
+  /// `ground`: the side of the ground, -1: none.
+  Pockets(const Boundary& body, Side ground) : body_(body), ground_plane_(ground >> 1) {}
+
+  /// Tells that the body has changed in this way and no other: pockets that the changes have no
+  /// point of stay known, with their numbers.
+  void changed(const std::vector<Change>& changes);
+
+  /// The number of the pocket in front of a region; -1 if the lump there is none. Of one that
+  /// `is_alone` it is not asked whether it is of a kind that is known.
+  int find(const Section& section, int region, bool is_alone);
+  /// What a flood from the region of a pocket finds, which is sound and finite; nothing if only a
+  /// flood can tell.
+  struct Flooded {
+    double volume;
+    bool has_bend;
+  };
+  [[nodiscard]] std::optional<Flooded> flooded(int pocket, const Section& section,
+                                               const Region& region) const;
+
+  [[nodiscard]] int kind_count() const { return static_cast<int>(kinds_.size()); }
+  /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
+  /// asks for (find_congruence).
+  [[nodiscard]] int kind_of(int pocket) const { return pockets_[index(pocket)].kind; }
+  /// As a body of its own it has no reflex edge for certain, and more than two facets meet in all
+  /// its vertices: leaf_of() tells what it becomes.
+  [[nodiscard]] bool is_leaf(int kind) const { return kinds_[index(kind)].is_leaf; }
+
+  /// What a pocket that is_leaf() becomes, but for its volume; `facets` are its facets_of(). Needs
+  /// the body as it was.
+  [[nodiscard]] Leaf leaf_of(int pocket, std::span<const int> facets, bool is_hole) const;
+  /// Its vertices, sorted; needs the body as it was.
+  [[nodiscard]] std::vector<int> points_of(int pocket) const;
+  /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
+  [[nodiscard]] Cap cap_of(int pocket) const;
+  /// Its facets, ascending.
+  [[nodiscard]] std::vector<int> facets_of(int pocket) const;
+  /// How one pocket is another one of its kind, moved; needs both as they were in the body.
+  [[nodiscard]] Congruence congruence(int model, int other) const;
+
+ private:
+  struct Pocket {
+    int kind = -1;                           ///< -1: it has gone
+    int first_edge = 0, first_rim = 0;       ///< in edges_, rims_
+    std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
+  };
+  /// A vertex, as a half-edge that begins there.
+  struct Corner {
+    int edge;
+    bool is_on_rim;
+    int facets = 0;  ///< of the pocket, that meet there
+  };
+  /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
+  /// listed facet by facet, in the order in which these are met.
+  struct Kind {
+    Side cap = -1;  ///< -1: the first has gone, and with it the kind
+    int direction = 0;
+    bool is_convex = false, is_leaf = false;
+    /// Its lump has a bend, and has to be flooded.
+    bool has_bend = false, is_unclear = false;
+    int first = -1;            ///< the first pocket
+    Vec3 corner;               ///< the lowest of the box of its rim
+    std::vector<int> sizes;    ///< of the facets, in half-edges
+    std::vector<int> loops;    ///< the same of their loops
+    std::vector<int> entries;  ///< of each facet but the first: the half-edge over which it is met
+    std::vector<int> twins;    ///< by half-edge; -1: of the rim
+    std::vector<Corner> corners;  ///< one for each vertex
+    int rim = 0;                  ///< how many
+  };
+  /// The vertices, planes and sources of a pocket in the order in which maps from it list them.
+  struct Order {
+    int pocket = -1;
+    std::vector<std::pair<int, int>> points;  ///< with a half-edge that begins there
+    std::vector<std::pair<int, int>> planes;  ///< with a half-edge of a facet; -1: the cap's
+    std::vector<std::array<int, 3>> sources;  ///< with a half-edge of their facet, and their place
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] int find_known(const Section& section, const Region& region) const;
+  bool trace_rim(const Section& section, const Region& region);
+  [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
+  [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket, const Section& section);
+  bool walk_like(const Kind& kind, int start, Vec3 shift);
+  bool walk_facet(int first, std::span<const int> model, std::span<const int>& loops, Vec3 shift);
+  bool walk_loop(int first, int size);
+  [[nodiscard]] std::optional<int> find_in_facet(int f, Vec3 place) const;
+  [[nodiscard]] bool are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const;
+  [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket);
+  [[nodiscard]] bool has_own_sources();
+  [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
+  int new_kind(const Section& section, const Region& region);
+  bool list_facets(const Section& section, Kind& kind);
+  bool list_facet(Kind& kind, int first);
+  void list_loop(Kind& kind, int first);
+  void list_corners(Kind& kind);
+  void judge(Kind& kind, bool is_hole) const;
+  [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
+                                      bool is_hole) const;
+  [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;
+  [[nodiscard]] Vec3 in_metres(const std::array<std::int64_t, 3>& shift) const;
+  [[nodiscard]] Order order_of(int pocket) const;
+
+  const Boundary& body_;
+  int ground_plane_;
+  std::vector<Pocket> pockets_;
+  std::vector<Kind> kinds_;
+  std::vector<int> edges_, rims_;  ///< of the pockets
+  StampMap at_edge_;               ///< pockets, by the first crossing of their regions
+  mutable Order order_;            ///< of the model that was asked for last
+
+  // The pocket at hand.
+  std::vector<int> rim_, facets_, walk_;
+  int wall_ = -1;
+  Vec3 corner_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,236 @@
+#include "kernel/segment/flush/subdivisions.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/exact.h"
+#include "kernel/geometry/outlines.h"
+#include "kernel/segment/flush/points_on_edges.h"
+#include "kernel/solidify/soup/soup.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <unordered_map>
+
+namespace oriel::detail {
+
+namespace {
+
+/// By Polygon::source.
+using BySource = std::vector<const Polygon*>;
+
+BySource polygons_by_source(const Building& building) {
+  BySource by_source;
+  for (const Polygon& polygon : building.polygons) {
+    if (polygon.source < 0) continue;
+    if (std::ssize(by_source) <= polygon.source) by_source.resize(at(polygon.source) + 1);
+    by_source[at(polygon.source)] = &polygon;
+  }
+  return by_source;
+}
+
+/// Another polygon can only lie inset in one with an inner ring, with an outer ring that turns
+/// inward twice, or with one that meets itself (a bridge to a hole).
+bool may_host(const Building& building, const Polygon& polygon, Vec3 normal, double grid_m) {
+  if (polygon.rings.size() > 1) return true;
+  if (polygon.rings[0].size() < 6) return false;
+  const Outline ring = outlines_of(building, polygon, grid_m)[0];
+  const auto point = [&](std::size_t i) { return ring[i % ring.size()]; };
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const double turn = dot(cross(point(i + 1) - point(i), point(i + 2) - point(i + 1)), normal);
+    left += turn > 0 ? 1 : 0;
+    right += turn < 0 ? 1 : 0;
+  }
+  // Whichever way round the input has it.
+  return std::min(left, right) >= 2;
+}
+
+class SubdivisionMaker {
+ public:
+  SubdivisionMaker(const Building& building, const Solid& solid, const Tolerances& tolerances)
+      : building_(building), solid_(solid), tolerances_(tolerances) {}
+
+  Subdivisions run() {
+    const BySource by_source = polygons_by_source(building_);
+    choose_facets(by_source);
+    if (out_.subdivisions.empty()) return std::move(out_);
+    const Building part = chosen_part(by_source);
+    std::vector<Issue> of_solidify;  // it has told them
+    const Soup soup = weld(part, tolerances_, of_solidify);
+    sort_into_subdivisions(soup);
+    pair_edges();
+    return std::move(out_);
+  }
+
+ private:
+  void choose_facets(const BySource& by_source) {
+    subdivision_of_source_.assign(by_source.size(), -1);
+    for (int f = 0; f < std::ssize(solid_.facets); ++f) {
+      const Facet& facet = solid_.facets[at(f)];
+      if (facet.polygons.size() < 2) continue;
+      const Vec3 normal = solid_.planes[facet.plane.index()].normal;
+      bool has_host = false, has_hints = false;
+      const std::string& hint = by_source[at(facet.polygons[0])]->hint;
+      for (const int source : facet.polygons) {
+        has_hints |= by_source[at(source)]->hint != hint;
+        has_host = has_host || may_host(building_, *by_source[at(source)], normal, solid_.grid_m);
+      }
+      if (!has_host && !has_hints) continue;
+      for (const int source : facet.polygons)
+        subdivision_of_source_[at(source)] = static_cast<int>(out_.subdivisions.size());
+      out_.subdivisions.push_back({FacetId{f}, -1, -1, has_hints});
+    }
+  }
+
+  /// The building with the polygons of the subdivisions only, and the vertices they use.
+  [[nodiscard]] Building chosen_part(const BySource& by_source) {
+    Building part;
+    std::vector<int> place(building_.vertices.size(), -1);
+    for (const Polygon* polygon : by_source) {
+      if (polygon == nullptr || subdivision_of_source_[at(polygon->source)] < 0) continue;
+      Polygon copy = *polygon;
+      for (auto& ring : copy.rings)
+        for (int& v : ring) {
+          if (place[at(v)] < 0) {
+            place[at(v)] = static_cast<int>(part.vertices.size());
+            part.vertices.push_back(building_.vertices[at(v)]);
+          }
+          v = place[at(v)];
+        }
+      hints_.emplace(polygon->hint, 0);
+      hint_of_source_.emplace(polygon->source, &hints_.find(polygon->hint)->second);
+      part.polygons.push_back(std::move(copy));
+    }
+    int number = 0;
+    for (auto& [hint, its_number] : hints_) its_number = number++;
+    return part;
+  }
+
+  void sort_into_subdivisions(const Soup& soup) {
+    std::vector<std::vector<int>> members(out_.subdivisions.size());
+    for (int p = 0; p < soup.polygon_count(); ++p)
+      members[at(subdivision_of_source_[at(soup.polygons[at(p)].source)])].push_back(p);
+    std::vector<int> place(soup.points.size());
+    for (std::size_t s = 0; s < members.size(); ++s) {
+      Subdivision& subdivision = out_.subdivisions[s];
+      const Plane& plane = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()];
+      const int first_point = static_cast<int>(out_.points.size());
+      const auto point_of = [&](int v) {
+        if (place[at(v)] < first_point || place[at(v)] >= std::ssize(out_.points) ||
+            origin_[at(place[at(v)])] != v) {
+          place[at(v)] = static_cast<int>(out_.points.size());
+          const Vec3 p = exact::to_metres(soup.points[at(v)], soup.grid_m);
+          out_.points.push_back(p + (plane.offset_m - dot(p, plane.normal)) * plane.normal);
+          origin_.push_back(v);
+        }
+        return place[at(v)];
+      };
+      subdivision.first_polygon = static_cast<int>(out_.polygons.size());
+      for (const int polygon : members[s])
+        for (const int v : soup.corners_of(polygon)) point_of(v);
+      const std::vector<Vec3> points(out_.points.begin() + first_point, out_.points.end());
+      const PointsOnEdges on_edges(points, axes_in(plane.normal), tolerances_.weld_m);
+      for (const int polygon : members[s])
+        add_polygon(soup, polygon, static_cast<int>(s), plane.normal,
+                    [&](std::span<const int> ring) {
+                      return with_points_between(ring, first_point, point_of, on_edges);
+                    });
+      subdivision.past_polygon = static_cast<int>(out_.polygons.size());
+    }
+  }
+
+  /// The points of a ring, also those of other polygons that lie on its edges.
+  template <class PointOf>
+  static std::vector<int> with_points_between(std::span<const int> ring, int first_point,
+                                              PointOf point_of, const PointsOnEdges& on_edges) {
+    std::vector<int> corners, points;
+    for (const int v : ring) corners.push_back(point_of(v));
+    const std::set<int> own(corners.begin(), corners.end());
+    std::set<int> taken;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      points.push_back(corners[i]);
+      const int to = corners[(i + 1) % corners.size()];
+      for (const int between : on_edges.between(corners[i] - first_point, to - first_point))
+        if (const int p = between + first_point; !own.contains(p) && taken.insert(p).second)
+          points.push_back(p);
+    }
+    return points;
+  }
+
+  template <class PointsOf>
+  void add_polygon(const Soup& soup, int polygon, int subdivision, Vec3 normal,
+                   PointsOf points_of) {
+    const int source = soup.polygons[at(polygon)].source;
+    SubdivisionPolygon record{source,      *hint_of_source_.at(source),
+                              subdivision, static_cast<int>(out_.edges.size()),
+                              -1,          0};
+    for (const int r : soup.rings_of(polygon)) {
+      const std::vector<int> ring = points_of(soup.ring(r));
+      const int first = static_cast<int>(out_.edges.size());
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const int next = i + 1 < ring.size() ? first + static_cast<int>(i) + 1 : first;
+        out_.edges.push_back({ring[i], static_cast<int>(out_.polygons.size()), next, -1});
+      }
+    }
+    record.past_edge = static_cast<int>(out_.edges.size());
+    for (int e = record.first_edge; e < record.past_edge; ++e) {
+      const Vec3 base = out_.points[at(out_.edges[at(record.first_edge)].from)];
+      record.area_m2 +=
+          dot(cross(out_.points[at(out_.edges[at(e)].from)] - base, out_.vector(e)), normal) / 2;
+    }
+    if (record.area_m2 < 0) turn_round(record);
+    out_.polygons.push_back(record);
+  }
+
+  /// The input had the polygon the wrong way round.
+  void turn_round(SubdivisionPolygon& record) {
+    std::vector<SubdivisionEdge> turned;
+    for (int e = record.first_edge; e < record.past_edge; ++e) {
+      turned.push_back({out_.to(e), out_.edges[at(e)].polygon, -1, -1});
+    }
+    for (int e = record.first_edge; e < record.past_edge; ++e)
+      turned[at(out_.edges[at(e)].next - record.first_edge)].next = e;
+    std::ranges::copy(turned, out_.edges.begin() + record.first_edge);
+    record.area_m2 = -record.area_m2;
+  }
+
+  void pair_edges() {
+    const auto key = [](int from, int to) {
+      return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
+    };
+    std::unordered_map<std::uint64_t, int> edges;
+    edges.reserve(out_.edges.size());
+    for (int e = 0; e < std::ssize(out_.edges); ++e)
+      edges.emplace(key(out_.edges[at(e)].from, out_.to(e)), e);
+    // Polygons that lie upon each other have the same edges: the first of them has the twin, so
+    // that an edge is its twin's twin.
+    const auto is_first = [&](int e) {
+      return edges.find(key(out_.edges[at(e)].from, out_.to(e)))->second == e;
+    };
+    for (int e = 0; e < std::ssize(out_.edges); ++e) {
+      const auto twin = edges.find(key(out_.to(e), out_.edges[at(e)].from));
+      if (twin != edges.end() && is_first(e)) out_.edges[at(e)].twin = twin->second;
+    }
+  }
+
+  const Building& building_;
+  const Solid& solid_;
+  const Tolerances& tolerances_;
+  std::vector<int> subdivision_of_source_;
+  std::map<std::string, int> hints_;
+  std::unordered_map<int, const int*> hint_of_source_;
+  std::vector<int> origin_;  ///< of each point, the soup's
+  Subdivisions out_;
+};
+
+}  // namespace
+
+Subdivisions subdivisions_of(const Building& building, const Solid& solid,
+                             const Tolerances& tolerances) {
+  return SubdivisionMaker(building, solid, tolerances).run();
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,124 @@
+#pragma once
+
+#include "kernel/geometry/exact.h"
+#include "kernel/model/solid.h"
+#include "kernel/segment/boundary/few.h"
+#include "kernel/segment/boundary/number_map.h"
+#include "kernel/segment/planes/incidence.h"
+#include "kernel/segment/planes/planes.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// The vertices of a solid and those that cuts make, with their ranks in every class of planes.
+///
+/// A rank is decided once: by incidence (a point knows the planes it lies on), else by doubles
+/// where they are certain, else exactly. Everything the kernel asks of positions is a comparison of
+/// ranks; coordinates serve for measuring.
+class PointTable {
+ public:
+  /// The solid's vertices keep their indices.
+  PointTable(const Solid& solid, const PlaneTable& planes);
+
+  /// Metres per unit of the solid's grid: what is nearer touches.
+  [[nodiscard]] double grid_m() const { return grid_m_; }
+  [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
+  [[nodiscard]] Vec3 at(int point) const { return places_[index(point)]; }
+  /// True if the point is known by the three planes it was made of.
+  [[nodiscard]] bool is_meeting(int point) const { return !points_[index(point)].is_by_decree; }
+
+  /// The ranks of all points in class k, by point; valid until the next point is added.
+  [[nodiscard]] std::span<const int> ranks(int k);
+  [[nodiscard]] int rank(int point, int k) {
+    const auto& ranks_of_class = ranks_[index(k)];
+    return index(point) < ranks_of_class.size() ? ranks_of_class[index(point)]
+                                                : ranks(k)[index(point)];
+  }
+  /// -1, 0, +1: behind, on, in front of a plane as its class has it.
+  [[nodiscard]] int side(int point, int plane) {
+    const int difference = rank(point, planes_.class_of(plane)) - planes_.rank_of(plane);
+    return (difference > 0) - (difference < 0);
+  }
+  /// The same for an oriented plane: +1 where its normal points.
+  [[nodiscard]] int level(int point, Side of) {
+    const int level = side(point, of >> 1);
+    return (of & 1) != 0 ? -level : level;
+  }
+
+  /// The point where an edge (the meeting of planes f and g, from `low` to `high`) crosses `plane`.
+  /// Its ranks lie between those of the edge's ends, whatever rounding there was in a vertex by
+  /// decree.
+  int cross_edge(int f, int g, int low, int high, int plane);
+
+  /// The point where three planes meet; nothing if they do not. Where more than three meet, up to
+  /// weld_m, it is one point and lies on all of them.
+  std::optional<int> meet(int p, int q, int r);
+
+  /// Point `p` moved by a whole number of grid units, on the planes that those of p are mapped to.
+  int add_moved(int p, const std::array<std::int64_t, 3>& shift, const NumberMap& planes);
+
+  /// What is there now, to come back to if what is tried next is not kept.
+  struct Mark {
+    int points;
+    std::size_t met;
+  };
+  [[nodiscard]] Mark mark() const { return {size(), met_.size()}; }
+  /// Forgets the points that were made since; nothing may use them any more.
+  void forget_since(Mark mark);
+
+ private:
+  struct Point {
+    Few<int, 4> planes;  ///< sorted
+    bool is_by_decree = false;
+    int low = -1, high = -1;  ///< the ends of the edge it was made on
+    int stored = -1;          ///< in exact_; -1: it is where its first three planes meet
+  };
+  /// Where a point is, exactly and in metres.
+  struct Place {
+    exact::Rational where;
+    Vec3 at;
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  using Cell = std::array<std::int64_t, 3>;
+  [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
+  const Incidence& incidence();
+  [[nodiscard]] std::optional<Vec3> meeting_of(const Point& point) const;
+  void list_planes(const std::vector<Facet>& facets);
+  void rank_by_incidence(int k);
+  [[nodiscard]] Cell cell_of(Vec3 p) const;
+  std::optional<int> met_near(const Point& point, Vec3 where);
+  bool lies_on_too(int p, const Few<int, 4>& planes);
+  void add(Point point, const Place& place);
+  [[nodiscard]] Vec3 metres_of(const exact::Rational& where) const;
+  [[nodiscard]] Place place_at(const exact::Rational& where) const {
+    return {where, metres_of(where)};
+  }
+  [[nodiscard]] exact::Rational exact_at(int p) const;
+  [[nodiscard]] int exact_side(const exact::Rational& point, int plane) const;
+  int compute_rank(int point, int k);
+  [[nodiscard]] int own_rank(int p, int k) const;
+  [[nodiscard]] int rank_beside(int p, const PlaneTable::Class& c) const;
+  [[nodiscard]] int rank_between(int p, const PlaneTable::Class& c, double along) const;
+
+  double grid_m_;
+  double near_m_;  ///< points that were met closer than this are one
+  const PlaneTable& planes_;
+  std::vector<Point> points_;
+  std::vector<Vec3> places_;  ///< by point, close together
+  std::vector<exact::Rational> exact_;
+  std::vector<std::vector<int>> ranks_;
+  Incidence incidence_;  ///< of the solid's vertices; made when it is asked for
+  int solid_points_ = 0;
+  std::map<std::array<int, 3>, int> meetings_;  ///< points that meet() has made, by three planes
+  std::vector<std::array<int, 3>> met_;         ///< their keys, in order
+  std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,73 @@
+#include "kernel/segment/sections/edge_index.h"
+
+#include "kernel/base/index.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace oriel::detail {
+
+EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : body_(body) {
+  // Planes are numbered class by class, and in a class by rank.
+  const PlaneTable& table = body.world().planes;
+  places_.reserve(planes.size());
+  classes_.reserve(std::min(planes.size(), at(table.class_count())));
+  for (const int plane : planes) {
+    if (classes_.empty() || classes_.back().number != table.class_of(plane))
+      classes_.push_back({table.class_of(plane), {}});
+    places_.push_back({classes_.size() - 1, classes_.back().ranks.size()});
+    classes_.back().ranks.push_back(table.rank_of(plane));
+  }
+  update();
+}
+
+void EdgeIndex::update() {
+  const int count = body_.half_edge_count();
+  if (known_ == 0) edges_.reserve(at(count) / 2);
+  for (int e = known_; e < count; ++e) {
+    if (!body_.is_alive_edge(e)) continue;
+    const int twin = body_.twin(e);
+    // Of two new half-edges the first speaks for both.
+    if (twin >= known_ && twin < e) continue;
+    edges_.push_back({e, body_.origin(e), body_.origin(twin)});
+  }
+  known_ = count;
+}
+
+/// Takes in the edges that came since the last time.
+void EdgeIndex::enter(Class& c) {
+  if (!c.ranks.is_ready()) make_table(c);
+  find_new_runs(c);
+  if (c.entered == 0) {
+    std::vector<int> sizes(c.ranks.size() + 2, 0);
+    for (const Run& run : runs_) {
+      ++sizes[run.first];
+      --sizes[run.last + 1];
+    }
+    std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
+    sizes.pop_back();
+    c.lists.make(sizes);
+    for (const Run& run : runs_) c.lists.push_back_in_room(run.first, run.last, run.half);
+  } else {
+    for (const Run& run : runs_) c.lists.push_back(run.first, run.last, run.half);
+  }
+  c.entered = edges_.size();
+}
+
+void EdgeIndex::make_table(Class& c) const {
+  c.ranks.make_table(body_.world().planes.normal_class(c.number).planes.size());
+}
+
+void EdgeIndex::find_new_runs(const Class& c) {
+  const auto edges = std::span<const Edge>(edges_).subspan(c.entered);
+  runs_.clear();
+  runs_.reserve(edges.size());
+  const auto rank = body_.world().points.ranks(c.number);
+  for (const Edge& edge : edges) {
+    const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
+    if (low == high) continue;
+    runs_.push_back({edge.half, c.ranks.before(low + 1), c.ranks.before(high)});
+  }
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,391 @@
+#include "kernel/segment/sections/section.h"
+
+#include "kernel/base/index.h"
+#include "kernel/segment/sections/nearly_sorted.h"
+#include "kernel/segment/sections/nested_loops.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace oriel::detail {
+
+namespace {
+
+class Sectioner {
+ public:
+  Sectioner(const Boundary& body, Section& section, std::span<const int> edges,
+            const SectionOptions& options)
+      : body_(body),
+        world_(body.world()),
+        edges_(edges),
+        options_(options),
+        scratch_(world_.scratch),
+        looking_(section.looking()),
+        axis_(world_.planes.normal(looking_)),
+        offset_m_(world_.planes.offset_m(looking_)),
+        ranks_(world_.points.ranks(world_.planes.class_of(section.plane))),
+        plane_rank_(world_.planes.rank_of(section.plane)),
+        section_(section) {}
+
+  /// True if all living edges cross the plane.
+  bool run() {
+    ask_for_facets();
+    const bool do_all_cross = find_crossings();
+    if (section_.crossings.empty()) return do_all_cross;
+    if (!link_chords() || !close_loops()) {
+      section_.loops.clear();
+      return false;
+    }
+    find_regions();
+    return do_all_cross;
+  }
+
+  bool prune() {
+    ask_for_facets();
+    if (!drop_dead_loops()) return false;
+    for (Region& region : section_.regions) judge(region);
+    return true;
+  }
+
+ private:
+  void ask_for_facets() {
+    const auto on_plane = body_.on_plane(looking_ >> 1);
+    const std::size_t material = at(looking_ & 1), air = 1 - material;
+    section_.old_areas = {on_plane.areas[air], on_plane.areas[material]};
+    has_facets_ = {on_plane.has_facets[air], on_plane.has_facets[material]};
+  }
+
+  /// +1 on the side looked to, 0 on the plane, -1 on the other side.
+  [[nodiscard]] int level(int point) const {
+    const int difference = (ranks_[at(point)] - plane_rank_) * section_.direction;
+    return (difference > 0) - (difference < 0);
+  }
+
+  bool find_crossings() {
+    StampSet& crossed = scratch_.crossed_edges;
+    crossed.start(body_.half_edge_count());
+    auto& crossings = section_.crossings;
+    crossings.reserve(edges_.size());
+    const auto ranks = ranks_;
+    const int direction = section_.direction, limit = plane_rank_ * direction;
+    std::size_t living = 0;
+    for (const int one : edges_) {
+      const auto& half = body_.edge(one);
+      if (half.next < 0) continue;
+      ++living;
+      int e = one, up = half.origin, down = body_.origin(half.twin);
+      const bool is_one_up = ranks[at(up)] * direction > limit;
+      if (is_one_up == (ranks[at(down)] * direction > limit)) continue;
+      if (!is_one_up) {
+        e = half.twin;
+        std::swap(up, down);
+      }
+      // An edge that was shortened or paired anew may be among them twice.
+      if (crossed.insert(e))
+        crossings.push_back({e, meeting(up, down, ranks[at(down)] == plane_rank_)});
+    }
+    return crossings.size() == living;
+  }
+
+  /// Where an edge meets the plane, from its upper and its lower end.
+  [[nodiscard]] Vec3 meeting(int up, int down, bool ends_on_plane) const {
+    const Vec3 q = world_.points.at(down);
+    if (ends_on_plane) return q;
+    const Vec3 p = world_.points.at(up);
+    const double hp = dot(axis_, p) - offset_m_, hq = dot(axis_, q) - offset_m_;
+    return hp > hq ? p + (hp / (hp - hq)) * (q - p) : q;
+  }
+
+  /// Pairs the crossings of every facet along its line with the plane. A chord runs with the
+  /// material above it to its left, from a half-edge that leads down to one that leads up.
+  bool link_chords() {
+    scratch_.start_chords(body_.facet_count());
+    const int count = static_cast<int>(section_.crossings.size());
+    for (int c = 0; c < count; ++c) {
+      const auto& half = body_.edge(section_.crossings[at(c)].edge);
+      add_end(half.facet, 2 * c + 1);
+      add_end(body_.facet_of(half.twin), 2 * c);
+    }
+    for (std::size_t i = 0; i < scratch_.facets_with_several.size(); ++i)
+      if (!link_in_facet(scratch_.facets_with_several[i], scratch_.chord_ends[i])) return false;
+    return true;
+  }
+
+  /// Links the two ends of a facet that has no more, as most have.
+  void add_end(int facet, int end) {
+    Chords& here = scratch_.chords_in(facet);
+    if (here.ends++ == 0) {
+      here.first = end;
+    } else if (here.ends == 2) {
+      here.second = end;
+      if (((here.first ^ end) & 1) != 0) link(here.first, end);
+    } else {
+      list_end(facet, here, end);
+    }
+  }
+
+  /// Of more ends all are listed, to be linked in the order in which they lie along the line.
+  [[gnu::noinline]] void list_end(int facet, Chords& here, int end) {
+    if (here.number < 0) {
+      here.number = static_cast<int>(scratch_.facets_with_several.size());
+      auto& ends = scratch_.add_chord_ends(facet);
+      ends.push_back({0, here.first >> 1, (here.first & 1) != 0});
+      ends.push_back({0, here.second >> 1, (here.second & 1) != 0});
+    }
+    scratch_.chord_ends[at(here.number)].push_back({0, end >> 1, (end & 1) != 0});
+  }
+
+  /// Makes one chord of two ends of which one begins it.
+  void link(int one, int other) {
+    const int begin = (one & 1) != 0 ? one : other, end = (one & 1) != 0 ? other : one;
+    section_.crossings[at(begin >> 1)].next = end >> 1;
+  }
+
+  /// Sorts the ends along the line; where edges leave one point of the plane, by where they are
+  /// just above it.
+  bool link_in_facet(int facet, std::span<ChordEnd> ends) {
+    if (ends.size() % 2 != 0) return false;
+    const Vec3 line = line_in(facet);
+    for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[at(end.crossing)].at);
+    sort_nearly_sorted(ends, [](const ChordEnd& p, const ChordEnd& q) {
+      if (p.along != q.along) return p.along < q.along;
+      return std::pair(p.leads_down, p.crossing) < std::pair(q.leads_down, q.crossing);
+    });
+    for (std::size_t i = 0; i < ends.size();) {
+      std::size_t j = i + 1;
+      while (j < ends.size() && ends[j].along == ends[i].along) ++j;
+      if (j > i + 1)
+        std::ranges::stable_sort(ends.subspan(i, j - i), {}, [&](const ChordEnd& end) {
+          return std::pair(slope(line, end), end.leads_down);
+        });
+      i = j;
+    }
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+      if (!ends[i].leads_down || ends[i + 1].leads_down) return false;
+      section_.crossings[at(ends[i].crossing)].next = ends[i + 1].crossing;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Vec3 line_in(int facet) const {
+    return cross(axis_, world_.planes.normal(body_.facet(facet).side));
+  }
+
+  [[nodiscard]] double slope(Vec3 line, const ChordEnd& end) const {
+    const Crossing& crossing = section_.crossings[at(end.crossing)];
+    const Vec3 up = body_.at(crossing.edge) - crossing.at;
+    return dot(line, up) / dot(axis_, up);
+  }
+
+  /// False if some crossing begins no chord.
+  bool close_loops() {
+    const std::span<Crossing> crossings = section_.crossings;
+    for (int start = 0; start < std::ssize(crossings); ++start) {
+      if (crossings[at(start)].loop >= 0) continue;
+      const int number = static_cast<int>(section_.loops.size());
+      const Vec3 origin = crossings[at(start)].at;
+      Vec3 sum, from;
+      int c = start, first = start, least = crossings[at(start)].edge;
+      do {
+        Crossing& here = crossings[at(c)];
+        if (here.loop >= 0 || here.next < 0) return false;
+        here.loop = number;
+        if (here.edge < least) {
+          least = here.edge;
+          first = c;
+        }
+        c = here.next;
+        const Vec3 to = crossings[at(c)].at - origin;
+        sum = sum + cross(from, to);
+        from = to;
+      } while (c != start);
+      section_.loops.push_back({first, dot(sum, axis_) / 2});
+    }
+    return true;
+  }
+
+  [[nodiscard]] Outline outline(int l) const { return outline_of(section_, l); }
+
+  /// Thinner than weld_m, as a keel that touches the plane is.
+  [[nodiscard]] bool is_sliver(int l, double area) const {
+    double around = 0;
+    for_each_crossing(section_, l, [&](const Crossing& c) {
+      around += length(section_.crossings[at(c.next)].at - c.at);
+    });
+    return std::abs(area) < options_.weld_m * around / 2;
+  }
+
+  void find_regions() {
+    nest_loops(section_, axis_);
+    for (Region& region : section_.regions) judge(region);
+  }
+
+  /// Also of a region that was judged before: it is no sliver then if it was a candidate.
+  void judge(Region& region) {
+    const double old_area = section_.old_area(region);
+    const bool is_known = region.is_candidate;
+    region.covered.clear();
+    region.is_natural = region.has_natural_outline = region.is_candidate = false;
+    region.new_area = region.area;
+    if (old_area <= 0) return;
+    const Side opposite = section_.split_side(region) ^ 1;
+    if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
+    region.has_natural_outline = is_natural(region.loops[0]);
+    region.is_natural =
+        region.has_natural_outline && std::all_of(region.loops.begin() + 1, region.loops.end(),
+                                                  [&](int l) { return is_natural(l); });
+    region.is_candidate =
+        (region.is_natural || region.new_area < old_area) &&
+        ((is_known && region.covered.empty()) || !is_sliver(region.loops[0], region.new_area));
+  }
+
+  [[nodiscard]] bool is_dead(const Crossing& c) const { return !body_.is_alive_edge(c.edge); }
+
+  /// False if a loop is dead in part only, or a living one lies in a dead one.
+  bool drop_dead_loops() {
+    if (std::ranges::none_of(section_.crossings, [&](const Crossing& c) { return is_dead(c); }))
+      return true;
+    list_by_loop();
+    std::vector<int> new_loop;
+    if (!number_living_loops(new_loop) || !drop_dead_regions(new_loop)) return false;
+    drop_dead_crossings(new_loop);
+    return true;
+  }
+
+  /// The crossings of each loop stand together from then on, in the order of the loops.
+  void list_by_loop() {
+    if (section_.is_by_loop) return;
+    section_.is_by_loop = true;
+    std::vector<Crossing> crossings;
+    crossings.reserve(section_.crossings.size());
+    for (int l = 0; l < std::ssize(section_.loops); ++l) {
+      const int first = static_cast<int>(crossings.size());
+      for_each_crossing(section_, l, [&](const Crossing& c) {
+        crossings.push_back({c.edge, c.at, static_cast<int>(crossings.size()) + 1, l});
+      });
+      crossings.back().next = section_.loops[at(l)].first = first;
+    }
+    section_.crossings.swap(crossings);
+  }
+
+  [[nodiscard]] int end_of_loop(std::size_t l) const {
+    const auto& loops = section_.loops;
+    return l + 1 < loops.size() ? loops[l + 1].first : static_cast<int>(section_.crossings.size());
+  }
+
+  /// -1: it is dead.
+  bool number_living_loops(std::vector<int>& new_loop) const {
+    int living = 0;
+    for (std::size_t l = 0; l < section_.loops.size(); ++l) {
+      const int first = section_.loops[l].first, last = end_of_loop(l);
+      int dead = 0;
+      for (int c = first; c < last; ++c) dead += is_dead(section_.crossings[at(c)]) ? 1 : 0;
+      if (dead > 0 && dead < last - first) return false;
+      new_loop.push_back(dead > 0 ? -1 : living++);
+    }
+    return true;
+  }
+
+  void drop_dead_crossings(const std::vector<int>& new_loop) {
+    auto& crossings = section_.crossings;
+    int kept = 0, kept_loops = 0;
+    for (std::size_t l = 0; l < new_loop.size(); ++l) {
+      if (new_loop[l] < 0) continue;
+      const int first = section_.loops[l].first, last = end_of_loop(l), shift = first - kept;
+      for (int c = first; c < last && shift > 0; ++c) {
+        const Crossing& from = crossings[at(c)];
+        crossings[at(c - shift)] = {from.edge, from.at, from.next - shift, kept_loops};
+      }
+      section_.loops[at(kept_loops++)] = {kept, section_.loops[l].area};
+      kept += last - first;
+    }
+    crossings.resize(at(kept));
+    section_.loops.resize(at(kept_loops));
+  }
+
+  bool drop_dead_regions(const std::vector<int>& new_loop) {
+    const auto is_gone = [&](int l) { return new_loop[at(l)] < 0; };
+    for (Region& region : section_.regions) {
+      if (is_gone(region.loops[0])) {
+        if (!std::ranges::all_of(region.loops, is_gone)) return false;
+        region.loops.clear();
+        continue;
+      }
+      for (const int l : region.loops)
+        if (is_gone(l)) region.area += std::abs(section_.loops[at(l)].area);
+      region.loops.erase(std::remove_if(region.loops.begin(), region.loops.end(), is_gone),
+                         region.loops.end());
+      for (int& l : region.loops) l = new_loop[at(l)];
+    }
+    std::erase_if(section_.regions, [](const Region& region) { return region.loops.empty(); });
+    return true;
+  }
+
+  void take_off_covered(Region& region, Side opposite) {
+    const std::vector<int> facets = body_.facets_on(opposite);
+    if (facets.empty()) return;
+    std::vector<Outline> shape;
+    for (const int l : region.loops) shape.push_back(outline(l));
+    for (const int f : facets) {
+      const auto inside = interior_point(body_.outlines(f), axis_);
+      if (!inside || !contains(shape, axis_, *inside)) continue;
+      region.covered.push_back(f);
+      region.new_area -= body_.area(f);
+    }
+  }
+
+  [[nodiscard]] bool is_natural(int l) const {
+    int c = section_.loops[at(l)].first;
+    do {
+      if (!is_natural_chord(c)) return false;
+      c = section_.crossings[at(c)].next;
+    } while (c != section_.loops[at(l)].first);
+    return true;
+  }
+
+  /// From where the facet's loop comes down to the plane it stays on it until it goes up again; or
+  /// the facet lies in the ground, where a chord is free.
+  [[nodiscard]] bool is_natural_chord(int c) const {
+    const int begin = section_.crossings[at(c)].edge;
+    const int end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+    if (body_.side_of_edge(begin) == options_.free_side) return true;
+    int e = begin;
+    do {
+      if (level(body_.target(e)) != 0) return false;
+      e = body_.next(e);
+    } while (e != end && e != begin);
+    return e == end;
+  }
+
+  const Boundary& body_;
+  World& world_;
+  std::span<const int> edges_;
+  SectionOptions options_;
+  Scratch& scratch_;
+  Side looking_;
+  Vec3 axis_;
+  double offset_m_;
+  std::span<const int> ranks_;
+  int plane_rank_;
+  Section& section_;
+  std::array<bool, 2> has_facets_{};  ///< on the split side of air, of material
+};
+
+}  // namespace
+
+bool section_at(const Boundary& body, Section& section, std::span<const int> edges,
+                const SectionOptions& options) {
+  section.crossings.clear();
+  section.loops.clear();
+  section.regions.clear();
+  section.is_by_loop = false;
+  return Sectioner(body, section, edges, options).run();
+}
+
+bool prune_section(const Boundary& body, Section& section, const SectionOptions& options) {
+  return Sectioner(body, section, {}, options).prune();
+}
+
+}  // namespace oriel::detail

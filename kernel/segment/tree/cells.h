@@ -1,0 +1,70 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/segment/boundary/boundary.h"
+#include "kernel/segment/boundary/few.h"
+#include "kernel/segment/boundary/leaf.h"
+#include "kernel/segment/instances/congruence.h"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// Writes the leaves into the segmentation: their boundaries as cells, and which feature and which
+/// input polygon ended up where.
+class CellWriter {
+ public:
+  /// `facets`: how many the solid has.
+  CellWriter(std::size_t facets, World& world, Segmentation& out)
+      : world_(world), out_(out), made_of_(facets) {}
+
+  /// The id of an oriented plane; planes that only caps of parts have are added behind the solid's.
+  PlaneId plane_id(Side side);
+
+  /// Adds a leaf that lies in `feature` (invalid: in no feature).
+  CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
+             FeatureId feature);
+  CellId add(Leaf leaf, NodeId node, int sign, FeatureId feature);
+
+  /// The side that such an id stands for.
+  [[nodiscard]] Side side_of(PlaneId id) const;
+
+  /// The cells from `first` up to `last` were copied, to where `copies` begins: what is made of a
+  /// facet of the solid among them has a copy made of the facet that `sources` says.
+  void copy_sources(const NumberMap& sources, CellId first, CellId last, int copies);
+
+  /// Copies the points, and fills in what can be said only now that all leaves are there: hosts of
+  /// features, polygons of facets and features.
+  void finish(const Building& building, const Solid& solid);
+
+ private:
+  /// The outlines of a cell facet.
+  struct Shape {
+    Few<Outline, 1> outlines;
+    Box box;
+  };
+  Few<CellFacet, 2>& made_of(int source) { return made_of_[static_cast<std::size_t>(source)]; }
+  /// The features that polygons of a cell of `innermost` are in; valid until the next call.
+  const std::vector<FeatureId>& features_around(FeatureId innermost);
+  /// To a cell facet, and to the features it is in.
+  void give(std::span<const int> polygons, const CellFacet& home);
+  void attribute_polygons(const Building& building, const Solid& solid);
+  [[nodiscard]] std::vector<Shape> shapes_of(std::span<const CellFacet> cell_facets) const;
+  [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,
+                                    const std::vector<Shape>& shapes, Vec3 normal) const;
+
+  World& world_;
+  Segmentation& out_;
+  std::vector<PlaneId> extra_planes_;  ///< by side
+  std::vector<Side> extra_sides_;      ///< in the order of their ids
+  FeatureId innermost_;                ///< that was asked for last, and what it is in
+  std::vector<FeatureId> around_;
+  /// By facet of the solid, the cell facets made of it.
+  std::vector<Few<CellFacet, 2>> made_of_;
+};
+
+}  // namespace oriel::detail

@@ -1,0 +1,196 @@
+#include "kernel/solidify/crossings/crossings.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/planar.h"
+#include "kernel/solidify/crossings/box_tree.h"
+#include "kernel/solidify/crossings/chords.h"
+#include "kernel/solidify/crossings/faces.h"
+#include "kernel/solidify/crossings/signed_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace oriel::detail {
+
+namespace {
+
+/// The edges of a polygon's rings and the chords on it, cut where they meet.
+class Subdivision {
+ public:
+  Subdivision(const Soup& soup, const PolygonShape& shape, int polygon,
+              const std::vector<Edge>& chords, GrowingPoints& points, double weld, RingKind kind)
+      : shape_(shape),
+        polygon_(polygon),
+        rings_(rings_of(soup, polygon)),
+        points_(points),
+        weld_(weld),
+        kind_(kind) {
+    for (const auto& ring : rings_)
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        edges_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
+    ring_edges_ = edges_.size();
+    std::set<Edge> rim;
+    for (const Edge& e : edges_) rim.insert(std::minmax(e.first, e.second));
+    for (const Edge& e : chords)
+      if (!rim.contains(e)) edges_.push_back(e);
+    on_.resize(edges_.size());
+  }
+
+  [[nodiscard]] bool has_chords() const { return edges_.size() > ring_edges_; }
+
+  CutPolygon run() {
+    find_meetings();
+    CutPolygon cut{polygon_, {}, {}};
+    std::set<Edge> rim;
+    std::size_t e = 0;
+    for (const auto& ring : rings_) {
+      cut.rings.emplace_back();
+      for (std::size_t i = 0; i < ring.size(); ++i, ++e) {
+        const auto pieces = pieces_of(e);
+        for (const Edge& piece : pieces) {
+          cut.rings.back().push_back(piece.first);
+          rim.insert(std::minmax(piece.first, piece.second));
+        }
+      }
+    }
+    std::set<Edge> inside;
+    for (; e < edges_.size(); ++e)
+      for (const Edge& piece : pieces_of(e)) {
+        const Edge edge = std::minmax(piece.first, piece.second);
+        const bool is_wanted = kind_ == RingKind::crossing || lies_within(edge);
+        if (!rim.contains(edge) && is_wanted) inside.insert(edge);
+      }
+    cut.edges.assign(inside.begin(), inside.end());
+    return cut;
+  }
+
+ private:
+  [[nodiscard]] Vec3 flat(Vec3 way) const { return way - dot(way, shape_.unit) * shape_.unit; }
+
+  /// Puts on every edge the points at which others meet it.
+  void find_meetings() {
+    std::vector<Box> boxes(edges_.size());
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      boxes[e].grow(points_.place(edges_[e].first));
+      boxes[e].grow(points_.place(edges_[e].second));
+    }
+    const BoxTree tree(std::move(boxes));
+    // Chords may lie beside the plane by more than the weld distance.
+    const double reach = 4 * weld_;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const Vec3 from = points_.place(edges_[e].first), to = points_.place(edges_[e].second);
+      tree.search([&](const Box& box) { return comes_near(box, from, to, reach); },
+                  [&](int other) {
+                    if (other > static_cast<int>(e)) meet(e, at(other));
+                  });
+    }
+  }
+
+  void meet(std::size_t e, std::size_t f) {
+    bool is_met = false;
+    for (const int v : {edges_[f].first, edges_[f].second}) is_met |= put_on(e, v);
+    for (const int v : {edges_[e].first, edges_[e].second}) is_met |= put_on(f, v);
+    if (is_met) return;
+    if (const auto where = crossing(edges_[e], edges_[f])) {
+      const int point = points_.point_at(*where);
+      on_[e].push_back(point);
+      on_[f].push_back(point);
+    }
+  }
+
+  /// Puts a point on an edge if it lies there, seen along the normal; true too for an end of it.
+  bool put_on(std::size_t e, int point) {
+    if (point == edges_[e].first || point == edges_[e].second) return true;
+    const Vec3 from = points_.place(edges_[e].first);
+    const Vec3 way = flat(points_.place(edges_[e].second) - from);
+    const Vec3 there = flat(points_.place(point) - from);
+    const double share = dot(there, way) / dot(way, way);
+    if (!(share > 0 && share < 1) || length(there - share * way) > weld_) return false;
+    on_[e].push_back(point);
+    return true;
+  }
+
+  /// Where two edges cross between their ends, on the first one.
+  [[nodiscard]] std::optional<Vec3> crossing(const Edge& e, const Edge& f) const {
+    const Vec3 a = points_.place(e.first), b = points_.place(e.second);
+    const Vec3 c = points_.place(f.first), d = points_.place(f.second);
+    const auto side = [&](Vec3 from, Vec3 to, Vec3 p) {
+      return dot(shape_.unit, cross(to - from, p - from));
+    };
+    const double at_a = side(c, d, a), at_b = side(c, d, b);
+    if ((at_a > 0) == (at_b > 0) || (side(a, b, c) > 0) == (side(a, b, d) > 0)) return std::nullopt;
+    return a + (at_a / (at_a - at_b)) * (b - a);
+  }
+
+  /// An edge as it runs, cut at the points on it.
+  [[nodiscard]] std::vector<Edge> pieces_of(std::size_t e) const {
+    const Vec3 from = points_.place(edges_[e].first);
+    const Vec3 way = points_.place(edges_[e].second) - from;
+    std::vector<std::pair<double, int>> stops;
+    for (const int v : on_[e]) stops.emplace_back(dot(points_.place(v) - from, way), v);
+    std::ranges::sort(stops);
+    stops.emplace_back(0, edges_[e].second);
+    std::vector<Edge> pieces;
+    int last = edges_[e].first;
+    for (const auto& [along, v] : stops) {
+      if (v != last) pieces.emplace_back(last, v);
+      last = v;
+    }
+    return pieces;
+  }
+
+  [[nodiscard]] bool lies_within(const Edge& edge) {
+    if (outlines_.empty())
+      for (const auto& ring : rings_) {
+        outlines_.emplace_back();
+        for (const int v : ring) outlines_.back().push_back(points_.place(v));
+      }
+    return contains(outlines_, shape_.unit,
+                    0.5 * (points_.place(edge.first) + points_.place(edge.second)));
+  }
+
+  PolygonShape shape_;
+  int polygon_;
+  std::vector<std::vector<int>> rings_;
+  GrowingPoints& points_;
+  double weld_;
+  RingKind kind_;
+  std::vector<Edge> edges_;  ///< of the rings as they run, then the chords
+  std::size_t ring_edges_ = 0;
+  std::vector<std::vector<int>> on_;  ///< by edge the points between its ends
+  std::vector<Outline> outlines_;
+};
+
+}  // namespace
+
+SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, RingKind rings) {
+  const std::vector<PolygonShape> shapes = shapes_of(soup);
+  GrowingPoints points(soup.points, weld);
+  const auto chords = find_chords(soup, shapes, reach, points);
+  std::vector<std::optional<CutPolygon>> cuts(soup.polygons.size());
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    Subdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings);
+    if (rings == RingKind::crossing || subdivision.has_chords()) cuts[at(p)] = subdivision.run();
+  }
+  Soup grown = soup;
+  grown.points = points.take();
+  SoupBuilder builder(grown);
+  SoupWithoutCrossings out;
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    if (!cuts[at(p)]) {
+      builder.add_polygon(grown, p);
+      continue;
+    }
+    double rim = 0;
+    for (const Outline& outline : outlines_of(grown, p)) rim += perimeter(outline);
+    const double slack = kSameArea * shapes[at(p)].area + weld * rim;
+    const auto add = rings == RingKind::crossing ? add_signed_faces : add_faces;
+    out.cut += add(grown, shapes[at(p)], *cuts[at(p)], slack, builder);
+  }
+  out.soup = builder.finish();
+  return out;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "kernel/solidify/soup/soup.h"
+
+namespace oriel::detail {
+
+/// A soup whose polygons meet in common points and edges only.
+struct SoupWithoutCrossings {
+  Soup soup;
+  /// Polygons that were parted.
+  int cut = 0;
+};
+
+/// What becomes of the faces of polygons whose rings cross each other.
+enum class RingKind {
+  /// They are not looked at: polygons are taken to be simple.
+  simple,
+  /// add_signed_faces().
+  crossing
+};
+
+/// Cuts the polygons of each body along the lines where others of it run through them, and along
+/// the edges of others that lie on them, within `reach`. Points closer than `weld` become one (both
+/// in grid units). Neighbours across an edge get the points that it was cut at from
+/// insert_t_vertices().
+SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld,
+                                      RingKind rings = RingKind::simple);
+
+}  // namespace oriel::detail

@@ -1,0 +1,205 @@
+#include "kernel/solidify/mend/mend.h"
+
+#include "kernel/base/index.h"
+#include "kernel/solidify/crossings/contacts.h"
+#include "kernel/solidify/crossings/crossings.h"
+#include "kernel/solidify/mend/caps.h"
+#include "kernel/solidify/mend/cells.h"
+#include "kernel/solidify/mend/duplicates.h"
+#include "kernel/solidify/mend/nesting.h"
+#include "kernel/solidify/mend/t_vertices.h"
+#include "kernel/solidify/shells/edge_groups.h"
+#include "kernel/solidify/soup/polygon_shape.h"
+#include "kernel/solidify/soup/soup_builder.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Published models have polygons that are out of plane by up to 9 mm: five times the tolerance of
+/// planes.
+constexpr double kCapReach = 5;
+
+constexpr int kCapSource = -1;
+
+/// A soup with what is known of it.
+struct Stage {
+  Soup soup;
+  std::vector<PolygonShape> shapes;
+  PolygonCells cells;
+
+  explicit Stage(Soup polygons)
+      : soup(std::move(polygons)), shapes(shapes_of(soup)), cells(find_cells(soup, shapes)) {}
+
+  /// Less is enclosed than is left over.
+  [[nodiscard]] bool is_open() const {
+    double boundary = 0, dangling = 0;
+    for (int p = 0; p < soup.polygon_count(); ++p) {
+      if (soup.polygons[at(p)].source == kCapSource) continue;
+      if (cells.is_boundary(p)) boundary += shapes[at(p)].area;
+      if (cells.is_front_outside(p) && cells.is_back_outside(p)) dangling += shapes[at(p)].area;
+    }
+    return boundary <= dangling;
+  }
+};
+
+Soup without_duplicates(const Soup& soup, std::vector<int>& duplicates) {
+  const std::vector<char> is_duplicate = find_duplicates(soup);
+  SoupBuilder builder(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    if (is_duplicate[at(p)])
+      duplicates.push_back(soup.polygons[at(p)].source);
+    else
+      builder.add_polygon(soup, p);
+  }
+  std::ranges::sort(duplicates);
+  return builder.finish();
+}
+
+/// The soup with caps for its plane holes, each behind the polygons of its body.
+Soup with_caps(const Stage& stage, double reach, double max_area) {
+  const Soup& soup = stage.soup;
+  std::vector<CapDraft> caps = find_caps(soup, stage.shapes, reach, max_area);
+  const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
+  std::ranges::stable_sort(caps, {}, [&](const CapDraft& cap) { return body(cap.beside); });
+  SoupBuilder builder(soup);
+  std::size_t next = 0;
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    builder.add_polygon(soup, p);
+    if (p + 1 < soup.polygon_count() && body(p + 1) == body(p)) continue;
+    for (; next < caps.size() && body(caps[next].beside) == body(p); ++next) {
+      SoupPolygon said = soup.polygons[at(caps[next].beside)];
+      said.source = kCapSource;
+      builder.begin_polygon(said);
+      builder.add_ring(caps[next].ring);
+    }
+  }
+  return builder.finish();
+}
+
+/// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
+Stage close_holes(Stage stage, const Tolerances& tolerances, double cap_area_m2) {
+  if (cap_area_m2 <= 0 || !stage.is_open()) return stage;
+  const double grid_m = stage.soup.grid_m;
+  const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
+  return Stage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
+}
+
+/// The polygons cut where others run through them or lie on them.
+Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairReport& report) {
+  const double weld = tolerances.weld_m / soup.grid_m;
+  const auto [parted, cut] = cut_at_crossings(soup, tolerances.plane_offset_m / soup.grid_m, weld);
+  auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
+  report.cut += cut;
+  report.t_vertices += inserted;
+  return std::move(joined);
+}
+
+/// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
+/// the options allow. Each only if what came before was not enough.
+Stage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
+            RepairReport& report) {
+  const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
+  Stage stage = close_holes(Stage(soup), tolerances, area_m2);
+  if (stage.is_open() && options.crossings != Crossings::leave) {
+    soup = without_crossings(soup, tolerances, report);
+    stage = close_holes(Stage(soup), tolerances, area_m2);
+  }
+  if (options.close != Closing::any || !stage.is_open()) return stage;
+  return close_holes(Stage(std::move(soup)), tolerances, std::numeric_limits<double>::infinity());
+}
+
+std::vector<OpenEdge> open_edges_of(const Soup& soup) {
+  const ShellMesh mesh = linked_rings(soup);
+  const auto place = [&](int v) { return exact::to_metres(soup.points[at(v)], soup.grid_m); };
+  std::vector<OpenEdge> open;
+  EdgeGroups(soup, mesh).for_each([&](EdgeGroup group) {
+    const auto h = at(group[0]);
+    if (group.size() == 1)
+      open.push_back({place(soup.corners[h]), place(soup.corners[at(mesh.next[h])]),
+                      soup.polygons[at(mesh.polygon_of[h])].source});
+  });
+  return open;
+}
+
+Cap cap_of(const Stage& stage, int polygon) {
+  const double grid_m = stage.soup.grid_m;
+  Cap cap{stage.shapes[at(polygon)].area * grid_m * grid_m, {}};
+  const auto corners = stage.soup.corners_of(polygon);
+  for (const int v : corners)
+    cap.centre = cap.centre + exact::to_metres(stage.soup.points[at(v)], grid_m);
+  cap.centre = 1.0 / static_cast<double>(corners.size()) * cap.centre;
+  return cap;
+}
+
+/// Sorts the polygons of a list, each once, without those of which a piece is in the soup.
+void drop_kept(const Soup& soup, std::vector<int>& polygons) {
+  std::vector<int> kept;
+  for (const SoupPolygon& polygon : soup.polygons) kept.push_back(polygon.source);
+  std::ranges::sort(kept);
+  std::ranges::sort(polygons);
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  std::erase_if(polygons, [&](int p) { return std::ranges::binary_search(kept, p); });
+}
+
+/// Fills the soup and the rest of the report.
+void keep_boundary(const Stage& stage, bool is_solid, Mended& mended) {
+  const auto& [soup, shapes, cells] = stage;
+  const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid);
+  RepairReport& report = mended.report;
+  const double m2 = soup.grid_m * soup.grid_m;
+  SoupBuilder builder(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    const int source = soup.polygons[at(p)].source;
+    const PieceRole role = roles[at(cells.piece[at(p)])];
+    const bool is_front = cells.is_front_outside(p);
+    if (cells.is_boundary(p) && role != PieceRole::within) {
+      const bool is_turned = is_front == (role == PieceRole::cavity);
+      builder.add_polygon(soup, p, is_turned);
+      if (source == kCapSource) report.caps.push_back(cap_of(stage, p));
+      report.turned += is_turned && source != kCapSource;
+    } else if (source != kCapSource) {
+      const bool is_dangling = is_front && cells.is_back_outside(p);
+      (is_dangling ? report.dangling : report.inner).push_back(source);
+      (is_dangling ? report.dangling_area_m2 : report.inner_area_m2) += shapes[at(p)].area * m2;
+    }
+  }
+  mended.soup = builder.finish();
+  for (auto* const polygons : {&report.dangling, &report.inner}) drop_kept(mended.soup, *polygons);
+  const auto lumps = std::ranges::count(roles, PieceRole::lump);
+  report.detached_shells = std::max(0, static_cast<int>(lumps) - 1);
+  report.cavities = static_cast<int>(std::ranges::count(roles, PieceRole::cavity));
+  report.crowded_edges = cells.crowded_edges;
+}
+
+}  // namespace
+
+Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
+            const RepairOptions& options) {
+  Mended mended;
+  RepairReport& report = mended.report;
+  report.was_needed = true;
+  const Soup single = without_duplicates(soup, report.duplicates);
+  auto [joined, inserted] = insert_t_vertices(single, tolerances.weld_m / soup.grid_m);
+  report.t_vertices = inserted;
+  if (joined.polygons.empty()) {
+    mended.is_open = true;
+    return mended;
+  }
+  auto [whole, cut] =
+      cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
+  report.cut = cut;
+  std::vector<OpenEdge> open = open_edges_of(whole);
+  Stage stage = close(std::move(whole), tolerances, options, report);
+  mended.is_open = stage.is_open();
+  if (mended.is_open)
+    report.open_edges = std::move(open);
+  else
+    keep_boundary(stage, is_solid, mended);
+  return mended;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "kernel/model/repair.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/solidify/soup/soup.h"
+
+namespace oriel::detail {
+
+/// What is left of a soup once it is mended.
+struct Mended {
+  /// The boundary of what the polygons enclose, every polygon's front outside (of cavities: in the
+  /// void). Caps have source -1.
+  Soup soup;
+  /// The polygons enclose less of themselves than is left over: a hole lets the outside in.
+  bool is_open = false;
+  RepairReport report;
+};
+
+/// Makes the boundary of a solid of polygons that are no closed shell:
+/// 1. one of equal polygons stays (duplicates.h);
+/// 2. vertices on the edge of a neighbour are put into it (t_vertices.h);
+/// 3. polygons are cut where the edges of others lie on them (contacts.h);
+/// 4. the cells between the polygons are found, polygons sorted round the edges (cells.h);
+/// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h); before larger
+///    ones, polygons are cut where they run through each other, if asked for (crossings.h);
+/// 6. shells in the material of others are dropped or become cavities (nesting.h);
+/// 7. what has the outer cell on one side only stays.
+/// `is_solid`: Building::is_solid.
+Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
+            const RepairOptions& options);
+
+}  // namespace oriel::detail

@@ -1,0 +1,365 @@
+#include "kernel/solidify/planes/coplanar_groups.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/disjoint_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+/// A plane in doubles: enough to compare distances with a tolerance.
+struct RoughPlane {
+  Vec3 normal, point;
+  [[nodiscard]] double distance(Vec3 p) const { return std::abs(dot(normal, p - point)); }
+};
+
+/// Sums over points p relative to an origin, to fit a plane to them.
+struct PointSums {
+  double count = 0;
+  Vec3 p, squares, products;  ///< Σ p, Σ (xx, yy, zz), Σ (yz, zx, xy)
+
+  void add(Vec3 q) {
+    ++count;
+    p = p + q;
+    squares = squares + Vec3{q.x * q.x, q.y * q.y, q.z * q.z};
+    products = products + Vec3{q.y * q.z, q.z * q.x, q.x * q.y};
+  }
+  friend PointSums operator+(const PointSums& a, const PointSums& b) {
+    return {a.count + b.count, a.p + b.p, a.squares + b.squares, a.products + b.products};
+  }
+};
+
+/// The plane with the least squared distances along the coordinate axis that is nearest to
+/// `normal`, on the side of it; `normal` itself where the points lie on a line.
+RoughPlane least_squares(const PointSums& sums, Vec3 normal, Vec3 origin) {
+  const Vec3 mean = (1 / sums.count) * sums.p;
+  const double n[3] = {normal.x, normal.y, normal.z}, m[3] = {mean.x, mean.y, mean.z},
+               squares[3] = {sums.squares.x, sums.squares.y, sums.squares.z},
+               products[3] = {sums.products.x, sums.products.y, sums.products.z};
+  int w = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(n[i]) > std::abs(n[w])) w = i;
+  const int u = (w + 1) % 3, v = (w + 2) % 3;
+  const auto spread = [&](int i) { return squares[i] - sums.count * m[i] * m[i]; };
+  const auto joint = [&](int i, int j) { return products[3 - i - j] - sums.count * m[i] * m[j]; };
+  const double det = spread(u) * spread(v) - joint(u, v) * joint(u, v);
+  double fitted[3] = {n[0], n[1], n[2]};
+  if (det > 1e-9 * spread(u) * spread(v)) {
+    const double sign = n[w] < 0 ? -1 : 1;
+    fitted[u] = -sign * (joint(u, w) * spread(v) - joint(v, w) * joint(u, v)) / det;
+    fitted[v] = -sign * (joint(v, w) * spread(u) - joint(u, w) * joint(u, v)) / det;
+    fitted[w] = sign;
+  }
+  return {normalised({fitted[0], fitted[1], fitted[2]}), origin + mean};
+}
+
+/// What is known of a group, in grid units.
+struct Group {
+  Vec3 area_vector;        ///< the normal times the area, summed over its polygons
+  double area = 0;         ///< of its polygons, added up
+  Vec3 moment;             ///< area times centre, added up
+  double uncertainty = 0;  ///< how far its normal may be off, radians
+  PointSums sums;          ///< of its polygons' corners
+  RoughPlane plane;
+  bool is_fitted = false;  ///< its plane is the one of least squares, not of the area vector
+  double residual = 0;     ///< no vertex lies further from its plane
+  Box box;
+  std::vector<int> points;
+
+  [[nodiscard]] RoughPlane plane_of_areas() const {
+    return {normalised(area_vector), (1 / area) * moment};
+  }
+};
+
+class Grouper {
+ public:
+  Grouper(const Soup& soup, const std::vector<PolygonShape>& shapes, const ShellMesh& mesh,
+          const Tolerances& tolerances)
+      : soup_(soup),
+        shapes_(shapes),
+        mesh_(mesh),
+        reach_(tolerances.plane_offset_m / soup.grid_m),
+        angle_(tolerances.coplanar_deg * std::numbers::pi / 180),
+        sets_(soup.polygons.size()),
+        origin_(soup.points.empty() ? Vec3{} : point(soup.points.front())) {}
+
+  std::optional<CoplanarGroups> run() {
+    std::vector<Pair> pairs = likely_pairs();
+    if (pairs.empty()) return std::nullopt;
+    for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
+    unite_all(pairs, Fitting::areas);
+    unite_all(pairs, Fitting::corners);
+    take_in_slivers();
+    CoplanarGroups groups = numbered();
+    if (groups.count == soup_.polygon_count()) return std::nullopt;
+    return groups;
+  }
+
+ private:
+  /// What stands across a plane, at more than 45°, may be the side of a recess, so it is left alone
+  /// however thin it is.
+  static constexpr double kMost = std::numbers::pi / 4;
+  static constexpr double kCosineOfMost = std::numbers::sqrt2 / 2;
+  /// The plane of least squares goes through the middle of whatever it is given, so it is asked
+  /// only where the area vectors are nearly right.
+  static constexpr double kMostOfCorners = std::numbers::pi / 36;
+
+  /// What tells the plane of a group: the area vectors of its polygons, or, as a thin frame has
+  /// little area for its reach, the corners of all of them by least squares.
+  enum class Fitting { areas, corners };
+
+  struct Pair {
+    double smaller_area;
+    int first, second;
+  };
+
+  static Vec3 point(const exact::GridPoint& p) {
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  }
+  [[nodiscard]] Vec3 point(int v) const { return point(soup_.points[at(v)]); }
+  [[nodiscard]] double uncertainty_of(int polygon) const {
+    return uncertainty_rad(height_of(soup_, polygon, shapes_[at(polygon)].area), reach_);
+  }
+
+  /// Neighbours with area whose normals may be those of one plane, the largest first. None if all
+  /// such normals are equal: then there is nothing to fit.
+  [[nodiscard]] std::vector<Pair> likely_pairs() const {
+    std::vector<Pair> pairs;
+    bool is_exact = true;
+    const int count = soup_.corner_count();
+    const int *const twin_of = mesh_.twin.data(), *const polygon_of = mesh_.polygon_of.data();
+    for (int h = 0; h < count; ++h) {
+      const int twin = twin_of[h];
+      if (twin < h) continue;
+      const int p = polygon_of[h], q = polygon_of[twin];
+      const PolygonShape &a = shapes_[at(p)], &b = shapes_[at(q)];
+      // Without area the unit normal is zero.
+      if (dot(a.unit, b.unit) < kCosineOfMost || p == q) continue;
+      const double allowed = 2 * angle_ + uncertainty_of(p) + uncertainty_of(q);
+      if (*a.normal != *b.normal && is_angle_above(a.unit, b.unit, allowed)) continue;
+      pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
+      is_exact &= *a.normal == *b.normal;
+    }
+    if (is_exact) return {};
+    std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
+      return std::tuple(-x.smaller_area, x.first, x.second) <
+             std::tuple(-y.smaller_area, y.first, y.second);
+    });
+    return pairs;
+  }
+
+  [[nodiscard]] Group group_of(int polygon) const {
+    const PolygonShape& shape = shapes_[at(polygon)];
+    Group group;
+    const auto corners = soup_.corners_of(polygon);
+    group.points.assign(corners.begin(), corners.end());
+    group.area = shape.area;
+    group.area_vector = shape.area * shape.unit;
+    group.uncertainty = uncertainty_of(polygon);
+    Vec3 sum;
+    for (const int v : group.points) {
+      sum = sum + point(v);
+      group.sums.add(point(v) - origin_);
+      group.box.grow(point(v));
+    }
+    group.moment = (shape.area / static_cast<double>(group.points.size())) * sum;
+    if (!shape.normal) return group;
+    group.plane = group.plane_of_areas();
+    group.residual = residual_of(group, group.plane);
+    return group;
+  }
+
+  [[nodiscard]] double residual_of(const Group& group, const RoughPlane& plane) const {
+    double residual = 0;
+    for (const int v : group.points) residual = std::max(residual, plane.distance(point(v)));
+    return residual;
+  }
+
+  /// No smaller than the residual: that of the group's own plane, and how far the two planes are
+  /// apart in its box.
+  [[nodiscard]] static double residual_bound(const Group& group, const RoughPlane& plane) {
+    const RoughPlane& own = group.plane;
+    const Vec3 turn = plane.normal - own.normal, half = 0.5 * (group.box.max - group.box.min),
+               middle = group.box.min + half;
+    return group.residual +
+           std::abs(dot(plane.normal, middle - plane.point) - dot(own.normal, middle - own.point)) +
+           std::abs(turn.x) * half.x + std::abs(turn.y) * half.y + std::abs(turn.z) * half.z;
+  }
+
+  [[nodiscard]] static bool is_angle_above(Vec3 p, Vec3 q, double limit) {
+    return dot(p, q) <= 0 || is_arcsine_above(length(cross(p, q)), limit);
+  }
+
+  [[nodiscard]] bool is_tilted_too_far(const Group& group, const Group& united) const {
+    const double most = united.is_fitted ? kMostOfCorners : kMost;
+    return is_angle_above(normalised(group.area_vector), united.plane.normal,
+                          std::min(angle_ + group.uncertainty, most));
+  }
+
+  /// True if both groups fit the plane of what they make together; sets its residual.
+  [[nodiscard]] bool fits(const Group& large, const Group& small, Group& united) const {
+    const RoughPlane& plane = united.plane;
+    if (is_tilted_too_far(large, united) || is_tilted_too_far(small, united)) return false;
+    const double of_small = residual_of(small, plane);
+    if (of_small > reach_) return false;
+    double of_large = residual_bound(large, plane);
+    if (of_large > reach_) of_large = residual_of(large, plane);
+    united.residual = std::max(of_small, of_large);
+    return of_large <= reach_;
+  }
+
+  /// Unites what goes together and drops those pairs. What two groups refuse may suit them when
+  /// they have grown and their normals are surer.
+  void unite_all(std::vector<Pair>& pairs, Fitting fitting) {
+    const auto is_united = [&](const Pair& pair) {
+      return unite(pair.first, pair.second, fitting);
+    };
+    while (std::erase_if(pairs, is_united) > 0) {
+    }
+  }
+
+  /// True if they are one group now, or were one before.
+  bool unite(int p, int q, Fitting fitting) {
+    const int first = sets_.find(p), second = sets_.find(q);
+    if (first == second) return true;
+    Group *large = &groups_[at(first)], *small = &groups_[at(second)];
+    if (large->points.size() < small->points.size()) std::swap(large, small);
+
+    Group united;
+    united.area_vector = large->area_vector + small->area_vector;
+    if (length(united.area_vector) <= 0) return false;
+    united.area = large->area + small->area;
+    united.moment = large->moment + small->moment;
+    united.sums = large->sums + small->sums;
+    united.uncertainty = std::min(large->uncertainty, small->uncertainty);
+    united.plane = united.plane_of_areas();
+    if (fitting == Fitting::corners) {
+      united.plane = least_squares(united.sums, united.plane.normal, origin_);
+      united.is_fitted = true;
+    }
+    if (!fits(*large, *small, united)) return false;
+    united.box = large->box;
+    united.box.grow(small->box);
+    united.points = std::move(large->points);
+    united.points.insert(united.points.end(), small->points.begin(), small->points.end());
+    *large = std::move(united);
+    if (large != &groups_[at(std::min(first, second))]) std::swap(*large, *small);
+    sets_.unite(first, second);
+    return true;
+  }
+
+  /// Polygons without a normal to speak of join the group that they share more than half of their
+  /// outline with, if all their vertices lie in its plane. A sliver in a wall does so, even at the
+  /// wall's edge: two sides of a triangle are longer than the third. The side of a recess does not:
+  /// it shares as much with the wall as with the floor.
+  void take_in_slivers() {
+    std::vector<int> slivers;
+    for (int p = 0; p < soup_.polygon_count(); ++p)
+      if (groups_[at(p)].uncertainty > std::numbers::pi / 2 && is_alone(p)) slivers.push_back(p);
+    while (std::erase_if(slivers, [&](int p) { return take_in(p); }) > 0) {
+    }
+  }
+
+  [[nodiscard]] bool is_alone(int p) {
+    return sets_.find(p) == p && groups_[at(p)].points.size() == soup_.corners_of(p).size();
+  }
+
+  bool take_in(int p) {
+    const int group = group_around(p);
+    if (group < 0) return false;
+    const Group& sliver = groups_[at(p)];
+    Group grown = groups_[at(group)];
+    const double residual = residual_of(sliver, grown.plane);
+    if (residual > reach_) return false;
+    grown.points.insert(grown.points.end(), sliver.points.begin(), sliver.points.end());
+    grown.box.grow(sliver.box);
+    grown.residual = std::max(grown.residual, residual);
+    sets_.unite(p, group);
+    groups_[at(sets_.find(p))] = std::move(grown);
+    return true;
+  }
+
+  /// The group with area that a polygon shares more than half of its outline with, or -1.
+  [[nodiscard]] int group_around(int p) {
+    std::vector<std::pair<int, double>> shared;  // groups and lengths
+    double outline = 0;
+    for (const int r : soup_.rings_of(p))
+      for (int h = soup_.first_corner[at(r)]; h < soup_.first_corner[at(r) + 1]; ++h) {
+        const double edge =
+            length(point(soup_.corners[at(mesh_.next[at(h)])]) - point(soup_.corners[at(h)]));
+        outline += edge;
+        if (mesh_.twin[at(h)] < 0) continue;
+        const int group = sets_.find(mesh_.polygon_of[at(mesh_.twin[at(h)])]);
+        const auto known = std::ranges::find(shared, group, &std::pair<int, double>::first);
+        if (known != shared.end())
+          known->second += edge;
+        else
+          shared.emplace_back(group, edge);
+      }
+    for (const auto& [group, edges] : shared)
+      if (group != sets_.find(p) && 2 * edges > outline && groups_[at(group)].area > 0)
+        return group;
+    return -1;
+  }
+
+  CoplanarGroups numbered() {
+    CoplanarGroups out;
+    out.group_of.reserve(soup_.polygons.size());
+    std::vector<int> number(soup_.polygons.size(), -1);
+    for (int p = 0; p < soup_.polygon_count(); ++p) {
+      const int set = sets_.find(p);
+      int& n = number[at(set)];
+      if (n < 0) {
+        n = out.count++;
+        out.fitted_normal.emplace_back();
+        if (groups_[at(set)].is_fitted) out.fitted_normal.back() = groups_[at(set)].plane.normal;
+      }
+      out.group_of.push_back(n);
+    }
+    return out;
+  }
+
+  const Soup& soup_;
+  const std::vector<PolygonShape>& shapes_;
+  const ShellMesh& mesh_;
+  double reach_;  ///< grid units
+  double angle_;
+  DisjointSets sets_;
+  Vec3 origin_;                ///< of the sums over points: near them
+  std::vector<Group> groups_;  ///< by the set's smallest member
+};
+
+}  // namespace
+
+std::optional<CoplanarGroups> group_coplanar(const Soup& soup,
+                                             const std::vector<PolygonShape>& shapes,
+                                             const ShellMesh& mesh, const Tolerances& tolerances) {
+  return Grouper(soup, shapes, mesh, tolerances).run();
+}
+
+Soup soup_of_groups(const Soup& soup, const CoplanarGroups& groups) {
+  std::vector<std::vector<int>> members(at(groups.count));
+  for (int p = 0; p < soup.polygon_count(); ++p) members[at(groups.group_of[at(p)])].push_back(p);
+  Soup out;
+  out.grid_m = soup.grid_m;
+  out.points = soup.points;
+  out.polygons.resize(members.size());
+  for (const auto& polygons : members) {
+    for (const int p : polygons)
+      for (const int r : soup.rings_of(p)) {
+        const auto ring = soup.ring(r);
+        out.corners.insert(out.corners.end(), ring.begin(), ring.end());
+        out.first_corner.push_back(out.corner_count());
+      }
+    out.first_ring.push_back(out.ring_count());
+  }
+  return out;
+}
+
+}  // namespace oriel::detail

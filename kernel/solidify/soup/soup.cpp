@@ -1,0 +1,285 @@
+#include "kernel/solidify/soup/soup.h"
+
+#include "kernel/base/index.h"
+#include "kernel/geometry/near_points.h"
+#include "kernel/model/description/counting_sort.h"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// One number for a point, ordered as its coordinates: |coordinate| ≤ 2^32, so 34 bits hold each.
+exact::Int128 sort_key(const exact::GridPoint& point) {
+  const auto bits = [&](std::size_t axis) {
+    return static_cast<std::uint64_t>(point[axis] + (std::int64_t{1} << 33));
+  };
+  return exact::Int128{bits(0)} << 68 | exact::Int128{bits(1)} << 34 | bits(2);
+}
+
+/// Fills Soup::points with the rounded vertices, sorted; returns the point of every vertex, united
+/// with those within reach.
+Numbers weld_points(const Building& building, double reach, Soup& soup) {
+  struct Rounded {
+    exact::Int128 key;
+    int vertex;
+  };
+  std::vector<exact::GridPoint> grid_points(building.vertices.size());
+  std::vector<Rounded> rounded(building.vertices.size());
+  for (std::size_t v = 0; v < rounded.size(); ++v) {
+    grid_points[v] = exact::round_to_grid(building.vertices[v], soup.grid_m);
+    rounded[v] = {sort_key(grid_points[v]), static_cast<int>(v)};
+  }
+  std::ranges::sort(rounded, {}, &Rounded::key);
+
+  Numbers point_of(building.vertices.size());
+  soup.points.reserve(building.vertices.size());
+  for (std::size_t i = 0; i < rounded.size(); ++i) {
+    if (i == 0 || rounded[i].key != rounded[i - 1].key)
+      soup.points.push_back(grid_points[at(rounded[i].vertex)]);
+    point_of[at(rounded[i].vertex)] = static_cast<int>(soup.points.size()) - 1;
+  }
+  const Numbers first = group_near_points(soup.points, reach);
+  for (int& point : point_of) point = first[at(point)];
+  return point_of;
+}
+
+/// Appends the simple rings that rings consist of to a soup, each from its smallest vertex.
+class RingCutter {
+ public:
+  /// `corner_count`: of all rings to come.
+  RingCutter(Soup& soup, std::size_t corner_count)
+      : soup_(soup), last_ring_(soup.points.size(), 0), place_in_path_(soup.points.size(), -1) {
+    // As much as there may be; finish() takes back what is left over.
+    soup.corners.resize(corner_count);
+    soup.first_corner.resize(corner_count / 3 + 1);
+  }
+
+  [[nodiscard]] int ring_count() const { return ring_count_; }
+  /// True if all points are known to be on the rings that are left.
+  [[nodiscard]] bool uses_all_points() const {
+    return !has_dropped_ && std::ranges::find(last_ring_, 0) == last_ring_.end();
+  }
+
+  /// Where the ring comes back to a point (it touches itself, or a bridge ties a hole to its outer
+  /// ring) it is cut in two, and what has fewer than three vertices goes.
+  void append(std::span<const int> ring, std::span<const int> point_of) {
+    const int number = ++ring_;
+    int* const points = soup_.corners.data() + end_;
+    int* const last_ring = last_ring_.data();
+    std::size_t smallest = 0;
+    bool is_simple = true;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int v = point_of[at(ring[i])];
+      is_simple &= last_ring[v] != number;
+      last_ring[v] = number;
+      points[i] = v;
+      if (v < points[smallest]) smallest = i;
+    }
+    if (is_simple)
+      keep(ring.size(), smallest);
+    else
+      cut({points, points + ring.size()});
+  }
+
+  void finish() {
+    soup_.corners.resize(end_);
+    soup_.first_corner.resize(at(ring_count_) + 1);
+  }
+
+ private:
+  /// Makes the points that stand after the last ring a ring.
+  void keep(std::size_t size, std::size_t smallest) {
+    if (size < 3) {
+      has_dropped_ = true;
+      return;
+    }
+    int* const begin = soup_.corners.data() + end_;
+    if (smallest > 0) std::rotate(begin, begin + smallest, begin + size);
+    end_ += size;
+    soup_.first_corner[at(++ring_count_)] = static_cast<int>(end_);
+  }
+
+  void cut(Numbers ring) {
+    for (const int v : ring) {
+      if (place_in_path_[at(v)] >= 0) close_at(at(place_in_path_[at(v)]));
+      place_in_path_[at(v)] = static_cast<int>(path_.size());
+      path_.push_back(v);
+    }
+    close_at(0);
+  }
+
+  /// Makes the end of the path from place `start` a ring and takes it off the path.
+  void close_at(std::size_t start) {
+    const auto ring = std::span(path_).subspan(start);
+    std::ranges::copy(ring, soup_.corners.data() + end_);
+    keep(ring.size(), static_cast<std::size_t>(std::ranges::min_element(ring) - ring.begin()));
+    for (const int v : ring) place_in_path_[at(v)] = -1;
+    path_.resize(start);
+  }
+
+  Soup& soup_;
+  std::size_t end_ = 0;  ///< of the corners so far
+  int ring_count_ = 0;
+  int ring_ = 0;
+  bool has_dropped_ = false;  ///< a ring of fewer than three vertices
+  Numbers last_ring_;         ///< that came to each point
+  Numbers path_;
+  Numbers place_in_path_;  ///< by point, -1 off the path
+};
+
+std::strong_ordering compare_rings(const Soup& soup, int r, int s) {
+  const auto p = soup.ring(r), q = soup.ring(s);
+  return std::lexicographical_compare_three_way(p.begin(), p.end(), q.begin(), q.end());
+}
+
+/// Sorts the rings from `first` to before `end`.
+void sort_rings(Soup& soup, int first, int end) {
+  Numbers order(at(end - first));
+  std::iota(order.begin(), order.end(), first);
+  const auto comes_first = [&](int r, int s) { return compare_rings(soup, r, s) < 0; };
+  if (std::ranges::is_sorted(order, comes_first)) return;
+  std::ranges::sort(order, comes_first);
+  Numbers corners, first_corner;
+  const int begin = soup.first_corner[at(first)];
+  corners.reserve(at(soup.first_corner[at(end)] - begin));
+  first_corner.reserve(order.size());
+  for (const int r : order) {
+    first_corner.push_back(begin + static_cast<int>(corners.size()));
+    corners.insert(corners.end(), soup.ring(r).begin(), soup.ring(r).end());
+  }
+  std::ranges::copy(corners, soup.corners.begin() + begin);
+  std::ranges::copy(first_corner, soup.first_corner.begin() + first);
+}
+
+/// Leaves only the points in use, in their order.
+void drop_unused_points(Soup& soup) {
+  std::vector<char> is_used(soup.points.size(), 0);
+  for (const int v : soup.corners) is_used[at(v)] = 1;
+  if (std::ranges::find(is_used, 0) == is_used.end()) return;
+  Numbers place(soup.points.size(), -1);
+  int used = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (!is_used[v]) continue;
+    soup.points[at(used)] = soup.points[v];
+    place[v] = used++;
+  }
+  soup.points.resize(at(used));
+  for (int& v : soup.corners) v = place[at(v)];
+}
+
+/// Appends the building's polygons in its order, with the points in use. Returns how many have
+/// nothing left of their outer ring and were dropped.
+int append_polygons(const Building& building, std::span<const int> point_of, Soup& soup) {
+  std::size_t corner_count = 0;
+  for (const Polygon& polygon : building.polygons)
+    for (const auto& ring : polygon.rings) corner_count += ring.size();
+  RingCutter cutter(soup, corner_count);
+  soup.polygons.resize(building.polygons.size());
+  soup.first_ring.resize(building.polygons.size() + 1);
+  std::size_t count = 0;
+  for (const Polygon& polygon : building.polygons) {
+    const int first = cutter.ring_count();
+    for (const auto& ring : polygon.rings) {
+      cutter.append(ring, point_of);
+      if (cutter.ring_count() == first) break;
+    }
+    const int end = cutter.ring_count();
+    if (end == first) continue;
+    if (end > first + 1) sort_rings(soup, first, end);
+    soup.polygons[count] = {polygon.source, polygon.body, polygon.shell};
+    soup.first_ring[++count] = end;
+  }
+  cutter.finish();
+  const int dropped = static_cast<int>(soup.polygons.size() - count);
+  soup.polygons.resize(count);
+  soup.first_ring.resize(count + 1);
+  if (!cutter.uses_all_points()) drop_unused_points(soup);
+  return dropped;
+}
+
+/// The polygons by body, then rings, then source.
+Numbers canonical_order(const Soup& soup) {
+  // By the second corner, then stably by the first: that leaves few to be compared.
+  const auto first_corner = [&](int p) { return soup.first_corner[at(soup.first_ring[at(p)])]; };
+  Numbers corner(soup.polygons.size());
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    corner[at(p)] = soup.corners[at(first_corner(p)) + 1];
+  const Numbers by_second = sort_into_buckets(corner, soup.points.size()).items;
+  for (std::size_t i = 0; i < corner.size(); ++i)
+    corner[i] = soup.corners[at(first_corner(by_second[i]))];
+  Numbers order = sort_into_buckets(corner, soup.points.size()).items;
+  for (int& p : order) p = by_second[at(p)];
+
+  const auto starts_alike = [&](int p, int q) {
+    const std::size_t mine = at(first_corner(p)), theirs = at(first_corner(q));
+    return soup.corners[mine] == soup.corners[theirs] &&
+           soup.corners[mine + 1] == soup.corners[theirs + 1];
+  };
+  const auto comes_first = [&](int p, int q) {
+    const auto rings = soup.rings_of(p), others = soup.rings_of(q);
+    const auto compared = std::lexicographical_compare_three_way(
+        rings.begin(), rings.end(), others.begin(), others.end(),
+        [&](int r, int s) { return compare_rings(soup, r, s); });
+    return compared != 0 ? compared < 0 : soup.polygons[at(p)].source < soup.polygons[at(q)].source;
+  };
+  std::size_t start = 0;
+  for (std::size_t i = 1; i <= order.size(); ++i) {
+    if (i < order.size() && starts_alike(order[start], order[i])) continue;
+    if (i - start > 1) std::ranges::sort(std::span(order).subspan(start, i - start), comes_first);
+    start = i;
+  }
+  const auto body = [&](int p) { return soup.polygons[at(p)].body; };
+  if (!std::ranges::is_sorted(order, {}, body)) std::ranges::stable_sort(order, {}, body);
+  return order;
+}
+
+/// The soup with its polygons in that order.
+Soup arranged(Soup soup, const Numbers& order) {
+  Soup out;
+  out.grid_m = soup.grid_m;
+  out.points = std::move(soup.points);
+  out.polygons.resize(soup.polygons.size());
+  out.first_ring.resize(soup.first_ring.size());
+  out.first_corner.resize(soup.first_corner.size());
+  out.corners.resize(soup.corners.size());
+  int ring = 0;
+  int* const corners = out.corners.data();
+  int* corner = corners;
+  for (std::size_t p = 0; p < order.size(); ++p) {
+    out.polygons[p] = soup.polygons[at(order[p])];
+    for (const int r : soup.rings_of(order[p])) {
+      for (const int v : soup.ring(r)) *corner++ = v;
+      out.first_corner[at(++ring)] = static_cast<int>(corner - corners);
+    }
+    out.first_ring[p + 1] = ring;
+  }
+  return out;
+}
+
+}  // namespace
+
+double grid_for(double weld_m) { return std::exp2(std::floor(std::log2(weld_m / 1024))); }
+
+Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Issue>& issues) {
+  Soup soup;
+  soup.grid_m = grid_for(tolerances.weld_m);
+  const Numbers point_of = weld_points(building, tolerances.weld_m / soup.grid_m, soup);
+  const int dropped = append_polygons(building, point_of, soup);
+  if (dropped > 0)
+    issues.push_back(building_issue(
+        Severity::note, "E304", building.id,
+        fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
+                    tolerances.weld_m)));
+  const Numbers order = canonical_order(soup);
+  return arranged(std::move(soup), order);
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "kernel/base/issue.h"
+#include "kernel/base/numbers.h"
+#include "kernel/geometry/exact.h"
+#include "kernel/model/building.h"
+#include "kernel/model/tolerances.h"
+
+#include <ranges>
+#include <span>
+#include <vector>
+
+namespace oriel::detail {
+
+/// What the input says of a welded polygon.
+struct SoupPolygon {
+  int source = -1;
+  int body = 0;
+  int shell = 0;
+};
+
+/// Welded polygons on the grid, in canonical order: points by coordinates, rings from their
+/// smallest vertex, polygons by their rings. The order of the input has left no trace but
+/// SoupPolygon::source.
+///
+/// The corners of all rings stand in one list, ring after ring, polygon after polygon. A ring is at
+/// least a triangle and comes to no point twice.
+struct Soup {
+  double grid_m = 0;
+  std::vector<exact::GridPoint> points;
+  std::vector<SoupPolygon> polygons;
+  /// Of every polygon its first ring, of every ring its first corner; one entry more at the end.
+  Numbers first_ring{0};
+  Numbers first_corner{0};
+  /// Indices into `points`.
+  Numbers corners;
+
+  [[nodiscard]] int polygon_count() const { return static_cast<int>(polygons.size()); }
+  [[nodiscard]] int ring_count() const { return static_cast<int>(first_corner.size()) - 1; }
+  [[nodiscard]] int corner_count() const { return static_cast<int>(corners.size()); }
+
+  /// The numbers of a polygon's rings.
+  [[nodiscard]] auto rings_of(int polygon) const {
+    const auto p = static_cast<std::size_t>(polygon);
+    return std::views::iota(first_ring[p], first_ring[p + 1]);
+  }
+  [[nodiscard]] std::span<const int> ring(int ring) const {
+    const auto r = static_cast<std::size_t>(ring);
+    return {corners.data() + first_corner[r], corners.data() + first_corner[r + 1]};
+  }
+  [[nodiscard]] std::span<int> ring(int ring) {
+    const auto r = static_cast<std::size_t>(ring);
+    return {corners.data() + first_corner[r], corners.data() + first_corner[r + 1]};
+  }
+  /// Of all rings of a polygon.
+  [[nodiscard]] std::span<const int> corners_of(int polygon) const {
+    const auto p = static_cast<std::size_t>(polygon);
+    return {corners.data() + first_corner[static_cast<std::size_t>(first_ring[p])],
+            corners.data() + first_corner[static_cast<std::size_t>(first_ring[p + 1])]};
+  }
+};
+
+/// The grid for a weld distance: the largest power of two ≤ weld_m / 1024, in metres.
+double grid_for(double weld_m);
+
+/// Rounds the vertices to the grid, unites those closer than weld_m, and drops what becomes
+/// degenerate (E304). Needs coordinates in the exact range.
+Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Issue>& issues);
+
+}  // namespace oriel::detail

@@ -1,0 +1,142 @@
+#include "kernel/validate/defects.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+struct Name {
+  int number;
+  std::string_view text;
+};
+
+constexpr std::array kNames{
+    Name{101, "TOO_FEW_POINTS"},
+    Name{102, "CONSECUTIVE_POINTS_SAME"},
+    Name{103, "RING_NOT_CLOSED"},
+    Name{104, "RING_SELF_INTERSECTION"},
+    Name{201, "INTERSECTION_RINGS"},
+    Name{202, "DUPLICATED_RINGS"},
+    Name{203, "NON_PLANAR_POLYGON_DISTANCE_PLANE"},
+    Name{204, "NON_PLANAR_POLYGON_NORMALS_DEVIATION"},
+    Name{205, "POLYGON_INTERIOR_DISCONNECTED"},
+    Name{206, "INNER_RING_OUTSIDE"},
+    Name{207, "INNER_RINGS_NESTED"},
+    Name{208, "ORIENTATION_RINGS_SAME"},
+    Name{301, "TOO_FEW_POLYGONS"},
+    Name{302, "SHELL_NOT_CLOSED"},
+    Name{303, "NON_MANIFOLD_CASE"},
+    Name{305, "MULTIPLE_CONNECTED_COMPONENTS"},
+    Name{306, "SHELL_SELF_INTERSECTION"},
+    Name{307, "POLYGON_WRONG_ORIENTATION"},
+    Name{401, "INTERSECTION_SHELLS"},
+    Name{402, "DUPLICATED_SHELLS"},
+    Name{403, "INNER_SHELL_OUTSIDE"},
+    Name{404, "SOLID_INTERIOR_DISCONNECTED"},
+    Name{405, "WRONG_ORIENTATION_SHELL"},
+    Name{501, "INTERSECTION_SOLIDS"},
+    Name{502, "DUPLICATED_SOLIDS"},
+    Name{503, "DISCONNECTED_SOLIDS"},
+    Name{902, "EMPTY_PRIMITIVE"},
+};
+
+}  // namespace
+
+std::string_view val3dity_name(int number) {
+  const auto found = std::ranges::find(kNames, number, &Name::number);
+  return found == kNames.end() ? std::string_view() : found->text;
+}
+
+namespace detail {
+
+namespace {
+
+/// oriel's code and val3dity's number.
+std::pair<const char*, int> code_of(Defect defect) {
+  switch (defect) {
+    case Defect::empty:
+      return {"E313", 902};
+    case Defect::too_few_points:
+      return {"E311", 101};
+    case Defect::repeated_point:
+      return {"E312", 102};
+    case Defect::ring_crosses_itself:
+      return {"E341", 104};
+    case Defect::rings_cross:
+      return {"E342", 201};
+    case Defect::rings_alike:
+      return {"E343", 202};
+    case Defect::off_plane:
+      return {"E344", 203};
+    case Defect::folded:
+      return {"E345", 204};
+    case Defect::polygon_in_pieces:
+      return {"E346", 205};
+    case Defect::hole_outside:
+      return {"E347", 206};
+    case Defect::holes_nested:
+      return {"E348", 207};
+    case Defect::holes_turned:
+      return {"E349", 208};
+    case Defect::too_few_polygons:
+      return {"E301", 301};
+    case Defect::open_shell:
+      return {"E302", 302};
+    case Defect::many_at_edge:
+      return {"E303", 303};
+    case Defect::many_at_vertex:
+      return {"E350", 303};
+    case Defect::shell_in_pieces:
+      return {"E351", 305};
+    case Defect::shell_crosses_itself:
+      return {"E352", 306};
+    case Defect::polygon_turned:
+      return {"E308", 307};
+    case Defect::one_sided:
+      return {"E307", 307};
+    case Defect::shells_cross:
+      return {"E353", 401};
+    case Defect::shells_alike:
+      return {"E354", 402};
+    case Defect::cavity_outside:
+      return {"E305", 403};
+    case Defect::solid_in_pieces:
+      return {"E355", 404};
+    case Defect::shell_turned:
+      return {"E308", 405};
+    case Defect::solids_cross:
+      return {"E356", 501};
+    case Defect::solids_alike:
+      return {"E357", 502};
+    case Defect::solids_apart:
+      return {"E358", 503};
+  }
+  return {"E901", 0};
+}
+
+std::string text_of(Vec3 p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z); }
+
+}  // namespace
+
+void FindingList::add(Defect defect, const Subject& subject, std::string sentence,
+                      const std::vector<int>& vertices) {
+  const auto [code, number] = code_of(defect);
+  Finding finding{code,          number,          std::move(sentence), subject.body,
+                  subject.shell, subject.polygon, subject.ring,        {}};
+  for (const int vertex : vertices) finding.at_m.push_back(building_.place(vertex));
+  if (finding.at_m.size() == 1) finding.sentence += " at " + text_of(finding.at_m[0]);
+  if (finding.at_m.size() == 2)
+    finding.sentence +=
+        fmt::format(" at the edge {} to {}", text_of(finding.at_m[0]), text_of(finding.at_m[1]));
+  findings_.push_back(std::move(finding));
+}
+
+}  // namespace detail
+
+}  // namespace oriel

@@ -1,0 +1,133 @@
+#include "kernel/validate/polygons/polygon_checks.h"
+
+#include "kernel/mesh/triangulate.h"
+#include "kernel/validate/polygons/fitted_plane.h"
+#include "kernel/validate/polygons/ring_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+Subject subject_of(const SnappedPolygon& polygon) {
+  return {polygon.body, polygon.shell, polygon.number, -1};
+}
+
+/// The vertex furthest from the fitted plane, if it is too far.
+bool is_near_plane(const SnappedBuilding& building, const SnappedPolygon& polygon,
+                   const FittedPlane& plane, double tolerance_m, FindingList& findings) {
+  double furthest = -1;
+  int where = -1;
+  for (const auto& ring : polygon.rings)
+    for (const int vertex : ring) {
+      const double distance = std::abs(plane.distance(building.metres(vertex)));
+      if (distance <= furthest) continue;
+      furthest = distance;
+      where = vertex;
+    }
+  if (furthest <= tolerance_m) return true;
+  findings.add(Defect::off_plane, subject_of(polygon),
+               fmt::format("polygon {} is not planar: a point is {:.4f} m from the plane fitted to "
+                           "it; the tolerance is {} m",
+                           polygon.number, furthest, tolerance_m),
+               {where});
+  return false;
+}
+
+/// The triangles of a polygon whose rings are good.
+std::vector<std::array<int, 3>> triangles_of(const SnappedBuilding& building,
+                                             const SnappedPolygon& polygon, Vec3 axis) {
+  std::map<int, int> local_of;
+  std::vector<int> vertices;
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> rings = polygon.rings;
+  for (auto& ring : rings)
+    for (int& vertex : ring) {
+      const auto [found, is_new] = local_of.try_emplace(vertex, static_cast<int>(vertices.size()));
+      if (is_new) {
+        const GridPoint& p = building.point(vertex);
+        vertices.push_back(vertex);
+        points.push_back(
+            {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+      }
+      vertex = found->second;
+    }
+  auto triangles = triangulate(points, rings, axis);
+  for (auto& triangle : triangles)
+    for (int& corner : triangle) corner = vertices[static_cast<std::size_t>(corner)];
+  return triangles;
+}
+
+/// val3dity 204: the normals of the triangles, against that of the largest one.
+bool is_unfolded(const SnappedBuilding& building, const SnappedPolygon& polygon,
+                 const std::vector<std::array<int, 3>>& triangles, double tolerance_deg,
+                 FindingList& findings) {
+  std::vector<Vec3> normals;
+  for (const auto& [a, b, c] : triangles)
+    normals.push_back(
+        cross(building.metres(b) - building.metres(a), building.metres(c) - building.metres(a)));
+  if (normals.empty()) return true;
+  const Vec3 main = *std::ranges::max_element(normals, {}, length);
+  double worst = -1;
+  std::size_t where = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const double angle = std::atan2(length(cross(main, normals[i])), dot(main, normals[i]));
+    if (angle <= worst) continue;
+    worst = angle;
+    where = i;
+  }
+  const double worst_deg = worst * 180 / std::numbers::pi;
+  if (worst_deg <= tolerance_deg) return true;
+  findings.add(Defect::folded, subject_of(polygon),
+               fmt::format("polygon {} is folded: the normals of its triangles deviate by {:.1f}°; "
+                           "the tolerance is {}°",
+                           polygon.number, worst_deg, tolerance_deg),
+               {triangles[where][0]});
+  return false;
+}
+
+bool is_bare_triangle(const SnappedPolygon& polygon) {
+  return polygon.rings.size() == 1 && polygon.rings[0].size() == 3;
+}
+
+JudgedPolygon judge_triangle(const SnappedBuilding& building, const SnappedPolygon& polygon,
+                             FindingList& findings) {
+  const std::vector<int>& ring = polygon.rings[0];
+  if (are_collinear(building.point(ring[0]), building.point(ring[1]), building.point(ring[2]))) {
+    Subject subject = subject_of(polygon);
+    subject.ring = 0;
+    findings.add(Defect::ring_crosses_itself, subject,
+                 fmt::format("polygon {}, a triangle, has no area", polygon.number), {ring[0]});
+    return {};
+  }
+  return {true, {{ring[0], ring[1], ring[2]}}};
+}
+
+}  // namespace
+
+JudgedPolygon judge(const SnappedBuilding& building, const SnappedPolygon& polygon,
+                    const ValidateOptions& options, FindingList& findings) {
+  if (!have_good_points(polygon, findings)) return {};
+  if (is_bare_triangle(polygon)) return judge_triangle(building, polygon, findings);
+  std::vector<Vec3> points;
+  for (const auto& ring : polygon.rings)
+    for (const int vertex : ring) points.push_back(building.metres(vertex));
+  const FittedPlane plane = fit_plane(points);
+  if (!is_near_plane(building, polygon, plane, options.planarity_m, findings)) return {};
+  const FlatPolygon flat = flat_polygon(building, polygon, plane.normal);
+  const bool is_good = are_simple(polygon, flat, findings) &&
+                       are_holes_turned_well(polygon, flat, findings) &&
+                       lie_well(polygon, flat, findings);
+  if (!is_good) return {};
+  JudgedPolygon out{true, triangles_of(building, polygon, flat.axis)};
+  out.is_good = is_unfolded(building, polygon, out.triangles, options.planarity_deg, findings);
+  return out;
+}
+
+}  // namespace oriel::detail

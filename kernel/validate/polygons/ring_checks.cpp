@@ -1,0 +1,266 @@
+#include "kernel/validate/polygons/ring_checks.h"
+
+#include "kernel/geometry/disjoint_sets.h"
+#include "kernel/validate/polygons/ring_edges.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+Subject subject_of(const SnappedPolygon& polygon, std::size_t ring) {
+  return {polygon.body, polygon.shell, polygon.number, static_cast<int>(ring)};
+}
+
+/// "polygon 3", "inner ring 2 of polygon 3".
+std::string name_of(const SnappedPolygon& polygon, std::size_t ring) {
+  if (polygon.rings.size() == 1) return fmt::format("polygon {}", polygon.number);
+  if (ring == 0) return fmt::format("the outer ring of polygon {}", polygon.number);
+  return fmt::format("inner ring {} of polygon {}", ring, polygon.number);
+}
+
+std::vector<int> ends_of(const SnappedPolygon& polygon, const FlatEdge& edge) {
+  const auto& ring = polygon.rings[edge.ring];
+  return {ring[edge.at], ring[(edge.at + 1) % ring.size()]};
+}
+
+std::vector<GridBox> boxes_of(const std::vector<FlatEdge>& edges) {
+  std::vector<GridBox> boxes;
+  boxes.reserve(edges.size());
+  for (const FlatEdge& edge : edges) boxes.push_back(flat_box({edge.from, edge.to}));
+  return boxes;
+}
+
+bool has_good_points(const SnappedPolygon& polygon, std::size_t number, FindingList& findings) {
+  const std::vector<int>& ring = polygon.rings[number];
+  const Subject subject = subject_of(polygon, number);
+  if (ring.size() < 3) {
+    findings.add(
+        Defect::too_few_points, subject,
+        fmt::format("{} has {} points; expected at least 3", name_of(polygon, number), ring.size()),
+        ring.empty() ? std::vector<int>{} : std::vector<int>{ring[0]});
+    return false;
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (ring[i] == ring[(i + 1) % ring.size()]) {
+      findings.add(Defect::repeated_point, subject,
+                   fmt::format("{} has the same point twice in a row", name_of(polygon, number)),
+                   {ring[i]});
+      return false;
+    }
+  return true;
+}
+
+bool is_simple(const SnappedPolygon& polygon, const FlatPolygon& flat, std::size_t number,
+               FindingList& findings) {
+  const std::vector<FlatEdge> edges = edges_of(flat.rings[number], number);
+  bool is_good = true;
+  for_each_pair(boxes_of(edges), [&](std::size_t i, std::size_t j) {
+    const FlatEdge& p = edges[i];
+    const FlatEdge& q = edges[j];
+    const bool are_neighbours = j == i + 1 || (i == 0 && j + 1 == edges.size());
+    const Meeting how = meeting(p.from, p.to, q.from, q.to);
+    if (how == Meeting::none || (are_neighbours && how == Meeting::touch)) return true;
+    findings.add(Defect::ring_crosses_itself, subject_of(polygon, number),
+                 fmt::format("{} {} itself", name_of(polygon, number),
+                             how == Meeting::cross     ? "crosses"
+                             : how == Meeting::overlap ? "runs back over"
+                                                       : "touches"),
+                 ends_of(polygon, p));
+    is_good = false;
+    return false;
+  });
+  return is_good;
+}
+
+/// The ring's points from its least one on, in the direction of the lesser neighbour: the same for
+/// all rings of the same points.
+std::vector<FlatPoint> canonical(std::vector<FlatPoint> ring) {
+  std::ranges::rotate(ring, std::ranges::min_element(ring));
+  if (ring.back() < ring[1]) std::reverse(ring.begin() + 1, ring.end());
+  return ring;
+}
+
+bool are_different(const SnappedPolygon& polygon, const FlatPolygon& flat, FindingList& findings) {
+  std::map<std::vector<FlatPoint>, std::size_t> first_of;
+  bool is_good = true;
+  for (std::size_t i = 0; i < flat.rings.size(); ++i) {
+    const auto [found, is_new] = first_of.try_emplace(canonical(flat.rings[i]), i);
+    if (is_new) continue;
+    findings.add(
+        Defect::rings_alike, subject_of(polygon, i),
+        fmt::format("{} is the same as {}", name_of(polygon, i), name_of(polygon, found->second)),
+        {polygon.rings[i][0]});
+    is_good = false;
+  }
+  return is_good;
+}
+
+/// Two rings and a point in which they touch.
+using Touch = std::tuple<std::size_t, std::size_t, FlatPoint>;
+
+/// Adds the points in which two edges of different rings touch.
+void add_touches(const FlatEdge& p, const FlatEdge& q, std::set<Touch>& touches) {
+  const auto add = [&](const FlatPoint& point) {
+    touches.emplace(std::min(p.ring, q.ring), std::max(p.ring, q.ring), point);
+  };
+  for (const FlatPoint& point : {p.from, p.to})
+    if (is_on(point, q.from, q.to)) add(point);
+  for (const FlatPoint& point : {q.from, q.to})
+    if (is_on(point, p.from, p.to)) add(point);
+}
+
+/// val3dity 201. Where rings touch without crossing goes to `touches`.
+bool are_apart(const SnappedPolygon& polygon, const FlatPolygon& flat, std::set<Touch>& touches,
+               FindingList& findings) {
+  std::vector<FlatEdge> edges;
+  for (std::size_t i = 0; i < flat.rings.size(); ++i)
+    std::ranges::move(edges_of(flat.rings[i], i), std::back_inserter(edges));
+  std::set<std::pair<std::size_t, std::size_t>> crossed;
+  const auto tell = [&](std::size_t p, std::size_t q, const std::vector<int>& where) {
+    if (!crossed.emplace(std::min(p, q), std::max(p, q)).second) return;
+    findings.add(Defect::rings_cross, subject_of(polygon, std::max(p, q)),
+                 fmt::format("{} crosses {}", name_of(polygon, std::max(p, q)),
+                             name_of(polygon, std::min(p, q))),
+                 where);
+  };
+  for_each_pair(boxes_of(edges), [&](std::size_t i, std::size_t j) {
+    if (edges[i].ring == edges[j].ring) return true;
+    const Meeting how = meeting(edges[i].from, edges[i].to, edges[j].from, edges[j].to);
+    if (how == Meeting::touch) add_touches(edges[i], edges[j], touches);
+    if (how == Meeting::cross || how == Meeting::overlap)
+      tell(edges[i].ring, edges[j].ring, ends_of(polygon, edges[i]));
+    return true;
+  });
+  for (const auto& [p, q, point] : touches)
+    if (!crossed.contains({p, q}) && cross_at(point, flat.rings[p], flat.rings[q]))
+      tell(p, q, {polygon.rings[q][0]});
+  return crossed.empty();
+}
+
+/// val3dity 205: rings and the points where they touch, as a graph, have no cycle.
+bool is_in_one_piece(const SnappedPolygon& polygon, const FlatPolygon& flat,
+                     const std::set<Touch>& touches, FindingList& findings) {
+  std::map<FlatPoint, std::set<std::size_t>> rings_at;
+  for (const auto& [p, q, point] : touches) rings_at[point].insert({p, q});
+  DisjointSets groups(flat.rings.size());
+  int point_number = static_cast<int>(flat.rings.size());
+  for (const auto& [point, rings] : rings_at) {
+    groups.add();
+    for (const std::size_t ring : rings) {
+      const int number = static_cast<int>(ring);
+      if (groups.find(number) == groups.find(point_number)) {
+        findings.add(Defect::polygon_in_pieces, subject_of(polygon, ring),
+                     fmt::format("the rings of polygon {} touch so that its interior is in pieces",
+                                 polygon.number),
+                     {polygon.rings[ring][0]});
+        return false;
+      }
+      groups.unite(number, point_number);
+    }
+    ++point_number;
+  }
+  return true;
+}
+
+std::vector<FlatPoint> doubled(std::vector<FlatPoint> ring) {
+  for (FlatPoint& p : ring) p = {2 * p[0], 2 * p[1]};
+  return ring;
+}
+
+/// Where ring p, which does not cross q, lies: +1 inside q, -1 outside. Middles of edges decide, as
+/// points may lie on q; no middle of p can if q's points lie on p only in points.
+int side_of_ring(const std::vector<FlatPoint>& p, const std::vector<FlatPoint>& twice_q) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const FlatPoint& a = p[i];
+    const FlatPoint& b = p[(i + 1) % p.size()];
+    const int place = place_in({a[0] + b[0], a[1] + b[1]}, twice_q);
+    if (place != 0) return place;
+    const int at_point = place_in({2 * a[0], 2 * a[1]}, twice_q);
+    if (at_point != 0) return at_point;
+  }
+  return 0;
+}
+
+/// val3dity 206 and 207.
+bool are_holes_placed_well(const SnappedPolygon& polygon, const FlatPolygon& flat,
+                           FindingList& findings) {
+  const std::size_t before = findings.size();
+  std::vector<std::vector<FlatPoint>> twice;
+  std::vector<GridBox> boxes;
+  for (const auto& ring : flat.rings) {
+    twice.push_back(doubled(ring));
+    boxes.push_back(flat_box(ring));
+  }
+  for (std::size_t i = 1; i < flat.rings.size(); ++i)
+    if (side_of_ring(flat.rings[i], twice[0]) < 0)
+      findings.add(Defect::hole_outside, subject_of(polygon, i),
+                   fmt::format("{} lies outside its outer ring", name_of(polygon, i)),
+                   {polygon.rings[i][0]});
+  if (findings.size() > before) return false;
+  for_each_pair(boxes, [&](std::size_t i, std::size_t j) {
+    if (i == 0) return true;
+    const bool is_inside = side_of_ring(flat.rings[j], twice[i]) > 0;
+    const bool is_around = !is_inside && side_of_ring(flat.rings[i], twice[j]) > 0;
+    const std::size_t inner = is_inside ? j : i;
+    if (is_inside || is_around)
+      findings.add(Defect::holes_nested, subject_of(polygon, inner),
+                   fmt::format("{} lies inside {}", name_of(polygon, inner),
+                               name_of(polygon, i + j - inner)),
+                   {polygon.rings[inner][0]});
+    return true;
+  });
+  return findings.size() == before;
+}
+
+}  // namespace
+
+bool have_good_points(const SnappedPolygon& polygon, FindingList& findings) {
+  if (polygon.rings.empty()) {
+    findings.add(Defect::too_few_points, subject_of(polygon, 0),
+                 fmt::format("polygon {} has no ring", polygon.number));
+    return false;
+  }
+  bool is_good = true;
+  for (std::size_t i = 0; i < polygon.rings.size(); ++i)
+    is_good = has_good_points(polygon, i, findings) && is_good;
+  return is_good;
+}
+
+bool are_simple(const SnappedPolygon& polygon, const FlatPolygon& flat, FindingList& findings) {
+  bool is_good = true;
+  for (std::size_t i = 0; i < flat.rings.size(); ++i)
+    is_good = is_simple(polygon, flat, i, findings) && is_good;
+  return is_good;
+}
+
+bool are_holes_turned_well(const SnappedPolygon& polygon, const FlatPolygon& flat,
+                           FindingList& findings) {
+  bool is_good = true;
+  for (std::size_t i = 1; i < flat.rings.size(); ++i) {
+    if (orientation(flat.rings[i]) < 0) continue;
+    findings.add(Defect::holes_turned, subject_of(polygon, i),
+                 fmt::format("{} runs the same way round as the outer ring; expected the other way",
+                             name_of(polygon, i)),
+                 {polygon.rings[i][0]});
+    is_good = false;
+  }
+  return is_good;
+}
+
+bool lie_well(const SnappedPolygon& polygon, const FlatPolygon& flat, FindingList& findings) {
+  if (flat.rings.size() == 1) return true;
+  std::set<Touch> touches;
+  return are_different(polygon, flat, findings) && are_apart(polygon, flat, touches, findings) &&
+         is_in_one_piece(polygon, flat, touches, findings) &&
+         are_holes_placed_well(polygon, flat, findings);
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,73 @@
+#include "kernel/validate/polygons/snapped.h"
+
+#include "kernel/geometry/near_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+constexpr double kPerMetre = 1e6;
+
+std::optional<GridPoint> on_grid(Vec3 p) {
+  GridPoint point{};
+  const std::array coordinates{p.x, p.y, p.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double scaled = coordinates[i] * kPerMetre;
+    if (!(std::abs(scaled) < static_cast<double>(exact::kMaxCoordinate))) return std::nullopt;
+    point[i] = std::llround(scaled);
+  }
+  return point;
+}
+
+/// Puts a vertex that reading dropped back beside the one it repeats.
+void repeat_in(std::vector<int>& ring, int vertex) {
+  const auto at = std::ranges::find(ring, vertex);
+  if (at != ring.end()) ring.insert(at, vertex);
+}
+
+}  // namespace
+
+Vec3 SnappedBuilding::metres(int vertex) const {
+  const GridPoint& p = point(vertex);
+  return {static_cast<double>(p[0]) / kPerMetre, static_cast<double>(p[1]) / kPerMetre,
+          static_cast<double>(p[2]) / kPerMetre};
+}
+
+std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) {
+  std::vector<GridPoint> grid;
+  grid.reserve(building.vertices.size());
+  for (const Vec3 vertex : building.vertices) {
+    const auto point = on_grid(vertex);
+    if (!point) return std::nullopt;
+    grid.push_back(*point);
+  }
+  SnappedBuilding out;
+  out.origin_m = building.frame.origin_m;
+  out.points = grid;
+  std::ranges::sort(out.points);
+  const auto doubles = std::ranges::unique(out.points);
+  out.points.erase(doubles.begin(), doubles.end());
+  const Numbers first = group_near_points(out.points, std::max(snap_m * kPerMetre, 1.0));
+  std::vector<int> number_of;
+  number_of.reserve(grid.size());
+  for (const GridPoint& point : grid) {
+    const auto found = std::ranges::lower_bound(out.points, point) - out.points.begin();
+    number_of.push_back(first[static_cast<std::size_t>(found)]);
+  }
+  for (const Polygon& polygon : building.polygons)
+    out.polygons.push_back({polygon.source, polygon.body, polygon.shell, polygon.rings});
+  for (const RepeatedVertex& repeat : building.repeats)
+    repeat_in(out.polygons[static_cast<std::size_t>(repeat.polygon)]
+                  .rings[static_cast<std::size_t>(repeat.ring)],
+              repeat.vertex);
+  for (SnappedPolygon& polygon : out.polygons)
+    for (auto& ring : polygon.rings)
+      for (int& vertex : ring) vertex = number_of[static_cast<std::size_t>(vertex)];
+  return out;
+}
+
+}  // namespace oriel::detail

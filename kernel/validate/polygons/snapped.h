@@ -1,0 +1,40 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/validate/solids/predicates.h"
+
+#include <optional>
+#include <vector>
+
+namespace oriel::detail {
+
+/// A polygon as it is judged.
+struct SnappedPolygon {
+  /// Polygon::source.
+  int number = -1;
+  int body = 0;
+  int shell = 0;
+  /// Numbers of points, as often in a row as they were read.
+  std::vector<std::vector<int>> rings;
+};
+
+/// A building with its vertices on whole micrometres, those closer than the tolerance made one.
+struct SnappedBuilding {
+  /// Distinct points, sorted.
+  std::vector<GridPoint> points;
+  std::vector<SnappedPolygon> polygons;
+  Vec3 origin_m;
+
+  [[nodiscard]] const GridPoint& point(int vertex) const {
+    return points[static_cast<std::size_t>(vertex)];
+  }
+  /// In metres of the building's frame.
+  [[nodiscard]] Vec3 metres(int vertex) const;
+  /// In the input's coordinates.
+  [[nodiscard]] Vec3 place(int vertex) const { return metres(vertex) + origin_m; }
+};
+
+/// Nothing if a coordinate is not finite or beyond what predicates are exact for.
+std::optional<SnappedBuilding> snapped(const Building& building, double snap_m);
+
+}  // namespace oriel::detail

@@ -1,0 +1,114 @@
+#include "kernel/validate/solids/closed_surface.h"
+
+#include "kernel/validate/solids/nef_bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+using exact::Int128;
+
+/// Six times the volume under a triangle as seen from `o`.
+Int128 volume_under(const GridTriangle& t, const GridPoint& o) {
+  std::array<std::array<Int128, 3>, 3> v{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) v[i][j] = t[i][j] - o[j];
+  return v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) -
+         v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+         v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+}
+
+std::vector<GridBox> boxes_of(const std::vector<GridTriangle>& triangles) {
+  std::vector<GridBox> boxes;
+  boxes.reserve(triangles.size());
+  for (const GridTriangle& triangle : triangles) boxes.push_back(box_of(triangle));
+  return boxes;
+}
+
+std::vector<GridTriangle> triangles_of(const std::vector<GridPoint>& points,
+                                       const std::vector<std::array<int, 3>>& corners) {
+  std::vector<GridTriangle> triangles;
+  triangles.reserve(corners.size());
+  const auto point = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+  for (const auto& [a, b, c] : corners) triangles.push_back({point(a), point(b), point(c)});
+  return triangles;
+}
+
+}  // namespace
+
+ClosedSurface::ClosedSurface(const SnappedBuilding& building, const JudgedShell& shell)
+    : tree_({}) {
+  std::map<int, int> local_of;
+  for (const ShellPolygon& polygon : shell.polygons)
+    for (std::array<int, 3> corners : polygon.triangles) {
+      for (int& corner : corners) {
+        const auto [found, is_new] = local_of.try_emplace(corner, static_cast<int>(points_.size()));
+        if (is_new) points_.push_back(building.point(corner));
+        corner = found->second;
+      }
+      corners_.push_back(corners);
+    }
+  Int128 volume = 0;
+  for (const GridTriangle& triangle : triangles_of(points_, corners_))
+    volume += volume_under(triangle, points_[0]);
+  orientation_ = volume > 0 ? 1 : -1;
+  if (orientation_ < 0)
+    for (auto& corners : corners_) std::swap(corners[1], corners[2]);
+  triangles_ = triangles_of(points_, corners_);
+  box_ = box_of(points_);
+  tree_ = GridBoxTree(boxes_of(triangles_));
+}
+
+bool ClosedSurface::contains(const GridPoint& point) const {
+  if (!overlap(box_, {point, point})) return false;
+  // A ray to a point beyond the box; if it runs along a triangle or through an edge, the next one.
+  for (std::int64_t attempt = 1;; ++attempt) {
+    const GridPoint far{box_.max[0] + 1 + 17 * attempt, point[1] + 1009 * attempt,
+                        point[2] + 919 * attempt * attempt};
+    const GridBox reach = box_of(std::array{point, far});
+    bool is_clear = true;
+    int crossings = 0;
+    tree_.for_each_overlap(reach, [&](std::size_t i) {
+      const GridTriangle& t = triangles_[i];
+      if (!meets(point, far, t)) return;
+      const bool is_inner =
+          side_of(t[0], t[1], t[2], point) != 0 && side_of(point, far, t[0], t[1]) != 0 &&
+          side_of(point, far, t[1], t[2]) != 0 && side_of(point, far, t[2], t[0]) != 0;
+      is_clear = is_clear && is_inner;
+      ++crossings;
+    });
+    if (is_clear) return crossings % 2 == 1;
+  }
+}
+
+Relation relate(const ClosedSurface& first, const ClosedSurface& second) {
+  bool do_pierce = false;
+  Relation out;
+  for (const GridTriangle& triangle : second.triangles()) {
+    if (do_pierce) break;
+    first.tree().for_each_overlap(box_of(triangle), [&](std::size_t i) {
+      if (do_pierce) return;
+      out.do_touch = out.do_touch || meet(first.triangles()[i], triangle);
+      do_pierce = pierce(first.triangles()[i], triangle);
+    });
+  }
+  if (do_pierce) {
+    out.do_touch = out.do_overlap = true;
+    return out;
+  }
+  if (out.do_touch) return relate_by_nef(first, second);
+  out.is_second_inside = first.contains(second.points()[0]);
+  out.do_overlap = out.is_second_inside || second.contains(first.points()[0]);
+  return out;
+}
+
+int count_pieces(const ClosedSurface& outer, const std::vector<const ClosedSurface*>& cavities) {
+  return count_pieces_by_nef(outer, cavities);
+}
+
+}  // namespace oriel::detail

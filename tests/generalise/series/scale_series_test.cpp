@@ -1,0 +1,240 @@
+#include "generalise/series/scale_series.h"
+
+#include "generalise/change.h"
+#include "interpret/plan/plan.h"
+#include "kernel/io/levels/level_file.h"
+#include "kernel/io/levels/written_grid.h"
+#include "kernel/io/records/operation_log.h"
+#include "kernel/io/writer.h"
+#include "kernel/validate/validate.h"
+#include "tests/generalise/line.h"
+#include "tests/support/generated.h"
+#include "tests/support/shared.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace oriel;
+using namespace oriel::test;
+
+namespace {
+
+const std::vector<double> kSeriesScales{500, 1000, 2500, 5000, 10000};
+
+SeriesInput input_of(const Line& line) {
+  return {line.building(), line.labelled,       line.solid, line.segmentation,
+          line.table(),    line.interpretation, {},         {}};
+}
+
+PlanAt plan_of(const Line& line) {
+  return [&](double scale) {
+    return plan(residential(), line.table(), line.description.graph, line.interpretation, scale);
+  };
+}
+
+ScaleSeries series_of(const Line& line, const SeriesInput& input) {
+  const PlanAt plan_at = plan_of(line);
+  const auto levels = series_levels(input, kSeriesScales, plan_at);
+  REQUIRE(levels.value);
+  std::vector<const LabelledBuilding*> all;
+  for (const SeriesLevel& level : *levels.value) all.push_back(&level.redrawn.labelled);
+  const WrittenGrid grid(line.document, all);
+  return scale_series(input, *levels.value,
+                      FiringScales(kSeriesScales, plan_bounds(residential()), plan_at),
+                      [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });
+}
+
+ScaleSeries series_of(const Line& line) { return series_of(line, input_of(line)); }
+
+/// Every prefix is a valid closed solid; all the way back gives the same states.
+void check_both_ways(const Line& line, const ScaleSeries& series) {
+  LevelState state = series.finest;
+  std::vector<std::string> hashes{hash_of(state)};
+  double scale = 0;
+  for (const SeriesOperation& operation : series.operations) {
+    CHECK(operation.scale >= scale);
+    scale = operation.scale;
+    REQUIRE(apply(state, operation.forward));
+    hashes.push_back(hash_of(state));
+    CAPTURE(operation.oriel_id);
+    CHECK(is_closed(*labelled_building(state, line.building().frame).geometry));
+    CHECK(validate(building_of(state, line.building().frame)).empty());
+  }
+  for (auto operation = series.operations.rbegin(); operation != series.operations.rend();
+       ++operation) {
+    CHECK(hash_of(state) == hashes.back());
+    hashes.pop_back();
+    REQUIRE(apply(state, operation->inverse));
+  }
+  CHECK(hash_of(state) == hashes.front());
+  CHECK(state == series.finest);
+}
+
+std::string log_of(const ScaleSeries& series) {
+  std::string log;
+  for (const SeriesOperation& operation : series.operations) log += operation_line(operation);
+  return log;
+}
+
+}  // namespace
+
+TEST_SUITE("generalise") {
+  TEST_CASE("a series goes down and up through valid solids to the same states") {
+    std::size_t operations = 0;
+    for (const std::string& name : samples()) {
+      CAPTURE(name);
+      const Line line = line_of_sample(name);
+      const ScaleSeries series = series_of(line);
+      check_both_ways(line, series);
+      operations += series.operations.size();
+    }
+    CHECK(operations > 200);
+  }
+
+  TEST_CASE("a series of a generated house goes down and up") {
+    for (int i = 0; i < 4; ++i) {
+      CAPTURE(i);
+      const Line line = line_of(generated({}, i).building);
+      check_both_ways(line, series_of(line));
+    }
+  }
+
+  TEST_CASE("a series of houses of random3dcity goes down and up") {
+    ORIEL_NEEDS_SHARED(shared);
+    int houses = 0;
+    for (const std::string& file : city_files(shared)) {
+      if (file.find("random3dcity") == std::string::npos || !file.ends_with(".stripped.city.json"))
+        continue;
+      if (houses++ % 19 != 0) continue;
+      CAPTURE(file);
+      const Line line = line_of_file(file);
+      check_both_ways(line, series_of(line));
+    }
+    CHECK(houses == 76);
+  }
+
+  TEST_CASE("the log and any level make every other level") {
+    const Line line = line_of_sample("house");
+    const ScaleSeries series = series_of(line);
+    const auto log = read_operations(log_of(series), "log");
+    REQUIRE(log.value);
+    CHECK(log_of({{}, *log.value}) == log_of(series));
+    const WrittenGrid grid(line.document, {state_at(series, 500)});
+    for (const double from : kSeriesScales) {
+      const LabelledBuilding level =
+          labelled_building(state_at(series, from), line.building().frame);
+      const std::string text = write_cityjson(line.document, {level},
+                                              {.removed = {}, .finer_digits = grid.finer_digits()});
+      auto read = read_level(text, "level", {line.building().id});
+      REQUIRE(read.value);
+      for (const double to : {1., 500., 700., 3000., 10000.}) {
+        LevelState state = read.value->at(0);
+        REQUIRE(move_state(state, *log.value, from, to));
+        CHECK(hash_of(state) == hash_of(state_at(series, to)));
+      }
+    }
+  }
+
+  TEST_CASE("a level that must not be written stays as the one before and is told") {
+    const Line line = line_of_sample("house");
+    const auto free = series_levels(input_of(line), kSeriesScales, plan_of(line));
+    REQUIRE(free.value);
+    const auto facets_at = [](const SeriesLevel& level) {
+      return level.redrawn.labelled.geometry->facets.size();
+    };
+    const std::size_t least = facets_at(free.value->at(2)) - 1;
+    CHECK(facets_at(free.value->at(3)) < least);
+    SeriesInput input = input_of(line);
+    input.fault_of = [&](const Solid& solid) -> std::optional<Issue> {
+      if (solid.facets.size() >= least) return std::nullopt;
+      return building_issue(Severity::error, "G410", "house", "too few");
+    };
+    const auto levels = series_levels(input, kSeriesScales, plan_of(line));
+    REQUIRE(levels.value);
+    for (const std::size_t i : {2, 3, 4, 5}) {
+      CHECK(facets_at(levels.value->at(i)) == facets_at(free.value->at(2)));
+      CHECK(levels.value->at(i).scale == kSeriesScales[i - 1]);
+    }
+    CHECK(std::ranges::count(levels.issues, "G410", &Issue::code) == 3);
+    CHECK_FALSE(has_errors(levels.issues));
+    check_both_ways(line, series_of(line, input));
+    const ScaleSeries series = series_of(line, input);
+    CHECK(state_at(series, 1000) == state_at(series, 10000));
+    CHECK_FALSE(state_at(series, 1) == state_at(series, 1000));
+  }
+
+  TEST_CASE("a building that must not be written as it came has no series") {
+    const Line line = line_of_sample("house");
+    SeriesInput input = input_of(line);
+    input.fault_of = [](const Solid&) {
+      return building_issue(Severity::error, "G410", "house", "no");
+    };
+    const auto levels = series_levels(input, kSeriesScales, plan_of(line));
+    CHECK_FALSE(levels.value);
+    CHECK(has_errors(levels.issues));
+  }
+
+  TEST_CASE("levels and the states between are finished as the input asks") {
+    const Line line = line_of_sample("house");
+    SeriesInput input = input_of(line);
+    input.finish = [](LabelledBuilding& labelled) {
+      for (SemanticSurface& surface : labelled.surfaces)
+        surface.members.emplace_back("finished", true);
+    };
+    const ScaleSeries series = series_of(line, input);
+    check_both_ways(line, series);
+    LevelState state = series.finest;
+    for (const SeriesOperation& operation : series.operations) {
+      for (const auto& [outer, facet] : state.facets)
+        CHECK(facet.members.back() == Members::value_type("finished", true));
+      REQUIRE(apply(state, operation.forward));
+    }
+  }
+
+  TEST_CASE("what a level shows of a feature has the same id and label in all levels") {
+    const Line line = line_of_sample("house");
+    const ScaleSeries series = series_of(line);
+    const auto ids = [](const LevelState& state) {
+      std::set<std::string> found;
+      for (const auto& [outer, facet] : state.facets)
+        for (const auto& [name, value] : facet.members)
+          if (name == "oriel_id") found.insert(std::get<std::string>(value));
+      for (const auto& [id, attributes] : state.installations) found.insert(id);
+      return found;
+    };
+    std::set<std::string> finer = ids(series.finest), gone;
+    CHECK(finer.size() > 20);
+    for (const SeriesOperation& operation : series.operations) {
+      gone.insert(operation.oriel_id);
+      gone.insert(operation.with.begin(), operation.with.end());
+    }
+    for (const double scale : kSeriesScales) {
+      const std::set<std::string> coarser = ids(state_at(series, scale));
+      CHECK(std::ranges::includes(finer, coarser));
+      for (const std::string& id : finer)
+        if (!coarser.contains(id)) CHECK(gone.contains(id));
+      finer = coarser;
+    }
+  }
+
+  TEST_CASE("a log that does not fit the level is refused") {
+    const Line line = line_of_sample("house");
+    ScaleSeries series = series_of(line);
+    LevelState state = series.finest;
+    std::swap(series.operations.front(), series.operations.back());
+    LevelState changed = state;
+    changed.facets.erase(changed.facets.begin());
+    CHECK_FALSE(move_state(changed, series.operations, 0, 1e6));
+    const auto bad = read_operations("{\"building\":\"a\"}\n", "log");
+    CHECK_FALSE(bad.value);
+    REQUIRE(bad.issues.size() == 1);
+    CHECK(bad.issues[0].code == "E119");
+    const auto none = read_level("{}", "level", {"a"});
+    CHECK_FALSE(none.value);
+    CHECK(none.issues.at(0).code == "E120");
+  }
+}

@@ -1,0 +1,21 @@
+#include "interpret/language/suggest.h"
+
+#include <doctest/doctest.h>
+
+using namespace oriel::rules;
+
+TEST_SUITE("interpret") {
+  TEST_CASE("the nearest name is suggested and nothing that is far") {
+    const std::vector<std::string> names = {"height", "height_of", "width", "a", "b"};
+    CHECK(nearest("heigth", names) == "height");
+    CHECK(nearest("hight", names) == "height");
+    CHECK(nearest("heightof", names) == "height_of");
+    CHECK(nearest("wdith", names) == "width");
+    CHECK(nearest("colour", names).empty());
+    CHECK(nearest("x", names).empty());
+    CHECK(nearest("height", names).empty());
+    CHECK(did_you_mean("widht", names) == "; did you mean 'width'?");
+    CHECK(did_you_mean("colour", names).empty());
+    CHECK(nearest(std::string(1000, 'a'), names).empty());
+  }
+}

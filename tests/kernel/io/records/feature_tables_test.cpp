@@ -1,0 +1,99 @@
+#include "kernel/io/records/feature_tables.h"
+
+#include "kernel/io/records/feature_records.h"
+#include "tests/kernel/io/files.h"
+#include "tests/kernel/io/segmentations.h"
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using test::codes_of;
+
+Checked<std::vector<DescribedBuilding>> tables_of(const std::string& text,
+                                                  const std::string& name) {
+  const test::TemporaryFolder folder;
+  return read_feature_tables(folder.write(name, text));
+}
+
+TEST_SUITE("kernel/io") {
+  TEST_CASE("attributes and relations come back from every format as they were") {
+    const test::SmallSegmentation small;
+    for (const char* name : {"f.csv", "f.json", "f.jsonl"}) {
+      CAPTURE(name);
+      const test::TemporaryFolder folder;
+      FeatureRecordWriter writer(folder.file(name));
+      writer.append(
+          feature_records(small.building, small.segmentation, small.table, small.graph, nullptr));
+      writer.commit();
+      const auto read = read_feature_tables(folder.file(name));
+      CHECK(read.issues.empty());
+      REQUIRE(read.value);
+      REQUIRE(read.value->size() == 1);
+      const auto& [table, graph] = read.value->front();
+      CHECK(table.building() == "house");
+      REQUIRE(table.rows() == small.table.rows());
+      for (int i = 0; i < static_cast<int>(table.rows()); ++i) {
+        const FeatureId row{i};
+        CHECK(table.id(row) == small.table.id(row));
+        for (std::size_t column = 0; column < feature_schema().size(); ++column) {
+          if (feature_schema()[column].unit == Unit::text)
+            CHECK(table.texts(column)[row.index()] == small.table.texts(column)[row.index()]);
+          else
+            CHECK(table.number(row, column) == small.table.number(row, column));
+        }
+      }
+      std::size_t pairs = 0;
+      for (const RelationKind& relation : relation_schema()) {
+        const auto p = graph.pairs(relation.name), q = small.graph.pairs(relation.name);
+        CHECK(std::vector(p.begin(), p.end()) == std::vector(q.begin(), q.end()));
+        pairs += p.size();
+      }
+      CHECK(pairs == 4);
+    }
+  }
+
+  TEST_CASE("each building has a table of its own") {
+    const auto read = tables_of("building,id,a_m,rel_beside\nh,f,1,g\nh,g,2,\nk,f,3,\n", "f.csv");
+    CHECK(read.issues.empty());
+    REQUIRE(read.value->size() == 2);
+    CHECK((*read.value)[0].table.rows() == 2);
+    CHECK((*read.value)[0].graph.pairs("beside").size() == 1);
+    CHECK((*read.value)[1].table.number(FeatureId{0}, "a") == 3);
+    CHECK((*read.value)[1].graph.pairs("beside").empty());
+  }
+
+  TEST_CASE("a relation to what is not in the file is told") {
+    const auto read = tables_of("building,id,host,rel_beside\nh,f,x,g;y\nh,g,,f\nk,f,,\n", "f.csv");
+    REQUIRE(codes_of(read.issues) == "E121");
+    CHECK(read.issues[0].severity == Severity::warning);
+    CHECK(read.issues[0].place.building == "h");
+    CHECK(read.issues[0].sentence.starts_with("2 relations lead to features"));
+    REQUIRE(read.value->size() == 2);
+    CHECK((*read.value)[0].graph.pairs("beside").size() == 2);
+    CHECK((*read.value)[0].graph.pairs("host").empty());
+  }
+
+  TEST_CASE("a second record of a feature is left out and so is one that cannot be read") {
+    const auto read = tables_of("building,id,a_m\nh,f,1\nh,f,2\nh,g,wide\nh,i,3\n", "f.csv");
+    CHECK(codes_of(read.issues) == "E111 E111");
+    CHECK(read.issues[0].place.line == 3);
+    CHECK(read.issues[1].place.line == 4);
+    REQUIRE(read.value->size() == 1);
+    const FeatureTable& table = read.value->front().table;
+    REQUIRE(table.rows() == 2);
+    CHECK(table.number(FeatureId{0}, "a") == 1);
+    CHECK(table.number(FeatureId{1}, "a") == 3);
+    CHECK(table.id(FeatureId{1}) == "i");
+  }
+
+  TEST_CASE("what is no table of records has no tables") {
+    CHECK_FALSE(tables_of("a,b\n", "f.csv").value);
+    CHECK_FALSE(tables_of("{}", "f.json").value);
+    CHECK(tables_of("building,id\n", "f.csv").value->empty());
+  }
+}
+
+}  // namespace
+}  // namespace oriel

@@ -1,0 +1,67 @@
+#include "kernel/segment/flush/subdivisions.h"
+
+#include "kernel/segment/segment_open.h"
+#include "kernel/solidify/open_shell.h"
+#include "tests/support/shapes.h"
+
+#include <doctest/doctest.h>
+
+namespace oriel::detail {
+namespace {
+
+/// A wall with an opening, and `count` polygons upon each other in the opening. No two points are
+/// welded, so that the wall and what fills it are one subdivision.
+Subdivisions wall_with_copies(int count) {
+  Building wall = test::building_of({{{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}}});
+  const int first = static_cast<int>(wall.vertices.size());
+  for (const Vec3 p : {Vec3{1, 0, 1}, Vec3{2, 0, 1}, Vec3{2, 0, 2}, Vec3{1, 0, 2}})
+    wall.vertices.push_back(p);
+  wall.polygons[0].rings.push_back({first + 3, first + 2, first + 1, first});
+  Solid solid;
+  solid.planes.resize(1);
+  solid.planes[0].normal = {0, -1, 0};
+  solid.facets = {{PlaneId{0}, {}, {0}}};
+  for (int i = 1; i <= count; ++i) {
+    Polygon pane = wall.polygons[0];
+    pane.rings = {{first, first + 1, first + 2, first + 3}};
+    pane.source = i;
+    wall.polygons.push_back(pane);
+    solid.facets[0].polygons.push_back(i);
+  }
+  return subdivisions_of(wall, solid, {});
+}
+
+}  // namespace
+
+TEST_SUITE("kernel/segment") {
+  TEST_CASE("an edge of a subdivision is the twin of its twin where polygons lie upon each other") {
+    for (const int count : {1, 2, 3}) {
+      CAPTURE(count);
+      const Subdivisions found = wall_with_copies(count);
+      REQUIRE(found.subdivisions.size() == 1);
+      REQUIRE(std::ssize(found.polygons) == 1 + count);
+      int paired = 0;
+      for (int e = 0; e < std::ssize(found.edges); ++e) {
+        const int twin = found.edges[at(e)].twin;
+        if (twin < 0) continue;
+        ++paired;
+        CHECK(found.edges[at(twin)].twin == e);
+      }
+      CHECK(paired == 8);
+    }
+  }
+
+  TEST_CASE("a sheet that is given from both sides has no facet in an open building") {
+    const std::vector<Vec3> sheet{{0, 0, 0}, {2, 0, 0}, {2, 0, 2}, {0, 0, 2}};
+    const std::vector<Vec3> back(sheet.rbegin(), sheet.rend());
+    const std::vector<Vec3> floor{{0, 3, 0}, {2, 3, 0}, {2, 5, 0}, {0, 5, 0}};
+    CHECK_FALSE(open_shell(test::building_of({sheet, back})).has_value());
+    const auto shell = open_shell(test::building_of({sheet, back, floor}));
+    REQUIRE(shell.has_value());
+    REQUIRE(shell->facets.size() == 1);
+    CHECK(shell->facets[0].loops.size() == 1);
+    CHECK(shell->facets[0].polygons == std::vector{2});
+  }
+}
+
+}  // namespace oriel::detail
