@@ -29,18 +29,12 @@ using detail::Choice;
 using detail::Side;
 using detail::Task;
 
-/// A cut has failed half-way, and there is no copy of the body as it was.
-struct NoCopy {};
-
 class Segmenter {
  public:
-  /// `keeps_copies`: of bodies that cuts may fail on. Else run() throws NoCopy where one does.
-  Segmenter(const Building& building, const Solid& solid, const SegmentOptions& options,
-            bool keeps_copies)
+  Segmenter(const Building& building, const Solid& solid, const SegmentOptions& options)
       : building_(building),
         solid_(solid),
         options_(options),
-        keeps_copies_(keeps_copies),
         world_{detail::PlaneTable(solid.planes), detail::PointTable(solid, world_.planes)},
         cells_(solid.facets.size(), world_, out_),
         models_(world_, cells_, out_) {}
@@ -187,10 +181,10 @@ class Segmenter {
   /// Carries out a choice. Nothing, and all is as before, if its rim turns out to separate nothing,
   /// as may be between vertices that lie on their planes by decree only (noisy input). Cuts along
   /// edges fail before they change their body if at all, so no copy is kept of it.
-  std::optional<std::vector<detail::Change>> try_cut(Task& task, const Choice& choice) {
+  std::optional<std::vector<detail::RestChange>> try_cut(Task& task, const Choice& choice) {
     std::optional<Boundary> body;
     const bool may_fail = !choice.is_natural || choice.imprinted;
-    if (may_fail && keeps_copies_) body = task.body;
+    if (may_fail) body = task.body;
     const NodeId id = task.node;
     const std::size_t nodes = out_.nodes.size(), features = out_.features.size();
     const std::size_t tasks = tasks_.size();
@@ -199,7 +193,6 @@ class Segmenter {
     try {
       return cut(task, choice);
     } catch (const GeometryError&) {
-      if (may_fail && !keeps_copies_) throw NoCopy{};
       if (!body && is_body_changed_) throw;
       if (body) task.body = std::move(*body);
       task.node = id;
@@ -215,7 +208,7 @@ class Segmenter {
 
   /// Carries out a choice: makes its node and the parts' tasks, and leaves the rest in the task.
   /// Returns what has changed.
-  std::vector<detail::Change> cut(Task& task, const Choice& choice) {
+  std::vector<detail::RestChange> cut(Task& task, const Choice& choice) {
     CsgNode& here = node(task.node);
     here.kind = choice.is_hole ? CsgNode::Kind::subtract : CsgNode::Kind::unite;
     here.value = choice.value;
@@ -227,7 +220,7 @@ class Segmenter {
     node(task.node).rest = {rest};
 
     const std::size_t first_part = tasks_.size();
-    std::vector<detail::Change> changes;
+    std::vector<detail::RestChange> changes;
     changes.reserve(choice.lumps.size() + choice.patches.size());
     if (tasks_.capacity() < tasks_.size() + choice.lumps.size())
       tasks_.reserve(2 * tasks_.capacity() + choice.lumps.size());
@@ -262,10 +255,7 @@ class Segmenter {
       changes.push_back(take_off_part(task, choice, patch.caps,
                                       {patch.new_area, patch.new_area / patch.old_area}, {}));
     }
-    if (models.empty())
-      models_.find_congruent(tasks_, first_part, ground_);
-    else
-      models_.let_wait(tasks_, first_part, models);
+    models_.let_wait(tasks_, first_part, models);
     parent_of_rest_ = task.node;
     task.node = rest;
     return changes;
@@ -276,12 +266,12 @@ class Segmenter {
     double value;
   };
 
-  detail::Change take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
-                               Measures measures, std::vector<int> touched) {
+  detail::RestChange take_off_part(Task& task, const Choice& choice, std::vector<detail::Cap> caps,
+                                   Measures measures, std::vector<int> touched) {
     const bool is_natural = choice.is_natural && touched.empty();
     auto carved = take_off(task.body, caps, choice.is_hole, next_feature(), std::move(touched));
     std::vector<int> points = points_of(carved.lump);
-    detail::Change change = change_of(carved, caps, points);
+    detail::RestChange change = change_of(carved, caps, points.size());
     change.is_natural = is_natural;
     std::erase_if(caps, [](const detail::Cap& cap) { return cap.is_taken; });
     if (caps.size() > 1)
@@ -303,8 +293,8 @@ class Segmenter {
 
   /// Takes off a pocket that needs no body of its own: it gets a copy of what becomes of `model`,
   /// or, if there is none, is a leaf.
-  detail::Change take_off_pocket(Task& task, const Choice& choice, const detail::Lump& lump,
-                                 const detail::Lump* model) {
+  detail::RestChange take_off_pocket(Task& task, const Choice& choice, const detail::Lump& lump,
+                                     const detail::Lump* model) {
     const detail::Cap cap = choice.pockets->cap_of(lump.pocket);
     const std::vector<int> facets = choice.pockets->facets_of(lump.pocket);
     std::optional<detail::Congruence> how;
@@ -394,7 +384,6 @@ class Segmenter {
   const Building& building_;
   const Solid& solid_;
   const SegmentOptions& options_;
-  bool keeps_copies_;
   Segmentation out_;
   detail::World world_;
   detail::CellWriter cells_;
@@ -411,12 +400,7 @@ class Segmenter {
 }  // namespace
 
 Segmentation segment(const Building& building, const Solid& solid, const SegmentOptions& options) {
-  // Hardly any cut fails, and copies for those that may take as long as the cuts.
-  try {
-    return Segmenter(building, solid, options, false).run();
-  } catch (const NoCopy&) {
-    return Segmenter(building, solid, options, true).run();
-  }
+  return Segmenter(building, solid, options).run();
 }
 
 }  // namespace oriel

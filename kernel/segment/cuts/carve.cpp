@@ -95,7 +95,7 @@ class Remover {
     } else {
       close_rest(mark);
     }
-    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_, is_ring_};
+    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_};
   }
 
  private:

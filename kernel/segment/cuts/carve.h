@@ -43,8 +43,6 @@ struct Carved {
   /// Edges of the rest run along the caps' outlines: the caps are no mere pieces of the facets
   /// around them.
   bool has_rim_left = false;
-  /// The rim was a hole of one facet, and is gone without a trace.
-  bool is_ring = false;
 };
 
 /// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.

@@ -24,6 +24,13 @@ std::vector<int> sorted_uniquely(Points&& points, int most, World& world) {
   return sorted;
 }
 
+std::vector<std::pair<int, int>> edges_of(const CapLoop& loop) {
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(loop.edges.size());
+  for (const CapEdge& edge : loop.edges) edges.emplace_back(edge.from, edge.to);
+  return edges;
+}
+
 }  // namespace
 
 std::vector<std::size_t> models_of(const Choice& choice) {
@@ -57,34 +64,23 @@ std::vector<int> points_of(const Boundary& body) {
                          body.half_edge_count() / kEdgesAtPoint, body.world());
 }
 
-Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::vector<int>& part) {
-  const int most = static_cast<int>(part.size());
-  Change change{sorted_uniquely(carved.touched, most, carved.lump.world()),
-                {},
-                {},
-                false,
-                carved.is_ring,
-                {},
-                false};
-  if (part != change.points) change.part = part;
+RestChange change_of(const Carved& carved, const std::vector<Cap>& caps, std::size_t size) {
+  RestChange change;
+  change.points = sorted_uniquely(carved.touched, static_cast<int>(size), carved.lump.world());
   const bool is_simple =
       caps.size() == 1 && caps[0].loops.size() == 1 && caps[0].covered.empty() && !caps[0].is_taken;
-  if (is_simple) change.rim.reserve(caps[0].loops[0].edges.size());
-  if (is_simple)
-    for (const CapEdge& edge : caps[0].loops[0].edges) change.rim.emplace_back(edge.from, edge.to);
-  for (const Cap& cap : caps) change.has_covered |= !cap.covered.empty() || cap.is_taken;
-  if (carved.has_rim_left)
-    for (const Cap& cap : caps)
-      for (const CapLoop& loop : cap.loops)
-        for (const CapEdge& edge : loop.edges) change.new_edges.emplace_back(edge.from, edge.to);
+  if (is_simple) change.rim = edges_of(caps[0].loops[0]);
+  for (const Cap& cap : caps) {
+    change.has_covered |= !cap.covered.empty() || cap.is_taken;
+    if (!carved.has_rim_left) continue;
+    for (const CapLoop& loop : cap.loops)
+      for (const CapEdge& edge : loop.edges) change.new_edges.emplace_back(edge.from, edge.to);
+  }
   return change;
 }
 
-Change change_of_pocket(const Cap& cap, std::vector<int> points) {
-  Change change{std::move(points), {}, {}, true, true, {}, false};
-  change.rim.reserve(cap.loops[0].edges.size());
-  for (const CapEdge& edge : cap.loops[0].edges) change.rim.emplace_back(edge.from, edge.to);
-  return change;
+RestChange change_of_pocket(const Cap& cap, std::vector<int> points) {
+  return {.points = std::move(points), .rim = edges_of(cap.loops[0]), .is_natural = true};
 }
 
 double area_of(World& world, const Cap& cap) {

@@ -2,7 +2,7 @@
 
 #include "kernel/segment/cuts/carve.h"
 #include "kernel/segment/cuts/choice.h"
-#include "kernel/segment/cuts/slots.h"
+#include "kernel/segment/cuts/cut_candidates.h"
 
 #include <cstddef>
 #include <vector>
@@ -20,11 +20,12 @@ bool is_leaf(const Choice& choice, const Lump& lump, const std::vector<std::size
 /// The vertices of a body, sorted.
 std::vector<int> points_of(const Boundary& body);
 
-/// What a cut that took a part off has changed of the rest. `part`: the vertices of the part.
-Change change_of(const Carved& carved, const std::vector<Cap>& caps, const std::vector<int>& part);
+/// What a cut that took a part off has changed of the rest.
+/// `size`: about how many vertices the part has.
+RestChange change_of(const Carved& carved, const std::vector<Cap>& caps, std::size_t size);
 
-/// The same of a pocket that was filled, whose cap is a ring. `points`: its vertices.
-Change change_of_pocket(const Cap& cap, std::vector<int> points);
+/// What filling a pocket has changed of the rest. `points`: the vertices of the pocket.
+RestChange change_of_pocket(const Cap& cap, std::vector<int> points);
 
 double area_of(World& world, const Cap& cap);
 

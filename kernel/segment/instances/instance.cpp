@@ -1,6 +1,7 @@
 #include "kernel/segment/instances/instance.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/issue.h"
 
 #include <algorithm>
 
@@ -20,10 +21,9 @@ class Copier {
         points_(world.scratch.moved_points),
         planes_(world.scratch.moved_planes) {}
 
-  bool run(NodeId node, FeatureId feature) {
+  void run(NodeId node, FeatureId feature) {
     fill(points_, world_.points.size(), how_.points);
     fill(planes_, world_.planes.size(), how_.planes);
-    if (!has_own_planes_only()) return false;
     node_ = node;
     feature_ = feature;
     new_node_ = static_cast<int>(out_.nodes.size());
@@ -38,23 +38,12 @@ class Copier {
     for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c) copy_cell(CellId{c});
     cells_.copy_sources(how_.sources, model_.first_cell, model_.last_cell, new_cell_);
     for (const auto& [marked, copy] : how_.marks) copy_host(FeatureId{marked}, FeatureId{copy});
-    return true;
   }
 
  private:
   static void fill(StampMap& map, int size, const NumberMap& numbers) {
     map.start(size);
     for (const auto& [one, other] : numbers) map.set(one, other);
-  }
-
-  [[nodiscard]] bool has_own_planes_only() const {
-    const auto is_own = [&](PlaneId id) { return planes_.find(cells_.side_of(id) >> 1) >= 0; };
-    for (int n = model_.first_node; n < model_.last_node; ++n)
-      if (!std::ranges::all_of(out_.nodes[at(n)].planes, is_own)) return false;
-    for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c)
-      for (const Facet& facet : out_.cells[at(c)].facets)
-        if (!is_own(facet.plane)) return false;
-    return std::ranges::all_of(out_.nodes[model_.node.index()].planes, is_own);
   }
 
   [[nodiscard]] NodeId moved(NodeId id) const {
@@ -70,6 +59,7 @@ class Copier {
   }
   PlaneId moved(PlaneId id) {
     const Side side = cells_.side_of(id);
+    if (planes_.find(side >> 1) < 0) throw GeometryError("a copy of a pocket has lost planes");
     return cells_.plane_id(2 * planes_.find(side >> 1) + (side & 1));
   }
 
@@ -141,9 +131,9 @@ class Copier {
 
 }  // namespace
 
-bool copy_subtree(const Subtree& model, const Congruence& how, NodeId node, FeatureId feature,
+void copy_subtree(const Subtree& model, const Congruence& how, NodeId node, FeatureId feature,
                   World& world, CellWriter& cells, Segmentation& out) {
-  return Copier(model, how, world, cells, out).run(node, feature);
+  Copier(model, how, world, cells, out).run(node, feature);
 }
 
 }  // namespace oriel::detail

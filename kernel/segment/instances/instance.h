@@ -16,9 +16,9 @@ struct Subtree {
 };
 
 /// Gives the body at `node`, in `feature`, the subtree of a congruent one: nodes, features and
-/// cells are those of the model, moved. False, and nothing is added, if the model was cut at a
-/// plane that is none of its own.
-bool copy_subtree(const Subtree& model, const Congruence& how, NodeId node, FeatureId feature,
+/// cells are those of the model, moved. No cut has a plane that its body has not, so `how` has all
+/// planes of the subtree.
+void copy_subtree(const Subtree& model, const Congruence& how, NodeId node, FeatureId feature,
                   World& world, CellWriter& cells, Segmentation& out);
 
 }  // namespace oriel::detail

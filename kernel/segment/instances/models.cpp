@@ -1,17 +1,8 @@
 #include "kernel/segment/instances/models.h"
 
 #include "kernel/base/index.h"
-#include "kernel/base/issue.h"
-
-#include <cmath>
 
 namespace oriel::detail {
-
-void Models::find_congruent(std::vector<Task>& tasks, std::size_t first, Side ground) {
-  for (std::size_t i = tasks.size(); i-- > first;)
-    for (std::size_t j = tasks.size(); --j > i;)
-      if (!tasks[j].copy_of_model && become_copy(tasks[i], tasks[j], ground)) break;
-}
 
 void Models::let_wait(std::vector<Task>& tasks, std::size_t first,
                       const std::vector<std::size_t>& models) {
@@ -25,21 +16,6 @@ int Models::number_of(Task& model) {
     models_.emplace_back();
   }
   return model.model;
-}
-
-bool Models::become_copy(Task& task, Task& model, Side ground) {
-  const Feature &one = out_.features[model.feature.index()],
-                &two = out_.features[task.feature.index()];
-  constexpr double kSame = 1e-9;  // tolerance of doubles; what is congruent is decided exactly
-  if (std::abs(one.volume_m3 - two.volume_m3) > kSame * one.volume_m3) return false;
-  auto how = find_congruence(model.body, task.body, ground);
-  if (!how) return false;
-  // The planes of their cut are no split planes of either.
-  for (const int plane : model.own_planes)
-    if (find_in(how->planes, plane).value_or(plane) != plane) return false;
-  task.model = number_of(model);
-  task.copy_of_model = std::move(how);
-  return true;
 }
 
 void Models::open(const Task& task, std::size_t waiting) {
@@ -66,11 +42,7 @@ void Models::close(std::size_t waiting) {
 bool Models::copy(const Task& task) {
   if (!task.copy_of_model) return false;
   const Subtree& model = models_[at(task.model)].subtree;
-  if (!copy_subtree(model, *task.copy_of_model, task.node, task.feature, world_, cells_, out_)) {
-    // No cut has a plane that its body has not, so a pocket's copy is always made.
-    if (task.body.half_edge_count() == 0) throw GeometryError("a copy of a pocket has lost planes");
-    return false;
-  }
+  copy_subtree(model, *task.copy_of_model, task.node, task.feature, world_, cells_, out_);
   ++out_.stats.instanced;
   return true;
 }

@@ -28,10 +28,6 @@ class Models {
   Models(World& world, CellWriter& cells, Segmentation& out)
       : world_(world), cells_(cells), out_(out) {}
 
-  /// Of the parts of one node, the tasks from `first`, those that are congruent to a later one wait
-  /// for it.
-  void find_congruent(std::vector<Task>& tasks, std::size_t first, Side ground);
-
   /// Of the parts of one node, the tasks from `first`, the i-th waits for the one that `models` has
   /// for it, as its copy_of_model says; those that are their own model wait for none.
   void let_wait(std::vector<Task>& tasks, std::size_t first,
@@ -42,8 +38,7 @@ class Models {
   void open(const Task& task, std::size_t waiting);
   /// Tells that so many tasks wait: models whose own tasks are all done have their whole subtree.
   void close(std::size_t waiting);
-  /// Gives a task that waits for a model its copy. False if it waits for none, or if no copy can be
-  /// made: then it is to be segmented itself.
+  /// Gives a task that waits for a model its copy. False if it waits for none.
   bool copy(const Task& task);
 
  private:
@@ -52,7 +47,6 @@ class Models {
     std::size_t waiting = 0;  ///< tasks below it
   };
   int number_of(Task& model);
-  bool become_copy(Task& task, Task& model, Side ground);
 
   World& world_;
   CellWriter& cells_;
