@@ -1,4 +1,4 @@
-#include "kernel/segment/instances/instance.h"
+#include "kernel/segment/instances/instances.h"
 
 #include "kernel/base/index.h"
 #include "kernel/base/issue.h"
@@ -7,9 +7,9 @@
 
 namespace oriel::detail {
 
-namespace {
-
-class Copier {
+/// Gives the body at a node the subtree of a congruent one: nodes, features and cells are those of
+/// the model, moved. No cut has a plane that its body has not, so the map has all planes needed.
+class Instances::Copier {
  public:
   Copier(const Subtree& model, const Congruence& how, World& world, CellWriter& cells,
          Segmentation& out)
@@ -129,11 +129,46 @@ class Copier {
   NumberMap made_;
 };
 
-}  // namespace
+void Instances::let_wait(std::vector<WaitingBody>& waiting, std::size_t first,
+                         const std::vector<std::size_t>& models) {
+  for (std::size_t i = 0; i < models.size(); ++i)
+    if (models[i] != i) {
+      int& number = waiting[first + models[i]].model;
+      if (number < 0) {
+        number = static_cast<int>(models_.size());
+        models_.emplace_back();
+      }
+      waiting[first + i].model = number;
+    }
+}
 
-void copy_subtree(const Subtree& model, const Congruence& how, NodeId node, FeatureId feature,
-                  World& world, CellWriter& cells, Segmentation& out) {
-  Copier(model, how, world, cells, out).run(node, feature);
+void Instances::open(const WaitingBody& body, std::size_t waiting) {
+  if (body.model < 0 || body.copy_of_model) return;
+  const int node = static_cast<int>(out_.nodes.size()),
+            feature = static_cast<int>(out_.features.size());
+  const CellId cell{static_cast<int>(out_.cells.size())};
+  models_[at(body.model)] = {{body.node, body.feature, node, node, feature, feature, cell, cell},
+                             waiting};
+  open_.push_back(body.model);
+}
+
+void Instances::close(std::size_t waiting) {
+  while (!open_.empty()) {
+    Model& model = models_[at(open_.back())];
+    if (waiting >= model.waiting) return;
+    model.subtree.last_node = static_cast<int>(out_.nodes.size());
+    model.subtree.last_feature = static_cast<int>(out_.features.size());
+    model.subtree.last_cell = CellId{static_cast<int>(out_.cells.size())};
+    open_.pop_back();
+  }
+}
+
+bool Instances::copy(const WaitingBody& body) {
+  if (!body.copy_of_model) return false;
+  const Subtree& model = models_[at(body.model)].subtree;
+  Copier(model, *body.copy_of_model, world_, cells_, out_).run(body.node, body.feature);
+  ++out_.stats.instanced;
+  return true;
 }
 
 }  // namespace oriel::detail
