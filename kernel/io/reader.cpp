@@ -19,8 +19,8 @@ Format format_to_read(const std::string& path, const ReadOptions& options) {
   if (!format)
     throw InputError(detail::error_in(
         name, {"E106",
-               "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj "
-               "or .off, or --from cityjson, cityjsonseq, citygml, obj or off"}));
+               "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj, "
+               ".off or .ply, or --from cityjson, cityjsonseq, citygml, obj, off or ply"}));
   if (*format == Format::stl)
     throw InputError(
         detail::error_in(name, {"E106", "STL is written only: it has no polygons to read"}));
@@ -93,6 +93,7 @@ Checked<Document> Reader::State::read_file() {
   if (text.empty()) return {std::nullopt, {detail::error_in(name, {"E102", "the file is empty"})}};
   if (format == Format::obj) return detail::read_obj(text, name);
   if (format == Format::off) return detail::read_off(text, name);
+  if (format == Format::ply) return detail::read_ply(text, name);
   return cityjson.read(std::move(text), name, std::nullopt);
 }
 

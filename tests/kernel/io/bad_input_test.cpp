@@ -65,7 +65,7 @@ TEST_SUITE("kernel/io") {
   }
 
   TEST_CASE("an empty file is told from a broken one") {
-    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.city.jsonl"})
+    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.ply", "a.city.jsonl"})
       CHECK(refusal_of("", name).code == "E102");
     CHECK(refusal_of(" \n").code == "E102");
   }
