@@ -2,6 +2,7 @@
 
 #include "kernel/io/citygml/citygml_reader.h"
 #include "kernel/io/cityjson/cityjson_reader.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/mesh/mesh_reader.h"
 
@@ -118,6 +119,11 @@ std::optional<Checked<Document>> Reader::State::read_line() {
     if (!header) is_done = true;
     return record;
   }
+}
+
+std::string_view source_line(const Document& document) {
+  if (document.format != Format::cityjson_seq || !document.source) return {};
+  return document.source->text;
 }
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #include "kernel/mesh/mesh.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/mesh/half_edges.h"
 #include "kernel/mesh/manifold.h"
@@ -35,6 +36,8 @@ struct FaceList {
   FaceList(const MeshSource& source, MeshFaces faces) {
     for (int p = 0; p < static_cast<int>(source.polygons.size()); ++p) {
       const MeshPolygon& polygon = source.polygons[at(p)];
+      ORIEL_ASSERT(!polygon.rings.empty());
+      ORIEL_ASSERT(polygon.feature < static_cast<int>(source.features.size()));
       const std::size_t before = corners.size();
       if (stays_whole(source, polygon, faces))
         add(p, polygon.rings[0], polygon.normal);

@@ -186,29 +186,50 @@ class PlyReader {
     if (!words_.next_line())
       return fail(fmt::format("the file ends after {} of {} elements {}", i, element.count,
                               in_quotes(element.name)));
-    const bool is_vertex = element.name == "vertex";
-    const bool is_face = element.name == "face";
+    const bool is_good = element.name == "vertex" ? read_vertex(element)
+                         : element.name == "face" ? read_face(element)
+                                                  : pass_others(element);
+    return is_good && ends_line("the last property");
+  }
+
+  bool read_vertex(const PlyElement& element) {
     std::array<double, 3> point{};
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const auto* const axis = std::ranges::find(coordinates_, p);
+      if (axis == coordinates_.end()) {
+        if (!pass(element.properties[p])) return false;
+        continue;
+      }
+      const auto number = read_number(element.properties[p]);
+      if (!number || !check_finite(*number)) return false;
+      point[static_cast<std::size_t>(axis - coordinates_.begin())] = *number;
+    }
+    mesh_.points.push_back({point[0], point[1], point[2]});
+    return true;
+  }
+
+  bool read_face(const PlyElement& element) {
     std::string hint;
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      if (is_face && p == corners_) {
-        if (!read_face()) return false;
-      } else if (element.properties[p].is_list) {
-        if (!pass_list(element.properties[p])) return false;
-      } else {
+      if (p == feature_ && !element.properties[p].is_list) {
         const auto number = read_number(element.properties[p]);
         if (!number) return false;
-        const auto* const axis = std::ranges::find(coordinates_, p);
-        if (is_vertex && axis != coordinates_.end()) {
-          if (!check_finite(*number)) return false;
-          point[static_cast<std::size_t>(axis - coordinates_.begin())] = *number;
-        }
-        if (is_face && p == feature_) hint = name_of_feature(*number);
+        hint = name_of_feature(*number);
+      } else if (p == corners_ ? !read_corners() : !pass(element.properties[p])) {
+        return false;
       }
     }
-    if (is_vertex) mesh_.points.push_back({point[0], point[1], point[2]});
-    if (is_face) mesh_.hints.push_back(std::move(hint));
-    return ends_line("the last property");
+    mesh_.hints.push_back(std::move(hint));
+    return true;
+  }
+
+  bool pass_others(const PlyElement& element) {
+    return std::ranges::all_of(element.properties,
+                               [&](const PlyProperty& property) { return pass(property); });
+  }
+
+  bool pass(const PlyProperty& property) {
+    return property.is_list ? pass_list(property) : read_number(property).has_value();
   }
 
   std::optional<double> read_number(const PlyProperty& property) {
@@ -240,7 +261,7 @@ class PlyReader {
     return count.has_value();
   }
 
-  bool read_face() {
+  bool read_corners() {
     const auto count = read_count();
     if (!count) return false;
     if (*count < 3)

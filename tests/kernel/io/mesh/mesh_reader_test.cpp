@@ -61,7 +61,7 @@ TEST_SUITE("kernel/io") {
     CHECK(record.issues[0].place.column == 7);
   }
 
-  TEST_CASE("what is wrong in an OBJ file is told with line and column") {
+  TEST_CASE("what is wrong in an OBJ file is reported with line and column") {
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     struct Case {
       const char* line;
@@ -117,7 +117,7 @@ TEST_SUITE("kernel/io") {
     CHECK(read_text("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", "a.off").issues.empty());
   }
 
-  TEST_CASE("what is wrong in an OFF file is told with its line") {
+  TEST_CASE("what is wrong in an OFF file is reported with its line") {
     struct Case {
       const char* text;
       const char* code;
