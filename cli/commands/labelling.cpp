@@ -20,7 +20,7 @@ void add_label_arguments(CLI::App& command, LabelArguments& a) {
   command.add_option("-o,--output", a.out,
                      "File, - for stdout, or a folder (with a / at its end) for several inputs");
   command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
+      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   add_features_argument(command, a.features);
   add_resume_argument(command, a);
   add_reuse_argument(command, a);

@@ -90,11 +90,11 @@ void refuse_usage(const std::string& option, const std::string& code, const std:
 }
 
 CLI::Validator input_formats() {
-  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"});
+  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply"});
 }
 
 void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
-  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin, a CityJSONSeq";
+  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ, OFF or PLY; - is stdin, a CityJSONSeq";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
   } else {

@@ -176,7 +176,7 @@ void add_repair(CLI::App& app, Action& action) {
                    "File, - for stdout, or a folder (with a / at its end) for several inputs")
       ->required();
   command->add_option("--to", arguments->to, "Format to write (default: by the name of the output)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "stl"}));
+      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
                     "Write the solids without the semantics that the polygons had");
   command->add_option("--report", arguments->report,

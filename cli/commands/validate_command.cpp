@@ -159,7 +159,7 @@ class Validation {
     using Primitive = ValidateOptions::Primitive;
     ValidateOptions options = arguments_.options;
     // A mesh file does not state what it holds.
-    const bool is_mesh = format == Format::obj || format == Format::off;
+    const bool is_mesh = oriel::is_mesh(format);
     const bool is_solid = arguments_.primitive == "solid" ||
                           (arguments_.primitive == "stated" && (building.is_solid || is_mesh));
     options.primitive = is_solid && arguments_.primitive != "stated" ? Primitive::solid

@@ -24,6 +24,8 @@ const char* extension_of(Format format) {
       return ".obj";
     case Format::off:
       return ".off";
+    case Format::ply:
+      return ".ply";
     case Format::stl:
       return ".stl";
   }
@@ -33,8 +35,8 @@ const char* extension_of(Format format) {
 /// The file's name without folder and extensions that say its format.
 std::string stem_of(const std::string& path) {
   std::string name = fs::path(path).filename().string();
-  for (const std::string extension :
-       {".city.jsonl", ".city.json", ".jsonl", ".json", ".citygml", ".gml", ".xml", ".obj", ".off"})
+  for (const std::string extension : {".city.jsonl", ".city.json", ".jsonl", ".json", ".citygml",
+                                      ".gml", ".xml", ".obj", ".off", ".ply"})
     if (name.size() > extension.size() && name.ends_with(extension))
       return name.substr(0, name.size() - extension.size());
   return name;
@@ -87,9 +89,8 @@ std::string Destination::path_for(std::size_t input) const {
   if (!is_folder_) return out_;
   const Format from = format_of_input(input);
   Format to = to_.value_or(from);
-  // CityGML, OBJ and OFF with labels are CityJSON unless asked otherwise.
-  if (!to_ && (from == Format::citygml || from == Format::obj || from == Format::off))
-    to = Format::cityjson;
+  // CityGML and meshes with labels are CityJSON unless asked otherwise.
+  if (!to_ && (from == Format::citygml || is_mesh(from))) to = Format::cityjson;
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
@@ -154,6 +155,7 @@ std::string Destination::end() {
   const Format format = format_of_output(input_);
   if (format == Format::obj) file_->append(write_obj(mesh_));
   if (format == Format::off) file_->append(write_off(mesh_));
+  if (format == Format::ply) file_->append(write_ply(mesh_));
   if (format == Format::stl) file_->append(write_stl(mesh_, solids_));
   file_->commit();
   file_.reset();

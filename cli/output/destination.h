@@ -64,7 +64,7 @@ class Destination {
   std::size_t input_ = 0;
   std::string path_;
   std::unique_ptr<OutputFile> file_;
-  LabelledMesh mesh_;
+  MeshSource mesh_;
   CityJsonCollector collector_;
 };
 

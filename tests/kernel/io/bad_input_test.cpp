@@ -64,13 +64,13 @@ TEST_SUITE("kernel/io") {
     CHECK(thrown_by("a.stl").code == "E106");
   }
 
-  TEST_CASE("an empty file is told from a broken one") {
-    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.city.jsonl"})
+  TEST_CASE("an empty file is distinguished from a broken one") {
+    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.ply", "a.city.jsonl"})
       CHECK(refusal_of("", name).code == "E102");
     CHECK(refusal_of(" \n").code == "E102");
   }
 
-  TEST_CASE("a truncated file is told from a broken one and the place is its end") {
+  TEST_CASE("a truncated file is distinguished from a broken one and the place is its end") {
     const std::string text = BoxFile().text();
     const Issue issue = refusal_of(text.substr(0, 100));
     CHECK(issue.code == "E105");

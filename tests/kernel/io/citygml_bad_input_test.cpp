@@ -54,7 +54,7 @@ std::string lod2_polygon(const std::string& ring_content, const std::string& att
 }
 
 TEST_SUITE("kernel/io") {
-  TEST_CASE("an empty CityGML file is told from a broken one") {
+  TEST_CASE("an empty CityGML file is distinguished from a broken one") {
     CHECK(gml_refusal("").code == "E102");
     CHECK(gml_refusal(" \n").code == "E102");
     CHECK(gml_refusal("<?xml version=\"1.0\"?>\n<!-- no model -->\n").code == "E102");
@@ -295,7 +295,7 @@ TEST_SUITE("kernel/io") {
             .code == "E503");
   }
 
-  TEST_CASE("a building without geometry is told with a warning") {
+  TEST_CASE("a building without geometry is reported with a warning") {
     const TemporaryFolder folder;
     const auto records =
         read_all(folder.write("a.gml", CityGmlFile{"2.0", building("a", "")}.text()));

@@ -64,7 +64,7 @@ TEST_SUITE("kernel/io") {
     CHECK((*read.value)[1].graph.pairs("beside").empty());
   }
 
-  TEST_CASE("a relation to what is not in the file is told") {
+  TEST_CASE("a relation to what is not in the file is reported") {
     const auto read = tables_of("building,id,host,rel_beside\nh,f,x,g;y\nh,g,,f\nk,f,,\n", "f.csv");
     REQUIRE(codes_of(read.issues) == "E121");
     CHECK(read.issues[0].severity == Severity::warning);
