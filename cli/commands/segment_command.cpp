@@ -26,7 +26,7 @@ struct Arguments : LineArguments {
 };
 
 /// The features of a building for a reader at a terminal.
-std::string listing(const Building& building, const OnLine& line) {
+std::string listing(const Building& building, const PipelineResult& line) {
   const Segmentation& segmentation = *line.segmentation;
   const FeatureTable& table_of = line.description.table;
   std::vector<std::vector<std::string>> rows{
@@ -63,7 +63,7 @@ class Outputs {
   }
 
   /// Before open() nothing is kept.
-  void add(const Building& building, const OnLine& line) {
+  void add(const Building& building, const PipelineResult& line) {
     const auto& [table, graph] = line.description;
     std::optional<CellComplex> complex;
     if (arguments_.has_faces) complex = cell_complex(*line.segmentation, line.tolerances);
@@ -78,7 +78,7 @@ class Outputs {
   }
 
   /// Of an open building nothing: it has no tree.
-  [[nodiscard]] std::string tree_text(const Building& building, const OnLine& line) const {
+  [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
     if (line.is_open) return {};
     bool is_same = true;
     std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
@@ -109,7 +109,7 @@ ExitCode work(const Arguments& arguments) {
   visitor.begin = [&](std::size_t) {
     if (run.is_last_run()) outputs.open();
   };
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     run.timings().measure(Stage::write, [&] {
       for (std::size_t i = 0; i < lines.size(); ++i)
         if (lines[i].is_done()) outputs.add(document.buildings[i], lines[i]);

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "oriel/options.h"
+
 #include <array>
 #include <chrono>
 #include <string>
 #include <vector>
 
 namespace oriel::cli {
-
-enum class Stage { read, solidify, segment, describe, interpret, generalise, write };
 
 /// How long the stages took: sums over what was done. Times never stand in data.
 class Timings {
@@ -20,6 +20,12 @@ class Timings {
   }
 
   void add(const Timings& more);
+  void add(Stage stage, double ms) { ms_[static_cast<std::size_t>(stage)] += ms; }
+
+  /// Adds what the library reports; this must outlive it.
+  [[nodiscard]] StageObserver observer() {
+    return [this](Stage stage, double ms) { add(stage, ms); };
+  }
 
   [[nodiscard]] double ms(Stage stage) const { return ms_[static_cast<std::size_t>(stage)]; }
 
