@@ -1,6 +1,6 @@
 #include "oriel/pipeline/building_drawer.h"
 
-#include "generalise/invariants/fineness_issues.h"
+#include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
 #include "kernel/mesh/hausdorff.h"
@@ -187,7 +187,7 @@ Invariants BuildingDrawer::invariants_for(const Profile* profile, const Pipeline
   Invariants invariants = with_party_walls(invariants_of(profile, rules_, targets_.scale),
                                            document_, building_, *result.solid);
   if (judging != Judging::none)
-    invariants.judge =
+    invariants.validator =
         judge_as_written(document_, building_, *result.solid, judging == Judging::thorough);
   return invariants;
 }

@@ -10,7 +10,7 @@ namespace oriel {
 enum class Judging {
   none,      ///< not at all: it would take too long
   refused,   ///< where features do not come off, what is left instead
-  thorough,  ///< every step (Judge::is_thorough)
+  thorough,  ///< every step (SolidValidator::is_thorough)
 };
 
 /// Draws one building for its targets, so that it is valid as it is written. Refers to all that it
