@@ -3,17 +3,13 @@
 /// Markdown: docs/results.md. `bench_collapse SCALE INPUT…`; bench/collapse.sh runs it.
 #include "bench/timing.h"
 #include "generalise/generalise.h"
-#include "interpret/labelling/interpret.h"
 #include "interpret/plan/plan.h"
 #include "kernel/base/index.h"
-#include "kernel/mesh/hausdorff.h"
-#include "kernel/describe/describe.h"
-#include "kernel/mesh/triangulate.h"
 #include "kernel/io/reader.h"
-#include "kernel/segment/flush/imprints.h"
-#include "kernel/segment/segment.h"
-#include "kernel/solidify/solidify.h"
+#include "kernel/mesh/hausdorff.h"
+#include "kernel/mesh/triangulate.h"
 #include "kernel/validate/validate.h"
+#include "oriel/label.h"
 
 #include <algorithm>
 #include <array>
@@ -181,28 +177,26 @@ struct Row {
 
 void compare(const Building& building, const RuleBase& rules, double scale, Row& input, Row& ours,
              Row& theirs) {
-  const auto solid = solidify(building);
-  if (!solid.value) return;
-  const Triangles before = triangles_of(*solid.value);
+  const PipelineResult labelled = label(building, rules);
+  if (!labelled.is_done() || labelled.is_open) return;
+  const Solid& solid = *labelled.solid;
+  const Triangles before = triangles_of(solid);
   const Mesh mesh = manifold_of(before);
   if (mesh.number_of_faces() == 0) return;
-  Segmentation segmentation = segment(building, *solid.value);
-  add_imprints(building, *solid.value, segmentation);
-  const Description description = describe(building, segmentation);
-  const Interpretation labels = interpret(rules, description.table, description.graph);
-  const Plan asked = plan(rules, description.table, description.graph, labels, scale);
+  const auto& [table, graph] = labelled.description;
+  const Plan asked = plan(rules, table, graph, labelled.interpretation, scale);
   Checked<Generalised> made;
   const double ours_ms = bench::cpu_ms_of(kCalls, [&] {
-    made = generalise(*solid.value, segmentation, description.table, labels, asked);
+    made = generalise(solid, *labelled.segmentation, table, labelled.interpretation, asked);
   });
   if (!made.value) return;
   const Triangles after = triangles_of(made.value->solid);
   Mesh less;
   const double theirs_ms =
       bench::cpu_ms_of(kCalls, [&] { less = collapsed(mesh, after.corners.size()); });
-  input.add(*solid.value, before, 0);
-  ours.add(*solid.value, after, ours_ms);
-  theirs.add(*solid.value, triangles_of(less), theirs_ms);
+  input.add(solid, before, 0);
+  ours.add(solid, after, ours_ms);
+  theirs.add(solid, triangles_of(less), theirs_ms);
 }
 
 }  // namespace

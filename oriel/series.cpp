@@ -142,7 +142,8 @@ class SeriesDrawer {
     const Solid& solid = *one.result->solid;
     Invariants invariants =
         with_party_walls(invariants_of(profile_, rules_, scale), document_, *one.building, solid);
-    if (one.is_judged) invariants.validator = judge_as_written(document_, *one.building, solid, true);
+    if (one.is_judged)
+      invariants.validator = judge_as_written(document_, *one.building, solid, true);
     return invariants;
   }
 

@@ -51,6 +51,10 @@ std::string mesh_text(Format format, std::span<const Document> documents,
 
 }  // namespace
 
+void add(LabelledBuilding building, OutputRecord& output) {
+  if (!building.building.empty()) output.buildings.push_back(std::move(building));
+}
+
 std::string write(const Document& document, const OutputRecord& output) {
   return write_cityjson(document, output.buildings, output.options);
 }

@@ -17,6 +17,10 @@ struct OutputRecord {
   WriteOptions options{};
 };
 
+/// Adds a building, such as PipelineResult::output or Repaired::output. One without id, of which
+/// nothing could be made, is passed over: it is written unchanged.
+void add(LabelledBuilding building, OutputRecord& output);
+
 /// A record as CityJSON with its labels: the text of a file, or of a CityJSONSeq one line with its
 /// line end. What the labels do not concern stays byte for byte; write_cityjson() in
 /// kernel/io/writer.h says what becomes of the rest.
