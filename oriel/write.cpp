@@ -59,6 +59,13 @@ std::string write(const Document& document, const OutputRecord& output) {
   return write_cityjson(document, output.buildings, output.options);
 }
 
+std::vector<FeatureRecord> feature_records(const Building& building, const PipelineResult& result) {
+  if (!result.is_done()) return {};
+  const bool has_labels = !result.interpretation.verdicts.empty();
+  return feature_records(building, *result.segmentation, result.description.table,
+                         result.description.graph, has_labels ? &result.interpretation : nullptr);
+}
+
 void write(const std::string& path, std::span<const Document> documents,
            std::span<const OutputRecord> outputs) {
   const Format format = checked_format(path, documents);

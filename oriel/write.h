@@ -2,8 +2,10 @@
 
 #include "kernel/io/document.h"
 #include "kernel/io/files/output_file.h"
+#include "kernel/io/records/feature_records.h"
 #include "kernel/io/writer.h"
 #include "kernel/model/labelled_building.h"
+#include "oriel/result.h"
 
 #include <span>
 #include <string>
@@ -25,6 +27,10 @@ void add(LabelledBuilding building, OutputRecord& output);
 /// line end. What the labels do not concern stays byte for byte; write_cityjson() in
 /// kernel/io/writer.h says what becomes of the rest.
 std::string write(const Document& document, const OutputRecord& output);
+
+/// One record for each feature of a building, for FeatureRecordWriter (docs/formats.md): none if it
+/// was rejected. `result` is what label() or segment() said of it, with all attributes measured.
+std::vector<FeatureRecord> feature_records(const Building& building, const PipelineResult& result);
 
 /// Writes the records of one file, in their order, to the file `path`, which appears when it is
 /// whole. Its name says the format: CityJSON (.city.json), CityJSONSeq (.city.jsonl), OBJ, OFF or

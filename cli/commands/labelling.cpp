@@ -1,5 +1,7 @@
 #include "cli/commands/labelling.h"
 
+#include "cli/terminal/logging.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -110,9 +112,7 @@ void LabelOutputs::make_features(const Building& building, const PipelineResult&
   if (arguments_.features.empty()) return;
   const RecordFormat format = *record_format_of(arguments_.features);
   std::string& text = product[Part::features];
-  const std::string more = FeatureRecordWriter::text(
-      format, feature_records(building, *line.segmentation, line.description.table,
-                              line.description.graph, &line.interpretation));
+  const std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
   if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
   text += more;
 }
@@ -127,8 +127,7 @@ void LabelOutputs::end() {
   has_ended_ = true;
   if (!destination_) return;
   const std::string path = destination_->end();
-  if (path != "-" && arguments_.is_verbose)
-    std::fputs(fmt::format("wrote {}\n", path).c_str(), stderr);
+  if (path != "-" && arguments_.is_verbose) run_log().info("wrote {}", path);
 }
 
 void LabelOutputs::commit() {

@@ -6,7 +6,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/destination.h"
 #include "interpret/pack/rule_base.h"
-#include "kernel/io/records/feature_records.h"
+#include "oriel/write.h"
 
 #include <memory>
 #include <optional>

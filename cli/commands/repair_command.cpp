@@ -2,6 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/destination.h"
+#include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/repair_json.h"
 #include "oriel/repair.h"
@@ -27,17 +28,17 @@ struct Arguments : LineArguments {
 std::string summary_of(const Building& building, const Repaired& repaired) {
   const RepairReport& report = repaired.report;
   if (!report.was_needed)
-    return fmt::format("{}: {}\n", building.id,
+    return fmt::format("{}: {}", building.id,
                        repaired.solid ? "closed as it came" : "could not be repaired");
   if (!repaired.solid)
-    return fmt::format("{}: stays open, {} open edges\n", building.id, report.open_edges.size());
+    return fmt::format("{}: stays open, {} open edges", building.id, report.open_edges.size());
   double closed_m2 = 0;
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return fmt::format(
       "{}: repaired: {} doubles dropped, {} vertices put into edges, {} polygons cut at contacts, "
       "{} edges of more than two "
       "polygons, {} polygons turned round, {} dangling sheets ({:.2f} m2) and {} inner faces "
-      "({:.2f} m2) left out, {} holes closed ({:.2f} m2), {} detached shells, {} cavities\n",
+      "({:.2f} m2) left out, {} holes closed ({:.2f} m2), {} detached shells, {} cavities",
       building.id, report.duplicates.size(), report.t_vertices, report.cut, report.crowded_edges,
       report.turned, report.dangling.size(), report.dangling_area_m2, report.inner.size(),
       report.inner_area_m2, report.caps.size(), closed_m2, report.detached_shells, report.cavities);
@@ -92,7 +93,7 @@ class Repairer {
       if (one.solid) solids.push_back(std::move(one.output));
       if (!run_.is_last_run()) continue;
       if (one.solid) ++(one.report.was_needed ? repaired_ : closed_);
-      if (arguments_.is_verbose) std::fputs(summary_of(building, one).c_str(), stderr);
+      if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, one));
       if (report_)
         report_->append(repair_json(building, one.solid.has_value(), one.report, one.issues));
     }

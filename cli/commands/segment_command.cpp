@@ -3,9 +3,9 @@
 #include "cli/commands/options.h"
 #include "cli/output/tree_report.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/segmentation_json.h"
 #include "kernel/segment/complex/cell_complex.h"
+#include "oriel/write.h"
 
 #include <memory>
 #include <optional>
@@ -64,7 +64,7 @@ class Outputs {
 
   /// Before open() nothing is kept.
   void add(const Building& building, const PipelineResult& line) {
-    const auto& [table, graph] = line.description;
+    const FeatureTable& table = line.description.table;
     std::optional<CellComplex> complex;
     if (arguments_.has_faces) complex = cell_complex(*line.segmentation, line.tolerances);
     const std::string text =
@@ -73,8 +73,7 @@ class Outputs {
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
             : listing(building, line);
     if (text_) text_->append(text);
-    if (features_)
-      features_->append(feature_records(building, *line.segmentation, table, graph, nullptr));
+    if (features_) features_->append(feature_records(building, line));
   }
 
   /// Of an open building nothing: it has no tree.

@@ -2,6 +2,7 @@
 
 #include "cli/batch/run.h"
 #include "cli/series/series_files.h"
+#include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/operation_log.h"
 #include "oriel/series.h"
@@ -132,12 +133,11 @@ ExitCode write_level_at(const std::string& name, double scale, const std::string
                         Report& report) {
   std::optional<OutputFile> whole;
   const auto file = [&]() -> OutputFile& { return whole ? *whole : whole.emplace(out); };
-  const LevelFromFiles level =
-      at(name, scale, [&](std::string_view text) { file().append(text); });
+  const LevelFromFiles level = at(name, scale, [&](std::string_view text) { file().append(text); });
   report.tell(level.issues);
   if (!level.is_complete) return ExitCode::input;
   file().commit();
-  std::fputs(fmt::format("1:{} from {}\n", scale, level.from_file).c_str(), stderr);
+  run_log().info("1:{} from {}", scale, level.from_file);
   return ExitCode::clean;
 }
 

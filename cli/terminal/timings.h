@@ -9,6 +9,10 @@
 
 namespace oriel::cli {
 
+/// By Stage.
+inline constexpr std::array kStageNames{"read",      "solidify",   "segment", "describe",
+                                        "interpret", "generalise", "write"};
+
 /// How long the stages took: sums over what was done. Times never stand in data.
 class Timings {
  public:

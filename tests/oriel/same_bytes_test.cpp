@@ -1,4 +1,3 @@
-#include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/operation_log.h"
 #include "kernel/io/records/repair_json.h"
 #include "oriel/oriel.h"
@@ -59,11 +58,8 @@ void add_labels(const Document& document, std::vector<PipelineResult>& results,
     results.push_back(label(building, residential()));
     const PipelineResult& result = results.back();
     add(result.output, labelled);
-    if (result.is_done())
-      out.features += FeatureRecordWriter::text(
-          RecordFormat::jsonl,
-          feature_records(building, *result.segmentation, result.description.table,
-                          result.description.graph, &result.interpretation));
+    out.features +=
+        FeatureRecordWriter::text(RecordFormat::jsonl, feature_records(building, result));
   }
   out.labelled += write(document, labelled);
 }
