@@ -3,9 +3,10 @@
 #include "cli/batch/outcome.h"
 #include "cli/batch/resume.h"
 #include "cli/commands/options.h"
-#include "cli/pipeline/line.h"
+#include "cli/terminal/timings.h"
 #include "kernel/io/document.h"
 #include "kernel/io/reader.h"
+#include "oriel/result.h"
 
 #include <cstdint>
 #include <map>
@@ -57,7 +58,7 @@ struct Arrival {
   /// What came of the record; filled by the one who works on it.
   RecordOutcome outcome{};
   /// Its buildings on the line, in their order, for commands that visit them.
-  std::vector<OnLine> lines{};
+  std::vector<PipelineResult> lines{};
   /// What this record has taken so far.
   Timings timings{};
 };

@@ -5,11 +5,11 @@
 #include "cli/batch/ledger.h"
 #include "cli/batch/resume.h"
 #include "cli/commands/options.h"
-#include "cli/pipeline/line.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/progress.h"
 #include "cli/terminal/report.h"
 #include "kernel/io/document.h"
+#include "oriel/result.h"
 
 #include <functional>
 #include <map>
@@ -32,13 +32,13 @@ class Run {
     /// Before the first record of an input.
     std::function<void(std::size_t input)> begin = [](std::size_t) {};
     /// A record was read; `lines` are its buildings on the line, in their order.
-    std::function<void(const Document&, std::vector<OnLine>& lines)> record =
-        [](const Document&, std::vector<OnLine>&) {};
+    std::function<void(const Document&, std::vector<PipelineResult>& lines)> record =
+        [](const Document&, std::vector<PipelineResult>&) {};
     /// In place of `record`, in two steps. The first makes of a record of input number `input` what
     /// it adds to the outputs; it touches nothing else and may be called for several at the same
     /// time. The second puts it there, in the order of the records.
-    std::function<Product(std::size_t input, const Document&, const std::vector<OnLine>& lines,
-                          Timings&)>
+    std::function<Product(std::size_t input, const Document&,
+                          const std::vector<PipelineResult>& lines, Timings&)>
         make{};
     std::function<void(const Document&, Product)> take{};
     /// With `make`: the outputs as they are.
@@ -88,8 +88,8 @@ class Run {
  private:
   void run_inputs(const Visitor& visitor);
   void run_isolated(Intake& intake, const Visitor& visitor);
-  [[nodiscard]] OnLine on_line(const Building& building, Timings& timings) const;
-  [[nodiscard]] BuildingOutcome outcome_of(OnLine& line) const;
+  [[nodiscard]] PipelineResult on_line(const Building& building, Timings& timings) const;
+  [[nodiscard]] BuildingOutcome outcome_of(PipelineResult& line) const;
   void work_on(Arrival& arrival, const Visitor& visitor) const;
   void set_all_aside(Arrival& arrival, const std::string& code, const std::string& sentence) const;
   void reuse(Arrival& arrival) const;

@@ -1,8 +1,8 @@
 #include "cli/batch/run.h"
 #include "cli/batch/work_place.h"
-#include "cli/pipeline/mended_line.h"
 #include "kernel/base/sha256.h"
-#include "kernel/solidify/noise.h"
+#include "oriel/label.h"
+#include "oriel/segment.h"
 
 #include <algorithm>
 #include <exception>
@@ -12,31 +12,15 @@
 
 namespace oriel::cli {
 
-namespace {
-
-Issue noise_note(const Building& building, const Tolerances& fitted) {
-  return building_issue(
-      Severity::note, "E126", building.id,
-      fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: what is "
-                  "within {:.1f} mm is one plane (--plane-offset)",
-                  1e3 * noise_of(building), 1e3 * fitted.plane_offset_m));
-}
-
-}  // namespace
-
-OnLine Run::on_line(const Building& building, Timings& timings) const {
+PipelineResult Run::on_line(const Building& building, Timings& timings) const {
   if (arguments_.ends_at_reading) return {};
-  if (arguments_.ends_at_solid)
-    return run_to_solid(building, arguments_.tolerances, arguments_.repair_options(), timings);
-  const Tolerances fitted = arguments_.tolerances_for(building);
-  OnLine line = run_whole_line(arguments_, rules_, building, fitted, timings);
-  if (fitted.plane_offset_m != arguments_.tolerances.plane_offset_m)
-    line.issues.push_back(noise_note(building, fitted));
-  return line;
+  const LabelOptions options = arguments_.label_options(timings.observer());
+  if (arguments_.ends_at_solid) return solid_of(building, options);
+  return rules_ == nullptr ? segment(building, options) : label(building, *rules_, options);
 }
 
 /// The line keeps everything but its issues.
-BuildingOutcome Run::outcome_of(OnLine& line) const {
+BuildingOutcome Run::outcome_of(PipelineResult& line) const {
   BuildingOutcome outcome;
   outcome.is_passed_over = line.is_passed_over;
   outcome.is_open = line.is_open;

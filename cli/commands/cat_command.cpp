@@ -35,7 +35,7 @@ class Cat {
       if (input == 0) has_header_ = false;
       if (!out_ && run_.is_last_run()) out_ = std::make_unique<OutputFile>(arguments_.out);
     };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
       run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
     };
     visitor.end = [&](std::size_t) { has_ended_ = true; };

@@ -36,7 +36,7 @@ class Collect {
       input_ = input;
       if (input == 0) collector_ = {};
     };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
       run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
     };
     visitor.end = [&](std::size_t) { has_ended_ = true; };

@@ -1,9 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/labelling.h"
-#include "cli/output/polygon_at.h"
-#include "interpret/explain/explain.h"
-#include "interpret/surfaces/surfaces.h"
-#include "kernel/model/polygon_owners.h"
+#include "oriel/explain.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -23,37 +20,6 @@ struct Arguments : LineArguments {
   bool is_json = false;
 };
 
-/// The features whose id is `wanted` or begins with it.
-std::vector<FeatureId> matches(const FeatureTable& table, const std::string& wanted) {
-  if (const FeatureId exact = table.find(wanted); exact.is_valid()) return {exact};
-  std::vector<FeatureId> found;
-  for (int i = 0; i < static_cast<int>(table.rows()); ++i)
-    if (table.id(FeatureId{i}).starts_with(wanted)) found.push_back(FeatureId{i});
-  return found;
-}
-
-/// "house: polygon 7 is WallSurface by …", its attributes and conditions.
-std::string surface_text(const RuleBase& rules, const Building& building, const OnLine& line,
-                         std::size_t polygon) {
-  const SurfaceTable table =
-      with_parts(line.surfaces, building, line.segmentation.value_or(Segmentation{}),
-                 line.interpretation, rules);
-  return fmt::format("{}: polygon {} is ", building.id, building.polygons[polygon].source) +
-         explain_surface(rules, table, polygon);
-}
-
-/// The smallest feature with a label that the polygon lies in, else the smallest; invalid: none.
-FeatureId feature_of(const Building& building, const OnLine& line, std::size_t polygon) {
-  if (!line.is_done()) return {};
-  const auto owners = polygon_owners(*line.segmentation, building);
-  const auto& features = owners[static_cast<std::size_t>(building.polygons[polygon].source)];
-  if (features.empty()) return {};
-  const auto labelled = std::ranges::find_if(features, [&](int feature) {
-    return !line.interpretation.verdicts[static_cast<std::size_t>(feature)].label.empty();
-  });
-  return FeatureId{labelled == features.end() ? features.front() : *labelled};
-}
-
 /// What lies at a place: the feature there, or the surface where there is none.
 ExitCode explain_place(const Arguments& arguments) {
   Report report(arguments.is_verbose);
@@ -64,7 +30,7 @@ ExitCode explain_place(const Arguments& arguments) {
   std::optional<double> nearest_m;
   std::string text;
   Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = polygon_at(building, point);
@@ -73,11 +39,10 @@ ExitCode explain_place(const Arguments& arguments) {
       nearest_m = found->distance_m;
       const FeatureId feature = feature_of(building, lines[i], found->polygon);
       if (!feature.is_valid()) {
-        text = surface_text(*rules, building, lines[i], found->polygon);
+        text = explain_surface(building, lines[i], *rules, found->polygon);
         continue;
       }
-      const auto& [table, graph] = lines[i].description;
-      const auto explanation = explain(*rules, table, graph, lines[i].interpretation, feature);
+      const auto explanation = explain(lines[i], *rules, feature);
       text = arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation);
     }
   };
@@ -96,13 +61,13 @@ ExitCode explain_surfaces(const Arguments& arguments) {
   Run run(arguments, &*rules, report);
   std::string text;
   Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
       if (!lines[i].has_surfaces() || found == building.polygons.end()) continue;
-      text += surface_text(*rules, building, lines[i],
-                           static_cast<std::size_t>(found - building.polygons.begin()));
+      text += explain_surface(building, lines[i], *rules,
+                              static_cast<std::size_t>(found - building.polygons.begin()));
     }
   };
   const ExitCode code = run.go(visitor);
@@ -128,15 +93,14 @@ ExitCode work(const Arguments& arguments) {
     explanations.clear();
     ids.clear();
   };
-  visitor.record = [&](const Document&, std::vector<OnLine>& lines) {
-    for (const OnLine& line : lines) {
+  visitor.record = [&](const Document&, std::vector<PipelineResult>& lines) {
+    for (const PipelineResult& line : lines) {
       if (!line.is_done()) continue;
-      const auto& [table, graph] = line.description;
+      const FeatureTable& table = line.description.table;
       for (std::size_t i = 0; i < table.rows(); ++i)
         ids.push_back(table.id(FeatureId{static_cast<int>(i)}));
-      for (const FeatureId id : matches(table, arguments.feature)) {
-        explanations.push_back(explain(*rules, table, graph, line.interpretation, id));
-      }
+      for (const FeatureId id : find_features(line, arguments.feature))
+        explanations.push_back(explain(line, *rules, id));
     }
   };
   const ExitCode code = run.go(visitor);

@@ -1,9 +1,8 @@
 #include "cli/batch/work_place.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/labelling.h"
-#include "cli/pipeline/written_proof.h"
-#include "generalise/generalise.h"
 #include "interpret/score/surface_score.h"
+#include "oriel/repair.h"
 
 #include <cstdio>
 
@@ -28,7 +27,7 @@ struct Arguments : LabelArguments {
 };
 
 /// The labelled features of a building for a reader at a terminal.
-std::string listing(const Building& building, const OnLine& line) {
+std::string listing(const Building& building, const PipelineResult& line) {
   const FeatureTable& of = line.description.table;
   std::vector<std::vector<std::string>> rows{
       {"feature", "label", "score", "margin", "rule", "a m", "b m", "base height m"}};
@@ -48,27 +47,12 @@ std::string listing(const Building& building, const OnLine& line) {
 }
 
 /// --repaired: the labels on the facets of the building's solid. Without one that is valid they
-/// stay on the polygons as they came, and the building counts as set aside.
-LabelledBuilding on_solid(const Document& document, const Building& building, const OnLine& line,
-                          LabelledBuilding labelled, const Tolerances& tolerances,
-                          std::vector<Issue>& issues) {
-  if (line.is_open) {
-    issues.push_back(building_issue(Severity::error, "G404", building.id,
-                                    "is open: its polygons are labelled as they came"));
-    return labelled;
-  }
-  Generalised whole{*line.solid, {}};
-  whole.is_drawn_anew = true;
-  LabelledBuilding drawn = redraw(building, labelled, *line.segmentation, line.description.table,
-                                  line.interpretation, std::move(whole), tolerances)
-                               .labelled;
-  const WrittenProof proof = prove_written(document, building, *drawn.geometry);
-  if (proof.fault) {
-    issues.push_back(*proof.fault);
-    return labelled;
-  }
-  drawn.digits = proof.digits;
-  return drawn;
+/// stay on the polygons, and the building counts as set aside.
+void put_on_solid(const Document& document, const Building& building, const PipelineResult& line,
+                  LabelledBuilding& labelled, std::vector<Issue>& issues) {
+  auto drawn = on_solid(document, building, line, labelled);
+  issues.insert(issues.end(), drawn.issues.begin(), drawn.issues.end());
+  if (drawn.value) labelled = std::move(*drawn.value);
 }
 
 /// OBJ has groups and materials, which are no semantics.
@@ -87,12 +71,14 @@ ExitCode audit(const Arguments& arguments) {
   Run run(arguments, &*rules, report);
   SurfaceScore score;
   Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     if (!run.is_last_run() || !has_semantics(document.format)) return;
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (lines[i].has_surfaces())
-        compare_surfaces(document.buildings[i], annotated(document.buildings[i], lines[i], *rules),
-                         lines[i].surfaces, OpeningPolicy::compare, score);
+        compare_surfaces(
+            document.buildings[i],
+            annotate(document.buildings[i], lines[i], *rules, arguments.label_options()),
+            lines[i].surfaces, OpeningPolicy::compare, score);
   };
   const ExitCode code = run.go(visitor);
   const std::string text =
@@ -102,8 +88,9 @@ ExitCode audit(const Arguments& arguments) {
   return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
 }
 
-Product made_of(std::size_t input, const Document& document, const std::vector<OnLine>& lines,
-                const Arguments& arguments, const LabelOutputs& outputs) {
+Product made_of(std::size_t input, const Document& document,
+                const std::vector<PipelineResult>& lines, const Arguments& arguments,
+                const LabelOutputs& outputs) {
   Product product;
   std::vector<LabelledBuilding> labelled;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -112,8 +99,7 @@ Product made_of(std::size_t input, const Document& document, const std::vector<O
     if (outputs.has_buildings() && lines[i].has_surfaces()) {
       labelled.push_back(outputs.annotated(building, lines[i]));
       if (arguments.is_repaired && lines[i].is_done())
-        labelled.back() = on_solid(document, building, lines[i], std::move(labelled.back()),
-                                   lines[i].tolerances, product.issues);
+        put_on_solid(document, building, lines[i], labelled.back(), product.issues);
     }
     if (!lines[i].is_done()) continue;
     outputs.make_features(building, lines[i], product);
@@ -140,8 +126,8 @@ ExitCode work(Arguments& arguments) {
   LabelOutputs outputs(arguments, *rules);
   Run::Visitor visitor;
   visitor.begin = [&](std::size_t input) { outputs.begin(input, !run.is_last_run()); };
-  visitor.make = [&](std::size_t input, const Document& document, const std::vector<OnLine>& lines,
-                     Timings& timings) {
+  visitor.make = [&](std::size_t input, const Document& document,
+                     const std::vector<PipelineResult>& lines, Timings& timings) {
     return timings.measure(Stage::write,
                            [&] { return made_of(input, document, lines, arguments, outputs); });
   };

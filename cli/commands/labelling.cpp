@@ -1,12 +1,11 @@
 #include "cli/commands/labelling.h"
 
 #include "cli/terminal/logging.h"
-#include "interpret/surfaces/annotate.h"
-#include "kernel/base/sha256.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -37,15 +36,15 @@ std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {
   return loaded.value;
 }
 
-LabelledBuilding annotated(const Building& building, const OnLine& line, const RuleBase& rules,
-                           const AnnotateOptions& options) {
-  static const Segmentation none;
-  return annotate(building, line.segmentation ? *line.segmentation : none, line.description.table,
-                  line.description.graph, line.surfaces, line.interpretation, rules, options);
+LabelOptions LabelArguments::label_options(StageObserver observer) const {
+  LabelOptions options = LineArguments::label_options(std::move(observer));
+  options.codelist = codelist;
+  options.has_reasons = has_reasons;
+  return options;
 }
 
 LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rules)
-    : arguments_(arguments), rules_(rules), config_sha256_(sha256(arguments.configuration())) {
+    : arguments_(arguments), rules_(rules), options_(arguments.label_options()) {
   const auto codelists = rules.codelists();
   if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
     throw CLI::ValidationError(
@@ -62,14 +61,9 @@ LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rule
     throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
 }
 
-LabelledBuilding LabelOutputs::annotated(const Building& building, const OnLine& line) const {
-  AnnotateOptions options;
-  options.codelist = arguments_.codelist;
-  options.has_reasons = arguments_.has_reasons;
-  options.surfaces = line.named_surfaces;
-  if (line.owners) options.owners = &*line.owners;
-  options.attributes.emplace_back("oriel_config_sha256", config_sha256_);
-  return cli::annotated(building, line, rules_, options);
+LabelledBuilding LabelOutputs::annotated(const Building& building,
+                                         const PipelineResult& line) const {
+  return annotate(building, line, rules_, options_);
 }
 
 bool LabelOutputs::is_streaming() const { return !destination_ || destination_->is_streaming(); }
@@ -113,14 +107,12 @@ void LabelOutputs::make_buildings(std::size_t input, const Document& document,
   if (destination_->is_gathering(input)) product.labelled = std::move(labelled);
 }
 
-void LabelOutputs::make_features(const Building& building, const OnLine& line,
+void LabelOutputs::make_features(const Building& building, const PipelineResult& line,
                                  Product& product) const {
   if (arguments_.features.empty()) return;
   const RecordFormat format = *record_format_of(arguments_.features);
   std::string& text = product[Part::features];
-  const std::string more = FeatureRecordWriter::text(
-      format, feature_records(building, *line.segmentation, line.description.table,
-                              line.description.graph, &line.interpretation));
+  const std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
   if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
   text += more;
 }

@@ -6,8 +6,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/destination.h"
 #include "interpret/pack/rule_base.h"
-#include "interpret/surfaces/annotate.h"
-#include "kernel/io/records/feature_records.h"
+#include "oriel/write.h"
 
 #include <memory>
 #include <optional>
@@ -27,17 +26,15 @@ struct LabelArguments : LineArguments {
   bool has_reasons = false;
   /// What the solids of an STL are called by.
   StlSolids stl_solids = StlSolids::by_label;
+
+  /// With what is written, too.
+  [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
 };
 
 void add_label_arguments(CLI::App& command, LabelArguments& arguments);
 
 /// The pack, with its findings told; nothing if it cannot be used.
 std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
-
-/// What is to be written of a building that has surfaces; without features if it did not come to
-/// the end of the line.
-LabelledBuilding annotated(const Building& building, const OnLine& line, const RuleBase& rules,
-                           const AnnotateOptions& options = {});
 
 /// What those commands write: the buildings (-o) and the records of features (--features), each if
 /// asked for.
@@ -52,8 +49,9 @@ class LabelOutputs {
   /// What was added is written by the next flush: nothing waits for the end of the input.
   [[nodiscard]] bool is_streaming() const;
 
-  /// The same with the options of the command.
-  [[nodiscard]] LabelledBuilding annotated(const Building& building, const OnLine& line) const;
+  /// What is to be written of a building that has surfaces; without features if it was rejected.
+  [[nodiscard]] LabelledBuilding annotated(const Building& building,
+                                           const PipelineResult& line) const;
 
   /// `is_rehearsal`: what follows is not to be kept.
   void begin(std::size_t input, bool is_rehearsal);
@@ -69,7 +67,7 @@ class LabelOutputs {
   void make_buildings(std::size_t input, const Document& document,
                       std::vector<LabelledBuilding> labelled, const WriteOptions& options,
                       Product& product) const;
-  void make_features(const Building& building, const OnLine& line, Product& product) const;
+  void make_features(const Building& building, const PipelineResult& line, Product& product) const;
   /// Puts a product into the outputs.
   void take(const Document& document, const Product& product);
   /// An input is done: its file is put in its place.
@@ -83,7 +81,7 @@ class LabelOutputs {
   const LabelArguments& arguments_;
   const RuleBase& rules_;
   /// Of the arguments as they are when the outputs are made.
-  std::string config_sha256_;
+  LabelOptions options_;
   std::optional<Destination> destination_;
   std::unique_ptr<FeatureRecordWriter> features_;
   bool has_ended_ = false;  ///< an input did

@@ -1,11 +1,11 @@
 #include "cli/commands/options.h"
 
 #include "kernel/io/records/feature_records.h"
-#include "kernel/solidify/noise.h"
 
 #include <algorithm>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -29,33 +29,24 @@ bool LineArguments::is_piped_stream() const {
   return inputs.size() == 1 && inputs[0] == "-" && read_options("-").format == Format::cityjson_seq;
 }
 
-Tolerances LineArguments::tolerances_for(const Building& building) const {
-  if (is_plane_offset_given) return tolerances;
-  return fitted_to_noise(tolerances, noise_of(building));
-}
-
-SegmentOptions LineArguments::segment_options(const Tolerances& fitted) const {
-  SegmentOptions options;
+LabelOptions LineArguments::label_options(StageObserver observer) const {
+  LabelOptions options;
+  options.tolerances = tolerances;
+  options.fits_noise = !is_plane_offset_given;
+  options.repair = {*parse_closing(close), cap_area_m2,
+                    crossings == "cut" ? Crossings::cut : Crossings::leave};
   options.order = order == "paper" ? Order::paper : Order::natural;
-  options.tolerances = fitted;
   options.budget = budget;
+  options.ignores_semantics = ignores_semantics;
+  options.lod = lod;
+  options.observer = std::move(observer);
+  options.measures_surfaces = !only_names_surfaces;
+  options.measures_features = !only_labels_features;
+  options.has_output = false;
   return options;
 }
 
-RepairOptions LineArguments::repair_options() const {
-  return {*parse_closing(close), cap_area_m2,
-          crossings == "cut" ? Crossings::cut : Crossings::leave};
-}
-
-std::string LineArguments::configuration() const {
-  return fmt::format(
-             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={} "
-             "close={} close_area_m2={} crossings={}",
-             lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
-             tolerances.value_rel, budget, close, cap_area_m2, crossings) +
-         (is_plane_offset_given ? "" : " fitted_to_noise") +
-         (ignores_semantics ? " ignore_semantics" : "");
-}
+std::string LineArguments::configuration() const { return oriel::configuration(label_options()); }
 
 bool LineArguments::allows(int set_aside, int buildings) const {
   const double number = std::stod(allowed_bad);

@@ -2,9 +2,8 @@
 
 #include "cli/batch/selection.h"
 #include "interpret/pack/rule_base.h"
-#include "kernel/io/reader.h"
-#include "kernel/model/repair.h"
-#include "kernel/segment/segment.h"
+#include "oriel/label.h"
+#include "oriel/read.h"
 
 #include <string>
 #include <vector>
@@ -55,8 +54,8 @@ struct LineArguments {
   bool ends_at_reading = false;
   /// What is asked for is the solid: buildings are not segmented.
   bool ends_at_solid = false;
-  /// What is asked of surfaces is what they are, and of features their labels: attributes are told
-  /// as far as rules read them.
+  /// What is asked of surfaces is what they are, and of features their labels: attributes are
+  /// measured as far as rules read them.
   bool only_names_surfaces = false;
   bool only_labels_features = false;
 
@@ -65,11 +64,8 @@ struct LineArguments {
   [[nodiscard]] ReadOptions read_options(const std::string& input) const;
   /// The one input is a stream on stdin; what comes of it goes to stdout if nothing else is said.
   [[nodiscard]] bool is_piped_stream() const;
-  /// The tolerances for a building: `tolerances`, fitted to its noise.
-  [[nodiscard]] Tolerances tolerances_for(const Building& building) const;
-  /// `fitted`: those of the building at hand.
-  [[nodiscard]] SegmentOptions segment_options(const Tolerances& fitted) const;
-  [[nodiscard]] RepairOptions repair_options() const;
+  /// What the library does with a building, without outputs; `observer` is told how long it took.
+  [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
   /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is
   /// made of.
   [[nodiscard]] std::string configuration() const;

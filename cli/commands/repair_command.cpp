@@ -2,12 +2,10 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/destination.h"
-#include "cli/pipeline/mended_line.h"
-#include "cli/pipeline/written_proof.h"
 #include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/repair_json.h"
-#include "kernel/model/version.h"
+#include "oriel/repair.h"
 
 #include <algorithm>
 #include <memory>
@@ -26,45 +24,13 @@ struct Arguments : LineArguments {
   std::string report;
 };
 
-/// Facets that oriel made close what the data leave open: a ClosureSurface where the building has
-/// semantics.
-void label_caps(const Building& building, LabelledBuilding& repaired) {
-  if (std::ranges::all_of(building.polygons, [](const Polygon& p) { return p.hint.empty(); }))
-    return;
-  for (const Facet& facet : repaired.geometry->facets) {
-    repaired.surface_of_polygon.push_back(facet.polygons.empty() ? 0 : -1);
-    if (facet.polygons.empty() && repaired.surfaces.empty())
-      repaired.surfaces.push_back({"ClosureSurface", -1, {}});
-  }
-}
-
-/// The building with its solid in the place of its polygons, and counts of what was repaired.
-LabelledBuilding repaired_building(const Building& building, const OnLine& line,
-                                   bool keeps_semantics, int digits) {
-  LabelledBuilding repaired;
-  repaired.building = building.id;
-  repaired.geometry = line.solid;
-  repaired.digits = digits;
-  repaired.keeps_semantics = keeps_semantics;
-  if (keeps_semantics) label_caps(building, repaired);
-  const auto add_count = [&](const char* name, std::size_t count) {
-    if (count > 0) repaired.attributes.emplace_back(name, static_cast<std::int64_t>(count));
-  };
-  repaired.attributes.emplace_back("oriel_version", std::string(kVersion));
-  add_count("oriel_repair_duplicates", line.repair.duplicates.size());
-  add_count("oriel_repair_dangling", line.repair.dangling.size());
-  add_count("oriel_repair_inner", line.repair.inner.size());
-  add_count("oriel_repair_caps", line.repair.caps.size());
-  return repaired;
-}
-
 /// What was done to a building, in words.
-std::string summary_of(const Building& building, const OnLine& line) {
-  const RepairReport& report = line.repair;
+std::string summary_of(const Building& building, const Repaired& repaired) {
+  const RepairReport& report = repaired.report;
   if (!report.was_needed)
     return fmt::format("{}: {}", building.id,
-                       line.solid ? "closed as it came" : "could not be repaired");
-  if (!line.solid)
+                       repaired.solid ? "closed as it came" : "could not be repaired");
+  if (!repaired.solid)
     return fmt::format("{}: stays open, {} open edges", building.id, report.open_edges.size());
   double closed_m2 = 0;
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
@@ -93,7 +59,7 @@ class Repairer {
       if (run_.is_last_run() && !report_ && !arguments_.report.empty())
         report_ = std::make_unique<OutputFile>(arguments_.report);
     };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
       run_.timings().measure(Stage::write, [&] { add(document, lines); });
     };
     visitor.end = [&](std::size_t) {
@@ -111,39 +77,25 @@ class Repairer {
 
  private:
   /// A solid that would not be valid when it is read again is none.
-  void prove(const Document& document, const Building& building, OnLine& line,
-             std::vector<LabelledBuilding>& solids) {
-    if (!line.solid) return;
-    WrittenProof proof = prove_written(document, building, *line.solid);
-    if (proof.fault && arguments_.crossings == "cut") {
-      if (auto mended =
-              mended_solid(arguments_, document, building, arguments_.tolerances, run_.timings())) {
-        line.solid = std::move(mended->line.solid);
-        line.repair = std::move(mended->line.repair);
-        proof = {mended->digits, {}, {}};
-      }
-    }
-    if (proof.fault) {
-      line.solid.reset();
-      line.issues.push_back(*proof.fault);
-      run_.set_aside(*proof.fault);
-      return;
-    }
-    solids.push_back(
-        repaired_building(building, line, !arguments_.ignores_semantics, proof.digits));
+  Repaired repaired(const Document& document, const Building& building, PipelineResult& line) {
+    const bool had_solid = line.solid.has_value();
+    Repaired out = repair(document, building, std::move(line),
+                          arguments_.label_options(run_.timings().observer()));
+    if (had_solid && !out.solid) run_.set_aside(out.issues.back());
+    return out;
   }
 
-  void add(const Document& document, std::vector<OnLine>& lines) {
+  void add(const Document& document, std::vector<PipelineResult>& lines) {
     std::vector<LabelledBuilding> solids;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
-      OnLine& line = lines[i];
-      prove(document, building, line, solids);
+      Repaired one = repaired(document, building, lines[i]);
+      if (one.solid) solids.push_back(std::move(one.output));
       if (!run_.is_last_run()) continue;
-      if (line.solid) ++(line.repair.was_needed ? repaired_ : closed_);
-      if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, line));
+      if (one.solid) ++(one.report.was_needed ? repaired_ : closed_);
+      if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, one));
       if (report_)
-        report_->append(repair_json(building, line.solid.has_value(), line.repair, line.issues));
+        report_->append(repair_json(building, one.solid.has_value(), one.report, one.issues));
     }
     destination_.add(document, solids, {});
   }

@@ -1,10 +1,10 @@
 #include "cli/commands/rules_commands.h"
-#include "cli/pipeline/line.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "interpret/testing/rule_tests.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/reader.h"
+#include "oriel/read.h"
+#include "oriel/segment.h"
 
 #include <cstdio>
 #include <memory>
@@ -35,10 +35,12 @@ std::string tests_of(const std::string& file) {
   return name + ".test.yaml";
 }
 
-void describe(const Document& document, Timings& timings,
-              Checked<std::vector<DescribedBuilding>>& found) {
+/// Tests say what features measure with the tolerances as they are.
+void describe(const Document& document, Checked<std::vector<DescribedBuilding>>& found) {
+  PipelineOptions options;
+  options.fits_noise = false;
   for (const Building& building : document.buildings) {
-    OnLine line = run_line(building, {}, {}, nullptr, timings);
+    PipelineResult line = segment(building, options);
     found.issues.insert(found.issues.end(), line.issues.begin(), line.issues.end());
     if (line.is_done())
       found.value->push_back(
@@ -49,13 +51,12 @@ void describe(const Document& document, Timings& timings,
 Checked<std::vector<DescribedBuilding>> read_buildings(const std::string& path) {
   Checked<std::vector<DescribedBuilding>> found;
   found.value.emplace();
-  Timings timings;
   try {
     Reader reader(path, {});
     while (const auto record = reader.next()) {
       found.issues.insert(found.issues.end(), record->issues.begin(), record->issues.end());
       if (record->value)
-        describe(*record->value, timings, found);
+        describe(*record->value, found);
       else if (reader.format() != Format::cityjson_seq)
         break;
     }

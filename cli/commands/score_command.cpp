@@ -122,7 +122,7 @@ AreaScore compare_models(const Arguments& arguments, Compared& all, Report& repo
   Run run(models, nullptr, report);
   AreaScore score;
   Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>&) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>&) {
     for (const Building& building : document.buildings) {
       const auto faces = all.faces.find(building.id);
       if (faces == all.faces.end()) continue;
@@ -179,11 +179,13 @@ ExitCode score_surfaces(const Arguments& arguments) {
   Run run(arguments, &*rules, report);
   SurfaceScore score;
   Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (lines[i].has_surfaces())
-        compare_surfaces(document.buildings[i], annotated(document.buildings[i], lines[i], *rules),
-                         lines[i].surfaces, OpeningPolicy::as_host, score);
+        compare_surfaces(
+            document.buildings[i],
+            annotate(document.buildings[i], lines[i], *rules, arguments.label_options()),
+            lines[i].surfaces, OpeningPolicy::as_host, score);
   };
   const ExitCode code = run.go(visitor);
   std::fputs((arguments.is_json ? to_json(score) + "\n" : to_text(score)).c_str(), stdout);

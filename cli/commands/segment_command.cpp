@@ -3,9 +3,9 @@
 #include "cli/commands/options.h"
 #include "cli/output/tree_report.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/segmentation_json.h"
 #include "kernel/segment/complex/cell_complex.h"
+#include "oriel/write.h"
 
 #include <memory>
 #include <optional>
@@ -26,7 +26,7 @@ struct Arguments : LineArguments {
 };
 
 /// The features of a building for a reader at a terminal.
-std::string listing(const Building& building, const OnLine& line) {
+std::string listing(const Building& building, const PipelineResult& line) {
   const Segmentation& segmentation = *line.segmentation;
   const FeatureTable& table_of = line.description.table;
   std::vector<std::vector<std::string>> rows{
@@ -63,8 +63,8 @@ class Outputs {
   }
 
   /// Before open() nothing is kept.
-  void add(const Building& building, const OnLine& line) {
-    const auto& [table, graph] = line.description;
+  void add(const Building& building, const PipelineResult& line) {
+    const FeatureTable& table = line.description.table;
     std::optional<CellComplex> complex;
     if (arguments_.has_faces) complex = cell_complex(*line.segmentation, line.tolerances);
     const std::string text =
@@ -73,12 +73,11 @@ class Outputs {
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
             : listing(building, line);
     if (text_) text_->append(text);
-    if (features_)
-      features_->append(feature_records(building, *line.segmentation, table, graph, nullptr));
+    if (features_) features_->append(feature_records(building, line));
   }
 
   /// Of an open building nothing: it has no tree.
-  [[nodiscard]] std::string tree_text(const Building& building, const OnLine& line) const {
+  [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
     if (line.is_open) return {};
     bool is_same = true;
     std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
@@ -109,7 +108,7 @@ ExitCode work(const Arguments& arguments) {
   visitor.begin = [&](std::size_t) {
     if (run.is_last_run()) outputs.open();
   };
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     run.timings().measure(Stage::write, [&] {
       for (std::size_t i = 0; i < lines.size(); ++i)
         if (lines[i].is_done()) outputs.add(document.buildings[i], lines[i]);

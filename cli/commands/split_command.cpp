@@ -50,7 +50,7 @@ class Splitter {
       lines_.begin();
       input_ = input;
     };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+    visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
       lines_.add(document, lines);
     };
     visitor.commit = [&] { commit(); };

@@ -38,7 +38,7 @@ ExitCode add_model(const LineArguments& arguments, const RuleBase& rules, Report
   Run run(arguments, &rules, report);
   Run::Visitor visitor;
   std::map<std::string, int> counts;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
     if (!run.is_last_run()) return;
     const CarriedLabelReader reader(document);
     for (std::size_t i = 0; i < lines.size(); ++i) {

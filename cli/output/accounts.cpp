@@ -41,23 +41,22 @@ std::string Accounts::text(const std::string& building, const std::string& targe
 }
 
 std::string Accounts::text(const std::string& building, const std::string& target,
-                           double least_edge_m, const SolidFigures& before,
-                           const SolidFigures& after, double hausdorff_m) const {
+                           const TargetFigures& figures) const {
   if (metrics_.empty()) return {};
   nlohmann::ordered_json line;
   line["building"] = building;
   line["target"] = target;
-  line["least_edge_m"] = least_edge_m;
+  line["least_edge_m"] = figures.least_edge_m;
   const auto both = [&](const char* name, auto value) {
-    line[fmt::format("{}_before", name)] = value(before);
-    line[fmt::format("{}_after", name)] = value(after);
+    line[fmt::format("{}_before", name)] = value(figures.before);
+    line[fmt::format("{}_after", name)] = value(figures.after);
   };
   both("facets", [](const SolidFigures& f) { return f.facets; });
   both("normals", [](const SolidFigures& f) { return f.normals; });
   both("short_edges", [](const SolidFigures& f) { return f.short_edges; });
   both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
   both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
-  line["hausdorff_m"] = hausdorff_m;
+  line["hausdorff_m"] = figures.hausdorff_m;
   return line.dump() + "\n";
 }
 

@@ -2,8 +2,8 @@
 
 #include "cli/batch/earlier_run.h"
 #include "cli/batch/outcome.h"
-#include "generalise/account.h"
 #include "kernel/io/files/output_file.h"
+#include "oriel/generalise.h"
 
 #include <memory>
 #include <string>
@@ -28,8 +28,7 @@ class Accounts {
   [[nodiscard]] std::string text(const std::string& building, const std::string& target,
                                  const std::vector<Deed>& deeds) const;
   [[nodiscard]] std::string text(const std::string& building, const std::string& target,
-                                 double least_edge_m, const SolidFigures& before,
-                                 const SolidFigures& after, double hausdorff_m) const;
+                                 const TargetFigures& figures) const;
   void take(const Product& product);
   /// Adds its outputs and what is in them so far.
   void add_places(PartPlaces& places) const;

@@ -111,18 +111,17 @@ void SeriesFiles::add_text(Level& level, const std::string& text, bool is_header
 }
 
 std::optional<std::string> SeriesFiles::add(const Document& document,
-                                            const std::vector<Drawn>& drawn,
+                                            const std::vector<OutputRecord>& levels,
                                             const std::string& lines) {
   const bool is_header = std::exchange(is_first_, false);
   std::vector<std::string> texts;
   if (kind_ != Kind::one_file)
-    for (const auto& [labelled, options] : drawn)
-      texts.push_back(write_cityjson(document, labelled, options));
+    for (const OutputRecord& level : levels) texts.push_back(write(document, level));
   if (is_header && !texts.empty()) check_header(texts[0], document);
   if (auto id = twin(document, texts)) return id;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (kind_ == Kind::one_file)
-      levels_[i].destination->add(document, drawn[i].labelled, drawn[i].options);
+      levels_[i].destination->add(document, levels[i].buildings, levels[i].options);
     else
       add_text(levels_[i], texts[i], is_header);
   }

@@ -1,27 +1,27 @@
-#include "cli/series/series.h"
-#include "cli/terminal/logging.h"
 #include "generalise/series/scale_series.h"
-#include "kernel/io/files/output_file.h"
 #include "kernel/io/levels/level_file.h"
 #include "kernel/io/levels/written_grid.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/records/operation_log.h"
 #include "kernel/io/writer.h"
+#include "oriel/series.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
-namespace oriel::cli {
+namespace oriel {
 
 namespace {
 
@@ -89,46 +89,51 @@ class LevelMover {
     if (log_.next() != nullptr) lod_ = log_.next()->lod;
   }
 
-  /// Appends the file at the scale; false if the level and the log do not fit, which is told.
-  bool move(const std::string& file, OutputFile& out, Report& report) {
+  /// Gives the file at the scale to `sink`; false if the level and the log do not fit.
+  bool move(const std::string& file, const std::function<void(std::string_view)>& sink) {
     ReadOptions options;
     if (!lod_.empty()) options.lod = lod_;
     Reader reader(file, options);
     while (auto record = reader.next()) {
       if (!record->value) {
-        report.tell(record->issues);
+        append(record->issues);
         return false;
       }
       const bool is_stream = reader.format() == Format::cityjson_seq;
-      const auto text = moved(*record->value, is_stream ? "" : text_of(file), report);
+      const auto text = moved(*record->value, is_stream ? "" : text_of(file));
       if (!text) return false;
-      out.append(*text);
+      sink(*text);
     }
     if (log_.next() == nullptr) return true;
     Issue issue = building_issue(Severity::error, "E120", log_.next()->building,
                                  "is no level of a series: it has no such building");
     issue.place.file = file;
-    report.tell(issue);
+    issues_.push_back(std::move(issue));
     return false;
   }
 
+  [[nodiscard]] std::vector<Issue> issues() && { return std::move(issues_); }
+
  private:
+  void append(const std::vector<Issue>& issues) {
+    issues_.insert(issues_.end(), issues.begin(), issues.end());
+  }
+
   /// The record at the scale; `text` is what it was read from, empty: a line of a stream.
-  std::optional<std::string> moved(const Document& document, const std::string& text,
-                                   Report& report) {
+  std::optional<std::string> moved(const Document& document, const std::string& text) {
     const std::string_view line = text.empty() ? source_line(document) : std::string_view(text);
     const auto operations = operations_of(document);
     std::vector<std::string> ids;
     for (const auto& [id, list] : operations) ids.push_back(id);
     auto states = read_level(line, document.name, ids, header_, lod_);
-    report.tell(states.issues);
+    append(states.issues);
     if (!states.value) return std::nullopt;
     if (text.empty() && header_.empty()) header_ = line;
     std::vector<LabelledBuilding> labelled;
     WriteOptions options;
     for (LevelState& state : *states.value) {
       const LevelState old = state;
-      if (!move(state, operations.at(state.building), report)) return std::nullopt;
+      if (!move(state, operations.at(state.building))) return std::nullopt;
       labelled.push_back(rewritten(old, state, document, options));
     }
     options.finer_digits = WrittenGrid(document, *states.value).finer_digits();
@@ -147,11 +152,10 @@ class LevelMover {
     return operations;
   }
 
-  bool move(LevelState& state, const std::vector<SeriesOperation>& operations,
-            Report& report) const {
+  bool move(LevelState& state, const std::vector<SeriesOperation>& operations) {
     if (move_state(state, operations, from_, to_)) return true;
-    report.tell(building_issue(Severity::error, "G409", state.building,
-                               fmt::format("the level 1:{} and the log do not fit", from_)));
+    issues_.push_back(building_issue(Severity::error, "G409", state.building,
+                                     fmt::format("the level 1:{} and the log do not fit", from_)));
     return false;
   }
 
@@ -170,20 +174,20 @@ class LevelMover {
   double from_, to_;
   std::string lod_;     ///< of the log's operations
   std::string header_;  ///< of a stream
+  std::vector<Issue> issues_;
 };
 
 }  // namespace
 
-ExitCode write_level_at(const std::string& name, double scale, const std::string& out,
-                        Report& report) {
+LevelFromFiles at(const std::string& name, double scale,
+                  const std::function<void(std::string_view)>& sink) {
   const std::string log = name + ".oplog.jsonl";
-  const auto [from, file] = nearest(levels_of(name), scale);
-  LevelMover mover(log, from, scale);
-  OutputFile whole(out);
-  if (!mover.move(file, whole, report)) return ExitCode::input;
-  whole.commit();
-  run_log().info("1:{} from {}", scale, file);
-  return ExitCode::clean;
+  LevelFromFiles level;
+  std::tie(level.from_scale, level.from_file) = nearest(levels_of(name), scale);
+  LevelMover mover(log, level.from_scale, scale);
+  level.is_complete = mover.move(level.from_file, sink);
+  level.issues = std::move(mover).issues();
+  return level;
 }
 
-}  // namespace oriel::cli
+}  // namespace oriel

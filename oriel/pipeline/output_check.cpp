@@ -1,4 +1,4 @@
-#include "cli/pipeline/written_proof.h"
+#include "oriel/pipeline/output_check.h"
 
 #include "kernel/base/index.h"
 #include "kernel/io/levels/as_written.h"
@@ -13,19 +13,19 @@
 
 #include <fmt/format.h>
 
-namespace oriel::cli {
+namespace oriel {
 
-WrittenProof prove_written(const Document& document, const Building& building, const Solid& solid) {
-  WrittenProof proof;
+OutputCheck check_output(const Document& document, const Building& building, const Solid& solid) {
+  OutputCheck check;
   const int spare = spare_digits(document);
-  for (;; ++proof.digits) {
-    const auto findings = validate(as_written(document, building, solid, proof.digits));
-    if (findings.empty()) return proof;
-    if (proof.digits < spare) continue;
-    proof.fault = building_issue(Severity::error, "E318", building.id,
+  for (;; ++check.digits) {
+    const auto findings = validate(as_written(document, building, solid, check.digits));
+    if (findings.empty()) return check;
+    if (check.digits < spare) continue;
+    check.fault = building_issue(Severity::error, "E318", building.id,
                                  fmt::format("the repaired solid is not valid: {} {}",
                                              findings[0].code, findings[0].sentence));
-    return proof;
+    return check;
   }
 }
 
@@ -71,26 +71,26 @@ bool part_once(const Document& document, const Building& building, LabelledBuild
 }
 
 bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
-  return validate(building).empty() || !prove_written(document, building, own).fault;
+  return validate(building).empty() || !check_output(document, building, own).fault;
 }
 
 }  // namespace
 
-Issue excuse_of(const Building& building, const std::string& why) {
+Issue invalid_before(const Building& building, const std::string& why) {
   return building_issue(Severity::warning, "G413", building.id,
                         "is not valid as it is written, as it was not when it was read: " + why);
 }
 
-WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& own,
-                           const Solid& solid) {
-  WrittenProof proof = prove_written(document, building, solid);
-  if (!proof.fault) return proof;
-  std::string why = proof.fault->sentence;
+OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
+                          const Solid& solid) {
+  OutputCheck check = check_output(document, building, solid);
+  if (!check.fault) return check;
+  std::string why = check.fault->sentence;
   why.erase(0, why.find(": ") + 2);
-  if (!can_be_valid(document, building, own)) return {0, {}, excuse_of(building, why)};
-  proof.fault->code = "G410";
-  proof.fault->sentence = "would not be valid as it is written: " + why;
-  return proof;
+  if (!can_be_valid(document, building, own)) return {0, {}, invalid_before(building, why)};
+  check.fault->code = "G410";
+  check.fault->sentence = "would not be valid as it is written: " + why;
+  return check;
 }
 
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled) {
@@ -102,7 +102,7 @@ SolidValidator judge_as_written(const Document& document, const Building& buildi
                                 const Solid& own, bool is_thorough) {
   std::optional<bool> may_be;
   return {[&document, &building, &own, may_be](const Solid& solid) mutable {
-            if (!prove_written(document, building, solid).fault) return Fitness::valid;
+            if (!check_output(document, building, solid).fault) return Fitness::valid;
             if (!may_be) may_be = can_be_valid(document, building, own);
             return *may_be ? Fitness::unfit : Fitness::as_it_came;
           },
@@ -110,4 +110,4 @@ SolidValidator judge_as_written(const Document& document, const Building& buildi
           is_thorough};
 }
 
-}  // namespace oriel::cli
+}  // namespace oriel

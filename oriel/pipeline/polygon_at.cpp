@@ -1,11 +1,10 @@
-#include "cli/output/polygon_at.h"
-
 #include "kernel/geometry/planar.h"
+#include "oriel/explain.h"
 
 #include <cmath>
 #include <vector>
 
-namespace oriel::cli {
+namespace oriel {
 
 namespace {
 
@@ -45,4 +44,4 @@ std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
   return nearest;
 }
 
-}  // namespace oriel::cli
+}  // namespace oriel

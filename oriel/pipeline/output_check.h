@@ -8,10 +8,10 @@
 
 #include <optional>
 
-namespace oriel::cli {
+namespace oriel {
 
 /// Whether a solid is valid when it is read again.
-struct WrittenProof {
+struct OutputCheck {
   int digits = 0;               ///< LabelledBuilding::digits that it takes, the fewest
   std::optional<Issue> fault;   ///< E318: it is not, whatever the scale; the first finding says why
   std::optional<Issue> excuse;  ///< G413, a warning: it is not, but could not have been either
@@ -19,15 +19,15 @@ struct WrittenProof {
 
 /// Judges `solid` in the place of the polygons of `building`, one of the document, by validate() on
 /// what as_written() makes of it, first at the scale that the document has.
-WrittenProof prove_written(const Document& document, const Building& building, const Solid& solid);
+OutputCheck check_output(const Document& document, const Building& building, const Solid& solid);
 
 /// The same of a solid that was redrawn. Its fault is a G410; if the building was not valid as it
 /// was read and its own solid, nothing done to it, would not be either, that is its excuse.
-WrittenProof prove_redrawn(const Document& document, const Building& building, const Solid& own,
-                           const Solid& solid);
+OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
+                          const Solid& solid);
 
 /// The warning G413.
-Issue excuse_of(const Building& building, const std::string& why);
+Issue invalid_before(const Building& building, const std::string& why);
 
 /// Of what is to be written in the place of the polygons of `building`, welds what the file's grid
 /// makes one point (weld_written), and parts facets that would be folded there (part_folded), if
@@ -39,4 +39,4 @@ void part_written(const Document& document, const Building& building, LabelledBu
 SolidValidator judge_as_written(const Document& document, const Building& building,
                                 const Solid& own, bool is_thorough);
 
-}  // namespace oriel::cli
+}  // namespace oriel
