@@ -51,7 +51,7 @@ std::vector<std::array<int, 3>> triangles_of(const SnappedBuilding& building,
     for (int& vertex : ring) {
       const auto [found, is_new] = local_of.try_emplace(vertex, static_cast<int>(vertices.size()));
       if (is_new) {
-        const GridPoint& p = building.point(vertex);
+        const MicrometrePoint& p = building.point(vertex);
         vertices.push_back(vertex);
         points.push_back(
             {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});

@@ -17,8 +17,8 @@ std::size_t GridBoxTree::build(std::size_t from, std::size_t to) {
   const auto centre = [&](std::size_t i, std::size_t axis) {
     return boxes_[i].min[axis] + boxes_[i].max[axis];
   };
-  GridPoint least;
-  GridPoint most;
+  MicrometrePoint least;
+  MicrometrePoint most;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     least[axis] = most[axis] = centre(order_[from], axis);
     for (std::size_t i = from; i < to; ++i) {

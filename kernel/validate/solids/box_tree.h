@@ -10,8 +10,8 @@ namespace oriel::detail {
 
 /// A box of whole coordinates, its faces part of it.
 struct GridBox {
-  GridPoint min;
-  GridPoint max;
+  MicrometrePoint min;
+  MicrometrePoint max;
 };
 
 inline bool overlap(const GridBox& p, const GridBox& q) {
@@ -20,9 +20,9 @@ inline bool overlap(const GridBox& p, const GridBox& q) {
   return true;
 }
 
-inline GridBox box_of(std::span<const GridPoint> points) {
+inline GridBox box_of(std::span<const MicrometrePoint> points) {
   GridBox box{points[0], points[0]};
-  for (const GridPoint& p : points)
+  for (const MicrometrePoint& p : points)
     for (std::size_t i = 0; i < 3; ++i) {
       box.min[i] = std::min(box.min[i], p[i]);
       box.max[i] = std::max(box.max[i], p[i]);

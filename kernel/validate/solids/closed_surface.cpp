@@ -14,7 +14,7 @@ namespace {
 using exact::Int128;
 
 /// Six times the volume under a triangle as seen from `o`.
-Int128 volume_under(const GridTriangle& t, const GridPoint& o) {
+Int128 volume_under(const GridTriangle& t, const MicrometrePoint& o) {
   std::array<std::array<Int128, 3>, 3> v{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) v[i][j] = t[i][j] - o[j];
@@ -30,7 +30,7 @@ std::vector<GridBox> boxes_of(const std::vector<GridTriangle>& triangles) {
   return boxes;
 }
 
-std::vector<GridTriangle> triangles_of(const std::vector<GridPoint>& points,
+std::vector<GridTriangle> triangles_of(const std::vector<MicrometrePoint>& points,
                                        const std::vector<std::array<int, 3>>& corners) {
   std::vector<GridTriangle> triangles;
   triangles.reserve(corners.size());
@@ -64,12 +64,12 @@ ClosedSurface::ClosedSurface(const SnappedBuilding& building, const JudgedShell&
   tree_ = GridBoxTree(boxes_of(triangles_));
 }
 
-bool ClosedSurface::contains(const GridPoint& point) const {
+bool ClosedSurface::contains(const MicrometrePoint& point) const {
   if (!overlap(box_, {point, point})) return false;
   // A ray to a point beyond the box; if it runs along a triangle or through an edge, the next one.
   for (std::int64_t attempt = 1;; ++attempt) {
-    const GridPoint far{box_.max[0] + 1 + 17 * attempt, point[1] + 1009 * attempt,
-                        point[2] + 919 * attempt * attempt};
+    const MicrometrePoint far{box_.max[0] + 1 + 17 * attempt, point[1] + 1009 * attempt,
+                              point[2] + 919 * attempt * attempt};
     const GridBox reach = box_of(std::array{point, far});
     bool is_clear = true;
     int crossings = 0;

@@ -18,16 +18,16 @@ class ClosedSurface {
   [[nodiscard]] int orientation() const { return orientation_; }
   [[nodiscard]] const std::vector<GridTriangle>& triangles() const { return triangles_; }
   /// Distinct corners, and triangles that number them.
-  [[nodiscard]] const std::vector<GridPoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<MicrometrePoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& corners() const { return corners_; }
   [[nodiscard]] const GridBox& box() const { return box_; }
   [[nodiscard]] const GridBoxTree& tree() const { return tree_; }
 
   /// True if `point`, which is not on the surface, is inside.
-  [[nodiscard]] bool contains(const GridPoint& point) const;
+  [[nodiscard]] bool contains(const MicrometrePoint& point) const;
 
  private:
-  std::vector<GridPoint> points_;
+  std::vector<MicrometrePoint> points_;
   std::vector<std::array<int, 3>> corners_;
   std::vector<GridTriangle> triangles_;
   GridBox box_;
