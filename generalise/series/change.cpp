@@ -1,5 +1,7 @@
 #include "generalise/series/change.h"
 
+#include "kernel/geometry/disjoint_sets.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -61,41 +63,13 @@ std::vector<ChangePiece> pieces_of(const Change& change) {
     pieces.push_back({ChangePiece::Kind::added, i, nullptr, &outer, &facet});
   }
   for (const auto& [outer, holes] : change.holes) {
-<<<<<<< HEAD:generalise/change.cpp
     for (const MicrometreRing& ring : holes.removed)
-      pieces.push_back({Piece::Kind::removed_hole, 0, &outer, &ring, nullptr});
-    for (const MicrometreRing& ring : holes.added)
-      pieces.push_back({Piece::Kind::added_hole, 0, &outer, &ring, nullptr});
-=======
-    for (const GridRing& ring : holes.removed)
       pieces.push_back({ChangePiece::Kind::removed_hole, 0, &outer, &ring, nullptr});
-    for (const GridRing& ring : holes.added)
+    for (const MicrometreRing& ring : holes.added)
       pieces.push_back({ChangePiece::Kind::added_hole, 0, &outer, &ring, nullptr});
->>>>>>> main:generalise/series/change.cpp
   }
   return pieces;
 }
-
-/// JoinedPieces of numbers that grow together.
-class JoinedPieces {
- public:
-  explicit JoinedPieces(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The smaller number stands for both.
-  void unite(std::size_t i, std::size_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 void for_each_edge(
     const MicrometreRing& ring,
@@ -166,19 +140,13 @@ Change difference(const LevelState& before, const LevelState& after) {
 }
 
 std::vector<Change> parts_of(const Change& change) {
-<<<<<<< HEAD:generalise/change.cpp
-  const std::vector<Piece> pieces = pieces_of(change);
-  Sets sets(pieces.size());
-  std::map<std::pair<MicrometrePoint, MicrometrePoint>, std::size_t> piece_at;
-=======
   const std::vector<ChangePiece> pieces = pieces_of(change);
-  JoinedPieces sets(pieces.size());
-  std::map<std::pair<GridPoint, GridPoint>, std::size_t> piece_at;
->>>>>>> main:generalise/series/change.cpp
+  detail::DisjointSets sets(pieces.size());
+  std::map<std::pair<MicrometrePoint, MicrometrePoint>, int> piece_at;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto join = [&](const std::pair<MicrometrePoint, MicrometrePoint>& edge) {
-      const auto [first, is_new] = piece_at.emplace(edge, i);
-      if (!is_new) sets.unite(first->second, i);
+      const auto [first, is_new] = piece_at.emplace(edge, static_cast<int>(i));
+      if (!is_new) sets.unite(first->second, static_cast<int>(i));
     };
     for_each_edge(*pieces[i].ring, join);
     if (pieces[i].facet != nullptr)
@@ -186,8 +154,9 @@ std::vector<Change> parts_of(const Change& change) {
   }
   // A facet that gives way to another one with the same outer ring takes that one along, and so do
   // holes on it; they share its edges.
-  std::map<std::size_t, Change> parts;
-  for (std::size_t i = 0; i < pieces.size(); ++i) put(change, pieces[i], parts[sets.find(i)]);
+  std::map<int, Change> parts;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    put(change, pieces[i], parts[sets.find(static_cast<int>(i))]);
   std::vector<Change> out;
   for (auto& [number, part] : parts) out.push_back(std::move(part));
   return out;

@@ -31,8 +31,8 @@ std::vector<int> ends_of(const SnappedPolygon& polygon, const FlatEdge& edge) {
   return {ring[edge.at], ring[(edge.at + 1) % ring.size()]};
 }
 
-std::vector<GridBox> boxes_of(const std::vector<FlatEdge>& edges) {
-  std::vector<GridBox> boxes;
+std::vector<Box> boxes_of(const std::vector<FlatEdge>& edges) {
+  std::vector<Box> boxes;
   boxes.reserve(edges.size());
   for (const FlatEdge& edge : edges) boxes.push_back(flat_box({edge.from, edge.to}));
   return boxes;
@@ -194,7 +194,7 @@ bool are_holes_placed_well(const SnappedPolygon& polygon, const FlatPolygon& fla
                            FindingList& findings) {
   const std::size_t before = findings.size();
   std::vector<std::vector<FlatPoint>> twice;
-  std::vector<GridBox> boxes;
+  std::vector<Box> boxes;
   for (const auto& ring : flat.rings) {
     twice.push_back(doubled(ring));
     boxes.push_back(flat_box(ring));

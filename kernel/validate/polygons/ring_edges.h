@@ -1,7 +1,8 @@
 #pragma once
 
+#include "kernel/base/index.h"
+#include "kernel/geometry/box_tree.h"
 #include "kernel/validate/polygons/flat_polygon.h"
-#include "kernel/validate/solids/box_tree.h"
 
 #include <cstddef>
 #include <vector>
@@ -25,19 +26,16 @@ inline std::vector<FlatEdge> edges_of(const std::vector<FlatPoint>& ring, std::s
 }
 
 /// The box of an edge or ring in the plane.
-inline GridBox flat_box(const std::vector<FlatPoint>& points) {
-  GridBox box{{points[0][0], points[0][1], 0}, {points[0][0], points[0][1], 0}};
+inline Box flat_box(const std::vector<FlatPoint>& points) {
+  Box box;
   for (const FlatPoint& p : points)
-    for (std::size_t i = 0; i < 2; ++i) {
-      box.min[i] = std::min(box.min[i], p[i]);
-      box.max[i] = std::max(box.max[i], p[i]);
-    }
+    box.grow({static_cast<double>(p[0]), static_cast<double>(p[1]), 0});
   return box;
 }
 
 /// Calls visit(i, j), i < j, for all boxes that overlap, until it returns false.
 template <class Visit>
-void for_each_pair(const std::vector<GridBox>& boxes, const Visit& visit) {
+void for_each_pair(const std::vector<Box>& boxes, const Visit& visit) {
   // Below this trying all pairs takes less than making a tree.
   constexpr std::size_t kFew = 24;
   if (boxes.size() <= kFew) {
@@ -46,11 +44,11 @@ void for_each_pair(const std::vector<GridBox>& boxes, const Visit& visit) {
         if (overlap(boxes[i], boxes[j]) && !visit(i, j)) return;
     return;
   }
-  const GridBoxTree tree(boxes);
+  const BoxTree tree(boxes);
   bool goes_on = true;
   for (std::size_t i = 0; i < boxes.size() && goes_on; ++i)
-    tree.for_each_overlap(boxes[i], [&](std::size_t j) {
-      if (goes_on && i < j) goes_on = visit(i, j);
+    tree.for_each_overlap(boxes[i], [&](int j) {
+      if (goes_on && static_cast<int>(i) < j) goes_on = visit(i, at(j));
     });
 }
 

@@ -92,7 +92,7 @@ bool are_collinear(const MicrometrePoint& a, const MicrometrePoint& b, const Mic
   return cross_product(between(a, b), between(a, c)) == exact::Vector128{};
 }
 
-std::size_t main_axis(const GridTriangle& triangle) {
+std::size_t main_axis(const MicrometreTriangle& triangle) {
   auto n = cross_product(between(triangle[0], triangle[1]), between(triangle[0], triangle[2]));
   for (Int128& x : n) x = x < 0 ? -x : x;
   return static_cast<std::size_t>(std::ranges::max_element(n) - n.begin());
@@ -108,7 +108,7 @@ namespace {
 
 /// Of a segment in the triangle's plane.
 bool meets_in_plane(const MicrometrePoint& p, const MicrometrePoint& q,
-                    const GridTriangle& triangle) {
+                    const MicrometreTriangle& triangle) {
   const std::size_t axis = main_axis(triangle);
   const auto flat = [axis](const MicrometrePoint& point) { return flattened(point, axis, true); };
   const std::array corners{flat(triangle[0]), flat(triangle[1]), flat(triangle[2])};
@@ -128,13 +128,13 @@ bool meets_in_plane(const MicrometrePoint& p, const MicrometrePoint& q,
 /// Signs of the line p, q against the triangle's edges: it goes through the triangle if none is of
 /// the other sign.
 std::array<int, 3> winding(const MicrometrePoint& p, const MicrometrePoint& q,
-                           const GridTriangle& t) {
+                           const MicrometreTriangle& t) {
   return {side_of(p, q, t[0], t[1]), side_of(p, q, t[1], t[2]), side_of(p, q, t[2], t[0])};
 }
 
 }  // namespace
 
-bool meets(const MicrometrePoint& p, const MicrometrePoint& q, const GridTriangle& t) {
+bool meets(const MicrometrePoint& p, const MicrometrePoint& q, const MicrometreTriangle& t) {
   const int p_side = side_of(t[0], t[1], t[2], p);
   const int q_side = side_of(t[0], t[1], t[2], q);
   if (p_side * q_side > 0) return false;
@@ -144,7 +144,7 @@ bool meets(const MicrometrePoint& p, const MicrometrePoint& q, const GridTriangl
   return least >= 0 || most <= 0;
 }
 
-bool meet(const GridTriangle& a, const GridTriangle& b) {
+bool meet(const MicrometreTriangle& a, const MicrometreTriangle& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (meets(a[i], a[(i + 1) % 3], b)) return true;
     if (meets(b[i], b[(i + 1) % 3], a)) return true;
@@ -152,9 +152,9 @@ bool meet(const GridTriangle& a, const GridTriangle& b) {
   return false;
 }
 
-bool pierce(const GridTriangle& a, const GridTriangle& b) {
+bool pierce(const MicrometreTriangle& a, const MicrometreTriangle& b) {
   const auto goes_through = [](const MicrometrePoint& p, const MicrometrePoint& q,
-                               const GridTriangle& t) {
+                               const MicrometreTriangle& t) {
     if (side_of(t[0], t[1], t[2], p) * side_of(t[0], t[1], t[2], q) >= 0) return false;
     const auto signs = winding(p, q, t);
     const auto [least, most] = std::ranges::minmax(signs);

@@ -1,6 +1,7 @@
 #include "kernel/validate/solids/shell_checks.h"
 
-#include "kernel/validate/solids/box_tree.h"
+#include "kernel/base/index.h"
+#include "kernel/geometry/box_tree.h"
 #include "kernel/validate/solids/shell_edges.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ struct ShellTriangle {
   std::size_t polygon;
 };
 
-GridTriangle points_of(const SnappedBuilding& building, const Corners& corners) {
+MicrometreTriangle points_of(const SnappedBuilding& building, const Corners& corners) {
   return {building.point(corners[0]), building.point(corners[1]), building.point(corners[2])};
 }
 
@@ -34,7 +35,7 @@ std::size_t shared_first(Corners& corners, const Corners& other) {
 
 /// True if triangles that share an edge, p and q their other corners, lie on each other.
 bool fold_back(const SnappedBuilding& building, const Corners& a, int p, int q) {
-  const GridTriangle triangle = points_of(building, a);
+  const MicrometreTriangle triangle = points_of(building, a);
   if (side_of(triangle[0], triangle[1], triangle[2], building.point(q)) != 0) return false;
   const std::size_t axis = main_axis(triangle);
   const auto flat = [&](int v) { return flattened(building.point(v), axis, true); };
@@ -47,8 +48,8 @@ bool intersect(const SnappedBuilding& building, Corners a, Corners b) {
   shared_first(b, a);
   if (shared == 3) return true;
   if (shared == 2) return fold_back(building, a, a[2], b[2]);
-  const GridTriangle one = points_of(building, a);
-  const GridTriangle other = points_of(building, b);
+  const MicrometreTriangle one = points_of(building, a);
+  const MicrometreTriangle other = points_of(building, b);
   if (shared == 0) return meet(one, other);
   // Beyond the common corner one of the opposite edges would have to touch the other triangle.
   return meets(one[1], one[2], other) || meets(other[1], other[2], one);
@@ -58,16 +59,17 @@ bool intersect(const SnappedBuilding& building, Corners a, Corners b) {
 bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
                           FindingList& findings) {
   std::vector<ShellTriangle> triangles;
-  std::vector<GridBox> boxes;
+  std::vector<Box> boxes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
     for (const Corners& corners : shell.polygons[p].triangles) {
       triangles.push_back({corners, p});
       boxes.push_back(box_of(points_of(building, corners)));
     }
-  const GridBoxTree tree(boxes);
+  const BoxTree tree(boxes);
   std::vector<std::optional<std::size_t>> crossed_by(shell.polygons.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    tree.for_each_overlap(boxes[i], [&](std::size_t j) {
+    tree.for_each_overlap(boxes[i], [&](int number) {
+      const std::size_t j = at(number);
       const std::size_t p = triangles[i].polygon;
       const std::size_t q = triangles[j].polygon;
       if (j <= i || p == q || (crossed_by[p] && crossed_by[q])) return;
