@@ -18,7 +18,7 @@ using MicrometreTriangle = std::array<MicrometrePoint, 3>;
 inline Box box_of(std::span<const MicrometrePoint> points) {
   Box box;
   for (const MicrometrePoint& p : points)
-    box.grow({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+    box.grow(Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
   return box;
 }
 
