@@ -28,14 +28,6 @@ using NodeId = Id<struct NodeTag>;
 using CellId = Id<struct CellTag>;
 /// A face of the cell complex: CellComplex::faces.
 using FaceId = Id<struct FaceTag>;
-/// An edge of a mesh or graph.
-using EdgeId = Id<struct EdgeTag>;
-/// A loop of a face or facet, where all loops stand in one list.
-using LoopId = Id<struct LoopTag>;
-/// A point or vertex of a list of points.
-using PointId = Id<struct PointTag>;
-/// A place in an order of candidates or steps: the smaller comes first.
-using Rank = Id<struct RankTag>;
 /// A split-off part: Segmentation::features, and the rows of FeatureTable.
 using FeatureId = Id<struct FeatureTag>;
 

@@ -12,6 +12,15 @@
 
 namespace oriel {
 
+/// An edge of a mesh or graph.
+using EdgeId = Id<struct EdgeTag>;
+/// A loop of a face or facet, where all loops stand in one list.
+using LoopId = Id<struct LoopTag>;
+/// A point or vertex of a list of points.
+using PointId = Id<struct PointTag>;
+/// A place in an order of candidates or steps: the smaller comes first.
+using Rank = Id<struct RankTag>;
+
 /// The ids 0 … count − 1, ascending, to be iterated over.
 template <class IdType>
 auto ids_below(std::size_t count) {
