@@ -71,7 +71,7 @@ struct LabelledHouse {
 };
 
 /// The place of a point in a file of whole millimetres.
-GridPoint on_millimetres(Vec3 local_m) {
+MicrometrePoint on_millimetres(Vec3 local_m) {
   const auto place = [](double m) { return 1000 * std::llround(1000 * m); };
   return {place(local_m.x), place(local_m.y), place(local_m.z)};
 }

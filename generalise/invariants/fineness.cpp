@@ -1,6 +1,7 @@
 #include "generalise/invariants/fineness.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 
@@ -34,7 +35,7 @@ FeatureId smallest_around(const Segmentation& segmentation, const std::vector<Fe
   for (int i = 0; i < std::ssize(segmentation.features); ++i) {
     const Box& box = segmentation.features[at(i)].box;
     const double size_m = length(box.max - box.min);
-    if (size_m >= least_m || !holds(box, p) || !holds(box, q)) continue;
+    if (size_m >= least_m || !contains(box, p, kOnBox_m) || !contains(box, q, kOnBox_m)) continue;
     if (std::ranges::binary_search(removed, FeatureId{i})) continue;
     best = FeatureId{i};
     least_m = size_m;
@@ -200,11 +201,6 @@ std::optional<Vec3> crossing(const FacetSheet& a, const FacetSheet& b) {
 }
 
 }  // namespace
-
-bool holds(const Box& box, Vec3 p, double off_m) {
-  return p.x >= box.min.x - off_m && p.x <= box.max.x + off_m && p.y >= box.min.y - off_m &&
-         p.y <= box.max.y + off_m && p.z >= box.min.z - off_m && p.z <= box.max.z + off_m;
-}
 
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m) {

@@ -1,6 +1,7 @@
 #include "interpret/labelling/groups.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/disjoint_sets.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,29 +14,6 @@
 namespace oriel::rules {
 
 namespace {
-
-/// Sets of rows that are joined pair by pair.
-class DisjointRows {
- public:
-  explicit DisjointRows(std::size_t rows) : parents_(rows) {
-    std::iota(parents_.begin(), parents_.end(), 0);
-  }
-  int find(int row) {
-    while (parents_[at(row)] != row) row = parents_[at(row)] = parents_[at(parents_[at(row)])];
-    return row;
-  }
-  /// Joins the set with the root `root` and that of `row`; returns their root. The smaller one
-  /// stays, so that paths end at the first member.
-  int join(int root, int row) {
-    const int other = find(row);
-    const int first = std::min(root, other);
-    parents_[at(std::max(root, other))] = first;
-    return first;
-  }
-
- private:
-  std::vector<int> parents_;
-};
 
 /// An id with its first bytes, by which two are nearly always told apart.
 class ComparedId {
@@ -140,14 +118,13 @@ Clusters clusters_of_classes(const Links& links, std::size_t least, auto is_memb
 /// Members that pairs of members lead to hang together, if they are so many.
 Clusters clusters_of_pairs(const Facts& facts, const Links& links, std::size_t least,
                            auto is_member, std::span<const FeaturesOfBuilding> buildings) {
-  DisjointRows sets(facts.rows);
+  oriel::detail::DisjointSets sets(facts.rows);
   for (const int row : facts.row_numbers) {
     if (!is_member(row)) continue;
-    int root = sets.find(row);
     const auto [begin, end] = links.range_of(row);
     for (std::size_t link = begin; link < end; ++link)
       if (links.is_other(row, link) == Truth::yes && is_member(links.other(link)))
-        root = sets.join(root, links.other(link));
+        sets.unite(row, links.other(link));
   }
   std::vector<std::vector<FeatureId>> members_of(facts.rows);  // by root
   for (const int row : facts.row_numbers)

@@ -1,4 +1,5 @@
 #include "kernel/geometry/planar.h"
+#include "kernel/model/area_vector.h"
 #include "oriel/explain.h"
 
 #include <cmath>
@@ -20,14 +21,6 @@ std::vector<detail::Outline> outlines_of(const Building& building, const Polygon
   return outlines;
 }
 
-/// Of the outer ring (Newell).
-Vec3 normal_of(const detail::Outline& outline) {
-  Vec3 sum;
-  for (std::size_t i = 0; i < outline.size(); ++i)
-    sum = sum + cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
-  return normalised(sum);
-}
-
 }  // namespace
 
 std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
@@ -36,7 +29,7 @@ std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
   for (std::size_t i = 0; i < building.polygons.size(); ++i) {
     const auto outlines = outlines_of(building, building.polygons[i]);
     if (outlines.empty() || outlines[0].empty()) continue;
-    const Vec3 normal = normal_of(outlines[0]);
+    const Vec3 normal = normalised(area_vector(outlines[0]));
     const double distance = std::abs(dot(local - outlines[0][0], normal));
     if (distance > kReach_m || (nearest && distance >= nearest->distance_m)) continue;
     if (detail::contains(outlines, normal, local)) nearest = PolygonAt{i, distance};

@@ -3,6 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/area_vector.h"
 #include "kernel/segment/boundary/reach.h"
 
 #include <algorithm>
@@ -28,11 +29,10 @@ struct LoosePolygon {
 };
 
 Vec3 area_vector(const std::vector<Outline>& rings) {
-  Vec3 sum;
+  Vec3 doubled;
   for (const Outline& ring : rings)
-    for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-      sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  return 0.5 * sum;
+    add_doubled_area(doubled, ring.size(), [&](std::size_t i) { return ring[i]; });
+  return 0.5 * doubled;
 }
 
 class Joiner {

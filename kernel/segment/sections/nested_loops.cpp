@@ -1,5 +1,7 @@
 #include "kernel/segment/sections/nested_loops.h"
 
+#include "kernel/geometry/boxes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,11 +21,6 @@ struct LoopSize {
 
 /// Most sections have no more loops.
 constexpr std::size_t kFewLoops = 16;
-
-bool is_within(const Box& inner, const Box& outer) {
-  return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
-         inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
-}
 
 class LoopNester {
  public:

@@ -1,13 +1,16 @@
 #pragma once
 
 #include "kernel/base/numbers.h"
+#include "kernel/geometry/boxes.h"
 #include "kernel/model/vec3.h"
 
 #include <vector>
 
 namespace oriel::detail {
 
-/// Boxes in a balanced tree, for searches that look at few of them.
+/// Boxes in a balanced tree, for searches that look at few of them: each node's items are halved
+/// along the longest side of its box. Takes O(n log n) to make; coordinates are compared, never
+/// computed with, so a search is exact.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
@@ -17,6 +20,12 @@ class BoxTree {
   template <class Reaches, class Visit>
   void search(Reaches reaches, Visit visit) const {
     if (!items_.empty()) search_node(0, items_.size(), 1, reaches, visit);
+  }
+
+  /// Visits the numbers of all boxes that overlap `box`, always in the same order.
+  template <class Visit>
+  void for_each_overlap(const Box& box, Visit visit) const {
+    search([&](const Box& other) { return overlap(box, other); }, visit);
   }
 
  private:

@@ -1,4 +1,4 @@
-#include "kernel/solidify/crossings/box_tree.h"
+#include "kernel/geometry/box_tree.h"
 
 #include "kernel/base/index.h"
 
