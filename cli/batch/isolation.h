@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/batch/intake.h"
+#include "cli/batch/outcome.h"
 
 #include <functional>
 #include <memory>
@@ -17,12 +17,12 @@ namespace oriel::cli {
 class Isolation {
  public:
   struct Steps {
-    /// The next arrival, or null after the last.
-    std::function<std::shared_ptr<Arrival>()> next;
-    /// Fills the outcome of an arrival; runs in a worker.
-    std::function<void(Arrival&)> work;
-    /// An arrival is done, in its order.
-    std::function<void(Arrival&)> settle;
+    /// The next item, or null after the last.
+    std::function<std::unique_ptr<WorkItem>()> next;
+    /// Fills the outcome of an item; runs in a worker.
+    std::function<void(WorkItem&)> work;
+    /// An item is done, in its order.
+    std::function<void(WorkItem&)> settle;
   };
 
   /// Up to `jobs` workers at the same time. A worker that is at one building for longer than
@@ -32,7 +32,7 @@ class Isolation {
   Isolation(const Isolation&) = delete;
   Isolation& operator=(const Isolation&) = delete;
 
-  /// All arrivals. Throws std::runtime_error if the system gives no process or pipe, or if a record
+  /// All items. Throws std::runtime_error if the system gives no process or pipe, or if a record
   /// ends its worker though all its buildings are lost already.
   void run();
 

@@ -12,7 +12,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string feature;
   std::string rules = "residential";
   int surface = -1;
@@ -25,12 +25,11 @@ ExitCode explain_place(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   const Vec3 point{arguments.at[0], arguments.at[1], arguments.at[2]};
   std::optional<double> nearest_m;
   std::string text;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = polygon_at(building, point);
@@ -45,8 +44,8 @@ ExitCode explain_place(const Arguments& arguments) {
       const auto explanation = explain(lines[i], *rules, feature);
       text = arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation);
     }
-  };
-  const ExitCode code = run.go(visitor);
+  });
+  const ExitCode code = runner.run(visitor);
   if (text.empty() && code != ExitCode::input)
     throw CLI::ValidationError("--at", "no polygon lies there");
   std::fputs(text.c_str(), stdout);
@@ -58,10 +57,9 @@ ExitCode explain_surfaces(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   std::string text;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
@@ -69,8 +67,8 @@ ExitCode explain_surfaces(const Arguments& arguments) {
       text += explain_surface(building, lines[i], *rules,
                               static_cast<std::size_t>(found - building.polygons.begin()));
     }
-  };
-  const ExitCode code = run.go(visitor);
+  });
+  const ExitCode code = runner.run(visitor);
   if (text.empty() && code != ExitCode::input)
     throw CLI::ValidationError("--surface",
                                fmt::format("there is no polygon {}", arguments.surface));
@@ -85,15 +83,14 @@ ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   std::vector<Explanation> explanations;
   std::vector<std::string> ids;
-  Run::Visitor visitor;
-  visitor.begin = [&](std::size_t) {
+  const auto clear = [&] {
     explanations.clear();
     ids.clear();
   };
-  visitor.record = [&](const Document&, std::vector<PipelineResult>& lines) {
+  const auto look_up = [&](const Document&, std::vector<PipelineResult>& lines) {
     for (const PipelineResult& line : lines) {
       if (!line.is_done()) continue;
       const FeatureTable& table = line.description.table;
@@ -103,7 +100,8 @@ ExitCode work(const Arguments& arguments) {
         explanations.push_back(explain(line, *rules, id));
     }
   };
-  const ExitCode code = run.go(visitor);
+  RecordVisitor visitor(look_up, clear);
+  const ExitCode code = runner.run(visitor);
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
   if (explanations.size() != 1 && !has_said_why) {
     std::string which = explanations.empty() ? "there are" : "it may be";

@@ -1,8 +1,8 @@
-#include "cli/batch/work_place.h"
+#include "cli/batch/batch_command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/labelling.h"
 #include "cli/commands/targets.h"
-#include "cli/output/accounts.h"
+#include "cli/output/change_report.h"
 #include "cli/series/series.h"
 #include "oriel/generalise.h"
 
@@ -28,57 +28,57 @@ struct Arguments : LabelArguments {
   std::string metrics;
 };
 
-class Generaliser {
+class Generaliser final : public ProducingCommand {
  public:
-  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules, Run& run)
+  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules,
+              BatchRunner& runner)
       : arguments_(arguments),
         targets_(targets),
         rules_(rules),
-        run_(run),
+        runner_(runner),
         outputs_(arguments, rules),
-        accounts_(arguments.explain, arguments.metrics) {}
+        changes_(arguments.explain, arguments.metrics) {}
 
-  ExitCode go() {
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      if (input == 0 && arguments_.repeat > 1) removed_.clear();
-      accounts_.begin(!run_.is_last_run());
-      outputs_.begin(input, !run_.is_last_run());
-    };
-    visitor.make = [&](std::size_t input, const Document& document,
-                       const std::vector<PipelineResult>& lines,
-                       Timings& timings) { return redraw_record(input, document, lines, timings); };
-    visitor.take = [&](const Document& document, const Product& product) {
-      outputs_.take(document, product);
-      accounts_.take(product);
-    };
-    visitor.places = [&] {
-      PartPlaces places = outputs_.places();
-      accounts_.add_places(places);
-      return places;
-    };
-    const bool is_json = arguments_.explain.ends_with(".jsonl");
-    visitor.recipe = fmt::format("generalise {} explain={} json={} metrics={} {}",
-                                 targets_.recipe(), !arguments_.explain.empty(), is_json,
-                                 accounts_.has_metrics(), outputs_.recipe());
-    visitor.end = [&](std::size_t) {
-      run_.timings().measure(Stage::write, [&] { outputs_.end(); });
-    };
-    visitor.reopen = [&] {
-      accounts_.begin(false);
-      outputs_.reopen();
-    };
-    visitor.commit = [&] {
-      outputs_.commit();
-      accounts_.commit();
-    };
-    visitor.is_streaming = outputs_.is_streaming();
-    visitor.counts = &removed_;
-    const ExitCode code = run_.go(visitor);
-    if (!run_.was_done())
-      run_.tell_summary("generalised to " + targets_.text(), removed_, " left out");
-    return code;
+  void begin(std::size_t input) override {
+    if (input == 0 && arguments_.repeat > 1) removed_.clear();
+    changes_.begin(!runner_.is_last_run());
+    outputs_.begin(input, !runner_.is_last_run());
   }
+  Product make(std::size_t input, const Document& document,
+               const std::vector<PipelineResult>& results, Timings& timings) const override {
+    return redraw_record(input, document, results, timings);
+  }
+  void take(const Document& document, Product product) override {
+    outputs_.take(document, product);
+    changes_.take(product);
+  }
+  void end(std::size_t /*input*/) override {
+    runner_.timings().measure(Stage::write, [&] { outputs_.end(); });
+  }
+  void commit() override {
+    outputs_.commit();
+    changes_.commit();
+  }
+  void reopen() override {
+    changes_.begin(false);
+    outputs_.reopen();
+  }
+
+  [[nodiscard]] PartPlaces places() const override {
+    PartPlaces places = outputs_.places();
+    changes_.add_places(places);
+    return places;
+  }
+  [[nodiscard]] std::string recipe() const override {
+    return fmt::format("generalise {} explain={} json={} metrics={} {}", targets_.recipe(),
+                       !arguments_.explain.empty(), arguments_.explain.ends_with(".jsonl"),
+                       changes_.has_metrics(), outputs_.recipe());
+  }
+  [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
+  std::map<std::string, int>* counts() override { return &removed_; }
+
+  /// Features that are gone, by label.
+  [[nodiscard]] const std::map<std::string, int>& removed() const { return removed_; }
 
  private:
   Product redraw_record(std::size_t input, const Document& document,
@@ -114,16 +114,16 @@ class Generaliser {
     GeneraliseOptions options;
     static_cast<LabelOptions&>(options) = arguments_.label_options(timings.observer());
     options.reports_changes = !arguments_.explain.empty();
-    options.reports_figures = accounts_.has_metrics();
+    options.reports_figures = changes_.has_metrics();
     return options;
   }
 
   void report(const GeneralisedBuilding& drawn, Product& product) const {
     product.issues.insert(product.issues.end(), drawn.issues.begin(), drawn.issues.end());
     for (const TargetReport& report : drawn.reports) {
-      product[Part::deeds] += accounts_.text(drawn.building, report.target, report.changes);
+      product[Part::changes] += changes_.text(drawn.building, report.target, report.changes);
       if (report.figures)
-        product[Part::figures] += accounts_.text(drawn.building, report.target, *report.figures);
+        product[Part::metrics] += changes_.text(drawn.building, report.target, *report.figures);
     }
   }
 
@@ -136,9 +136,9 @@ class Generaliser {
   const Arguments& arguments_;
   const Targets& targets_;
   const RuleBase& rules_;
-  Run& run_;
+  BatchRunner& runner_;
   LabelOutputs outputs_;
-  Accounts accounts_;
+  ChangeReport changes_;
   std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 
@@ -164,9 +164,9 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
   if (arguments.target.profile.empty())
     return write_series(arguments, scales, std::nullopt, rules, report);
   const auto profile = load_profile_file(arguments.target.profile);
-  report.tell(profile.issues);
+  report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
-  report.tell(check_profile(*profile.value, rules));
+  report.add(check_profile(*profile.value, rules));
   return write_series(arguments, scales, profile.value, rules, report);
 }
 
@@ -203,9 +203,12 @@ ExitCode work(Arguments& arguments) {
   if (!targets) return ExitCode::rules;
   if (std::ranges::any_of(targets->profiles, &Profile::names_classes))
     arguments.stl_solids = StlSolids::by_class;
-  Run run(arguments, &*rules, report);
-  Generaliser generaliser(arguments, *targets, *rules, run);
-  return generaliser.go();
+  BatchRunner runner(arguments, &*rules, report);
+  Generaliser command(arguments, *targets, *rules, runner);
+  const ExitCode code = runner.run(command);
+  if (!runner.was_done())
+    runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
+  return code;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "cli/batch/work_place.h"
+#include "cli/batch/batch_command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/labelling.h"
 #include "interpret/score/surface_score.h"
@@ -68,47 +68,79 @@ ExitCode audit(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   SurfaceScore score;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
-    if (!run.is_last_run() || !has_semantics(document.format)) return;
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
+    if (!runner.is_last_run() || !has_semantics(document.format)) return;
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (lines[i].has_surfaces())
         compare_surfaces(
             document.buildings[i],
             annotate(document.buildings[i], lines[i], *rules, arguments.label_options()),
             lines[i].surfaces, OpeningPolicy::compare, score);
-  };
-  const ExitCode code = run.go(visitor);
+  });
+  const ExitCode code = runner.run(visitor);
   const std::string text =
       arguments.is_json ? to_json(score, true) + "\n" : differences_text(score) + to_text(score);
   std::fputs(text.c_str(), stdout);
-  run.tell_summary("audited", {});
+  runner.report_summary("audited", {});
   return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
 }
 
-Product made_of(std::size_t input, const Document& document,
-                const std::vector<PipelineResult>& lines, const Arguments& arguments,
-                const LabelOutputs& outputs) {
-  Product product;
-  std::vector<LabelledBuilding> labelled;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    now_at_building(i);
-    const Building& building = document.buildings[i];
-    if (outputs.has_buildings() && lines[i].has_surfaces()) {
-      labelled.push_back(outputs.annotated(building, lines[i]));
-      if (arguments.is_repaired && lines[i].is_done())
-        put_on_solid(document, building, lines[i], labelled.back(), product.issues);
-    }
-    if (!lines[i].is_done()) continue;
-    outputs.make_features(building, lines[i], product);
-    if (!outputs.has_any()) product[Part::listing] += listing(building, lines[i]);
+class Labeller final : public ProducingCommand {
+ public:
+  Labeller(const Arguments& arguments, const RuleBase& rules, BatchRunner& runner)
+      : arguments_(arguments), runner_(runner), outputs_(arguments, rules) {}
+
+  void begin(std::size_t input) override { outputs_.begin(input, !runner_.is_last_run()); }
+  Product make(std::size_t input, const Document& document,
+               const std::vector<PipelineResult>& results, Timings& timings) const override {
+    return timings.measure(Stage::write, [&] { return made_of(input, document, results); });
   }
-  now_at_building(kNoBuilding);
-  outputs.make_buildings(input, document, std::move(labelled), arguments.write_options(), product);
-  return product;
-}
+  void take(const Document& document, Product product) override {
+    if (!runner_.is_last_run()) product[Part::listing].clear();
+    outputs_.take(document, product);
+  }
+  void end(std::size_t /*input*/) override {
+    runner_.timings().measure(Stage::write, [&] { outputs_.end(); });
+  }
+  void commit() override { outputs_.commit(); }
+  void reopen() override { outputs_.reopen(); }
+
+  [[nodiscard]] PartPlaces places() const override { return outputs_.places(); }
+  [[nodiscard]] std::string recipe() const override {
+    return fmt::format("label existing={} repaired={} {}", arguments_.existing,
+                       arguments_.is_repaired, outputs_.recipe());
+  }
+  [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
+
+ private:
+  [[nodiscard]] Product made_of(std::size_t input, const Document& document,
+                                const std::vector<PipelineResult>& results) const {
+    Product product;
+    std::vector<LabelledBuilding> labelled;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      now_at_building(i);
+      const Building& building = document.buildings[i];
+      if (outputs_.has_buildings() && results[i].has_surfaces()) {
+        labelled.push_back(outputs_.annotated(building, results[i]));
+        if (arguments_.is_repaired && results[i].is_done())
+          put_on_solid(document, building, results[i], labelled.back(), product.issues);
+      }
+      if (!results[i].is_done()) continue;
+      outputs_.make_features(building, results[i], product);
+      if (!outputs_.has_any()) product[Part::listing] += listing(building, results[i]);
+    }
+    now_at_building(kNoBuilding);
+    outputs_.make_buildings(input, document, std::move(labelled), arguments_.write_options(),
+                            product);
+    return product;
+  }
+
+  const Arguments& arguments_;
+  BatchRunner& runner_;
+  LabelOutputs outputs_;
+};
 
 ExitCode work(Arguments& arguments) {
   if (arguments.existing == "audit") return audit(arguments);
@@ -122,28 +154,10 @@ ExitCode work(Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
-  LabelOutputs outputs(arguments, *rules);
-  Run::Visitor visitor;
-  visitor.begin = [&](std::size_t input) { outputs.begin(input, !run.is_last_run()); };
-  visitor.make = [&](std::size_t input, const Document& document,
-                     const std::vector<PipelineResult>& lines, Timings& timings) {
-    return timings.measure(Stage::write,
-                           [&] { return made_of(input, document, lines, arguments, outputs); });
-  };
-  visitor.take = [&](const Document& document, Product product) {
-    if (!run.is_last_run()) product[Part::listing].clear();
-    outputs.take(document, product);
-  };
-  visitor.places = [&] { return outputs.places(); };
-  visitor.recipe = fmt::format("label existing={} repaired={} {}", arguments.existing,
-                               arguments.is_repaired, outputs.recipe());
-  visitor.end = [&](std::size_t) { run.timings().measure(Stage::write, [&] { outputs.end(); }); };
-  visitor.reopen = [&] { outputs.reopen(); };
-  visitor.commit = [&] { outputs.commit(); };
-  visitor.is_streaming = outputs.is_streaming();
-  const ExitCode code = run.go(visitor);
-  if (!run.was_done()) run.tell_summary("labelled", run.labels());
+  BatchRunner runner(arguments, &*rules, report);
+  Labeller command(arguments, *rules, runner);
+  const ExitCode code = runner.run(command);
+  if (!runner.was_done()) runner.report_summary("labelled", runner.state().labels);
   return code;
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "cli/batch/earlier_run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/batch/outcome.h"
-#include "cli/batch/run.h"
 #include "cli/commands/options.h"
-#include "cli/output/destination.h"
+#include "cli/output/output_sink.h"
 #include "interpret/pack/rule_base.h"
 #include "oriel/write.h"
 
@@ -16,7 +15,7 @@
 namespace oriel::cli {
 
 /// Arguments of the commands that label buildings and write them.
-struct LabelArguments : LineArguments {
+struct LabelArguments : RunOptions {
   std::string rules = "residential";
   std::string out;
   std::string to;
@@ -43,7 +42,7 @@ class LabelOutputs {
   /// Throws CLI::ValidationError if the arguments make no sense together.
   LabelOutputs(const LabelArguments& arguments, const RuleBase& rules);
 
-  [[nodiscard]] bool has_buildings() const { return destination_.has_value(); }
+  [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
   /// What was added is written by the next flush: nothing waits for the end of the input.
@@ -82,7 +81,7 @@ class LabelOutputs {
   const RuleBase& rules_;
   /// Of the arguments as they are when the outputs are made.
   LabelOptions options_;
-  std::optional<Destination> destination_;
+  std::optional<OutputSink> sink_;
   std::unique_ptr<FeatureRecordWriter> features_;
   bool has_ended_ = false;  ///< an input did
 };

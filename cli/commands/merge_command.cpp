@@ -56,7 +56,7 @@ class Merger {
 
  private:
   void tell(const Issue& issue) {
-    report_.tell(issue);
+    report_.add(issue);
     has_errors_ = true;
   }
 

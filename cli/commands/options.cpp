@@ -5,54 +5,11 @@
 #include <algorithm>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace oriel::cli {
-
-ReadOptions LineArguments::read_options() const {
-  ReadOptions options;
-  if (!lod.empty()) options.lod = lod;
-  if (!from.empty()) options.format = parse_format(from);
-  return options;
-}
-
-ReadOptions LineArguments::read_options(const std::string& input) const {
-  ReadOptions options = read_options();
-  if (!options.format && input == "-") options.format = kFormatOfStdin;
-  return options;
-}
-
-bool LineArguments::is_piped_stream() const {
-  return inputs.size() == 1 && inputs[0] == "-" && read_options("-").format == Format::cityjson_seq;
-}
-
-LabelOptions LineArguments::label_options(StageObserver observer) const {
-  LabelOptions options;
-  options.tolerances = tolerances;
-  options.fits_noise = !is_plane_offset_given;
-  options.repair = {*parse_closing(close), cap_area_m2,
-                    crossings == "cut" ? Crossings::cut : Crossings::leave};
-  options.order = order == "paper" ? Order::paper : Order::natural;
-  options.budget = budget;
-  options.ignores_semantics = ignores_semantics;
-  options.lod = lod;
-  options.observer = std::move(observer);
-  options.measures_surfaces = !only_names_surfaces;
-  options.measures_features = !only_labels_features;
-  options.has_output = false;
-  return options;
-}
-
-std::string LineArguments::configuration() const { return oriel::configuration(label_options()); }
-
-bool LineArguments::allows(int set_aside, int buildings) const {
-  const double number = std::stod(allowed_bad);
-  if (allowed_bad.ends_with('%')) return set_aside * 100.0 <= number * buildings;
-  return set_aside <= number;
-}
 
 namespace {
 
@@ -84,7 +41,7 @@ CLI::Validator input_formats() {
   return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply"});
 }
 
-void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ, OFF or PLY; - is stdin, a CityJSONSeq";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
@@ -102,7 +59,7 @@ void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   if (has_many) add_selection_arguments(command, a.selection);
 }
 
-void add_solid_arguments(CLI::App& command, LineArguments& a) {
+void add_solid_arguments(CLI::App& command, RunOptions& a) {
   command
       .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
                   "Polygons share a plane if tilted by no more than this")
@@ -149,7 +106,7 @@ void add_jobs_argument(CLI::App& command, int& jobs) {
       ->capture_default_str();
 }
 
-void add_run_arguments(CLI::App& command, LineArguments& a) {
+void add_run_arguments(CLI::App& command, RunOptions& a) {
   command.add_option("--timings", a.timings_file,
                      "Write the milliseconds of each stage to this file, as JSON");
   command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
@@ -183,7 +140,7 @@ void add_run_arguments(CLI::App& command, LineArguments& a) {
   command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
 }
 
-void add_resume_argument(CLI::App& command, LineArguments& a) {
+void add_resume_argument(CLI::App& command, RunOptions& a) {
   command
       .add_flag(
           "--resume", a.is_resumable,
@@ -192,7 +149,7 @@ void add_resume_argument(CLI::App& command, LineArguments& a) {
       ->excludes(command.get_option("--repeat"));
 }
 
-void add_reuse_argument(CLI::App& command, LineArguments& a) {
+void add_reuse_argument(CLI::App& command, RunOptions& a) {
   command
       .add_option(
           "--reuse", a.reuse,
@@ -202,7 +159,7 @@ void add_reuse_argument(CLI::App& command, LineArguments& a) {
       ->excludes(command.get_option("--repeat"));
 }
 
-void add_isolate_argument(CLI::App& command, LineArguments& a) {
+void add_isolate_argument(CLI::App& command, RunOptions& a) {
   command.add_flag("--isolate", a.is_isolated,
                    "Work in forked processes: a hard crash (a signal) costs one building, which is "
                    "set aside");
@@ -215,7 +172,7 @@ void add_isolate_argument(CLI::App& command, LineArguments& a) {
       ->needs(command.get_option("--isolate"));
 }
 
-void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+void add_line_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   add_input_arguments(command, a, has_many);
   command
       .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")

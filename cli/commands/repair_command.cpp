@@ -1,7 +1,7 @@
-#include "cli/batch/run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
-#include "cli/output/destination.h"
+#include "cli/output/output_sink.h"
 #include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/repair_json.h"
@@ -18,7 +18,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string out;
   std::string to;
   std::string report;
@@ -44,35 +44,31 @@ std::string summary_of(const Building& building, const Repaired& repaired) {
       report.inner_area_m2, report.caps.size(), closed_m2, report.detached_shells, report.cavities);
 }
 
-class Repairer {
+class Repairer final : public VisitingCommand {
  public:
-  Repairer(const Arguments& arguments, Run& run)
+  Repairer(const Arguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
-        run_(run),
-        destination_(arguments.out, arguments.to, arguments.inputs,
-                     arguments.read_options().format) {}
+        runner_(runner),
+        sink_(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format) {}
 
-  ExitCode go() {
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      destination_.begin(input, !run_.is_last_run());
-      if (run_.is_last_run() && !report_ && !arguments_.report.empty())
-        report_ = std::make_unique<OutputFile>(arguments_.report);
-    };
-    visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
-      run_.timings().measure(Stage::write, [&] { add(document, lines); });
-    };
-    visitor.end = [&](std::size_t) {
-      has_ended_ = true;
-      run_.timings().measure(Stage::write, [&] { destination_.end(); });
-    };
-    visitor.commit = [&] {
-      if (report_ && has_ended_) report_->commit();
-    };
-    const ExitCode code = run_.go(visitor);
-    run_.tell_summary(fmt::format("repaired {}, found closed {}, together", repaired_, closed_),
-                      {});
-    return code;
+  void begin(std::size_t input) override {
+    sink_.begin(input, !runner_.is_last_run());
+    if (runner_.is_last_run() && !report_ && !arguments_.report.empty())
+      report_ = std::make_unique<OutputFile>(arguments_.report);
+  }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    runner_.timings().measure(Stage::write, [&] { add(document, results); });
+  }
+  void end(std::size_t /*input*/) override {
+    has_ended_ = true;
+    runner_.timings().measure(Stage::write, [&] { sink_.end(); });
+  }
+  void commit() override {
+    if (report_ && has_ended_) report_->commit();
+  }
+
+  [[nodiscard]] std::string summary() const {
+    return fmt::format("repaired {}, found closed {}, together", repaired_, closed_);
   }
 
  private:
@@ -80,8 +76,8 @@ class Repairer {
   Repaired repaired(const Document& document, const Building& building, PipelineResult& line) {
     const bool had_solid = line.solid.has_value();
     Repaired out = repair(document, building, std::move(line),
-                          arguments_.label_options(run_.timings().observer()));
-    if (had_solid && !out.solid) run_.set_aside(out.issues.back());
+                          arguments_.label_options(runner_.timings().observer()));
+    if (had_solid && !out.solid) runner_.set_aside(out.issues.back());
     return out;
   }
 
@@ -91,18 +87,18 @@ class Repairer {
       const Building& building = document.buildings[i];
       Repaired one = repaired(document, building, lines[i]);
       if (one.solid) solids.push_back(std::move(one.output));
-      if (!run_.is_last_run()) continue;
+      if (!runner_.is_last_run()) continue;
       if (one.solid) ++(one.report.was_needed ? repaired_ : closed_);
       if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, one));
       if (report_)
         report_->append(repair_json(building, one.solid.has_value(), one.report, one.issues));
     }
-    destination_.add(document, solids, {});
+    sink_.add(document, solids, {});
   }
 
   const Arguments& arguments_;
-  Run& run_;
-  Destination destination_;
+  BatchRunner& runner_;
+  OutputSink sink_;
   std::unique_ptr<OutputFile> report_;
   bool has_ended_ = false;  ///< an input did
   int repaired_ = 0, closed_ = 0;
@@ -110,8 +106,11 @@ class Repairer {
 
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
-  Run run(arguments, nullptr, report);
-  return Repairer(arguments, run).go();
+  BatchRunner runner(arguments, nullptr, report);
+  Repairer command(arguments, runner);
+  const ExitCode code = runner.run(command);
+  runner.report_summary(command.summary(), {});
+  return code;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ ExitCode work(const Arguments& arguments) {
     if (arguments.is_json)
       for (const Issue& issue : pack.issues) findings.push_back(as_json(issue));
     else
-      report.tell(pack.issues);
+      report.add(pack.issues);
     if (!pack.value)
       code = ExitCode::rules;
     else if (!arguments.is_json)

@@ -77,7 +77,7 @@ ExitCode work(const Arguments& arguments) {
   std::vector<RuleTestReport> reports;
   for (const std::string& file : arguments.files) {
     auto tested = run_rule_tests(tests_of(file), read_buildings);
-    report.tell(tested.issues);
+    report.add(tested.issues);
     if (!tested.value) {
       code = ExitCode::rules;
       continue;

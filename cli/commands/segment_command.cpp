@@ -1,4 +1,4 @@
-#include "cli/batch/run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/tree_report.h"
@@ -17,7 +17,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   bool is_json = false;
   bool has_faces = false;
   bool has_tree = false;
@@ -49,20 +49,34 @@ std::string listing(const Building& building, const PipelineResult& line) {
                      stats.inner, table(rows));
 }
 
-/// What the command writes: JSON or a listing, and the records of features, each if asked for.
-class Outputs {
+/// Writes JSON or a listing, and the records of features, each if asked for.
+class Segmenter final : public VisitingCommand {
  public:
-  Outputs(const Arguments& arguments, Run& run) : arguments_(arguments), run_(run) {}
+  Segmenter(const Arguments& arguments, BatchRunner& runner)
+      : arguments_(arguments), runner_(runner) {}
 
-  void open() {
+  void begin(std::size_t /*input*/) override {
+    if (!runner_.is_last_run()) return;
     const bool has_listing = arguments_.features.empty() || arguments_.out != "-";
     if (!text_ && (arguments_.is_json || has_listing))
       text_ = std::make_unique<OutputFile>(arguments_.out);
     if (!features_ && !arguments_.features.empty())
       features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
   }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    runner_.timings().measure(Stage::write, [&] {
+      for (std::size_t i = 0; i < results.size(); ++i)
+        if (results[i].is_done()) add(document.buildings[i], results[i]);
+    });
+  }
+  void end(std::size_t /*input*/) override { has_ended_ = true; }
+  void commit() override {
+    if (text_ && has_ended_) text_->commit();
+    if (features_ && has_ended_) features_->commit();
+  }
 
-  /// Before open() nothing is kept.
+ private:
+  /// In runs for the clock nothing is kept.
   void add(const Building& building, const PipelineResult& line) {
     const FeatureTable& table = line.description.table;
     std::optional<CellComplex> complex;
@@ -82,44 +96,24 @@ class Outputs {
     bool is_same = true;
     std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
     if (is_same) return text;
-    run_.set_aside(building_issue(Severity::error, "E901", building.id,
-                                  "a fault of oriel's own: its balanced tree is another body"));
+    runner_.set_aside(building_issue(Severity::error, "E901", building.id,
+                                     "a fault of oriel's own: its balanced tree is another body"));
     return {};
   }
 
-  void commit() {
-    if (text_) text_->commit();
-    if (features_) features_->commit();
-  }
-
- private:
   const Arguments& arguments_;
-  Run& run_;
+  BatchRunner& runner_;
   std::unique_ptr<OutputFile> text_;
   std::unique_ptr<FeatureRecordWriter> features_;
+  bool has_ended_ = false;  ///< an input did
 };
 
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
-  Run run(arguments, nullptr, report);
-  Outputs outputs(arguments, run);
-  bool has_ended = false;  // an input did
-  Run::Visitor visitor;
-  visitor.begin = [&](std::size_t) {
-    if (run.is_last_run()) outputs.open();
-  };
-  visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
-    run.timings().measure(Stage::write, [&] {
-      for (std::size_t i = 0; i < lines.size(); ++i)
-        if (lines[i].is_done()) outputs.add(document.buildings[i], lines[i]);
-    });
-  };
-  visitor.end = [&](std::size_t) { has_ended = true; };
-  visitor.commit = [&] {
-    if (has_ended) outputs.commit();
-  };
-  const ExitCode code = run.go(visitor);
-  run.tell_summary("segmented", {});
+  BatchRunner runner(arguments, nullptr, report);
+  Segmenter command(arguments, runner);
+  const ExitCode code = runner.run(command);
+  runner.report_summary("segmented", {});
   return code;
 }
 

@@ -66,9 +66,9 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
     throw CLI::ValidationError("--edge-min", "goes with --profile or --to-lod");
   for (const std::string& name : names) {
     auto loaded = load_profile_file(name);
-    report.tell(loaded.issues);
+    report.add(loaded.issues);
     if (!loaded.value) return std::nullopt;
-    report.tell(check_profile(*loaded.value, rules));
+    report.add(check_profile(*loaded.value, rules));
     if (arguments.edge_min_m > 0)
       loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
     if (targets.has_lods()) check_lod("--profile", loaded.value->level);

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   bool is_json = false;
   bool shows_problems_only = false;
   std::string primitive = "stated";
@@ -106,7 +106,7 @@ class Validation {
       throw CLI::ValidationError("input", "stdin can be read only once");
     for (const std::string& input : arguments_.inputs) read(input);
     out_.commit();
-    tell_summary();
+    report_summary();
     return code_;
   }
 
@@ -123,13 +123,13 @@ class Validation {
           judge(*record);
           continue;
         }
-        report_.tell(record->issues);
+        report_.add(record->issues);
         const bool is_line = reader.format() == Format::cityjson_seq && !is_first;
         raise(is_line ? ExitCode::set_aside : ExitCode::input);
         unread_records_ += is_line ? 1 : 0;
       }
     } catch (const InputError& error) {
-      report_.tell(error.issue());
+      report_.add(error.issue());
       raise(ExitCode::input);
     }
   }
@@ -148,7 +148,7 @@ class Validation {
              "",
              {finding_of(issue)}});
       else if (issue.code != "E311" && issue.code != "E312")  // judged with their places
-        report_.tell(issue);
+        report_.add(issue);
     }
     for (const Building& building : record.value->buildings)
       if (arguments_.selection.takes(building, record.value->feature_type))
@@ -185,7 +185,7 @@ class Validation {
     out_.append(arguments_.is_json ? json_line(judgement) : text_of(judgement));
   }
 
-  void tell_summary() const {
+  void report_summary() const {
     std::string text =
         fmt::format("{} of {} buildings are valid", buildings_ - invalid_, buildings_);
     const char* separator = "; ";

@@ -1,6 +1,6 @@
 #include "cli/series/series.h"
 
-#include "cli/batch/run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/series/series_files.h"
 #include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
@@ -8,7 +8,6 @@
 #include "oriel/series.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,14 +16,15 @@ namespace oriel::cli {
 
 namespace {
 
-class SeriesWriter {
+class SeriesWriter final : public VisitingCommand {
  public:
   SeriesWriter(const LabelArguments& arguments, const std::vector<double>& scales,
-               std::optional<Profile> profile, const RuleBase& rules, Run& run, Report& report)
+               std::optional<Profile> profile, const RuleBase& rules, BatchRunner& runner,
+               Report& report)
       : arguments_(arguments),
         scales_(scales),
         rules_(rules),
-        run_(run),
+        runner_(runner),
         report_(report),
         files_(arguments, scales),
         labels_(labels_only(arguments)),
@@ -33,31 +33,26 @@ class SeriesWriter {
     options_.profile = std::move(profile);
   }
 
-  ExitCode go() {
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      files_.begin(input, !run_.is_last_run());
-      outputs_.begin(input, !run_.is_last_run());
-      if (input == 0) operations_ = 0;
-    };
-    visitor.record = [&](const Document& document, std::vector<PipelineResult>& lines) {
-      add_record(document, lines);
-    };
-    visitor.end = [&](std::size_t) {
-      run_.timings().measure(Stage::write, [&] {
-        files_.end();
-        outputs_.end();
-      });
-    };
-    visitor.commit = [&] {
-      files_.commit();
-      outputs_.commit();
-    };
-    const ExitCode code = run_.go(visitor);
-    run_.tell_summary(fmt::format("made {} levels of", scales_.size()),
-                      {{"operation", operations_}}, " in the log");
-    return code;
+  void begin(std::size_t input) override {
+    files_.begin(input, !runner_.is_last_run());
+    outputs_.begin(input, !runner_.is_last_run());
+    if (input == 0) operations_ = 0;
   }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    add_record(document, results);
+  }
+  void end(std::size_t /*input*/) override {
+    runner_.timings().measure(Stage::write, [&] {
+      files_.end();
+      outputs_.end();
+    });
+  }
+  void commit() override {
+    files_.commit();
+    outputs_.commit();
+  }
+
+  [[nodiscard]] int operations() const { return operations_; }
 
  private:
   /// What the files of a series are called is no file to be written.
@@ -67,20 +62,20 @@ class SeriesWriter {
   }
 
   void add_record(const Document& document, const std::vector<PipelineResult>& lines) {
-    options_.observer = run_.timings().observer();
+    options_.observer = runner_.timings().observer();
     const Series made = series(document, lines, rules_, scales_, options_);
     for (const Issue& issue : made.issues)
       if (issue.severity == Severity::error)
-        run_.set_aside(issue);
+        runner_.set_aside(issue);
       else
-        report_.tell(issue);
+        report_.add(issue);
     std::vector<OutputRecord> levels;
     std::string log;
-    run_.timings().measure(Stage::generalise, [&] {
+    runner_.timings().measure(Stage::generalise, [&] {
       for (const double scale : scales_) levels.push_back(at(made, scale));
       for (const SeriesOperation& operation : made.operations()) log += operation_line(operation);
     });
-    run_.timings().measure(Stage::write, [&] {
+    runner_.timings().measure(Stage::write, [&] {
       const auto twin = files_.add(document, levels, log);
       if (twin) return set_aside_twin(made, document, *twin);
       for (const BuildingSeries& one : made.buildings)
@@ -94,11 +89,11 @@ class SeriesWriter {
     const std::string sentence =
         fmt::format("an earlier input has a CityObject '{}': that one is in the series", id);
     for (const std::string& building : made.drawn)
-      run_.set_aside(building_issue(Severity::error, "E207", building, sentence));
+      runner_.set_aside(building_issue(Severity::error, "E207", building, sentence));
     if (!made.drawn.empty()) return;
     Issue issue = building_issue(Severity::error, "E207", "", sentence);
     issue.place.file = document.name;
-    run_.set_aside(issue);
+    runner_.set_aside(issue);
   }
 
   void add_features(const Document& document, const std::vector<PipelineResult>& lines) {
@@ -112,7 +107,7 @@ class SeriesWriter {
   const LabelArguments& arguments_;
   const std::vector<double>& scales_;
   const RuleBase& rules_;
-  Run& run_;
+  BatchRunner& runner_;
   Report& report_;
   SeriesFiles files_;
   LabelArguments labels_;
@@ -125,8 +120,12 @@ class SeriesWriter {
 
 ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
                       std::optional<Profile> profile, const RuleBase& rules, Report& report) {
-  Run run(arguments, &rules, report);
-  return SeriesWriter(arguments, scales, std::move(profile), rules, run, report).go();
+  BatchRunner runner(arguments, &rules, report);
+  SeriesWriter command(arguments, scales, std::move(profile), rules, runner, report);
+  const ExitCode code = runner.run(command);
+  runner.report_summary(fmt::format("made {} levels of", scales.size()),
+                        {{"operation", command.operations()}}, " in the log");
+  return code;
 }
 
 ExitCode write_level_at(const std::string& name, double scale, const std::string& out,
@@ -134,7 +133,7 @@ ExitCode write_level_at(const std::string& name, double scale, const std::string
   std::optional<OutputFile> whole;
   const auto file = [&]() -> OutputFile& { return whole ? *whole : whole.emplace(out); };
   const LevelFromFiles level = at(name, scale, [&](std::string_view text) { file().append(text); });
-  report.tell(level.issues);
+  report.add(level.issues);
   if (!level.is_complete) return ExitCode::input;
   file().commit();
   run_log().info("1:{} from {}", scale, level.from_file);

@@ -67,7 +67,7 @@ void SeriesFiles::begin(std::size_t input, bool is_rehearsal) {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     levels_[i] = {};
     if (kind_ == Kind::one_file) {
-      levels_[i].destination = std::make_unique<Destination>(
+      levels_[i].destination = std::make_unique<OutputSink>(
           path_of(scales_[i]), "cityjson", arguments_.inputs, arguments_.read_options().format);
       levels_[i].destination->begin(input, is_rehearsal);
     } else {

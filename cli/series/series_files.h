@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/commands/labelling.h"
-#include "cli/output/destination.h"
+#include "cli/output/output_sink.h"
 #include "cli/streams/common_header.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
@@ -40,7 +40,7 @@ class SeriesFiles {
  private:
   enum class Kind { one_file, several_files, streams };
   struct Level {
-    std::unique_ptr<Destination> destination;  ///< of one file
+    std::unique_ptr<OutputSink> destination;  ///< of one file
     std::unique_ptr<OutputFile> file;
     CityJsonCollector collector;
   };

@@ -1,6 +1,7 @@
 #include "oriel/pipeline/pipeline.h"
 
 #include "interpret/labelling/interpret.h"
+#include "kernel/base/log.h"
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/rings/ring_features.h"
 #include "kernel/segment/segment_open.h"
@@ -60,6 +61,22 @@ DescribeOptions describe_options(const RuleBase* rules, const LabelOptions& opti
   return {rules->attributes_read(), rules->relations_read()};
 }
 
+/// Measures a stage and logs it at level debug: `segmented: building=b1 features=42 ms=118`.
+/// `counts` says what stands between.
+template <class Work, class Counts>
+auto measured(const StageObserver& observer, Stage stage, const char* done,
+              const Building& building, Work work, Counts counts) {
+  double ms = 0;
+  const StageObserver keeping = [&](Stage measured_stage, double took_ms) {
+    ms = took_ms;
+    if (observer) observer(measured_stage, took_ms);
+  };
+  auto value = measure(keeping, stage, work);
+  if (const Log logger = log("oriel"); logger.is_on(LogLevel::debug))
+    logger.debug("{}: building={} {} ms={:.0f}", done, building.id, counts(value), ms);
+  return value;
+}
+
 Segmentation all_features(const Building& building, const PipelineResult& result,
                           const SegmentOptions& options) {
   const Solid& solid = *result.solid;
@@ -79,17 +96,25 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
     out.is_open = out.solid.has_value();
   }
   if (!out.solid) return;
-  Segmentation segmentation = measure(observer, Stage::segment, [&] {
-    return all_features(building, out, segment_options(options, tolerances));
-  });
+  Segmentation segmentation = measured(
+      observer, Stage::segment, "segmented", building,
+      [&] { return all_features(building, out, segment_options(options, tolerances)); },
+      [](const Segmentation& found) { return fmt::format("features={}", found.features.size()); });
   append(out.issues, segmentation.issues);
-  out.description = measure(observer, Stage::describe, [&] {
-    return describe(building, segmentation, describe_options(rules, options));
-  });
+  out.description = measured(
+      observer, Stage::describe, "described", building,
+      [&] { return describe(building, segmentation, describe_options(rules, options)); },
+      [](const Description& found) { return fmt::format("features={}", found.table.rows()); });
   if (rules != nullptr) {
-    out.interpretation = measure(observer, Stage::interpret, [&] {
-      return interpret(*rules, out.description.table, out.description.graph);
-    });
+    out.interpretation = measured(
+        observer, Stage::interpret, "interpreted", building,
+        [&] { return interpret(*rules, out.description.table, out.description.graph); },
+        [](const Interpretation& found) {
+          return fmt::format("labelled={}",
+                             std::ranges::count_if(found.verdicts, [](const Verdict& verdict) {
+                               return !verdict.label.empty();
+                             }));
+        });
     append(out.issues, out.interpretation.issues);
   }
   out.segmentation = std::move(segmentation);
@@ -106,8 +131,13 @@ PipelineResult run_to_solid(const Building& building, const Tolerances& toleranc
                             const RepairOptions& repair, const StageObserver& observer) {
   PipelineResult out;
   try {
-    auto solid =
-        measure(observer, Stage::solidify, [&] { return solidify(building, tolerances, repair); });
+    auto solid = measured(
+        observer, Stage::solidify, "solidified", building,
+        [&] { return solidify(building, tolerances, repair); },
+        [](const auto& made) {
+          return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
+                             made.issues.size());
+        });
     append(out.issues, std::move(solid.issues));
     out.repair = std::move(solid.report);
     out.solid = std::move(solid.value);

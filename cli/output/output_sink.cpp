@@ -1,4 +1,4 @@
-#include "cli/output/destination.h"
+#include "cli/output/output_sink.h"
 
 #include <filesystem>
 #include <set>
@@ -44,8 +44,8 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
-Destination::Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
-                         std::optional<Format> from, StlSolids solids)
+OutputSink::OutputSink(std::string out, const std::string& to, std::vector<std::string> inputs,
+                       std::optional<Format> from, StlSolids solids)
     : out_(std::move(out)), inputs_(std::move(inputs)), from_(from), solids_(solids) {
   if (!to.empty()) to_ = parse_format(to);
   is_folder_ = out_.ends_with('/') || fs::is_directory(out_);
@@ -63,13 +63,13 @@ Destination::Destination(std::string out, const std::string& to, std::vector<std
   }
 }
 
-Format Destination::format_of_input(std::size_t input) const {
+Format OutputSink::format_of_input(std::size_t input) const {
   if (from_) return *from_;
   if (inputs_[input] == "-") return kFormatOfStdin;
   return format_of(inputs_[input]).value_or(Format::cityjson);
 }
 
-void Destination::check(std::size_t input) const {
+void OutputSink::check(std::size_t input) const {
   const Format from = format_of_input(input);
   const Format to = to_ ? *to_ : is_folder_ || out_ == "-" ? from : format_of(out_).value_or(from);
   if (!is_folder_ && out_ != "-" && to == Format::citygml)
@@ -85,7 +85,7 @@ void Destination::check(std::size_t input) const {
                           to_string(from), to_string(to), is_stream_in ? "collect" : "cat"));
 }
 
-std::string Destination::path_for(std::size_t input) const {
+std::string OutputSink::path_for(std::size_t input) const {
   if (!is_folder_) return out_;
   const Format from = format_of_input(input);
   Format to = to_.value_or(from);
@@ -94,19 +94,19 @@ std::string Destination::path_for(std::size_t input) const {
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
-Format Destination::format_of_output(std::size_t input) const {
+Format OutputSink::format_of_output(std::size_t input) const {
   if (to_) return *to_;
   const Format from = format_of_input(input);
   return format_of(path_for(input))
       .value_or(from == Format::cityjson_seq ? from : Format::cityjson);
 }
 
-bool Destination::is_gathering(std::size_t input) const {
+bool OutputSink::is_gathering(std::size_t input) const {
   const Format format = format_of_output(input);
   return format != Format::cityjson && format != Format::cityjson_seq;
 }
 
-bool Destination::is_streaming() const {
+bool OutputSink::is_streaming() const {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const Format to = to_ ? *to_ : format_of(path_for(i)).value_or(format_of_input(i));
     if (to != Format::cityjson_seq || format_of_input(i) != Format::cityjson_seq) return false;
@@ -114,7 +114,7 @@ bool Destination::is_streaming() const {
   return true;
 }
 
-void Destination::begin(std::size_t input, bool is_rehearsal) {
+void OutputSink::begin(std::size_t input, bool is_rehearsal) {
   input_ = input;
   path_ = path_for(input);
   mesh_ = {};
@@ -127,14 +127,14 @@ void Destination::begin(std::size_t input, bool is_rehearsal) {
   file_ = std::make_unique<OutputFile>(path_);
 }
 
-std::string Destination::text(std::size_t input, const Document& document,
-                              const std::vector<LabelledBuilding>& labelled,
-                              const WriteOptions& options) const {
+std::string OutputSink::text(std::size_t input, const Document& document,
+                             const std::vector<LabelledBuilding>& labelled,
+                             const WriteOptions& options) const {
   return is_gathering(input) ? std::string() : write_cityjson(document, labelled, options);
 }
 
-void Destination::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
-                       const std::string& text) {
+void OutputSink::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                      const std::string& text) {
   if (is_gathering(input_))
     append_mesh(mesh_, document, labelled);
   else if (format_of_output(input_) == Format::cityjson && document.format == Format::citygml)
@@ -143,14 +143,14 @@ void Destination::take(const Document& document, const std::vector<LabelledBuild
     file_->append(text);
 }
 
-void Destination::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
-                      const WriteOptions& options) {
+void OutputSink::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                     const WriteOptions& options) {
   take(document, labelled, text(input_, document, labelled, options));
 }
 
-PartPlace Destination::place() const { return {path_, file_ ? file_->size() : 0}; }
+PartPlace OutputSink::place() const { return {path_, file_ ? file_->size() : 0}; }
 
-std::string Destination::end() {
+std::string OutputSink::end() {
   if (collector_.has_lines()) file_->append(collector_.text());
   const Format format = format_of_output(input_);
   if (format == Format::obj) file_->append(write_obj(mesh_));

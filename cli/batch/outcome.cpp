@@ -1,4 +1,4 @@
-#include "cli/batch/outcome_json.h"
+#include "cli/batch/outcome.h"
 
 #include <nlohmann/json.hpp>
 

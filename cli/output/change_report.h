@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cli/batch/earlier_run.h"
 #include "cli/batch/outcome.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/generalise.h"
@@ -13,11 +12,11 @@
 namespace oriel::cli {
 
 /// What --explain and --metrics of generalise write; each file appears when all inputs are done.
-class Accounts {
+class ChangeReport {
  public:
   /// Empty names: not asked for. --explain writes JSON lines to a name that ends in .jsonl, else
   /// text.
-  Accounts(std::string explain, std::string metrics)
+  ChangeReport(std::string explain, std::string metrics)
       : explain_(std::move(explain)), metrics_(std::move(metrics)) {}
 
   [[nodiscard]] bool has_metrics() const { return !metrics_.empty(); }
@@ -36,7 +35,7 @@ class Accounts {
 
  private:
   std::string explain_, metrics_;
-  std::unique_ptr<OutputFile> deeds_, figures_;
+  std::unique_ptr<OutputFile> changes_file_, metrics_file_;
 };
 
 }  // namespace oriel::cli

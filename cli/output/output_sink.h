@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/batch/earlier_run.h"
+#include "cli/batch/outcome.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/document.h"
 #include "kernel/io/files/format.h"
@@ -18,13 +18,13 @@ namespace oriel::cli {
 
 /// Where labelled buildings go: one file, stdout, or for several inputs a folder with a file of the
 /// same name for each. A file appears when its input is done, whole.
-class Destination {
+class OutputSink {
  public:
   /// `to` is a format's name or empty: then the name of `out` says it, or, for a folder and stdout,
   /// the input's format (CityJSON for CityGML). Throws CLI::ValidationError if that makes no sense
   /// (several inputs and no folder, a stream into one file).
-  Destination(std::string out, const std::string& to, std::vector<std::string> inputs,
-              std::optional<Format> from, StlSolids solids = StlSolids::by_label);
+  OutputSink(std::string out, const std::string& to, std::vector<std::string> inputs,
+             std::optional<Format> from, StlSolids solids = StlSolids::by_label);
 
   /// Lines of streams become lines of streams, and nothing else.
   [[nodiscard]] bool is_streaming() const;

@@ -1,7 +1,5 @@
-#include "cli/batch/earlier_run.h"
+#include "cli/batch/result_cache.h"
 
-#include "cli/batch/journal.h"
-#include "cli/batch/outcome_json.h"
 #include "cli/batch/resume.h"
 
 #include <algorithm>
@@ -64,23 +62,9 @@ std::string note_at(int file, std::uint64_t at) {
 
 }  // namespace
 
-RecordNotes::RecordNotes(const std::string& stem, const std::string& recipe_sha256)
-    : file_(stem + kNotesEnding) {
-  if (file_.size() == 0) file_.append(note_text({{"recipe_sha256", recipe_sha256}}));
-}
-
-void RecordNotes::add(const std::string& source_sha256, const PartPlaces& places,
-                      const RecordOutcome& outcome) {
-  ordered_json parts = ordered_json::array();
-  for (std::size_t i = 0; i < kParts; ++i) {
-    const std::size_t bytes = outcome.product.bytes[i].size();
-    if (bytes > 0) parts.push_back({i, places[i].path, places[i].size, bytes});
-  }
-  file_.append(note_text(
-      {{"source_sha256", source_sha256}, {"parts", parts}, {"outcome", to_json(outcome)}}));
-}
-
-EarlierRun::EarlierRun(const std::string& status, const std::string& recipe_sha256) {
+ResultCache::ResultCache(const std::string& status, const std::string& stem,
+                         const std::string& recipe_sha256)
+    : new_notes_(stem + kNotesEnding) {
   try {
     load(status, recipe_sha256);
   } catch (const std::exception& why) {
@@ -91,14 +75,15 @@ EarlierRun::EarlierRun(const std::string& status, const std::string& recipe_sha2
     fault_->place.file = status;
     notes_.clear();
   }
+  if (new_notes_.size() == 0) new_notes_.append(note_text({{"recipe_sha256", recipe_sha256}}));
 }
 
-EarlierRun::~EarlierRun() {
+ResultCache::~ResultCache() {
   for (const auto& [path, file] : files_) ::close(file);
 }
 
 /// Files are opened before they are checked: this run may put others in their place.
-void EarlierRun::load(const std::string& status, const std::string& recipe_sha256) {
+void ResultCache::load(const std::string& status, const std::string& recipe_sha256) {
   if (!status.ends_with(kStatusEnding)) throw std::runtime_error("it is no file in .status.json");
   std::ifstream file(status, std::ios::binary);
   if (!file) throw std::runtime_error("there is none");
@@ -126,7 +111,7 @@ void EarlierRun::load(const std::string& status, const std::string& recipe_sha25
   std::ranges::sort(notes_, {}, [](const Note& note) { return std::pair(note.key, note.at); });
 }
 
-std::optional<RecordOutcome> EarlierRun::find(const std::string& source_sha256) const {
+std::optional<RecordOutcome> ResultCache::find(const std::string& source_sha256) const {
   Note sought;
   sought.key = key_of(source_sha256);
   const auto [from, to] = std::equal_range(notes_.begin(), notes_.end(), sought);
@@ -135,8 +120,8 @@ std::optional<RecordOutcome> EarlierRun::find(const std::string& source_sha256) 
   return std::nullopt;
 }
 
-std::optional<RecordOutcome> EarlierRun::outcome_at(const Note& note,
-                                                    const std::string& source_sha256) const {
+std::optional<RecordOutcome> ResultCache::outcome_at(const Note& note,
+                                                     const std::string& source_sha256) const {
   const ordered_json json =
       ordered_json::parse(note_at(files_.at(notes_path_), note.at), nullptr, false);
   if (!json.is_object() || json.at("source_sha256") != source_sha256) return std::nullopt;
@@ -149,6 +134,17 @@ std::optional<RecordOutcome> EarlierRun::outcome_at(const Note& note,
     if (bytes.size() != part.at(3).get<std::size_t>()) return std::nullopt;
   }
   return outcome;
+}
+
+void ResultCache::add(const std::string& source_sha256, const PartPlaces& places,
+                      const RecordOutcome& outcome) {
+  ordered_json parts = ordered_json::array();
+  for (std::size_t i = 0; i < kParts; ++i) {
+    const std::size_t bytes = outcome.product.bytes[i].size();
+    if (bytes > 0) parts.push_back({i, places[i].path, places[i].size, bytes});
+  }
+  new_notes_.append(note_text(
+      {{"source_sha256", source_sha256}, {"parts", parts}, {"outcome", to_json(outcome)}}));
 }
 
 }  // namespace oriel::cli

@@ -1,18 +1,18 @@
-#include "cli/output/accounts.h"
+#include "cli/output/change_report.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace oriel::cli {
 
-void Accounts::begin(bool is_rehearsal) {
+void ChangeReport::begin(bool is_rehearsal) {
   if (is_rehearsal) return;
-  if (!deeds_ && !explain_.empty()) deeds_ = std::make_unique<OutputFile>(explain_);
-  if (!figures_ && !metrics_.empty()) figures_ = std::make_unique<OutputFile>(metrics_);
+  if (!changes_file_ && !explain_.empty()) changes_file_ = std::make_unique<OutputFile>(explain_);
+  if (!metrics_file_ && !metrics_.empty()) metrics_file_ = std::make_unique<OutputFile>(metrics_);
 }
 
-std::string Accounts::text(const std::string& building, const std::string& target,
-                           const std::vector<Deed>& deeds) const {
+std::string ChangeReport::text(const std::string& building, const std::string& target,
+                               const std::vector<Deed>& deeds) const {
   std::string all;
   if (explain_.empty()) return all;
   const bool is_json = explain_.ends_with(".jsonl");
@@ -40,8 +40,8 @@ std::string Accounts::text(const std::string& building, const std::string& targe
   return all;
 }
 
-std::string Accounts::text(const std::string& building, const std::string& target,
-                           const TargetFigures& figures) const {
+std::string ChangeReport::text(const std::string& building, const std::string& target,
+                               const TargetFigures& figures) const {
   if (metrics_.empty()) return {};
   nlohmann::ordered_json line;
   line["building"] = building;
@@ -60,19 +60,21 @@ std::string Accounts::text(const std::string& building, const std::string& targe
   return line.dump() + "\n";
 }
 
-void Accounts::take(const Product& product) {
-  if (deeds_) deeds_->append(product[Part::deeds]);
-  if (figures_) figures_->append(product[Part::figures]);
+void ChangeReport::take(const Product& product) {
+  if (changes_file_) changes_file_->append(product[Part::changes]);
+  if (metrics_file_) metrics_file_->append(product[Part::metrics]);
 }
 
-void Accounts::add_places(PartPlaces& places) const {
-  if (deeds_) places[static_cast<std::size_t>(Part::deeds)] = {explain_, deeds_->size()};
-  if (figures_) places[static_cast<std::size_t>(Part::figures)] = {metrics_, figures_->size()};
+void ChangeReport::add_places(PartPlaces& places) const {
+  if (changes_file_)
+    places[static_cast<std::size_t>(Part::changes)] = {explain_, changes_file_->size()};
+  if (metrics_file_)
+    places[static_cast<std::size_t>(Part::metrics)] = {metrics_, metrics_file_->size()};
 }
 
-void Accounts::commit() const {
-  if (deeds_) deeds_->commit();
-  if (figures_) figures_->commit();
+void ChangeReport::commit() const {
+  if (changes_file_) changes_file_->commit();
+  if (metrics_file_) metrics_file_->commit();
 }
 
 }  // namespace oriel::cli

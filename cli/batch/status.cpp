@@ -1,4 +1,4 @@
-#include "cli/batch/ledger.h"
+#include "cli/batch/status.h"
 
 #include "cli/batch/resume.h"
 #include "kernel/model/version.h"
@@ -48,22 +48,42 @@ std::int64_t peak_memory_bytes() {
 
 }  // namespace
 
-Ledger::Ledger(const std::string& stem)
-    : status_file_(stem + kStatus), quarantine_(stem + kQuarantine) {}
-
-void Ledger::add(const Arrival& arrival, const std::vector<Issue>& errors) {
-  if (errors.empty()) return;
-  const std::string_view line =
-      arrival.record.value ? source_line(*arrival.record.value) : std::string_view(arrival.refused);
-  append(arrival.input_name, arrival.line, errors, line);
+ordered_json to_json(const RunState& state) {
+  const RecordCounts& records = state.records;
+  return {{"buildings", state.buildings},
+          {"set_aside", state.set_aside},
+          {"open", state.open},
+          {"code", static_cast<int>(state.code)},
+          {"labels", state.labels},
+          {"counted", {records.read, records.refused, records.not_selected, records.passed_on}}};
 }
 
-void Ledger::add_unread(const std::string& input, const Issue& error) {
+RunState run_state_of(const ordered_json& json) {
+  const ordered_json& counted = json.at("counted");
+  return {json.at("buildings"),
+          json.at("set_aside"),
+          json.at("open"),
+          json.at("labels").get<std::map<std::string, int>>(),
+          {counted[0], counted[1], counted[2], counted[3]},
+          static_cast<ExitCode>(json.at("code").get<int>())};
+}
+
+StatusWriter::StatusWriter(const std::string& stem)
+    : status_file_(stem + kStatus), quarantine_(stem + kQuarantine) {}
+
+void StatusWriter::add(const Record& record, const std::vector<Issue>& errors) {
+  if (errors.empty()) return;
+  const std::string_view line = record.document.value ? source_line(*record.document.value)
+                                                      : std::string_view(record.refused);
+  append(record.input_name, record.line, errors, line);
+}
+
+void StatusWriter::add_unread(const std::string& input, const Issue& error) {
   append(input, 0, {error}, {});
 }
 
-void Ledger::append(const std::string& input, int line, const std::vector<Issue>& errors,
-                    std::string_view record) {
+void StatusWriter::append(const std::string& input, int line, const std::vector<Issue>& errors,
+                          std::string_view record) {
   ++records_;
   ++codes_[errors[0].code];
   ordered_json entry{{"input", input}};
@@ -84,36 +104,36 @@ void Ledger::append(const std::string& input, int line, const std::vector<Issue>
   quarantine_.append(dumped(entry, -1));
 }
 
-ordered_json Ledger::state() const { return {{"codes", codes_}, {"records", records_}}; }
+ordered_json StatusWriter::state() const { return {{"codes", codes_}, {"records", records_}}; }
 
-void Ledger::restore(const ordered_json& state) {
+void StatusWriter::restore(const ordered_json& state) {
   codes_ = state.at("codes").get<std::map<std::string, int>>();
   records_ = state.at("records");
 }
 
-void Ledger::commit(const Account& account) {
+void StatusWriter::commit(const RunStatus& run) {
   ordered_json status{{"oriel_version", kVersion},
                       {"program_sha256", program_sha256()},
-                      {"inputs", account.inputs},
-                      {"input_sha256", account.input_sha256},
-                      {"rules_sha256", account.rules_sha256},
-                      {"config_sha256", account.config_sha256},
+                      {"inputs", run.inputs},
+                      {"input_sha256", run.input_sha256},
+                      {"rules_sha256", run.rules_sha256},
+                      {"config_sha256", run.config_sha256},
                       {"records",
-                       {{"read", account.records.read},
-                        {"passed_on", account.records.passed_on},
-                        {"refused", account.records.refused},
-                        {"not_selected", account.records.not_selected}}},
-                      {"buildings", account.buildings},
-                      {"done", account.buildings - account.set_aside},
-                      {"set_aside", account.set_aside},
+                       {{"read", run.state.records.read},
+                        {"passed_on", run.state.records.passed_on},
+                        {"refused", run.state.records.refused},
+                        {"not_selected", run.state.records.not_selected}}},
+                      {"buildings", run.state.buildings},
+                      {"done", run.state.buildings - run.state.set_aside},
+                      {"set_aside", run.state.set_aside},
                       {"quarantined_records", records_},
                       {"quarantined_by_code", codes_},
                       {"features", ordered_json::object()},
-                      {"exit_code", account.exit_code},
+                      {"exit_code", static_cast<int>(run.state.code)},
                       {"peak_memory_bytes", peak_memory_bytes()}};
-  if (!account.command_sha256.empty()) status["command_sha256"] = account.command_sha256;
-  status["outputs"] = to_json(account.outputs);
-  for (const auto& [label, count] : account.labels)
+  if (!run.command_sha256.empty()) status["command_sha256"] = run.command_sha256;
+  status["outputs"] = to_json(run.outputs);
+  for (const auto& [label, count] : run.state.labels)
     status["features"][label.empty() ? "unknown" : label] = count;
   write_file(status_file_, dumped(status, 2));
 }
