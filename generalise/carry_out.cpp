@@ -81,7 +81,7 @@ class Guard {
     for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_))
       if (std::ranges::find(task.steps, id, &Step::feature) != task.steps.end())
         for (const Step& step : task.steps)
-          if (!is_undone(step.feature)) undone_.push_back({step.feature, "G403", reason});
+          if (!is_undone(step.feature)) undone_.push_back({step.feature, Code::G403, reason});
   }
 
   /// Takes back what tears a piece off; false if nothing does.
@@ -94,7 +94,7 @@ class Guard {
         if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
             std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
             !is_settled(step.feature) && is_torn(step.feature, edge))
-          undone_.push_back({step.feature, "G418",
+          undone_.push_back({step.feature, Code::G418,
                              fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
     return undone_.size() > count;
   }
@@ -107,7 +107,7 @@ class Guard {
           std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
           !is_settled(step.feature) && stays_as_it_was(parent_of(step.feature), out) &&
           detail::carries_its_parent(segmentation_, step.feature))
-        undone_.push_back({step.feature, "G411", "what stands on it would hang in the air"});
+        undone_.push_back({step.feature, Code::G411, "what stands on it would hang in the air"});
     return undone_.size() > count;
   }
 
@@ -164,7 +164,7 @@ class Guard {
       (broken ? bad : good) = middle;
       if (broken) reason = *broken;
     }
-    return {plan_.steps[bad - 1].feature, std::move(reason.code), std::move(reason.sentence)};
+    return {plan_.steps[bad - 1].feature, reason.code, std::move(reason.sentence)};
   }
 
   [[nodiscard]] CarriedOut with_undone(CarriedOut out) const {

@@ -45,7 +45,7 @@ void Report::tell(const std::vector<Issue>& issues) {
 }
 
 void Report::tell(const Issue& issue) {
-  if (issue.severity == Severity::error) ++errors_[issue.code];
+  if (issue.severity == Severity::error) ++errors_[to_string(issue.code)];
   if (issue.severity == Severity::note && !is_verbose_) return;
   const std::string head = to_string(issue.severity);
   const std::string text =

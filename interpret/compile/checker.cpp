@@ -52,7 +52,7 @@ ExprId Checker::term(const Syntax& syntax) {
   const ExprId id = check(syntax);
   if (id == kNoExpr || at(id).type != Type::text) return id;
   return fail(
-      "R232", syntax.span,
+      Code::R232, syntax.span,
       fmt::format("'{}' is a text; a score is made of numbers and conditions", text_of(syntax)));
 }
 
@@ -70,15 +70,15 @@ ExprId Checker::constant(const Syntax& syntax, std::optional<Dimension> dimensio
   if (id == kNoExpr) return kNoExpr;
   const Dimension found = at(id).dimension;
   if (!is_constant(at(id)))
-    return fail("R232", syntax.span,
+    return fail(Code::R232, syntax.span,
                 fmt::format("'{}' differs from feature to feature; a fixed value is needed here",
                             text_of(syntax)));
   if (!dimension || found == *dimension) return id;
   if (found.is_plain() && is_bare_number(syntax))
-    return fail("R231", syntax.span,
+    return fail(Code::R231, syntax.span,
                 fmt::format("{} is needed here: write {} {}", describe(*dimension), text_of(syntax),
                             unit_of(*dimension)));
-  return fail("R230", syntax.span,
+  return fail(Code::R230, syntax.span,
               fmt::format("'{}' is {}; {} is needed here", text_of(syntax), describe(found),
                           describe(*dimension)));
 }
@@ -88,17 +88,17 @@ bool Checker::is_too_much(Span where) {
   ++in_expression_;
   ++in_pack_;
   if (in_pack_ == kMostInPack)
-    fail("R222", where,
+    fail(Code::R222, where,
          "with their macros the expressions of this pack come to more than 200000 parts");
   else if (in_expression_ == kMostInExpression)
-    fail("R222", where, "with its macros this expression comes to more than 10000 parts");
+    fail(Code::R222, where, "with its macros this expression comes to more than 10000 parts");
   return in_pack_ >= kMostInPack || in_expression_ >= kMostInExpression;
 }
 
 ExprId Checker::check(const Syntax& syntax) {
   if (is_too_much(syntax.span)) return kNoExpr;
   if (is_of_surfaces_ && !is_known_of_surfaces(syntax.kind))
-    return fail("R232", syntax.span,
+    return fail(Code::R232, syntax.span,
                 fmt::format("'{}' speaks of features; of a surface only its own attributes are "
                             "known (part = CLASS asks for the feature it belongs to)",
                             text_of(syntax)));
@@ -152,12 +152,13 @@ ExprId Checker::add(Expr expr) {
     expr.height = std::max(expr.height, at(arg).height + 1);
   }
   if (expr.height > kDeepestExpression)
-    return fail("R222", expr.span, "with its macros this expression nests deeper than 64 levels");
+    return fail(Code::R222, expr.span,
+                "with its macros this expression nests deeper than 64 levels");
   pack_->code.push_back(std::move(expr));
   return static_cast<ExprId>(pack_->code.size()) - 1;
 }
 
-ExprId Checker::fail(const char* code, Span where, std::string sentence) {
+ExprId Checker::fail(Code code, Span where, std::string sentence) {
   findings_->error(code, where, std::move(sentence));
   return kNoExpr;
 }
@@ -170,7 +171,7 @@ ExprId Checker::check_number(const Syntax& syntax) {
   Expr expr{.op = Op::constant, .number = syntax.number, .span = syntax.span};
   if (syntax.name == "mm@map") {
     if (!is_map_allowed_)
-      return fail("R235", syntax.span,
+      return fail(Code::R235, syntax.span,
                   "mm@map has a meaning only under 'generalise:', where there is a scale");
     Expr length{.op = Op::map_length, .dimension = {1, 0}, .span = syntax.span};
     length.args = {add(std::move(expr))};

@@ -34,7 +34,7 @@ ExprId Checker::check_parameter(const Syntax& syntax) {
   const int index = index_of(pack_->params, syntax.name);
   if (index < 0) {
     if (contains(names_->broken_params, syntax.name)) return kNoExpr;
-    return fail("R206", syntax.span,
+    return fail(Code::R206, syntax.span,
                 fmt::format("unknown param '{}'{}", syntax.name,
                             did_you_mean(syntax.name, names_of(pack_->params))));
   }
@@ -57,7 +57,7 @@ std::optional<int> Checker::level_of(const Syntax& syntax) {
   if (syntax.scope == Syntax::Scope::other)
     sentence = is_in_macro ? "a macro cannot say 'other'; it is used outside 'where', too"
                            : "'other' has a meaning only after 'where'";
-  findings_->error("R236", syntax.span, sentence);
+  findings_->error(Code::R236, syntax.span, sentence);
   return std::nullopt;
 }
 
@@ -75,7 +75,7 @@ ExprId Checker::check_name(const Syntax& syntax) {
 
 ExprId Checker::check_scale(const Syntax& syntax) {
   if (is_map_allowed_) return add({.op = Op::scale, .span = syntax.span});
-  return fail("R235", syntax.span,
+  return fail(Code::R235, syntax.span,
               "'scale' has a meaning only under 'generalise:', where there is a target scale");
 }
 
@@ -85,7 +85,7 @@ void Checker::report_unknown_name(const Syntax& syntax) {
   candidates.insert(candidates.end(), macros.begin(), macros.end());
   const std::string near = nearest(syntax.name, candidates);
   const bool is_macro = contains(macros, near);
-  findings_->error(is_macro ? "R208" : "R204", syntax.name_span,
+  findings_->error(is_macro ? Code::R208 : Code::R204, syntax.name_span,
                    fmt::format("unknown {} '{}'{}", is_macro ? "macro" : "attribute", syntax.name,
                                did_you_mean(syntax.name, candidates)));
 }
@@ -110,9 +110,9 @@ ExprId Checker::check_attribute(const Syntax& syntax, int column) {
 
 ExprId Checker::check_macro(const Syntax& syntax, Macro& macro) {
   if (macro.is_open)
-    return fail("R247", syntax.span, fmt::format("the macro '{}' needs itself", macro.name));
+    return fail(Code::R247, syntax.span, fmt::format("the macro '{}' needs itself", macro.name));
   if (macro_depth_ >= kDeepestExpression)
-    return fail("R222", syntax.span, "macros nest no deeper than 64 levels");
+    return fail(Code::R222, syntax.span, "macros nest no deeper than 64 levels");
   macro.is_used = true;
   macro.is_open = true;
   ++macro_depth_;
@@ -150,7 +150,7 @@ ExprId Checker::check_distance(const Syntax& syntax) {
 /// A column behind those of the schema, which plan() fills (group_gap.h).
 ExprId Checker::check_group_gap(const Syntax& syntax) {
   if (!is_of_group_)
-    return fail("R271", syntax.span,
+    return fail(Code::R271, syntax.span,
                 "gap(members) has a meaning only in the 'when' of an entry for a group");
   Syntax named = syntax;
   named.scope = Syntax::Scope::self;
@@ -183,7 +183,7 @@ ExprId Checker::check_is(const Syntax& syntax) {
 }
 
 ExprId Checker::refuse_class(const Syntax& syntax) {
-  return fail("R249", syntax.span,
+  return fail(Code::R249, syntax.span,
               "a relation is found before any class is known; ask for the class where the relation "
               "is used, as in exists(R where is CLASS)");
 }
@@ -191,14 +191,14 @@ ExprId Checker::refuse_class(const Syntax& syntax) {
 void Checker::report_unknown_class(const Syntax& syntax) {
   const std::string& name = syntax.name;
   if (!syntax.is_of_host && contains(host_kinds(), name)) {
-    findings_->error("R205", syntax.name_span,
+    findings_->error(Code::R205, syntax.name_span,
                      fmt::format("'{}' is a kind of host facet: write 'host is {}'", name, name));
     return;
   }
   auto candidates = names_of(pack_->classes);
   if (syntax.is_of_host)
     candidates.insert(candidates.end(), host_kinds().begin(), host_kinds().end());
-  findings_->error("R205", syntax.name_span,
+  findings_->error(Code::R205, syntax.name_span,
                    fmt::format("unknown class '{}'{}", name, did_you_mean(name, candidates)));
 }
 
@@ -242,14 +242,14 @@ ExprId Checker::check_host(const Syntax& syntax, int level) {
 /// The relation that a quantifier leads over, or nothing and an error.
 std::optional<int> Checker::relation_of(const Syntax& syntax) {
   if (is_in_relation_) {
-    fail("R249", syntax.span,
+    fail(Code::R249, syntax.span,
          "a relation is found from two features alone; a quantifier looks at more");
     return std::nullopt;
   }
   const int relation = relation_number(*pack_, syntax.relation);
   if (relation < 0 && contains(names_->broken_relations, syntax.relation)) return std::nullopt;
   if (relation < 0) {
-    fail("R207", syntax.relation_span,
+    fail(Code::R207, syntax.relation_span,
          fmt::format("unknown relation '{}'{}", syntax.relation,
                      did_you_mean(syntax.relation, relation_names(*pack_))));
     return std::nullopt;
@@ -257,7 +257,7 @@ std::optional<int> Checker::relation_of(const Syntax& syntax) {
   names_->used_relations.insert(relation);
   // `host is CLASS` needs one level more.
   if (level_ + 2 < kMostLevels) return relation;
-  fail("R222", syntax.span, "quantifiers nest no deeper than two levels");
+  fail(Code::R222, syntax.span, "quantifiers nest no deeper than two levels");
   return std::nullopt;
 }
 

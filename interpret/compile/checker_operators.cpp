@@ -56,7 +56,7 @@ ExprId Checker::check_as_number(const Syntax& syntax) {
   const ExprId id = check(syntax);
   if (id == kNoExpr || at(id).type == Type::number) return id;
   return fail(
-      "R232", syntax.span,
+      Code::R232, syntax.span,
       fmt::format("'{}' is {}; a number is needed here", text_of(syntax), describe(at(id))));
 }
 
@@ -64,7 +64,7 @@ ExprId Checker::check_as_condition(const Syntax& syntax) {
   const ExprId id = check(syntax);
   if (id == kNoExpr || at(id).type == Type::yes_no) return id;
   return fail(
-      "R232", syntax.span,
+      Code::R232, syntax.span,
       fmt::format("'{}' is {}; a condition is needed here", text_of(syntax), describe(at(id))));
 }
 
@@ -101,7 +101,7 @@ ExprId Checker::check_call(const Syntax& syntax) {
   expr.dimension = at(expr.args[0]).dimension;
   if (expr.op != Op::square_root) return add(std::move(expr));
   if (expr.dimension.metre % 2 != 0 || expr.dimension.degree % 2 != 0)
-    return fail("R230", syntax.span,
+    return fail(Code::R230, syntax.span,
                 fmt::format("the square root of {} has no unit", describe(expr.dimension)));
   expr.dimension = {expr.dimension.metre / 2, expr.dimension.degree / 2};
   return add(std::move(expr));
@@ -126,7 +126,7 @@ ExprId Checker::check_arithmetic(const Syntax& syntax) {
   if (needs_same && !expect_same(left, expr.args[0], right, expr.args[1])) return kNoExpr;
   if (std::abs(expr.dimension.metre) > kHighestPower ||
       std::abs(expr.dimension.degree) > kHighestPower)
-    return fail("R230", syntax.span, "a unit to a power above 9 has no meaning here");
+    return fail(Code::R230, syntax.span, "a unit to a power above 9 has no meaning here");
   return add(std::move(expr));
 }
 
@@ -138,14 +138,14 @@ ExprId Checker::check_comparison(const Syntax& syntax) {
   if (first != kNoExpr && at(first).type == Type::text) {
     if (expr.op != Op::equal && expr.op != Op::not_equal)
       return fail(
-          "R232", syntax.name_span,
+          Code::R232, syntax.name_span,
           fmt::format("'{}' is a text; texts are compared with =, != and in [..]", text_of(left)));
     expr.args = {first, check_word(right, first)};
     return expr.args[1] == kNoExpr ? kNoExpr : add(std::move(expr));
   }
   if (first != kNoExpr && at(first).type == Type::yes_no)
     return fail(
-        "R232", left.span,
+        Code::R232, left.span,
         fmt::format("'{}' is yes or no already; write it alone, or 'not' in front", text_of(left)));
   expr.args = {first, check_as_number(right)};
   if (first == kNoExpr || expr.args[1] == kNoExpr) return kNoExpr;
@@ -163,7 +163,7 @@ ExprId Checker::check_range(const Syntax& syntax) {
   const auto low = fold(*pack_, expr.args[1]);
   const auto high = fold(*pack_, expr.args[2]);
   if (low && high && *low > *high)
-    return fail("R212", {syntax.children[1].span.begin, syntax.children[2].span.end},
+    return fail(Code::R212, {syntax.children[1].span.begin, syntax.children[2].span.end},
                 "an empty range: its low end is above its high end");
   return add(std::move(expr));
 }
@@ -176,7 +176,7 @@ ExprId Checker::check_list(const Syntax& syntax) {
   const Type type = at(expr.args[0]).type;
   if (type == Type::yes_no)
     return fail(
-        "R232", value.span,
+        Code::R232, value.span,
         fmt::format("'{}' is yes or no; write it alone, or 'not' in front", text_of(value)));
   bool is_good = true;
   for (std::size_t i = 1; i < syntax.children.size(); ++i) {
@@ -198,7 +198,7 @@ ExprId Checker::check_similarity(const Syntax& syntax) {
     return kNoExpr;
   const Dimension tolerance = at(expr.args[2]).dimension;
   if (!tolerance.is_plain())
-    return fail("R230", syntax.children[2].span,
+    return fail(Code::R230, syntax.children[2].span,
                 fmt::format("after 'by' stands a share such as 10 %, not {}; for a fixed distance "
                             "write abs(x - y) <= ...",
                             describe(tolerance)));
@@ -212,7 +212,7 @@ ExprId Checker::check_word(const Syntax& syntax, ExprId text) {
     const ExprId id = check(syntax);
     if (id == kNoExpr || at(id).type == Type::text) return id;
     return fail(
-        "R232", syntax.span,
+        Code::R232, syntax.span,
         fmt::format("'{}' is {}; a word is needed here", text_of(syntax), describe(at(id))));
   }
   const Attribute& attribute = schema()[static_cast<std::size_t>(at(text).index)];
@@ -220,7 +220,7 @@ ExprId Checker::check_word(const Syntax& syntax, ExprId text) {
   if (!words.empty() && std::ranges::find(words, syntax.name) == words.end()) {
     std::string advice = did_you_mean(syntax.name, words);
     if (advice.empty()) advice = fmt::format(" (it is one of {})", join(words));
-    return fail("R234", syntax.span,
+    return fail(Code::R234, syntax.span,
                 fmt::format("'{}' is never '{}'{}", attribute.name, syntax.name, advice));
   }
   Expr expr{.op = Op::constant, .type = Type::text, .span = syntax.span};
@@ -237,7 +237,7 @@ bool Checker::expect_same(const Syntax& left, ExprId left_id, const Syntax& righ
   const Dimension q = at(right_id).dimension;
   if (p == q) return true;
   if (report_missing_unit(right, left, p) || report_missing_unit(left, right, q)) return false;
-  fail("R230", right.span,
+  fail(Code::R230, right.span,
        fmt::format("'{}' is {} and '{}' is {}", text_of(left), describe(p), text_of(right),
                    describe(q)));
   return false;
@@ -245,7 +245,7 @@ bool Checker::expect_same(const Syntax& left, ExprId left_id, const Syntax& righ
 
 bool Checker::report_missing_unit(const Syntax& number, const Syntax& other, Dimension wanted) {
   if (!is_bare_number(number) || wanted.is_plain()) return false;
-  fail("R231", number.span,
+  fail(Code::R231, number.span,
        fmt::format("'{}' is {}: write {} {}", text_of(other), describe(wanted), text_of(number),
                    unit_of(wanted)));
   return true;

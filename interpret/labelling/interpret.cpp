@@ -33,7 +33,7 @@ std::vector<Verdict> verdicts_of(const rules::Pack& pack, std::span<const rules:
 Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
   Issue issue;
   issue.severity = Severity::note;
-  issue.code = "R260";
+  issue.code = Code::R260;
   issue.sentence =
       fmt::format("{} {:.2f} is close to {}: margin {:.2f} < {:.2f}", verdict.label, verdict.score,
                   verdict.runner_up.text(), verdict.margin, pack.decide.ambiguous_below);
@@ -60,7 +60,7 @@ Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const Fea
   std::string sentence = fmt::format("after {} rounds {} features still change: {}", pack.rounds,
                                      rows.size(), fmt::join(ids, ", "));
   if (more > 0) sentence += fmt::format(" and {} more", more);
-  return building_issue(Severity::warning, "R261", table.building(), std::move(sentence));
+  return building_issue(Severity::warning, Code::R261, table.building(), std::move(sentence));
 }
 
 /// The buildings of `facts`.

@@ -12,7 +12,7 @@ namespace {
 template <class Result>
 std::optional<Result> parse_at(Span where, Findings& findings, Result (*parse)(Pratt&)) {
   if (where.end - where.begin > kLongestExpression) {
-    findings.error("R222", {where.begin, where.begin},
+    findings.error(Code::R222, {where.begin, where.begin},
                    "an expression is no longer than 1000 characters; use macros");
     return std::nullopt;
   }

@@ -37,7 +37,7 @@ Power power_of(const Token& token) {
 
 void Pratt::check_depth(int depth, Span where) {
   if (depth > kDeepestExpression)
-    tokens_.fail("R222", where, "an expression nests no deeper than 64 levels");
+    tokens_.fail(Code::R222, where, "an expression nests no deeper than 64 levels");
 }
 
 Syntax Pratt::finish(Syntax node, std::vector<Syntax> children) {
@@ -59,7 +59,7 @@ Syntax Pratt::expression(Power least) {
     const bool is_chain =
         power == Power::comparison && power_of(tokens_.peek()) == Power::comparison;
     if (is_chain)
-      tokens_.fail("R220", tokens_.peek().span,
+      tokens_.fail(Code::R220, tokens_.peek().span,
                    "comparisons are not chained; write 'x in lo .. hi' or use 'and'");
   }
   --depth_;

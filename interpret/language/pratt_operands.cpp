@@ -90,7 +90,7 @@ Syntax Pratt::number() {
   const bool is_unit_word = unit.kind == Token::Kind::word && !is_reserved(unit.text);
   if (!is_symbol && !is_unit_word) return node;
   if (is_unit_word && !unit_word(unit.text))
-    tokens_.fail("R233", unit.span,
+    tokens_.fail(Code::R233, unit.span,
                  fmt::format("unknown unit '{}'{} (units: {})", unit.text,
                              did_you_mean(unit.text, unit_names()), join(unit_names())));
   node.name = unit.text;
@@ -133,7 +133,7 @@ Syntax Pratt::word() {
     auto known = callables();
     for (const Measure& measure : kMeasures) known.emplace_back(measure.name);
     tokens_.fail(
-        "R220", token.span,
+        Code::R220, token.span,
         fmt::format("unknown function '{}'{}", token.text, did_you_mean(token.text, known)));
   }
   if (tokens_.take_if_word("self")) return scoped(Syntax::Scope::self, token.span);
@@ -153,7 +153,7 @@ Syntax Pratt::scoped(Syntax::Scope scope, Span begin) {
 Syntax Pratt::is_test(Syntax::Scope scope, bool is_of_host, Span begin) {
   if (!tokens_.take_if_word("is")) tokens_.fail_expecting("'is' and a class, as in 'host is wall'");
   if (tokens_.is_at_word("not"))
-    tokens_.fail("R220", tokens_.peek().span,
+    tokens_.fail(Code::R220, tokens_.peek().span,
                  "'is not': write 'not' in front, as in 'not self is window'");
   if (tokens_.peek().kind != Token::Kind::word || is_reserved(tokens_.peek().text))
     tokens_.fail_expecting("a class");
@@ -171,7 +171,7 @@ Syntax Pratt::plain_name(Syntax::Scope scope, Span begin) {
                                                         : "an attribute");
   const Token token = tokens_.take();
   if (tokens_.is_at_word("is"))
-    tokens_.fail("R220", token.span,
+    tokens_.fail(Code::R220, token.span,
                  "'is' asks for a class: write 'self is', 'host is' or 'is' alone before it");
   Syntax node{.kind = Kind::name, .span = {begin.begin, token.span.end}, .name_span = token.span};
   node.name = token.text;
@@ -194,7 +194,7 @@ Syntax Pratt::call() {
   node.span.end = tokens_.expect(Token::Kind::close_round, "',' or ')'").span.end;
   if (is_unary ? arguments.size() != 1 : arguments.size() < 2)
     tokens_.fail(
-        "R220", name.span,
+        Code::R220, name.span,
         fmt::format("'{}' takes {}", name.text, is_unary ? "one value" : "two values or more"));
   return finish(std::move(node), std::move(arguments));
 }

@@ -27,7 +27,7 @@ Token TokenStream::expect(Token::Kind kind, const std::string& wanted) {
   return take();
 }
 
-void TokenStream::fail(const char* code, Span where, std::string sentence) {
+void TokenStream::fail(Code code, Span where, std::string sentence) {
   findings_->error(code, where, std::move(sentence));
   throw ParseStop();
 }
@@ -39,7 +39,7 @@ void TokenStream::fail_expecting(const std::string& wanted) {
                                 tokens_[at_ - 1].kind == Token::Kind::number &&
                                 peek(1).kind == Token::Kind::number;
   fail(
-      "R220", found.span,
+      Code::R220, found.span,
       fmt::format("expected {}, found {}{}", wanted,
                   is_end ? "the end" : fmt::format("'{}'", findings_->source().text_of(found.span)),
                   is_decimal_comma ? "; decimals are written with a point: 1.5" : ""));

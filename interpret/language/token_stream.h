@@ -35,7 +35,7 @@ class TokenStream {
   /// The next token, which must be of that kind.
   Token expect(Token::Kind kind, const std::string& wanted);
 
-  [[noreturn]] void fail(const char* code, Span where, std::string sentence);
+  [[noreturn]] void fail(Code code, Span where, std::string sentence);
   /// R220: `wanted` was expected here.
   [[noreturn]] void fail_expecting(const std::string& wanted);
 

@@ -226,7 +226,7 @@ struct Pack {
   Limits limits;  ///< `invariants:`
   /// Null: the pack says nothing of surfaces but `hosts:`.
   std::shared_ptr<const SurfaceRules> surfaces;
-  Code code;
+  ExprList code;
   /// The words that texts are compared with; the value of a text is the number of its word.
   std::vector<std::string> words;
   /// Found when all of it is read.

@@ -29,7 +29,7 @@ Limits read_limits(const YamlNode& node, Findings& findings) {
     if (value == nullptr) continue;
     *into = read_number(*value, fmt::format("'{}'", key), findings);
     if (*into && !(**into > 0))
-      findings.error("R211", value->span, fmt::format("'{}' is more than 0", key));
+      findings.error(Code::R211, value->span, fmt::format("'{}' is more than 0", key));
   }
   return limits;
 }

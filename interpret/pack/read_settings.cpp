@@ -30,7 +30,7 @@ std::optional<std::string> read_choice(const YamlNode& node, const std::string& 
                                        Findings& findings) {
   auto text = read_text(node, what, findings);
   if (!text || std::ranges::find(choices, *text) != choices.end()) return text;
-  findings.error("R212", node.span,
+  findings.error(Code::R212, node.span,
                  what + " is one of " + join(choices) + ", not '" + *text + "'" +
                      did_you_mean(*text, choices));
   return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<std::string> read_code(const YamlNode& node, Findings& findings) {
   auto code = read_text(node, "a code", findings);
   if (!code || !node.is_plain || code->find_first_not_of("0123456789.") != std::string::npos)
     return code;
-  findings.error("R211", node.span, "a code is a text: write \"" + *code + "\"");
+  findings.error(Code::R211, node.span, "a code is a text: write \"" + *code + "\"");
   return std::nullopt;
 }
 
@@ -71,7 +71,7 @@ void read_facet_range(const YamlNode* node, HostRange& range, Loader& loader) {
   if (!read) return;
   range = {read->low, read->high, read->low_expr, read->high_expr};
   if (range.low_deg < 0 || range.high_deg > 180)
-    loader.findings.error("R212", node->span, "an inclination lies in 0 deg .. 180 deg");
+    loader.findings.error(Code::R212, node->span, "an inclination lies in 0 deg .. 180 deg");
 }
 
 /// What it was folded from, or kNoExpr.
@@ -79,7 +79,8 @@ ExprId read_share(const YamlNode* node, const std::string& what, double& share, 
   const auto value = node == nullptr ? std::nullopt : read_quantity(*node, Dimension{}, loader);
   if (!value) return kNoExpr;
   share = value->value;
-  if (share < 0 || share > 1) loader.findings.error("R212", node->span, what + " lies in 0 .. 1");
+  if (share < 0 || share > 1)
+    loader.findings.error(Code::R212, node->span, what + " lies in 0 .. 1");
   return value->expr;
 }
 
@@ -93,7 +94,7 @@ void read_hosts(const YamlNode& node, Loader& loader) {
   read_facet_range(section.find("ground"), hosts.ground, loader);
   if (is_overlapping(hosts.wall, hosts.roof) || is_overlapping(hosts.wall, hosts.ground) ||
       is_overlapping(hosts.roof, hosts.ground))
-    loader.findings.error("R212", node.span, "wall, roof and ground overlap");
+    loader.findings.error(Code::R212, node.span, "wall, roof and ground overlap");
   const YamlNode* reach = section.find("ground_reach");
   if (reach == nullptr) return;
   if (const auto value = read_quantity(*reach, Dimension{1, 0}, loader))
@@ -116,7 +117,7 @@ void read_iterate(const YamlNode& node, Loader& loader) {
   if (rounds == nullptr) return;
   const auto count = read_integer(*rounds, "'rounds'", loader.findings);
   if (count && (*count < 2 || *count > kMostRounds))
-    loader.findings.error("R212", rounds->span, "'rounds' lies in 2 .. 8");
+    loader.findings.error(Code::R212, rounds->span, "'rounds' lies in 2 .. 8");
   loader.pack.rounds = count.value_or(0);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 Checked<RuleBase> refuse(const std::string& path, std::string sentence) {
   Issue issue;
-  issue.code = "R200";
+  issue.code = Code::R200;
   issue.sentence = std::move(sentence);
   issue.place.file = path;
   return {std::nullopt, {std::move(issue)}};

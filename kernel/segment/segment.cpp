@@ -373,7 +373,7 @@ class Segmenter {
     if (flag == LeafFlag::budget && !is_out_of_budget_) {
       is_out_of_budget_ = true;
       out_.issues.push_back(building_issue(
-          Severity::warning, "E502", building_.id,
+          Severity::warning, Code::E502, building_.id,
           fmt::format("the work budget of {} half-edges is used up; the rest stays unsplit",
                       options_.budget)));
     }
