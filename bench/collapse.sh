@@ -1,5 +1,5 @@
 #!/bin/bash
-# oriel beside CGAL's edge collapse at the same number of triangles: docs/results.md, "Beside edge collapse".
+# oriel beside CGAL's edge collapse at the same number of triangles: docs/results.md, "Compared with edge collapse".
 set -euo pipefail
 cd "$(dirname "$0")/.."
 data=${ORIEL_SHARED:-../shared}/data

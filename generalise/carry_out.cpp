@@ -2,12 +2,12 @@
 
 #include "generalise/invariants/fineness.h"
 #include "generalise/invariants/stays.h"
-#include "generalise/removal/carries.h"
 #include "generalise/removal/clear_edges.h"
-#include "generalise/steps.h"
+#include "generalise/removal/facets.h"
 #include "generalise/tasks.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,12 +16,92 @@ namespace oriel {
 
 namespace {
 
-using detail::carry_out_steps;
+/// The feature is `outer`, or was found in its subtree.
+bool is_within(const Segmentation& segmentation, FeatureId id, FeatureId outer) {
+  while (id.is_valid() && id != outer) id = segmentation.features[id.index()].parent;
+  return id.is_valid();
+}
 
-class Guard {
+/// What the feature is a piece of stands on it: the cut between the two looks down, and the piece
+/// stands on something else itself, so no surface of its own looks down. Such is the wedge under a
+/// chimney across a ridge, cut along one slope, over the other slope; a console is not, its lower
+/// side is free.
+bool carries_its_parent(const Segmentation& segmentation, FeatureId id) {
+  const Feature& feature = segmentation.features[id.index()];
+  const auto is_below = [&](PlaneId plane) {
+    return detail::looks_down(segmentation.planes[plane.index()].normal);
+  };
+  if (feature.sense != Sense::protrusion || !feature.parent.is_valid() || feature.planes.empty() ||
+      !is_below(feature.planes[0]))
+    return false;
+  // Facets without polygons are caps.
+  const auto is_lower_side = [&](const Facet& facet) {
+    return !facet.polygons.empty() && is_below(facet.plane);
+  };
+  return std::ranges::none_of(segmentation.cells, [&](const Cell& cell) {
+    return cell.sign > 0 && is_within(segmentation, cell.feature, id) &&
+           std::ranges::any_of(cell.facets, is_lower_side);
+  });
+}
+
+/// Neither removed nor, with something around it, drawn anew, as a chimney that becomes a block.
+bool stays_as_it_was(const Segmentation& segmentation, FeatureId id, const CarriedOut& out) {
+  if (!id.is_valid() || std::ranges::binary_search(out.removed, id)) return false;
+  for (; id.is_valid(); id = segmentation.features[id.index()].parent)
+    if (std::ranges::binary_search(out.changed, id)) return false;
+  return true;
+}
+
+/// The number of the step by which something breaks: without steps nothing does, with all of them
+/// something does.
+std::size_t bisect(std::size_t count, const std::function<bool(std::size_t first)>& breaks) {
+  std::size_t good = 0, bad = count;
+  while (bad - good > 1) {
+    const std::size_t middle = good + (bad - good) / 2;
+    (breaks(middle) ? bad : good) = middle;
+  }
+  return bad - 1;
+}
+
+/// The steps of a plan that were taken back, with their reasons. Refers to the plan.
+class UndoneSteps {
  public:
-  Guard(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-        const SegmentOptions& options, const Invariants& invariants, const Pieces& pieces)
+  explicit UndoneSteps(const Plan& plan) : plan_(plan) {}
+
+  [[nodiscard]] bool contains(FeatureId id) const {
+    return std::ranges::find(undone_, id, &CarriedOut::Refused::feature) != undone_.end();
+  }
+  [[nodiscard]] std::size_t size() const { return undone_.size(); }
+  [[nodiscard]] bool has_all() const { return undone_.size() == plan_.steps.size(); }
+
+  void add(CarriedOut::Refused step) { undone_.push_back(std::move(step)); }
+
+  /// The first `count` steps of the plan, without those that were taken back.
+  [[nodiscard]] Plan first(std::size_t count) const {
+    Plan some{plan_.scale, {}, {}};
+    for (std::size_t i = 0; i < count; ++i)
+      if (!contains(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
+    return some;
+  }
+
+  /// What was carried out, with the steps that were taken back among the refused.
+  [[nodiscard]] CarriedOut added_to(CarriedOut out) const {
+    out.refused.insert(out.refused.end(), undone_.begin(), undone_.end());
+    std::ranges::stable_sort(out.refused, {}, &CarriedOut::Refused::feature);
+    return out;
+  }
+
+ private:
+  const Plan& plan_;
+  std::vector<CarriedOut::Refused> undone_;
+};
+
+/// Carries a plan out and takes steps back until nothing is violated.
+class InvariantEnforcer {
+ public:
+  InvariantEnforcer(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
+                    const SegmentOptions& options, const Invariants& invariants,
+                    const Pieces& pieces)
       : solid_(solid),
         segmentation_(segmentation),
         plan_(plan),
@@ -29,59 +109,72 @@ class Guard {
         invariants_(invariants),
         pieces_(pieces),
         before_(measures_of(solid, invariants)),
-        judge_(invariants.judge) {
-    judge_.settled = invariants.settled;
-    judge_.violation_of = [this](const Solid& left) {
-      return violation(before_, measures_of(left, invariants_), invariants_);
-    };
+        validator_(invariants.validator),
+        undone_(plan) {
+    validator_.settled = invariants.settled;
+    validator_.violation_of = [this](const Solid& left) { return violation_by(left); };
   }
 
   CarriedOut run() {
     while (true) {
-      CarriedOut out = first(plan_.steps.size());
-      const auto broken = violation(before_, measures_of(out.solid, invariants_), invariants_);
-      if (!broken && !undo_fine(out) && !undo_torn(out) && !undo_carrying(out))
-        return with_undone(cleared(std::move(out)));
-      if (!broken) continue;
-      if (undone_.size() == plan_.steps.size()) return with_undone(std::move(out));
-      undone_.push_back(culprit(*broken));
+      CarriedOut out = carry_out_first(plan_.steps.size());
+      if (auto broken = violation_by(out.solid)) {
+        if (undone_.has_all()) return undone_.added_to(std::move(out));
+        undo_violating(std::move(*broken));
+      } else if (!undo_drawn_too_fine(out) && !undo_torn(out) && !undo_carrying(out)) {
+        return undone_.added_to(cleared(std::move(out)));
+      }
     }
   }
 
  private:
-  [[nodiscard]] bool is_undone(FeatureId id) const {
-    return std::ranges::find(undone_, id, &CarriedOut::Refused::feature) != undone_.end();
+  [[nodiscard]] std::optional<Violation> violation_by(const Solid& left) const {
+    return violation(before_, measures_of(left, invariants_), invariants_);
   }
 
-  [[nodiscard]] bool is_settled(FeatureId id) const {
-    return std::ranges::binary_search(invariants_.settled, id);
+  /// What the first steps make, without those that were taken back.
+  [[nodiscard]] CarriedOut carry_out_first(std::size_t count) const {
+    return carry_out_steps(solid_, segmentation_, undone_.first(count), options_, validator_);
   }
 
-  /// What the first steps make, without those that were undone.
-  [[nodiscard]] CarriedOut first(std::size_t count) const {
-    Plan some{plan_.scale, {}, {}};
-    for (std::size_t i = 0; i < count; ++i)
-      if (!is_undone(plan_.steps[i].feature)) some.steps.push_back(plan_.steps[i]);
-    return carry_out_steps(solid_, segmentation_, some, options_, judge_);
+  /// The first step by which an invariant is violated; the reason is what it violates.
+  void undo_violating(Violation reason) {
+    const std::size_t step = bisect(plan_.steps.size(), [&](std::size_t first) {
+      auto broken = violation_by(carry_out_first(first).solid);
+      if (broken) reason = std::move(*broken);
+      return broken.has_value();
+    });
+    undone_.add({plan_.steps[step].feature, reason.code, std::move(reason.sentence)});
+  }
+
+  [[nodiscard]] bool may_be_undone(FeatureId id) const {
+    return !undone_.contains(id) && !std::ranges::binary_search(invariants_.settled, id);
+  }
+
+  /// It was taken off as a piece, and may stay.
+  [[nodiscard]] bool is_removed_piece(FeatureId id, const CarriedOut& out) const {
+    return std::ranges::binary_search(pieces_.may_stay, id) &&
+           std::ranges::binary_search(out.removed, id) && may_be_undone(id);
   }
 
   /// Takes back what draws an edge that is too short; false if nothing does.
-  bool undo_fine(const CarriedOut& out) {
+  bool undo_drawn_too_fine(const CarriedOut& out) {
     if (invariants_.least_edge_m <= 0 || out.changed.empty()) return false;
     const std::size_t count = undone_.size();
     for (const ShortEdge& edge : short_edges_of_drawn(solid_, out.solid, segmentation_, out.changed,
                                                       out.removed, invariants_.least_edge_m))
-      if (!is_undone(edge.feature) && !is_settled(edge.feature))
+      if (may_be_undone(edge.feature))
         undo_task(edge.feature, fmt::format("an edge of {:.2f} m would be drawn", edge.length_m));
     return undone_.size() > count;
   }
 
   /// With all that is drawn together with the feature.
   void undo_task(FeatureId id, const std::string& reason) {
-    for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_))
-      if (std::ranges::find(task.steps, id, &Step::feature) != task.steps.end())
-        for (const Step& step : task.steps)
-          if (!is_undone(step.feature)) undone_.push_back({step.feature, Code::G403, reason});
+    for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_)) {
+      if (std::ranges::find(task.steps, id, &Step::feature) == task.steps.end()) continue;
+      for (const Step& step : task.steps)
+        if (!undone_.contains(step.feature)) undone_.add({step.feature, Code::G403, reason});
+    }
   }
 
   /// Takes back what tears a piece off; false if nothing does.
@@ -91,11 +184,9 @@ class Guard {
     for (const ShortEdge& edge :
          new_short_edges(solid_, out.solid, segmentation_, out.removed, invariants_.least_edge_m))
       for (const Step& step : plan_.steps)
-        if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
-            std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
-            !is_settled(step.feature) && is_torn(step.feature, edge))
-          undone_.push_back({step.feature, Code::G418,
-                             fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
+        if (is_removed_piece(step.feature, out) && is_torn(step.feature, edge))
+          undone_.add({step.feature, Code::G418,
+                       fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
     return undone_.size() > count;
   }
 
@@ -103,24 +194,12 @@ class Guard {
   bool undo_carrying(const CarriedOut& out) {
     const std::size_t count = undone_.size();
     for (const Step& step : plan_.steps)
-      if (std::ranges::binary_search(pieces_.may_stay, step.feature) &&
-          std::ranges::binary_search(out.removed, step.feature) && !is_undone(step.feature) &&
-          !is_settled(step.feature) && stays_as_it_was(parent_of(step.feature), out) &&
-          detail::carries_its_parent(segmentation_, step.feature))
-        undone_.push_back({step.feature, Code::G411, "what stands on it would hang in the air"});
+      if (is_removed_piece(step.feature, out) &&
+          stays_as_it_was(segmentation_, segmentation_.features[step.feature.index()].parent,
+                          out) &&
+          carries_its_parent(segmentation_, step.feature))
+        undone_.add({step.feature, Code::G411, "what stands on it would hang in the air"});
     return undone_.size() > count;
-  }
-
-  [[nodiscard]] FeatureId parent_of(FeatureId id) const {
-    return segmentation_.features[id.index()].parent;
-  }
-
-  /// Neither removed nor, with something around it, drawn anew, as a chimney that becomes a block.
-  [[nodiscard]] bool stays_as_it_was(FeatureId id, const CarriedOut& out) const {
-    if (!id.is_valid() || std::ranges::binary_search(out.removed, id)) return false;
-    for (; id.is_valid(); id = parent_of(id))
-      if (std::ranges::binary_search(out.changed, id)) return false;
-    return true;
   }
 
   /// The edge is where the piece was torn off what stays; of the body it is if the piece covered it
@@ -132,7 +211,7 @@ class Guard {
     if (!edge.feature.is_valid()) return held == 2;
     if (edge.length_m > pieces_.c_m[piece.index()] + 2 * off_m || held == 0) return false;
     return pieces_.c_m[edge.feature.index()] < invariants_.least_edge_m ||
-           detail::is_within(segmentation_, piece, edge.feature);
+           is_within(segmentation_, piece, edge.feature);
   }
 
   /// Without new edges that are too short, as far as that can be.
@@ -148,28 +227,9 @@ class Guard {
     order.keeps_facet = [&](const Solid& solid, const Facet& facet) {
       return detail::why_it_stays(solid, facet, segmentation_, out.removed);
     };
-    Cleared cleared = clear_edges(std::move(out.solid), order, judge_);
+    Cleared cleared = clear_edges(std::move(out.solid), order, validator_);
     out.solid = std::move(cleared.solid);
     out.uncleared = std::move(cleared.left);
-    return out;
-  }
-
-  /// The first `good` steps break nothing, the first `bad` do.
-  [[nodiscard]] CarriedOut::Refused culprit(Violation reason) const {
-    std::size_t good = 0, bad = plan_.steps.size();
-    while (bad - good > 1) {
-      const std::size_t middle = good + (bad - good) / 2;
-      const auto broken =
-          violation(before_, measures_of(first(middle).solid, invariants_), invariants_);
-      (broken ? bad : good) = middle;
-      if (broken) reason = *broken;
-    }
-    return {plan_.steps[bad - 1].feature, reason.code, std::move(reason.sentence)};
-  }
-
-  [[nodiscard]] CarriedOut with_undone(CarriedOut out) const {
-    out.refused.insert(out.refused.end(), undone_.begin(), undone_.end());
-    std::ranges::stable_sort(out.refused, {}, &CarriedOut::Refused::feature);
     return out;
   }
 
@@ -180,8 +240,8 @@ class Guard {
   const Invariants& invariants_;
   const Pieces& pieces_;
   Measures before_;
-  Judge judge_;
-  std::vector<CarriedOut::Refused> undone_;
+  SolidValidator validator_;
+  UndoneSteps undone_;
 };
 
 }  // namespace
@@ -189,7 +249,7 @@ class Guard {
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                      const SegmentOptions& options, const Invariants& invariants,
                      const Pieces& pieces) {
-  return Guard(solid, segmentation, plan, options, invariants, pieces).run();
+  return InvariantEnforcer(solid, segmentation, plan, options, invariants, pieces).run();
 }
 
 }  // namespace oriel

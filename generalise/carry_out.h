@@ -32,7 +32,7 @@ struct CarriedOut {
   std::vector<UnclearedEdge> uncleared{};
 };
 
-/// What may be a piece of something larger: a plinth, the eaves, a parapet.
+/// Features that may be pieces of something larger: a plinth, the eaves, a parapet.
 struct Pieces {
   /// What is to be taken off for its size, or has no name. Ascending.
   std::vector<FeatureId> may_stay;
@@ -40,19 +40,32 @@ struct Pieces {
   std::vector<double> c_m;
 };
 
-/// Carries out the steps of a plan on its solid, one operator after the other, and takes back, one
-/// by one, the steps by which an invariant would break (G405), or something would
-/// hang in the air (G411). Which one that is, is found by halving: the last of the fewest first
-/// steps that break it. A piece that carries what it is a piece of does not go without that, if it
-/// may stay (G411). What an operator draws with an edge that is too short is taken back as well
-/// (G403), with all that it draws together. A piece is torn off what it runs on into if a new edge
-/// that is too short arises at it, no longer than the piece is thin, and belongs to something thin
-/// that stays or to what carries the piece, or if an edge of the body arises within it: then its
-/// step is taken back, if it may stay (G418). Of new edges that are too short all the same those
-/// are cleared that can be (clear_edges), but for those of parts that stay as they were
-/// (without_whole_edges).
+/// Carries out the steps of a plan on its solid, one operator after the other, and takes steps back
+/// where something is violated that must hold:
+///
+/// - An invariant (G405; G411 if something would hang in the air, G412 if the building would reach
+///   out of its box): the first step that violates it, found by bisection, and so on until none is
+///   violated.
+/// - A piece that carries what it is a piece of does not go without that, if it may stay (G411).
+/// - What an operator draws with an edge that is too short is taken back, with all that it draws
+///   together (G403).
+/// - A piece is torn off if a new edge that is too short arises at it, no longer than the piece is
+///   thin, and belongs to something thin that stays or to what carries the piece, or if an edge of
+///   the body arises within it: its step is taken back, if it may stay (G418).
+///
+/// Of the new edges that are still too short those are cleared that can be (clear_edges), except
+/// those of parts that stay as they were (without_whole_edges).
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                      const SegmentOptions& options, const Invariants& invariants = {},
                      const Pieces& pieces = {});
+
+/// Carries out steps without looking at invariants: first all features of all steps are taken off
+/// at once, then those operators that leave something put it in their place, in the order of the
+/// features; what moves facets (flatten) and outlines come last. What cannot be taken off (G401) or
+/// put back (G403) is left as it was, and the rest is done again without it: no feature is ever
+/// half changed. Steps for groups are carried out together or not at all. `validator` as omit()
+/// takes it.
+CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
+                           const SegmentOptions& options, const SolidValidator& validator);
 
 }  // namespace oriel

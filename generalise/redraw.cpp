@@ -1,6 +1,5 @@
 #include "generalise/generalise.h"
-#include "generalise/operators/slopes.h"
-#include "generalise/removal/removed.h"
+#include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
@@ -8,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -184,6 +184,20 @@ class Redrawer {
 };
 
 }  // namespace
+
+void count_removed(const std::vector<FeatureId>& removed, const Segmentation& segmentation,
+                   const Interpretation& interpretation, Redrawn& redrawn) {
+  double volume_m3 = 0;
+  for (const FeatureId id : removed) {
+    ++redrawn.removed[interpretation.verdicts[id.index()].label];
+    volume_m3 += segmentation.features[id.index()].volume_m3;
+  }
+  auto& attributes = redrawn.labelled.attributes;
+  for (const auto& [label, count] : redrawn.removed)
+    attributes.emplace_back("oriel_removed_" + (label.empty() ? "unknown" : label),
+                            std::int64_t{count});
+  if (!redrawn.removed.empty()) attributes.emplace_back("oriel_removed_volume_m3", volume_m3);
+}
 
 Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
                const Segmentation& segmentation, const FeatureTable& table,

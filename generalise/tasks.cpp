@@ -1,6 +1,6 @@
 #include "generalise/tasks.h"
 
-#include "generalise/operators/aggregate.h"
+#include "generalise/operators/operators.h"
 
 #include <algorithm>
 #include <map>
@@ -10,12 +10,6 @@
 namespace oriel::detail {
 
 namespace {
-
-/// What moves a facet comes after what is put onto it, outlines come last.
-int rank_of(const std::string& operation) {
-  if (operation == "collapse") return 2;
-  return operation == "flatten" ? 1 : 0;
-}
 
 class TaskMaker {
  public:
@@ -39,7 +33,7 @@ class TaskMaker {
         add_row({members[0].operation, std::move(members)});
     std::ranges::sort(tasks_, {}, [](const PlanTask& task) {
       const auto first = std::ranges::min(task.steps, {}, &Step::feature).feature;
-      return std::pair{rank_of(task.operation), first};
+      return std::pair{operator_named(task.operation).rank, first};
     });
     return std::move(tasks_);
   }
@@ -87,10 +81,7 @@ class TaskMaker {
 
 }  // namespace
 
-bool is_for_groups(const Step& step) {
-  return (step.operation == "aggregate" && !becomes_block(step)) || step.operation == "typify" ||
-         step.operation == "displace";
-}
+bool is_for_groups(const Step& step) { return operator_named(step.operation).is_for_groups(step); }
 
 std::vector<PlanTask> tasks_of(const Plan& plan, const Segmentation& segmentation) {
   return TaskMaker(plan, segmentation).run();

@@ -1,6 +1,6 @@
 #include "generalise/to_lod.h"
 
-#include "generalise/removal/removed.h"
+#include "generalise/generalise.h"
 #include "kernel/blocks/blocks.h"
 
 #include <utility>

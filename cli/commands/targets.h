@@ -43,7 +43,8 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
 /// The least length that a target shows: the profile's, or its c, else 0.125 mm on the map.
 double least_edge_m(const Profile* profile, std::optional<double> scale);
 
-/// What must not change at a target, by the profile and the pack; without a judge and party walls.
+/// What must not change at a target, by the profile and the pack; without a validator and party
+/// walls.
 Invariants invariants_of(const Profile* profile, const RuleBase& rules,
                          std::optional<double> scale);
 

@@ -98,8 +98,8 @@ void part_written(const Document& document, const Building& building, LabelledBu
   while (partings < kPartings && part_once(document, building, labelled)) ++partings;
 }
 
-Judge judge_as_written(const Document& document, const Building& building, const Solid& own,
-                       bool is_thorough) {
+SolidValidator judge_as_written(const Document& document, const Building& building,
+                                const Solid& own, bool is_thorough) {
   std::optional<bool> may_be;
   return {[&document, &building, &own, may_be](const Solid& solid) mutable {
             if (!prove_written(document, building, solid).fault) return Fitness::valid;

@@ -36,7 +36,7 @@ void part_written(const Document& document, const Building& building, LabelledBu
 
 /// A judge of solids to be written in the place of the polygons of `building`, whose solid is
 /// `own`; all must outlive it.
-Judge judge_as_written(const Document& document, const Building& building, const Solid& own,
-                       bool is_thorough);
+SolidValidator judge_as_written(const Document& document, const Building& building,
+                                const Solid& own, bool is_thorough);
 
 }  // namespace oriel::cli

@@ -2,7 +2,7 @@
 
 #include "cli/pipeline/mended_line.h"
 #include "cli/pipeline/written_proof.h"
-#include "generalise/invariants/fineness_issues.h"
+#include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
 #include "kernel/mesh/hausdorff.h"
@@ -194,7 +194,7 @@ Invariants BuildingDrawer::invariants_for(const Profile* profile, const Subject&
   Invariants invariants = beside_others(invariants_of(profile, rules_, targets_.scale), of.document,
                                         of.building, *of.line.solid);
   if (judging != Judging::none)
-    invariants.judge =
+    invariants.validator =
         judge_as_written(of.document, of.building, *of.line.solid, judging == Judging::thorough);
   return invariants;
 }

@@ -16,7 +16,7 @@ namespace oriel::cli {
 enum class Judging {
   none,      ///< not at all: it would take too long
   refused,   ///< where features do not come off, what is left instead
-  thorough,  ///< every step (Judge::is_thorough)
+  thorough,  ///< every step (SolidValidator::is_thorough)
 };
 
 /// What became of a building of a record; nothing is in `all` if it was set aside.

@@ -167,7 +167,7 @@ class SeriesWriter {
               Invariants invariants = beside_others(invariants_of(profile_, rules_, scale),
                                                     document, *one.building, *one.line->solid);
               if (one.is_judged)
-                invariants.judge =
+                invariants.validator =
                     judge_as_written(document, *one.building, *one.line->solid, true);
               return invariants;
             },

@@ -71,9 +71,9 @@ void find_owners(std::vector<ShortEdge>& edges, const Segmentation& segmentation
 }
 
 /// The corners of a solid, sorted, to find again what stays where it was.
-class Corners {
+class SolidCorners {
  public:
-  explicit Corners(const Solid& solid) {
+  explicit SolidCorners(const Solid& solid) {
     for (const Facet& facet : solid.facets)
       for (const Loop& loop : facet.loops)
         for (const int v : loop) points_.push_back(solid.vertices[at(v)].point);
@@ -150,18 +150,18 @@ std::vector<std::pair<Vec3, Vec3>> edges_of_staying(const Segmentation& segmenta
 }
 
 /// A facet of the solid as outlines.
-struct Sheet {
+struct FacetSheet {
   std::vector<Outline> outlines;
   Vec3 normal;
   double offset_m = 0;
 };
 
-Sheet sheet_of(const Solid& solid, const Facet& facet) {
+FacetSheet sheet_of(const Solid& solid, const Facet& facet) {
   const Plane& plane = solid.planes[facet.plane.index()];
   return {detail::outlines_of(solid.vertices, facet.loops), plane.normal, plane.offset_m};
 }
 
-Vec3 moved_onto(const Sheet& sheet, Vec3 p) {
+Vec3 moved_onto(const FacetSheet& sheet, Vec3 p) {
   return p + (sheet.offset_m - dot(sheet.normal, p)) * sheet.normal;
 }
 
@@ -176,7 +176,7 @@ bool do_cross(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 normal) {
 }
 
 /// A point of `of` that lies over the other sheet, seen along their normal.
-std::optional<Vec3> point_over(const Sheet& of, const Sheet& other) {
+std::optional<Vec3> point_over(const FacetSheet& of, const FacetSheet& other) {
   std::vector<Vec3> points;
   if (const auto inside = detail::interior_point(of.outlines, of.normal)) points.push_back(*inside);
   for (const Outline& outline : of.outlines)
@@ -188,7 +188,7 @@ std::optional<Vec3> point_over(const Sheet& of, const Sheet& other) {
 }
 
 /// Where an edge of one crosses an edge of the other, seen along their normal.
-std::optional<Vec3> crossing(const Sheet& a, const Sheet& b) {
+std::optional<Vec3> crossing(const FacetSheet& a, const FacetSheet& b) {
   for (const Outline& mine : a.outlines)
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const Vec3 p = moved_onto(b, mine[i]), q = moved_onto(b, mine[(i + 1) % mine.size()]);
@@ -218,7 +218,7 @@ std::vector<ShortEdge> new_short_edges(const Solid& before, const Solid& after,
                                        const std::vector<FeatureId>& removed, double least_m) {
   std::vector<ShortEdge> edges = edges_below(after, least_m);
   if (edges.empty()) return edges;
-  const Corners corners(before);
+  const SolidCorners corners(before);
   std::erase_if(
       edges, [&](const ShortEdge& edge) { return corners.has(edge.from) && corners.has(edge.to); });
   find_owners(edges, segmentation, removed);
@@ -237,7 +237,7 @@ std::vector<ShortEdge> short_edges_of_drawn(const Solid& before, const Solid& af
       add_edges_below(
           after, facet, least_m, owner, [](int, int) { return true; }, edges);
   if (edges.empty()) return edges;
-  const Corners corners(before);
+  const SolidCorners corners(before);
   std::erase_if(edges, [&](const ShortEdge& edge) {
     return is_depth(edge, segmentation) || (corners.has(edge.from) && corners.has(edge.to));
   });
@@ -263,7 +263,7 @@ std::vector<ShortEdge> without_whole_edges(std::vector<ShortEdge> edges,
 
 std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m) {
-  std::map<std::array<std::int64_t, 3>, std::vector<Sheet>> by_normal;
+  std::map<std::array<std::int64_t, 3>, std::vector<FacetSheet>> by_normal;
   for (const Facet& facet : solid.facets)
     by_normal[solid.planes[facet.plane.index()].coefficients].push_back(sheet_of(solid, facet));
   std::vector<NarrowGap> gaps;
@@ -271,8 +271,8 @@ std::vector<NarrowGap> narrow_gaps(const Solid& solid, const Segmentation& segme
     const std::array<std::int64_t, 3> back{-normal[0], -normal[1], -normal[2]};
     const auto opposite = by_normal.find(back);
     if (opposite == by_normal.end() || back < normal) continue;
-    for (const Sheet& one : sheets)
-      for (const Sheet& other : opposite->second) {
+    for (const FacetSheet& one : sheets)
+      for (const FacetSheet& other : opposite->second) {
         const double width_m = -other.offset_m - one.offset_m;
         if (width_m < kRounding_m || width_m >= least_m - kRounding_m) continue;
         auto where = point_over(one, other);
@@ -304,6 +304,99 @@ bool add_fine_owners(const Generalised& generalised, const Segmentation& segment
   for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
   std::ranges::stable_sort(plan.steps, {}, &Step::feature);
   return !owners.empty();
+}
+
+namespace {
+
+std::string place_text(Vec3 local_m, const Frame& frame) {
+  const Vec3 p = local_m + frame.origin_m;
+  return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z);
+}
+
+/// What of one feature, or of the body, is too fine for one reason.
+struct FinePart {
+  std::size_t count = 0;
+  double least_m = std::numeric_limits<double>::infinity();
+  Vec3 at;
+
+  void add(double length_m, Vec3 where) {
+    ++count;
+    if (length_m >= least_m) return;
+    least_m = length_m;
+    at = where;
+  }
+};
+using FineParts = std::map<std::pair<FeatureId, std::string>, FinePart>;
+
+/// That the feature was to change and was refused, or nothing.
+std::string refusal_of(FeatureId feature, const Generalised& generalised) {
+  const auto found = std::ranges::find(generalised.refused, feature, &CarriedOut::Refused::feature);
+  return found == generalised.refused.end() ? "" : "it was refused, " + to_string(found->code);
+}
+
+/// Why a new edge is there: its feature was refused, or it could not be cleared.
+std::string reason_of(const ShortEdge& edge, const Generalised& generalised,
+                      const std::string& otherwise) {
+  std::string refusal = refusal_of(edge.feature, generalised);
+  if (!refusal.empty()) return refusal;
+  const auto is_near = [](Vec3 p, Vec3 q) { return length(q - p) <= kOnBox_m; };
+  for (const UnclearedEdge& left : generalised.uncleared)
+    if ((is_near(left.from, edge.from) && is_near(left.to, edge.to)) ||
+        (is_near(left.from, edge.to) && is_near(left.to, edge.from)))
+      return left.reason;
+  return otherwise;
+}
+
+}  // namespace
+
+std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
+                                   const Solid& after, const Segmentation& segmentation,
+                                   const FeatureTable& table, const Generalised& generalised,
+                                   const Fineness& asked) {
+  const double least_m = asked.least_m;
+  const std::vector<FeatureId>& removed = generalised.removed;
+  const auto found = asked.is_everywhere
+                         ? short_edges(after, segmentation, removed, least_m)
+                         : new_short_edges(before, after, segmentation, removed, least_m);
+  FineParts edges, whole, gaps;
+  const auto add = [&](FineParts& findings, FeatureId feature, double size_m, Vec3 at) {
+    findings[{feature, refusal_of(feature, generalised)}].add(size_m, at);
+  };
+  if (asked.is_everywhere) {
+    for (const ShortEdge& edge : found) add(edges, edge.feature, edge.length_m, edge.from);
+    for (const NarrowGap& gap : narrow_gaps(after, segmentation, removed, least_m))
+      add(gaps, gap.feature, gap.width_m, gap.at);
+  } else {
+    const auto torn =
+        without_whole_edges(found, segmentation, generalised.changed, removed, least_m);
+    for (const ShortEdge& edge : torn)
+      edges[{edge.feature, reason_of(edge, generalised, asked.why_not_tried)}].add(edge.length_m,
+                                                                                   edge.from);
+    for (const ShortEdge& edge : found)
+      if (std::ranges::find(torn, edge) == torn.end())
+        add(whole, edge.feature, edge.length_m, edge.from);
+  }
+
+  std::vector<Issue> issues;
+  const auto report = [&](const FineParts& findings, Code code, const char* what,
+                          bool is_left = true) {
+    for (const auto& [whose, finding] : findings) {
+      const auto& [feature, reason] = whose;
+      const bool is_new =
+          is_left && reason != asked.why_not_tried && refusal_of(feature, generalised).empty();
+      Issue issue = building_issue(
+          asked.is_everywhere || is_new ? Severity::warning : Severity::note, code, building.id,
+          fmt::format("has {} {}, the least of {:.3f} m at {}{}{}", finding.count,
+                      fmt::format(fmt::runtime(what), least_m), finding.least_m,
+                      place_text(finding.at, building.frame), reason.empty() ? "" : ": ", reason));
+      if (feature.is_valid()) issue.place.feature = table.id(feature);
+      issues.push_back(std::move(issue));
+    }
+  };
+  report(edges, Code::G415, "edges below {} m left");
+  report(whole, Code::G415, "edges below {} m of parts that stay as they were", false);
+  report(gaps, Code::G416, "gaps below {} m left");
+  return issues;
 }
 
 }  // namespace oriel

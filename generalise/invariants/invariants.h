@@ -28,12 +28,12 @@ struct Violation {
   std::string sentence;  ///< "the footprint would change by 2.10 %"
 };
 
-/// Says how fit a solid is. Judging takes longer than cutting, and whoever writes judges anyway.
-struct Judge {
+/// Says how fit a solid is. That takes longer than cutting, and whoever writes checks anyway.
+struct SolidValidator {
   std::function<Fitness(const Solid&)> fitness_of{};
   /// If given, what must not change that has: what would do that does not go as cells.
   std::function<std::optional<Violation>(const Solid&)> violation_of{};
-  /// What is left after cuts is judged also if all of them went well.
+  /// What is left after cuts is checked also if all of them went well.
   bool is_thorough = false;
   /// Features that went together before, ascending: they are tried first.
   std::vector<FeatureId> settled{};
@@ -53,7 +53,7 @@ struct Invariants {
   std::vector<FeatureId> settled{};
   /// If given, what has no cut of its own goes as cells where that leaves what this calls fit
   /// (remove_cells).
-  Judge judge{};
+  SolidValidator validator{};
 };
 
 /// Facets that look down are ground if they lie no higher than this over the lowest point.

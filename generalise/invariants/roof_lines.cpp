@@ -1,7 +1,6 @@
 #include "generalise/invariants/roof_lines.h"
 
-#include "generalise/operators/slopes.h"
-#include "generalise/removal/shells.h"
+#include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -19,13 +18,13 @@ constexpr double kLevel = 0.01;
 /// Lines of one height: noise moves them by millimetres.
 constexpr double kOneHeight_m = 0.01;
 
-enum class Side { none, falls, level, rises };
+enum class RoofSide { none, falls, level, rises };
 
 /// How a roof facet goes on inwards from its edge from `p` to `q`; none: it is no roof.
-Side side_of(const Plane& plane, Vec3 p, Vec3 q) {
-  if (!detail::looks_up(plane.normal)) return Side::none;
+RoofSide side_of(const Plane& plane, Vec3 p, Vec3 q) {
+  if (!detail::looks_up(plane.normal)) return RoofSide::none;
   const double rise = cross(plane.normal, normalised(q - p)).z;
-  return rise > kLevel ? Side::rises : rise < -kLevel ? Side::falls : Side::level;
+  return rise > kLevel ? RoofSide::rises : rise < -kLevel ? RoofSide::falls : RoofSide::level;
 }
 
 bool is_level(Vec3 p, Vec3 q) {
@@ -44,12 +43,13 @@ RoofLines roof_lines(const Solid& solid) {
     const auto across = facet_at.find({edge.second, edge.first});
     if (across == facet_at.end() || !is_level(p, q)) continue;
     const auto plane = [&](int f) { return solid.planes[solid.facets[at(f)].plane.index()]; };
-    const Side mine = side_of(plane(facet), p, q), other = side_of(plane(across->second), q, p);
+    const RoofSide mine = side_of(plane(facet), p, q), other = side_of(plane(across->second), q, p);
     const LevelLine line{(p.z + q.z) / 2, length(q - p)};
-    const bool is_counted = other != Side::none && edge.second < edge.first;  // from across
-    if ((mine == Side::rises || mine == Side::level) && other == Side::none)
+    const bool is_counted = other != RoofSide::none && edge.second < edge.first;  // from across
+    if ((mine == RoofSide::rises || mine == RoofSide::level) && other == RoofSide::none)
       out.eaves.push_back(line);
-    else if (mine == Side::falls && (other == Side::none || other == Side::falls) && !is_counted)
+    else if (mine == RoofSide::falls && (other == RoofSide::none || other == RoofSide::falls) &&
+             !is_counted)
       out.ridges.push_back(line);
   }
   return out;

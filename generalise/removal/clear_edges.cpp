@@ -14,12 +14,12 @@ namespace {
 
 class EdgeClearer {
  public:
-  EdgeClearer(Solid solid, const ClearOrder& order, const Judge& judge)
-      : solid_(std::move(solid)), order_(order), judge_(judge) {}
+  EdgeClearer(Solid solid, const ClearOrder& order, const SolidValidator& validator)
+      : solid_(std::move(solid)), order_(order), validator_(validator) {}
 
   Cleared run() {
     short_ = order_.short_edges_of(solid_);
-    if (!short_.empty() && judge_) fitness_ = judge_.fitness_of(solid_);
+    if (!short_.empty() && validator_) fitness_ = validator_.fitness_of(solid_);
     while (clear_one()) {
     }
     return {std::move(solid_), std::move(left_)};
@@ -38,7 +38,7 @@ class EdgeClearer {
   }
 
   bool clear(const ShortEdge& edge, std::string& reason) {
-    if (!judge_) {
+    if (!validator_) {
       reason = "whether the building would still be valid is not asked";
       return false;
     }
@@ -74,9 +74,10 @@ class EdgeClearer {
     if (!dropped.solid) return std::move(dropped.reason);
     auto left = order_.short_edges_of(*dropped.solid);
     if (left.size() >= short_.size()) return "edges as short would be left";
-    if (judge_.violation_of)
-      if (const auto violation = judge_.violation_of(*dropped.solid)) return violation->sentence;
-    const Fitness fitness = judge_.fitness_of(*dropped.solid);
+    if (validator_.violation_of)
+      if (const auto violation = validator_.violation_of(*dropped.solid))
+        return violation->sentence;
+    const Fitness fitness = validator_.fitness_of(*dropped.solid);
     if (fitness < fitness_) return "the building would not be valid";
     fitness_ = fitness;
     solid_ = std::move(*dropped.solid);
@@ -86,7 +87,7 @@ class EdgeClearer {
 
   Solid solid_;
   const ClearOrder& order_;
-  const Judge& judge_;
+  const SolidValidator& validator_;
   Fitness fitness_ = Fitness::unfit;
   std::vector<ShortEdge> short_;
   std::vector<UnclearedEdge> left_;
@@ -94,8 +95,8 @@ class EdgeClearer {
 
 }  // namespace
 
-Cleared clear_edges(Solid solid, const ClearOrder& order, const Judge& judge) {
-  return EdgeClearer(std::move(solid), order, judge).run();
+Cleared clear_edges(Solid solid, const ClearOrder& order, const SolidValidator& validator) {
+  return EdgeClearer(std::move(solid), order, validator).run();
 }
 
 }  // namespace oriel

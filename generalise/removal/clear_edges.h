@@ -29,10 +29,10 @@ struct Cleared {
 
 /// Clears a solid of edges that are too short: a facet of three or four corners at such an edge
 /// goes (drop_facet), and those beside it are made longer until they meet, as long as fewer edges
-/// are too short after that, the solid is as fit by the judge as it was, and the judge finds no
-/// violation. One facet after the other, those at the first edge first, of these the one with
-/// fewer corners first. Without a judge nothing goes. What is left comes with the reason why the
-/// first of the facets at it could not go. Source: docs/generalisation.md, Fineness.
-Cleared clear_edges(Solid solid, const ClearOrder& order, const Judge& judge);
+/// are too short after that, the solid is as fit by the validator as it was, and the validator
+/// finds no violation. One facet after the other, those at the first edge first, of these the one
+/// with fewer corners first. Without a validator nothing goes. What is left comes with the reason
+/// why the first of the facets at it could not go. Source: docs/generalisation.md, Fineness.
+Cleared clear_edges(Solid solid, const ClearOrder& order, const SolidValidator& validator);
 
 }  // namespace oriel

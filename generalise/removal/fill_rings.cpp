@@ -130,8 +130,8 @@ class RingFiller {
 
 }  // namespace
 
-Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, const Judge& judge,
-                     const SegmentOptions& options) {
+Remainder fill_rings(const Segmentation& segmentation, Remainder remainder,
+                     const SolidValidator& validator, const SegmentOptions& options) {
   std::vector<FeatureId> rings;
   for (const Refusal& refusal : remainder.refused)
     if (segmentation.features[refusal.feature.index()].is_uncut) rings.push_back(refusal.feature);
@@ -144,7 +144,7 @@ Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, cons
     gone.push_back(id);
     gone = with_what_sits_on(segmentation, gone);
     if (detail::loses_what_stays(remainder.solid, *made, segmentation, gone)) continue;
-    if (judge && judge.fitness_of(*made) == Fitness::unfit) continue;
+    if (validator && validator.fitness_of(*made) == Fitness::unfit) continue;
     remainder.solid = std::move(*made);
     remainder.removed = std::move(gone);
   }

@@ -13,10 +13,10 @@ namespace oriel {
 /// goes: the facet's own plane is the only cut, so the result is closed by construction.
 ///
 /// A ring is left as it is if its surface hangs on anything else (a passage), if a feature that is
-/// to stay would lose all its surface, or if what is left is unfit by `judge`, where that is given.
-/// Where nothing stands in the ring any more, as other steps took it off, it counts as removed.
-/// Source: none in the paper; docs/generalisation.md, "Omit".
-Remainder fill_rings(const Segmentation& segmentation, Remainder remainder, const Judge& judge,
-                     const SegmentOptions& options = {});
+/// to stay would lose all its surface, or if what is left is unfit by `validator`, where that is
+/// given. Where nothing stands in the ring any more, as other steps took it off, it counts as
+/// removed. Source: none in the paper; docs/generalisation.md, "Omit".
+Remainder fill_rings(const Segmentation& segmentation, Remainder remainder,
+                     const SolidValidator& validator, const SegmentOptions& options = {});
 
 }  // namespace oriel

@@ -1,9 +1,9 @@
 #include "generalise/removal/remove_cells.h"
 
 #include "generalise/invariants/stays.h"
-#include "generalise/removal/polygons_around.h"
 #include "generalise/removal/take_out.h"
 #include "kernel/base/index.h"
+#include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -44,13 +45,56 @@ int lumps_of(const Solid& solid) {
   return lumps;
 }
 
+/// The same for parallel planes.
+std::array<std::int64_t, 3> direction_of(const Plane& plane) {
+  return std::max(plane.coefficients, exact::opposite(plane).coefficients);
+}
+
+/// Finds again which input polygons a figure lies in. Refers to the solid, which must outlive it.
+class PolygonsAround {
+ public:
+  /// Points up to `weld_m` off a plane are in it, as vertices may be.
+  PolygonsAround(const Solid& solid, double weld_m) : solid_(solid), weld_m_(weld_m) {
+    for (int f = 0; f < std::ssize(solid.facets); ++f)
+      facets_along_[direction_of(solid.planes[solid.facets[at(f)].plane.index()])].push_back(f);
+  }
+
+  /// The input polygons of the facets of the solid that a figure in a plane lies in, whichever way
+  /// they look; none if it is new. The plane is exact: those of a segmentation are its solid's.
+  [[nodiscard]] std::set<int> of(const std::vector<detail::Outline>& shape,
+                                 const Plane& plane) const {
+    const auto near = facets_along_.find(direction_of(plane));
+    if (near == facets_along_.end()) return {};
+    const auto point = detail::interior_point(shape, plane.normal);
+    if (!point) return {};
+    std::set<int> polygons;
+    for (const int f : near->second) {
+      const Facet& facet = solid_.facets[at(f)];
+      const Plane& its = solid_.planes[facet.plane.index()];
+      const bool is_same = its.coefficients == plane.coefficients ? its.offset == plane.offset
+                                                                  : its.offset == -plane.offset;
+      const bool is_in_plane =
+          is_same || std::abs(dot(its.normal, *point) - its.offset_m) <= weld_m_;
+      if (!is_in_plane) continue;
+      if (detail::contains(detail::outlines_of(solid_.vertices, facet.loops), its.normal, *point))
+        polygons.insert(facet.polygons.begin(), facet.polygons.end());
+    }
+    return polygons;
+  }
+
+ private:
+  const Solid& solid_;
+  double weld_m_;
+  std::map<std::array<std::int64_t, 3>, std::vector<int>> facets_along_;  ///< by direction
+};
+
 class CellRemover {
  public:
   CellRemover(const Solid& solid, const Segmentation& segmentation, const Remainder& remainder,
-              const Judge& judge, double unseen_m, const SegmentOptions& options)
+              const SolidValidator& validator, double unseen_m, const SegmentOptions& options)
       : solid_(solid),
         segmentation_(segmentation),
-        judge_(judge),
+        validator_(validator),
         unseen_m_(unseen_m),
         options_(options),
         footprint_m2_(measures_of(remainder.solid).footprint_m2),
@@ -104,7 +148,7 @@ class CellRemover {
       Ids rest = more;
       std::erase_if(rest, [&](FeatureId id) { return std::ranges::binary_search(gone_, id); });
       const auto others = std::ranges::stable_partition(
-          rest, [&](FeatureId id) { return std::ranges::binary_search(judge_.settled, id); });
+          rest, [&](FeatureId id) { return std::ranges::binary_search(validator_.settled, id); });
       add({rest.begin(), others.begin()}, way);
       add({others.begin(), others.end()}, way);
     }
@@ -292,13 +336,13 @@ class CellRemover {
   }
 
   [[nodiscard]] std::optional<Refusal> violation_of(const Solid& made) const {
-    const auto broken = judge_.violation_of ? judge_.violation_of(made) : std::nullopt;
+    const auto broken = validator_.violation_of ? validator_.violation_of(made) : std::nullopt;
     if (!broken) return std::nullopt;
     return Refusal{{}, broken->sentence, broken->code};
   }
 
   [[nodiscard]] bool is_fit(const Solid& made) {
-    const Fitness fitness = judge_.fitness_of(made);
+    const Fitness fitness = validator_.fitness_of(made);
     has_excused_ |= fitness == Fitness::as_it_came;
     return fitness >= least_;
   }
@@ -344,12 +388,12 @@ class CellRemover {
 
   const Solid& solid_;
   const Segmentation& segmentation_;
-  const Judge& judge_;
+  const SolidValidator& validator_;
   double unseen_m_;
   const SegmentOptions& options_;
   std::optional<CellComplex> complex_;  ///< once asked for
   double footprint_m2_;
-  detail::PolygonsAround polygons_around_;
+  PolygonsAround polygons_around_;
   std::map<FeatureId, Refusal> faults_;
   Ids gone_;  ///< in order; without what goes along
   Ids base_gone_;
@@ -362,18 +406,19 @@ class CellRemover {
 }  // namespace
 
 Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Remainder remainder,
-                       const Judge& judge, double unseen_m, const SegmentOptions& options) {
+                       const SolidValidator& validator, double unseen_m,
+                       const SegmentOptions& options) {
   Ids refused;
   for (const Refusal& refusal : remainder.refused) {
     const Feature& feature = segmentation.features[refusal.feature.index()];
     if (feature.node.is_valid() && feature.sense != Sense::imprint)
       refused.push_back(refusal.feature);
   }
-  if (refused.empty() && !judge.is_thorough) return remainder;
+  if (refused.empty() && !validator.is_thorough) return remainder;
   const Fitness fitness =
-      remainder.solid.facets.empty() ? Fitness::valid : judge.fitness_of(remainder.solid);
+      remainder.solid.facets.empty() ? Fitness::valid : validator.fitness_of(remainder.solid);
   if (refused.empty() && fitness != Fitness::unfit) return remainder;
-  CellRemover remover(solid, segmentation, remainder, judge, unseen_m, options);
+  CellRemover remover(solid, segmentation, remainder, validator, unseen_m, options);
   auto made = remover.run(std::move(refused), remainder.solid, fitness);
   for (Refusal& refusal : remainder.refused)
     if (const Refusal* fault = remover.fault_of(refusal.feature);

@@ -13,17 +13,18 @@ namespace oriel {
 /// That needs no cut in the whole building, so pieces of concave parts can go as well. What sits on
 /// or in a feature becomes what the feature becomes.
 ///
-/// As many go, taken in halves, as leave a closed solid that is fit by `judge`, of no more pieces
-/// than it was, that reaches no further than before by more than `unseen_m`, whose footprint
+/// As many go, taken in halves, as leave a closed solid that is fit by `validator`, of no more
+/// pieces than it was, that reaches no further than before by more than `unseen_m`, whose footprint
 /// changes by no more than what goes covers, in which every feature that is to stay has some
-/// surface; if something was refused, or the judge is thorough, and the solid of `remainder` is
-/// unfit, that is asked of all features that it has removed, too. Nothing goes by which the judge
-/// finds a violation. What is valid comes before what is as it came. Returns `remainder` itself if
-/// none can go. Never goes what has no cells: features known by a ring only, and imprints.
-/// `remainder` must be remove_features() of the same solid. Planes may differ from those of the
-/// segmentation by rounding: the solid is solidified anew. Source: paper, section 4 ("cell
+/// surface; if something was refused, or the validator is thorough, and the solid of `remainder` is
+/// unfit, that is asked of all features that it has removed, too. Nothing goes by which the
+/// validator finds a violation. What is valid comes before what is as it came. Returns `remainder`
+/// itself if none can go. Never goes what has no cells: features known by a ring only, and
+/// imprints. `remainder` must be remove_features() of the same solid. Planes may differ from those
+/// of the segmentation by rounding: the solid is solidified anew. Source: paper, section 4 ("cell
 /// complex"); docs/generalisation.md.
 Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Remainder remainder,
-                       const Judge& judge, double unseen_m = 0, const SegmentOptions& options = {});
+                       const SolidValidator& validator, double unseen_m = 0,
+                       const SegmentOptions& options = {});
 
 }  // namespace oriel

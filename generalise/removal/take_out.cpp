@@ -1,6 +1,6 @@
 #include "generalise/removal/take_out.h"
 
-#include "generalise/removal/shells.h"
+#include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/model/cell_complex.h"

@@ -1,6 +1,6 @@
 #include "generalise/series/level_state.h"
 
-#include "generalise/removal/shells.h"
+#include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"

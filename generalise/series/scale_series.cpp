@@ -1,14 +1,20 @@
 #include "generalise/series/scale_series.h"
 
-#include "generalise/change.h"
-#include "generalise/series/level_operations.h"
+#include "generalise/generalise.h"
+#include "generalise/series/change.h"
+#include "generalise/series/series_steps.h"
+#include "generalise/tasks.h"
 #include "kernel/base/issue.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <ranges>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace oriel {
 
@@ -24,6 +30,303 @@ bool is_same_decision(const Step& a, const Step& b) {
 bool has_same_decisions(const Plan& a, const Plan& b) {
   return std::ranges::equal(a.steps, b.steps, is_same_decision);
 }
+
+/// They draw the same.
+bool draws_the_same(const Step& a, const Step& b) {
+  return std::tie(a.operation, a.rule, a.numbers, a.words) ==
+         std::tie(b.operation, b.rule, b.numbers, b.words);
+}
+
+/// The operations that lead from one level to the next.
+class LevelOperations {
+ public:
+  LevelOperations(const SeriesInput& input, const SeriesLevel& before, const SeriesLevel& after,
+                  const FiringScales& firing, const Placer& place)
+      : input_(input), before_(before), after_(after), firing_(firing), place_(place) {}
+
+  /// `state` is the one before and becomes the one after them.
+  std::vector<SeriesOperation> run(LevelState& state) {
+    const LevelState target = level_state(after_.redrawn.labelled, place_);
+    const Change all = difference(state, target);
+    collect_steps();
+    if (steps_.empty()) {
+      if (!(state == target)) throw GeometryError("a level changed without an operation");
+      return {};
+    }
+    assign_removed();
+    std::vector<Step> done = before_.steps;
+    separate(std::exchange(steps_, {}), state, all, done);
+    assign_installations(all);
+    auto operations = finish(state);
+    if (!(state == target)) throw GeometryError("the operations of a level do not lead to it");
+    return operations;
+  }
+
+ private:
+  [[nodiscard]] const Feature& feature(FeatureId id) const {
+    return input_.segmentation.features[id.index()];
+  }
+
+  [[nodiscard]] bool is_new(const Step& step) const {
+    const auto old = std::ranges::find(before_.steps, step.feature, &Step::feature);
+    return old == before_.steps.end() || !draws_the_same(*old, step);
+  }
+
+  [[nodiscard]] bool was_there(FeatureId id) const {
+    return !std::ranges::binary_search(before_.generalised.removed, id);
+  }
+
+  /// The operation that an ancestor of the feature, or the feature itself, is of; or -1.
+  [[nodiscard]] int carrier(FeatureId id) const {
+    std::vector<FeatureId> open{id};
+    std::set<FeatureId> seen;
+    while (!open.empty()) {
+      const FeatureId next = open.back();
+      open.pop_back();
+      if (!next.is_valid() || !seen.insert(next).second) continue;
+      if (const auto found = step_of_.find(next); found != step_of_.end()) return found->second;
+      open.push_back(feature(next).parent);
+      open.push_back(feature(next).host);
+    }
+    return -1;
+  }
+
+  void add(SeriesStep one, const std::vector<FeatureId>& features) {
+    for (const FeatureId id : features) step_of_[id] = static_cast<int>(steps_.size());
+    steps_.push_back(std::move(one));
+  }
+
+  void collect_steps() {
+    const Plan plan{after_.scale, after_.steps, {}};
+    for (const detail::PlanTask& task : detail::tasks_of(plan, input_.segmentation)) {
+      if (std::ranges::none_of(task.steps, [&](const Step& step) { return is_new(step); }))
+        continue;
+      SeriesStep made{task.steps[0], after_.scale, true, task.steps};
+      std::vector<FeatureId> members;
+      for (const Step& step : task.steps) members.push_back(step.feature);
+      made.with.assign(members.begin() + 1, members.end());
+      add(std::move(made), members);
+    }
+    // From the outside in: what is in something that goes, goes with it.
+    for (const Step& step : after_.steps)
+      if (step.operation == "omit" && is_new(step) && carrier(step.feature) < 0)
+        add({step, firing_.of(step, before_.scale, after_.scale), false, {step}}, {step.feature});
+    join_nested();
+  }
+
+  /// Features may come before what carries them; those have got an operation of their own.
+  void join_nested() {
+    std::vector<SeriesStep> outer;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      const FeatureId id = steps_[i].step.feature;
+      step_of_.erase(id);
+      const bool is_nested = !steps_[i].is_redrawing && carrier(id) >= 0;
+      step_of_[id] = static_cast<int>(i);
+      if (!is_nested) outer.push_back(steps_[i]);
+    }
+    steps_.clear();
+    step_of_.clear();
+    std::ranges::stable_sort(outer, {}, [](const SeriesStep& one) {
+      return std::tuple(one.scale, one.is_redrawing, one.step.feature);
+    });
+    for (SeriesStep& one : outer) {
+      std::vector<FeatureId> features = one.with;
+      features.push_back(one.step.feature);
+      add(std::move(one), features);
+    }
+  }
+
+  void assign_removed() {
+    for (const FeatureId id : after_.generalised.removed) {
+      if (!was_there(id)) continue;
+      const int number = carrier(id);
+      SeriesStep& its = number < 0 ? steps_.back() : steps_[static_cast<std::size_t>(number)];
+      its.gone.insert(id);
+      const bool is_known =
+          id == its.step.feature || std::ranges::find(its.with, id) != its.with.end();
+      if (!is_known) its.with.push_back(id);
+    }
+    for (SeriesStep& one : steps_) std::ranges::sort(one.with);
+  }
+
+  /// Orders steps that together make `change` of `state`, each with its own, behind steps_;
+  /// `done` is what is carried out in the state.
+  void separate(const std::vector<SeriesStep>& steps, LevelState state, const Change& change,
+                std::vector<Step>& done) {
+    for (SeriesGroup& group :
+         groups_of(steps, change, input_.segmentation, input_.building.frame.origin_m)) {
+      std::vector<SeriesStep> some;
+      for (const std::size_t i : group.steps) some.push_back(steps[i]);
+      if (some.size() == 1) {
+        if (!apply(state, group.change)) throw GeometryError("a part of a level does not fit");
+        add_separate(std::move(some[0]), std::move(group.change), done);
+        continue;
+      }
+      for (SeriesStep& one : some) one.scale = some.back().scale;
+      LevelState next = state;
+      if (!apply(next, group.change)) throw GeometryError("a part of a level does not fit");
+      in_turn(std::move(some), std::move(state), next, done);
+      state = std::move(next);
+    }
+  }
+
+  void add_separate(SeriesStep one, Change change, std::vector<Step>& done) {
+    for (const Step& step : one.steps) put(step, done);
+    one.change = std::move(change);
+    steps_.push_back(std::move(one));
+  }
+
+  static void put(const Step& step, std::vector<Step>& steps) {
+    std::erase_if(steps, [&](const Step& old) { return old.feature == step.feature; });
+    steps.push_back(step);
+    std::ranges::sort(steps, {}, &Step::feature);
+  }
+
+  /// Steps that together lead from `state` to `next`. One is carried out, those at the rim of a
+  /// facet first; of the others it may then be told what each does. What cannot be carried out
+  /// alone goes with the next one.
+  void in_turn(std::vector<SeriesStep> some, LevelState state, const LevelState& next,
+               std::vector<Step>& done) {
+    const Change whole = difference(state, next);
+    std::ranges::stable_partition(some, [&](const SeriesStep& one) {
+      return is_on_rim(one, whole, input_.segmentation, input_.building.frame.origin_m);
+    });
+    while (some.size() > 1) {
+      SeriesStep first = std::move(some.front());
+      some.erase(some.begin());
+      std::vector<Step> with_first = done;
+      for (const Step& step : first.steps) put(step, with_first);
+      auto middle = state_of(with_first, first);
+      if (!middle) {
+        join(first, some.front());
+        continue;
+      }
+      middle->installations = state.installations;
+      middle->attributes = state.attributes;
+      first.change = difference(state, *middle);
+      steps_.push_back(std::move(first));
+      done = std::move(with_first);
+      return separate(some, *middle, difference(*middle, next), done);
+    }
+    add_separate(std::move(some[0]), difference(state, next), done);
+  }
+
+  static void join(SeriesStep& one, SeriesStep& into) {
+    into.gone.merge(one.gone);
+    into.with.push_back(one.step.feature);
+    into.with.insert(into.with.end(), one.with.begin(), one.with.end());
+    std::ranges::sort(into.with);
+    into.steps.insert(into.steps.end(), one.steps.begin(), one.steps.end());
+    into.is_redrawing = into.is_redrawing || one.is_redrawing;
+  }
+
+  /// What the steps make, if `one` is carried out among them and leaves a closed solid that may be
+  /// written. No invariant has to hold between levels.
+  [[nodiscard]] std::optional<LevelState> state_of(const std::vector<Step>& steps,
+                                                   const SeriesStep& one) const {
+    std::vector<Issue> issues;
+    const auto level = level_of(input_, after_.scale, steps, {}, issues);
+    if (!level || level->steps.size() != steps.size()) return std::nullopt;
+    const auto& removed = level->generalised.removed;
+    if (!std::ranges::includes(removed, one.gone)) return std::nullopt;
+    if (input_.fault_of && input_.fault_of(*level->redrawn.labelled.geometry)) return std::nullopt;
+    LevelState state = level_state(level->redrawn.labelled, place_);
+    if (!is_closed(*labelled_building(state, input_.building.frame).geometry)) return std::nullopt;
+    return state;
+  }
+
+  /// To the operation that takes the feature of that id off, else to the last that takes a facet of
+  /// the installation off.
+  void assign_installations(const Change& all) {
+    for (const auto& [id, attributes] : all.installations) {
+      std::size_t owner = steps_.size() - 1;
+      for (std::size_t i = 0; i < steps_.size(); ++i) {
+        const bool takes_it = std::ranges::any_of(
+            steps_[i].gone, [&](FeatureId gone) { return input_.table.id(gone) == id; });
+        const bool takes_facets =
+            std::ranges::any_of(steps_[i].change.removed, [&](const auto& facet) {
+              return std::ranges::binary_search(facet.second.installations, id);
+            });
+        if (takes_it || takes_facets) owner = i;
+      }
+      steps_[owner].change.installations[id] = attributes;
+    }
+  }
+
+  /// The counts on the building when these features are gone.
+  [[nodiscard]] std::map<std::string, MemberValue> counts_of(
+      const std::set<FeatureId>& removed) const {
+    Redrawn counted;
+    count_removed({removed.begin(), removed.end()}, input_.segmentation, input_.interpretation,
+                  counted);
+    std::map<std::string, MemberValue> out;
+    for (const auto& [name, value] : counted.labelled.attributes) out[name] = as_written(value);
+    return out;
+  }
+
+  static void set_counts(const std::map<std::string, MemberValue>& counts, const LevelState& state,
+                         Change& change) {
+    for (const auto& [name, value] : counts) {
+      const auto old = state.attributes.find(name);
+      if (old == state.attributes.end() || old->second != value) change.attributes[name] = value;
+    }
+  }
+
+  /// What takes `change` back from the state before it.
+  static Change inverse_of(const Change& change, const LevelState& state) {
+    Change inverse;
+    inverse.removed = change.added;
+    inverse.added = change.removed;
+    for (const auto& [outer, holes] : change.holes)
+      inverse.holes[outer] = {holes.added, holes.removed};
+    const auto take_back = [](const auto& changed, const auto& old, auto& back) {
+      for (const auto& [key, value] : changed) {
+        const auto found = old.find(key);
+        if (found == old.end())
+          back[key] = std::nullopt;
+        else
+          back[key] = found->second;
+      }
+    };
+    take_back(change.installations, state.installations, inverse.installations);
+    take_back(change.attributes, state.attributes, inverse.attributes);
+    return inverse;
+  }
+
+  std::vector<SeriesOperation> finish(LevelState& state) {
+    std::vector<SeriesOperation> out;
+    std::set<FeatureId> removed(before_.generalised.removed.begin(),
+                                before_.generalised.removed.end());
+    double scale = 0;
+    for (SeriesStep& one : steps_) {
+      removed.insert(one.gone.begin(), one.gone.end());
+      set_counts(counts_of(removed), state, one.change);
+      scale = std::max(scale, one.scale);
+      SeriesOperation operation;
+      operation.building = state.building;
+      operation.oriel_id = input_.table.id(one.step.feature);
+      operation.label = input_.interpretation.verdicts[one.step.feature.index()].label;
+      operation.operation = one.step.operation;
+      operation.rule = one.step.rule;
+      operation.scale = scale;
+      operation.aabb_m = box_of(one.change);
+      for (const FeatureId id : one.with) operation.with.push_back(input_.table.id(id));
+      operation.inverse = inverse_of(one.change, state);
+      operation.forward = std::move(one.change);
+      if (!apply(state, operation.forward)) throw GeometryError("an operation does not fit");
+      out.push_back(std::move(operation));
+    }
+    return out;
+  }
+
+  const SeriesInput& input_;
+  const SeriesLevel& before_;
+  const SeriesLevel& after_;
+  const FiringScales& firing_;
+  const Placer& place_;
+  std::vector<SeriesStep> steps_;
+  std::map<FeatureId, int> step_of_;  ///< by feature
+};
 
 }  // namespace
 
@@ -67,8 +370,7 @@ ScaleSeries scale_series(const SeriesInput& input, const std::vector<SeriesLevel
   series.finest = level_state(levels[0].redrawn.labelled, place);
   LevelState state = series.finest;
   for (std::size_t i = 1; i < levels.size(); ++i) {
-    auto operations =
-        detail::operations_between(input, levels[i - 1], levels[i], state, firing, place);
+    auto operations = LevelOperations(input, levels[i - 1], levels[i], firing, place).run(state);
     std::ranges::move(operations, std::back_inserter(series.operations));
   }
   return series;

@@ -27,7 +27,7 @@ class Findings {
   struct Finding {
     Span where;
     Severity severity = Severity::error;
-    Code code;
+    Code code = Code::none;
     std::string sentence;
     friend auto operator<=>(const Finding&, const Finding&) = default;
   };

@@ -33,7 +33,7 @@ Redraft redraft(const Line& line, double scale, double least_edge_m = 0) {
   Plan asked = plan(cartographic(), table, graph, labels, scale);
   Invariants invariants;
   invariants.least_edge_m = least_edge_m;
-  invariants.judge.fitness_of = [](const Solid& solid) {
+  invariants.validator.fitness_of = [](const Solid& solid) {
     return is_closed(solid) ? Fitness::valid : Fitness::unfit;
   };
   auto out = generalise(line.solid, line.segmentation, table, labels, asked, {}, invariants);

@@ -1,6 +1,6 @@
 #include "generalise/to_lod.h"
 
-#include "generalise/invariants/fineness_issues.h"
+#include "generalise/invariants/fineness.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"

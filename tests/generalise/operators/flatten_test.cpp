@@ -1,6 +1,5 @@
-#include "generalise/operators/flatten.h"
-
 #include "generalise/generalise.h"
+#include "generalise/operators/operators.h"
 #include "interpret/plan/profile.h"
 #include "tests/generalise/line.h"
 #include "tests/support/shapes.h"

@@ -1,7 +1,6 @@
-#include "generalise/operators/omit.h"
-
 #include "generalise/account.h"
 #include "generalise/generalise.h"
+#include "generalise/operators/operators.h"
 #include "generalise/removal/fill_rings.h"
 #include "generalise/removal/remove_cells.h"
 #include "kernel/segment/complex/cell_complex.h"
@@ -40,7 +39,7 @@ Remainder without_all(const Line& line) {
 Fitness any_solid_fitness(const Solid& solid) {
   return is_closed(solid) ? Fitness::valid : Fitness::unfit;
 }
-const Judge any_solid{any_solid_fitness};
+const SolidValidator any_solid{any_solid_fitness};
 
 /// All features gone, nothing refused, and the bare block left without a seam.
 void check_bare(const BoxBody& body, std::size_t features) {
@@ -228,18 +227,18 @@ TEST_SUITE("generalise") {
     CHECK(refused == 0);
   }
 
-  TEST_CASE("what was cut is put together anew if a thorough judge finds it unfit") {
+  TEST_CASE("what was cut is put together anew if a thorough validator finds it unfit") {
     const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
     const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
     for (const bool is_thorough : {false, true}) {
       int judged = 0;
-      const Judge judge{
+      const SolidValidator validator{
           [&](const Solid&) { return ++judged == 1 ? Fitness::unfit : Fitness::valid; },
           {},
           is_thorough};
       const Remainder cut = remove_features(s.solid, s.segmentation, {id});
       REQUIRE(cut.refused.empty());
-      const Remainder rest = remove_cells(s.solid, s.segmentation, cut, judge);
+      const Remainder rest = remove_cells(s.solid, s.segmentation, cut, validator);
       CHECK(judged == (is_thorough ? 2 : 0));
       CHECK(rest.removed == std::vector{id});
       CHECK(rest.refused.empty());
@@ -253,31 +252,31 @@ TEST_SUITE("generalise") {
     const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
     // The first result that it sees is not valid, but neither was the building.
     int judged = 0;
-    const Judge judge{[&](const Solid& solid) {
+    const SolidValidator validator{[&](const Solid& solid) {
       return solid.facets.size() == 6 && ++judged == 1 ? Fitness::as_it_came : Fitness::valid;
     }};
     const Remainder rest =
-        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, judge);
+        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, validator);
     CHECK(judged == 2);
     CHECK(rest.refused.empty());
     // Where nothing is valid it goes all the same.
-    const Judge never{[&](const Solid& solid) {
+    const SolidValidator never{[&](const Solid& solid) {
       return solid.facets.size() == 6 ? Fitness::as_it_came : Fitness::valid;
     }};
     CHECK(remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, never)
               .refused.empty());
   }
 
-  TEST_CASE("no cells go by which the judge finds a violation") {
+  TEST_CASE("no cells go by which the validator finds a violation") {
     const Segmented s = segmented(block().add({2, 2, 6}, {3, 3, 7}).build());
     const FeatureId id = feature_in(s.segmentation, {2, 2, 6}, {3, 3, 7});
-    Judge judge = any_solid;
-    judge.violation_of = [](const Solid& solid) -> std::optional<Violation> {
+    SolidValidator validator = any_solid;
+    validator.violation_of = [](const Solid& solid) -> std::optional<Violation> {
       if (solid.facets.size() > 6) return std::nullopt;
       return Violation{Code::G405, "the block would go"};
     };
     const Remainder rest =
-        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, judge);
+        remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, validator);
     REQUIRE(rest.refused.size() == 1);
     CHECK(rest.refused[0].code == Code::G405);
     CHECK(rest.refused[0].reason == "the block would go");
@@ -323,7 +322,7 @@ TEST_SUITE("generalise") {
     for (const FeatureId id : all_features(line.segmentation)) {
       const Plan plan{1000, {{id, "omit", "test"}}, {}};
       Invariants invariants;
-      invariants.judge = any_solid;
+      invariants.validator = any_solid;
       const auto done = generalise(line.solid, line.segmentation, line.table(), bare, plan,
                                    SegmentOptions{}, invariants);
       REQUIRE(done.value);

@@ -1,5 +1,5 @@
 #include "generalise/generalise.h"
-#include "generalise/operators/displace.h"
+#include "generalise/operators/operators.h"
 #include "interpret/plan/plan.h"
 #include "kernel/io/writer.h"
 #include "tests/generalise/line.h"

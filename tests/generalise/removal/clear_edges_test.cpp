@@ -42,15 +42,15 @@ ClearOrder order() {
   return order;
 }
 
-Judge judging(std::function<Fitness(const Solid&)> fitness_of) {
-  Judge judge;
-  judge.fitness_of = std::move(fitness_of);
-  return judge;
+SolidValidator judging(std::function<Fitness(const Solid&)> fitness_of) {
+  SolidValidator validator;
+  validator.fitness_of = std::move(fitness_of);
+  return validator;
 }
 
 /// All four edges are left as they were, with one reason, which is returned.
-std::string reason_of(const ClearOrder& order, const Judge& judge) {
-  const Cleared cleared = clear_edges(chamfered(), order, judge);
+std::string reason_of(const ClearOrder& order, const SolidValidator& validator) {
+  const Cleared cleared = clear_edges(chamfered(), order, validator);
   CHECK(cleared.solid.facets.size() == 8);
   REQUIRE(cleared.left.size() == 4);
   for (const UnclearedEdge& edge : cleared.left) {
@@ -99,15 +99,15 @@ TEST_SUITE("generalise") {
   }
 
   TEST_CASE("a facet does not go if what must not change did") {
-    Judge judge = judging(kAlwaysValid);
-    judge.violation_of = [](const Solid&) {
+    SolidValidator validator = judging(kAlwaysValid);
+    validator.violation_of = [](const Solid&) {
       return Violation{Code::G405, "the footprint would change by 0.08 %"};
     };
-    CHECK(reason_of(order(), judge) ==
+    CHECK(reason_of(order(), validator) ==
           "a facet at it cannot go: the footprint would change by 0.08 %");
   }
 
-  TEST_CASE("a facet that has to stay stays, and without a judge all do") {
+  TEST_CASE("a facet that has to stay stays, and without a validator all do") {
     ClearOrder keeping = order();
     keeping.keeps_facet = [](const Solid&, const Facet&) {
       return "it is of a feature that stays";

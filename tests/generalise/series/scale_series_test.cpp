@@ -1,6 +1,6 @@
 #include "generalise/series/scale_series.h"
 
-#include "generalise/change.h"
+#include "generalise/series/change.h"
 #include "interpret/plan/plan.h"
 #include "kernel/io/levels/level_file.h"
 #include "kernel/io/levels/written_grid.h"

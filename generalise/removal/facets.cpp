@@ -1,4 +1,4 @@
-#include "generalise/removal/shells.h"
+#include "generalise/removal/facets.h"
 
 #include "kernel/base/index.h"
 
@@ -41,24 +41,24 @@ std::vector<int> connected(const Solid& solid) {
 }
 
 /// What is known of a shell before it has its place.
-struct Piece {
+struct ShellPiece {
   Shell shell;
   double volume_m3 = 0;
   Box box;
 };
 
-std::vector<Piece> pieces_of(const Solid& solid) {
+std::vector<ShellPiece> pieces_of(const Solid& solid) {
   const std::vector<int> number = connected(solid);
-  std::map<int, Piece> pieces;
+  std::map<int, ShellPiece> pieces;
   for (int f = 0; f < std::ssize(solid.facets); ++f) {
     const Facet& facet = solid.facets[at(f)];
-    Piece& piece = pieces[number[at(f)]];
+    ShellPiece& piece = pieces[number[at(f)]];
     piece.shell.facets.push_back(FacetId{f});
     const Plane& plane = solid.planes[facet.plane.index()];
     piece.volume_m3 += plane.offset_m * area_m2(solid.vertices, facet, plane.normal) / 3;
     for (const int v : facet.loops[0]) piece.box.grow(solid.vertices[at(v)].point);
   }
-  std::vector<Piece> out;
+  std::vector<ShellPiece> out;
   for (auto& [first, piece] : pieces) out.push_back(std::move(piece));
   return out;
 }
@@ -84,16 +84,16 @@ Plane plane_of(std::span<const Vertex> vertices, const Loop& outer) {
 }
 
 std::vector<Shell> shells_of(const Solid& solid) {
-  std::vector<Piece> pieces = pieces_of(solid);
+  std::vector<ShellPiece> pieces = pieces_of(solid);
   std::vector<Shell> shells;
   std::vector<Box> boxes;  // of lumps
-  for (Piece& piece : pieces) {
+  for (ShellPiece& piece : pieces) {
     if (piece.volume_m3 < 0) continue;
     piece.shell.lump = static_cast<int>(boxes.size());
     boxes.push_back(piece.box);
     shells.push_back(piece.shell);
   }
-  for (Piece& piece : pieces) {
+  for (ShellPiece& piece : pieces) {
     if (piece.volume_m3 >= 0) continue;
     piece.shell.is_cavity = true;
     double smallest = Box::kInfinity;

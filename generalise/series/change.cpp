@@ -1,4 +1,4 @@
-#include "generalise/change.h"
+#include "generalise/series/change.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -41,7 +41,7 @@ void compare(const GridRing& outer, const LevelFacet& before, const LevelFacet& 
 }
 
 /// A piece of a change that stays whole: a facet or a hole.
-struct Piece {
+struct ChangePiece {
   enum class Kind { removed, added, removed_hole, added_hole };
   Kind kind;
   std::size_t index = 0;              ///< of a facet
@@ -50,29 +50,29 @@ struct Piece {
   const LevelFacet* facet = nullptr;  ///< of a facet
 };
 
-std::vector<Piece> pieces_of(const Change& change) {
-  std::vector<Piece> pieces;
+std::vector<ChangePiece> pieces_of(const Change& change) {
+  std::vector<ChangePiece> pieces;
   for (std::size_t i = 0; i < change.removed.size(); ++i) {
     const auto& [outer, facet] = change.removed[i];
-    pieces.push_back({Piece::Kind::removed, i, nullptr, &outer, &facet});
+    pieces.push_back({ChangePiece::Kind::removed, i, nullptr, &outer, &facet});
   }
   for (std::size_t i = 0; i < change.added.size(); ++i) {
     const auto& [outer, facet] = change.added[i];
-    pieces.push_back({Piece::Kind::added, i, nullptr, &outer, &facet});
+    pieces.push_back({ChangePiece::Kind::added, i, nullptr, &outer, &facet});
   }
   for (const auto& [outer, holes] : change.holes) {
     for (const GridRing& ring : holes.removed)
-      pieces.push_back({Piece::Kind::removed_hole, 0, &outer, &ring, nullptr});
+      pieces.push_back({ChangePiece::Kind::removed_hole, 0, &outer, &ring, nullptr});
     for (const GridRing& ring : holes.added)
-      pieces.push_back({Piece::Kind::added_hole, 0, &outer, &ring, nullptr});
+      pieces.push_back({ChangePiece::Kind::added_hole, 0, &outer, &ring, nullptr});
   }
   return pieces;
 }
 
-/// Sets of numbers that grow together.
-class Sets {
+/// JoinedPieces of numbers that grow together.
+class JoinedPieces {
  public:
-  explicit Sets(std::size_t count) : parent_(count) {
+  explicit JoinedPieces(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
   std::size_t find(std::size_t i) {
@@ -98,18 +98,18 @@ void for_each_edge(const GridRing& ring,
   }
 }
 
-void put(const Change& change, const Piece& piece, Change& part) {
+void put(const Change& change, const ChangePiece& piece, Change& part) {
   switch (piece.kind) {
-    case Piece::Kind::removed:
+    case ChangePiece::Kind::removed:
       part.removed.push_back(change.removed[piece.index]);
       return;
-    case Piece::Kind::added:
+    case ChangePiece::Kind::added:
       part.added.push_back(change.added[piece.index]);
       return;
-    case Piece::Kind::removed_hole:
+    case ChangePiece::Kind::removed_hole:
       part.holes[*piece.outer].removed.push_back(*piece.ring);
       return;
-    case Piece::Kind::added_hole:
+    case ChangePiece::Kind::added_hole:
       part.holes[*piece.outer].added.push_back(*piece.ring);
       return;
   }
@@ -158,8 +158,8 @@ Change difference(const LevelState& before, const LevelState& after) {
 }
 
 std::vector<Change> parts_of(const Change& change) {
-  const std::vector<Piece> pieces = pieces_of(change);
-  Sets sets(pieces.size());
+  const std::vector<ChangePiece> pieces = pieces_of(change);
+  JoinedPieces sets(pieces.size());
   std::map<std::pair<GridPoint, GridPoint>, std::size_t> piece_at;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto join = [&](const std::pair<GridPoint, GridPoint>& edge) {

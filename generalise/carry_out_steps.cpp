@@ -1,34 +1,25 @@
-#include "generalise/steps.h"
-
-#include "generalise/operators/aggregate.h"
-#include "generalise/operators/collapse.h"
-#include "generalise/operators/displace.h"
-#include "generalise/operators/enlarge.h"
-#include "generalise/operators/flatten.h"
-#include "generalise/operators/merge.h"
-#include "generalise/operators/omit.h"
-#include "generalise/operators/symbolise.h"
-#include "generalise/operators/typify.h"
+#include "generalise/carry_out.h"
+#include "generalise/operators/operators.h"
 #include "generalise/tasks.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-namespace oriel::detail {
+namespace oriel {
 
 namespace {
 
 class StepRunner {
  public:
   StepRunner(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-             const SegmentOptions& options, const Judge& judge)
+             const SegmentOptions& options, const SolidValidator& validator)
       : solid_(solid),
         segmentation_(segmentation),
         plan_(plan),
         options_(options),
-        judge_(judge),
-        tasks_(tasks_of(plan, segmentation)) {}
+        validator_(validator),
+        tasks_(detail::tasks_of(plan, segmentation)) {}
 
   CarriedOut run() {
     while (true) {
@@ -46,7 +37,7 @@ class StepRunner {
     return segmentation_.features[step.feature.index()];
   }
 
-  void fail(const PlanTask& task, Code code, const std::string& reason) {
+  void fail(const detail::PlanTask& task, Code code, const std::string& reason) {
     for (const Step& step : task.steps)
       failed_.try_emplace(step.feature, CarriedOut::Refused{step.feature, code, reason});
   }
@@ -59,17 +50,17 @@ class StepRunner {
       off.steps.push_back(step);
       off.steps.back().operation = "omit";
     }
-    Remainder remainder = omit(solid_, segmentation_, off, options_, judge_);
+    Remainder remainder = omit(solid_, segmentation_, off, options_, validator_);
     CarriedOut out{std::move(remainder.solid), std::move(remainder.removed), {}};
-    for (const PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
+    for (const detail::PlanTask& task : tasks_) fail_if_refused(task, remainder.refused);
     for (const Refusal& refusal : remainder.refused)
       if (!failed_.contains(refusal.feature))
         out.refused.push_back({refusal.feature, refusal.code, refusal.reason});
-    for (const PlanTask& task : tasks_) put_back(task, out);
+    for (const detail::PlanTask& task : tasks_) put_back(task, out);
     return out;
   }
 
-  void fail_if_refused(const PlanTask& task, const std::vector<Refusal>& refused) {
+  void fail_if_refused(const detail::PlanTask& task, const std::vector<Refusal>& refused) {
     for (const Step& step : task.steps) {
       const auto found = std::ranges::find(refused, step.feature, &Refusal::feature);
       if (found != refused.end()) return fail(task, found->code, found->reason);
@@ -77,17 +68,17 @@ class StepRunner {
   }
 
   /// What merges was not taken off; it may have gone with what carries it.
-  void merge_in(const PlanTask& task, CarriedOut& out) {
+  void merge_in(const detail::PlanTask& task, CarriedOut& out) {
     const FeatureId id = task.steps[0].feature;
     if (failed_.contains(id) || std::ranges::binary_search(out.removed, id)) return;
-    Placed placed = merge({out.solid, segmentation_, task.steps, plan_.scale});
+    detail::Placed placed = merge({out.solid, segmentation_, task.steps, plan_.scale});
     if (!placed.solid) return fail(task, Code::G403, placed.reason);
     out.solid = std::move(*placed.solid);
     out.changed.push_back(id);
     std::ranges::sort(out.changed);
   }
 
-  void put_back(const PlanTask& task, CarriedOut& out) {
+  void put_back(const detail::PlanTask& task, CarriedOut& out) {
     if (task.operation == "merge") return merge_in(task, out);
     const bool is_gone = std::ranges::all_of(task.steps, [&](const Step& step) {
       return !failed_.contains(step.feature) &&
@@ -100,54 +91,35 @@ class StepRunner {
              (host.is_valid() && std::ranges::binary_search(out.removed, host));
     });
     if (is_in_another) return;  // it went with what carries it
-    Placed placed = place_task({out.solid, segmentation_, task.steps, plan_.scale});
+    const Operator& its = operator_named(task.operation);
+    detail::Placed placed = its.redraw({out.solid, segmentation_, task.steps, plan_.scale});
     if (!placed.solid) return fail(task, Code::G403, placed.reason);
-    if (task.operation == "flatten" && judge_ && judge_.fitness_of(*placed.solid) == Fitness::unfit)
+    if (task.operation == "flatten" && validator_ &&
+        validator_.fitness_of(*placed.solid) == Fitness::unfit)
       return fail(task, Code::G403, "the moved facet would meet another part");
     out.solid = std::move(*placed.solid);
-    for (std::size_t i = 0; i < represented(task); ++i) {
+    const std::size_t kept = its.kept(task.steps);
+    for (std::size_t i = 0; i < kept; ++i) {
       std::erase(out.removed, task.steps[i].feature);
       out.changed.push_back(task.steps[i].feature);
     }
     std::ranges::sort(out.changed);
   }
 
-  [[nodiscard]] static Placed place_task(const Redrawing& redrawing) {
-    const std::string& operation = redrawing.steps[0].operation;
-    if (operation == "enlarge") return enlarge(redrawing);
-    if (operation == "symbolise") return symbolise(redrawing);
-    if (operation == "aggregate") return aggregate(redrawing);
-    if (operation == "typify") return typify(redrawing);
-    if (operation == "displace") return displace(redrawing);
-    if (operation == "flatten") return flatten(redrawing);
-    return collapse(redrawing);
-  }
-
-  /// How many of the features of a task are still there afterwards.
-  [[nodiscard]] static std::size_t represented(const PlanTask& task) {
-    if (task.operation == "flatten") return 0;
-    if (task.operation == "aggregate") return 1;
-    if (task.operation != "typify") return task.steps.size();
-    const auto ratio = task.steps[0].numbers.find("ratio");
-    return typified_count(task.steps.size(),
-                          ratio == task.steps[0].numbers.end() ? kHalf : ratio->second);
-  }
-  static constexpr double kHalf = 0.5;
-
   const Solid& solid_;
   const Segmentation& segmentation_;
   const Plan& plan_;
   const SegmentOptions& options_;
-  const Judge& judge_;
-  std::vector<PlanTask> tasks_;
+  const SolidValidator& validator_;
+  std::vector<detail::PlanTask> tasks_;
   std::map<FeatureId, CarriedOut::Refused> failed_;
 };
 
 }  // namespace
 
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
-                           const SegmentOptions& options, const Judge& judge) {
-  return StepRunner(solid, segmentation, plan, options, judge).run();
+                           const SegmentOptions& options, const SolidValidator& validator) {
+  return StepRunner(solid, segmentation, plan, options, validator).run();
 }
 
-}  // namespace oriel::detail
+}  // namespace oriel

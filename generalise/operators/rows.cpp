@@ -1,0 +1,202 @@
+#include "generalise/operators/operators.h"
+#include "kernel/segment/remove.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace oriel {
+
+namespace {
+
+using detail::Extents;
+using detail::Host;
+using detail::Placed;
+
+void unite(Extents& all, const Extents& one) {
+  all = {std::min(all.u0, one.u0), std::max(all.u1, one.u1),     std::min(all.v0, one.v0),
+         std::max(all.v1, one.v1), std::min(all.out0, one.out0), std::max(all.out1, one.out1)};
+}
+
+/// The box around a feature and all that sits on it.
+Placed block(const Redrawing& task, const Host& host) {
+  const Feature& feature = task.feature();
+  if (feature.sense != Sense::protrusion)
+    return {std::nullopt, "only what sticks out becomes a block"};
+  Extents all = extents_of(host, task.segmentation, feature);
+  if (is_box(feature, all)) return {std::nullopt, "it is a block already"};
+  for (const FeatureId id : with_what_sits_on(task.segmentation, {task.steps[0].feature}))
+    unite(all, extents_of(host, task.segmentation, task.segmentation.features[id.index()]));
+  return place_box(task.solid, host, all, all.out1, Attach::raise, task.gap_m(),
+                   feature.source_polygons);
+}
+
+/// What a row of recesses has in common.
+struct RowMeans {
+  Extents all{};
+  double width = 0, height = 0, middle = 0, depth = 0;  ///< means
+};
+
+/// Shifts and growths below this are rounding: Tolerances::weld_m.
+constexpr double kNoShift_m = 0.001;
+
+/// The ends of the wall along it.
+std::pair<double, double> ends_of(const Solid& solid, const Host& host) {
+  double low = Box::kInfinity, high = -Box::kInfinity;
+  for (const int v : solid.facets[host.facet.index()].loops[0]) {
+    const double u = dot(solid.vertices[static_cast<std::size_t>(v)].point, host.u);
+    low = std::min(low, u);
+    high = std::max(high, u);
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+bool becomes_block(const Step& step) {
+  const auto into = step.words.find("into");
+  return step.operation == "aggregate" && into != step.words.end() && into->second == "block";
+}
+
+Placed aggregate(const Redrawing& task) {
+  const auto host = task.host();
+  if (!host) return {std::nullopt, "its wall is not found any more"};
+  if (becomes_block(task.steps[0])) return block(task, *host);
+  if (task.steps.size() < 2) return {std::nullopt, "it is the only one of its storey and facade"};
+  Extents all = extents_of(*host, task.segmentation, task.feature());
+  double area_m2 = 0, volume_m3 = 0, middle = 0;
+  for (std::size_t i = 0; i < task.steps.size(); ++i) {
+    const Extents one = extents_of(*host, task.segmentation, task.feature(i));
+    if (task.feature(i).sense != Sense::hole || !is_box(task.feature(i), one))
+      return {std::nullopt, "only recesses that are boxes can be aggregated"};
+    const double its_m2 = one.width() * one.height();
+    area_m2 += its_m2;
+    volume_m3 += its_m2 * one.depth();
+    middle += its_m2 * (one.v0 + one.v1) / 2;
+    all.u0 = std::min(all.u0, one.u0);
+    all.u1 = std::max(all.u1, one.u1);
+  }
+  middle /= area_m2;
+  const double height_m = area_m2 / all.width();
+  all.v0 = middle - height_m / 2;
+  all.v1 = middle + height_m / 2;
+  return place_box(task.solid, *host, all, volume_m3 / area_m2, Attach::sink, task.gap_m(),
+                   task.feature().source_polygons);
+}
+
+std::size_t typified_count(std::size_t n, double ratio) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(static_cast<double>(n) * ratio)));
+}
+
+Placed typify(const Redrawing& task) {
+  const std::size_t n = task.steps.size();
+  const std::size_t m = typified_count(n, task.number("ratio", 0.5));
+  if (m >= n) return {std::nullopt, "its row has no more members than are to stay"};
+  const auto host = task.host();
+  if (!host) return {std::nullopt, "its wall is not found any more"};
+  RowMeans row;
+  row.all = extents_of(*host, task.segmentation, task.feature());
+  for (std::size_t i = 0; i < n; ++i) {
+    const Extents one = extents_of(*host, task.segmentation, task.feature(i));
+    if (task.feature(i).sense != Sense::hole || !is_box(task.feature(i), one))
+      return {std::nullopt, "only recesses that are boxes can be typified"};
+    const double share = 1 / static_cast<double>(n);
+    row.all.u0 = std::min(row.all.u0, one.u0);
+    row.all.u1 = std::max(row.all.u1, one.u1);
+    row.width += share * one.width();
+    row.height += share * one.height();
+    row.middle += share * (one.v0 + one.v1) / 2;
+    row.depth += share * one.depth();
+  }
+  const double grown = std::sqrt(static_cast<double>(n) / static_cast<double>(m));
+  const double width = row.width * grown, height = row.height * grown;
+  const double free_m = row.all.width() - width;
+  if (free_m < 0) return {std::nullopt, "one of those that stay would be wider than the row"};
+  Placed placed{task.solid, {}};
+  for (std::size_t i = 0; i < m; ++i) {
+    const double part = m == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(m - 1);
+    Extents where = row.all;
+    where.u0 += part * free_m;
+    where.u1 = where.u0 + width;
+    where.v0 = row.middle - height / 2;
+    where.v1 = row.middle + height / 2;
+    // The facet keeps its number, whatever has been sunk into it.
+    placed = place_box(*placed.solid, *host, where, row.depth, Attach::sink, task.gap_m(),
+                       task.feature(i).source_polygons);
+    if (!placed.solid) return placed;
+  }
+  return placed;
+}
+
+std::vector<double> least_shifts(const std::vector<double>& wished,
+                                 const std::vector<double>& apart, double low, double high) {
+  // With the distances taken off, positions need only ascend.
+  std::vector<double> offset(wished.size(), 0);
+  for (std::size_t i = 1; i < wished.size(); ++i) offset[i] = offset[i - 1] + apart[i - 1];
+  struct Pool {
+    double sum;
+    std::size_t count;
+    [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Pool> pools;
+  for (std::size_t i = 0; i < wished.size(); ++i) {
+    pools.push_back({wished[i] - offset[i], 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
+      const Pool last = pools.back();
+      pools.pop_back();
+      pools.back().sum += last.sum;
+      pools.back().count += last.count;
+    }
+  }
+  const double highest = std::max(low, high - offset.back());
+  std::vector<double> out;
+  for (const Pool& pool : pools)
+    for (std::size_t i = 0; i < pool.count; ++i)
+      out.push_back(std::clamp(pool.mean(), low, highest) + offset[out.size()]);
+  return out;
+}
+
+Placed displace(const Redrawing& task) {
+  const auto host = task.host();
+  if (!host) return {std::nullopt, "its wall is not found any more"};
+  const double to_m = task.number("to", 0), gap_m = task.gap_m();
+  std::vector<Extents> members;
+  std::vector<double> centres, apart;
+  bool is_changed = false;
+  for (std::size_t i = 0; i < task.steps.size(); ++i) {
+    Extents one = extents_of(*host, task.segmentation, task.feature(i));
+    if (task.feature(i).sense != Sense::hole || !is_box(task.feature(i), one))
+      return {std::nullopt, "only recesses that are boxes can be displaced"};
+    centres.push_back((one.u0 + one.u1) / 2);
+    const double more = std::max(0.0, to_m - one.width());
+    is_changed = is_changed || more > kNoShift_m;
+    one.u0 -= more / 2;
+    one.u1 += more / 2;
+    if (i > 0) apart.push_back((members.back().width() + one.width()) / 2 + gap_m);
+    members.push_back(one);
+  }
+  const auto [first, last] = ends_of(task.solid, *host);
+  // A hair more than the gap, which is checked exactly.
+  const double low = first + gap_m + members.front().width() / 2 + kNoShift_m;
+  const double high = last - gap_m - members.back().width() / 2 - kNoShift_m;
+  for (double& distance : apart) distance += kNoShift_m;
+  if (std::accumulate(apart.begin(), apart.end(), low) > high)
+    return {std::nullopt, "its wall has no room for the row"};
+  const std::vector<double> places = least_shifts(centres, apart, low, high);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const double shift = places[i] - centres[i];
+    is_changed = is_changed || std::abs(shift) > kNoShift_m;
+    members[i].u0 += shift;
+    members[i].u1 += shift;
+  }
+  if (!is_changed) return {std::nullopt, "there is room enough"};
+  Placed placed{task.solid, {}};
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    placed = place_box(*placed.solid, *host, members[i], members[i].depth(), Attach::sink, gap_m,
+                       task.feature(i).source_polygons);
+    if (!placed.solid) return placed;
+  }
+  return placed;
+}
+
+}  // namespace oriel

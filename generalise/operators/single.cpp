@@ -1,0 +1,215 @@
+#include "generalise/operators/operators.h"
+#include "kernel/attach/move_facet.h"
+#include "kernel/segment/flush/draw_imprints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+using detail::Extents;
+using detail::Host;
+using detail::Placed;
+
+constexpr Vec3 kUp{0, 0, 1};
+/// Roofs flatter than this (sine, 3 degrees) have no fall.
+constexpr double kFlat = 0.05;
+
+/// An upright box around some of the feature, in the plan of its roof: u along the eaves, `fall`
+/// down the slope.
+class RoofTemplate {
+ public:
+  RoofTemplate(const Redrawing& task, const Host& host) : task_(task), host_(host) {
+    fall_ = normalised(cross(host.u, kUp));
+    if (dot(fall_, host.n) < 0) fall_ = -fall_;
+    for (const int v : task.feature().vertices) {
+      const Vec3 p = task.segmentation.vertices[static_cast<std::size_t>(v)].point;
+      u_.push_back(dot(p, host.u));
+      f_.push_back(dot(p, fall_));
+      top_m_ = std::max(top_m_, p.z);
+    }
+  }
+
+  Placed chimney() const {
+    const double to_m = task_.to_m();
+    const auto [u0, u1] = widened(u_, to_m);
+    const auto [f0, f1] = widened(f_, to_m);
+    return placed(
+        {side(-host_.u, u0), side(host_.u, u1), side(-fall_, f0), side(fall_, f1), top()});
+  }
+
+  Placed dormer() const {
+    if (std::hypot(host_.n.x, host_.n.y) < kFlat)
+      return {std::nullopt, "a dormer box needs a sloping roof"};
+    const double to_m = task_.to_m();
+    const auto [u0, u1] = widened(u_, to_m);
+    const double front = *std::ranges::max_element(f_);
+    return placed({side(-host_.u, u0), side(host_.u, u1), side(fall_, front), top()});
+  }
+
+ private:
+  static std::pair<double, double> widened(const std::vector<double>& along, double least) {
+    const auto [low, high] = std::ranges::minmax(along);
+    const double middle = (low + high) / 2, half = std::max(high - low, least) / 2;
+    return {middle - half, middle + half};
+  }
+  [[nodiscard]] Plane side(Vec3 direction, double along) const {
+    // `along` counts along u or the fall, whichever way the side looks.
+    const double sign = dot(direction, host_.u) + dot(direction, fall_) > 0 ? 1 : -1;
+    return plane_through(task_.solid, direction, sign * along * direction,
+                         detail::kSameDirection_deg);
+  }
+  [[nodiscard]] Plane top() const {
+    return plane_through(task_.solid, kUp, {0, 0, top_m_}, detail::kSameDirection_deg);
+  }
+  [[nodiscard]] Placed placed(const std::vector<Plane>& planes) const {
+    return detail::place(task_.solid, {host_.facet}, planes, Attach::raise, task_.gap_m(),
+                         task_.feature().source_polygons);
+  }
+
+  const Redrawing& task_;
+  const Host& host_;
+  Vec3 fall_;
+  std::vector<double> u_, f_;
+  double top_m_ = -Box::kInfinity;
+};
+
+/// A slab: its thickness is what the feature's volume makes of its width and depth.
+Placed balcony(const Redrawing& task, const Host& host) {
+  const Feature& feature = task.feature();
+  Extents where = extents_of(host, task.segmentation, feature);
+  const double to_m = task.to_m();
+  const double more = std::max(0.0, to_m - where.width());
+  where.u0 -= more / 2;
+  where.u1 += more / 2;
+  const double depth_m = std::max(where.out1, to_m / 2);
+  where.v1 = where.v0 + std::min(where.height(), feature.volume_m3 / (where.width() * depth_m));
+  return place_box(task.solid, host, where, depth_m, Attach::raise, task.gap_m(),
+                   feature.source_polygons);
+}
+
+/// Of more than this share of its facet a feature is what one sees of the facet.
+constexpr double kMostOfFacet = 0.5;
+
+/// An imprint on the facet that was not taken off: the facet still names its polygons.
+bool carries_outline(const Redrawing& task, const Host& host) {
+  const std::vector<int>& its = task.solid.facets[host.facet.index()].polygons;  // sorted
+  return std::ranges::any_of(task.segmentation.features, [&](const Feature& feature) {
+    return feature.sense == Sense::imprint && !feature.source_polygons.empty() &&
+           std::ranges::includes(its, feature.source_polygons);
+  });
+}
+
+}  // namespace
+
+Placed merge(const Redrawing& task) {
+  Solid solid = task.solid;
+  const std::vector<int>& its = task.feature().source_polygons;  // sorted
+  bool is_changed = false;
+  for (Facet& facet : solid.facets) {
+    if (facet.polygons.empty() || !std::ranges::includes(its, facet.polygons)) continue;
+    facet.polygons.clear();
+    is_changed = true;
+  }
+  if (!is_changed) return {std::nullopt, "it has no surface of its own"};
+  return {std::move(solid), {}};
+}
+
+Placed enlarge(const Redrawing& task) {
+  const auto host = task.host();
+  if (!host) return {std::nullopt, "its wall is not found any more"};
+  const Feature& feature = task.feature();
+  const Extents now = extents_of(*host, task.segmentation, feature);
+  const bool is_block = feature.sense == Sense::protrusion;
+  if ((feature.sense != Sense::hole && !is_block) || !is_box(feature, now))
+    return {std::nullopt, "only recesses and blocks that are boxes can be enlarged"};
+  const double to_m = task.to_m();
+  const double more_u = std::max(0.0, to_m - now.width());
+  const double more_v = std::max(0.0, to_m - now.height());
+  if (more_u == 0 && more_v == 0) return {std::nullopt, "it is large enough"};
+  const bool is_on_sill = task.word("anchor", "centre") == "sill";
+  constexpr int kParts = 8;
+  Placed placed;
+  for (int part = kParts; part > 0; --part) {
+    const double u = more_u * part / kParts, v = more_v * part / kParts;
+    Extents then = now;
+    then.u0 -= u / 2;
+    then.u1 += u / 2;
+    then.v0 -= is_on_sill ? 0 : v / 2;
+    then.v1 += is_on_sill ? v : v / 2;
+    placed =
+        place_box(task.solid, *host, then, now.depth(), is_block ? Attach::raise : Attach::sink,
+                  task.gap_m(), feature.source_polygons);
+    if (placed.solid) break;
+  }
+  return placed;
+}
+
+Placed symbolise(const Redrawing& task) {
+  const auto host = task.host();
+  if (!host) return {std::nullopt, "its roof or wall is not found any more"};
+  if (task.feature().sense != Sense::protrusion)
+    return {std::nullopt, "only what sticks out can be symbolised"};
+  const std::string with = task.word("with", "chimney_block");
+  const bool is_roof = host->n.z > 0.26;
+  if (with == "balcony_box")
+    return is_roof ? Placed{std::nullopt, "a balcony box needs a wall"} : balcony(task, *host);
+  if (!is_roof) return {std::nullopt, "a " + with + " needs a roof"};
+  const RoofTemplate template_box(task, *host);
+  return with == "dormer_box" ? template_box.dormer() : template_box.chimney();
+}
+
+Placed collapse(const Redrawing& task) {
+  const auto host = task.host();
+  if (!host) return {std::nullopt, "its wall or roof is not found any more"};
+  const Feature& feature = task.feature();
+  if (feature.sense == Sense::imprint) return {std::nullopt, "it has no depth"};
+  const Extents e = extents_of(*host, task.segmentation, feature);
+  // An imprint is what the segmentation calls one: a facet's polygons with an outline.
+  Segmentation drawn;
+  drawn.planes = {host->plane};
+  Feature imprint = feature;
+  imprint.sense = Sense::imprint;
+  imprint.planes = {PlaneId{0}};
+  for (const auto& [u, v] : {std::pair{e.u0, e.v0}, {e.u1, e.v0}, {e.u1, e.v1}, {e.u0, e.v1}}) {
+    imprint.outline.push_back(static_cast<int>(drawn.vertices.size()));
+    drawn.vertices.push_back({u * host->u + v * host->v + host->plane.offset_m * host->n, false});
+  }
+  drawn.features = {imprint};
+  Solid solid = task.solid;
+  auto& polygons = solid.facets[host->facet.index()].polygons;
+  polygons.insert(polygons.end(), imprint.source_polygons.begin(), imprint.source_polygons.end());
+  std::ranges::sort(polygons);
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  const std::size_t before = solid.facets.size();
+  solid = draw_imprints(std::move(solid), drawn, {FeatureId{0}});
+  if (solid.facets.size() == before || !is_closed(solid))
+    return {std::nullopt, "its outline does not fit into the facet"};
+  return {std::move(solid), {}};
+}
+
+Placed flatten(const Redrawing& task) {
+  const Feature& feature = task.feature();
+  if (feature.sense == Sense::imprint) return {std::nullopt, "it has no depth"};
+  const auto host = task.host();
+  if (!host) return {task.solid, {}};  // what it lay on went, too
+  const double facet_m2 =
+      area_m2(task.solid.vertices, task.solid.facets[host->facet.index()], host->n);
+  const bool is_most = feature.planes.size() == 1 && !feature.is_uncut &&
+                       feature.new_area_m2 > kMostOfFacet * facet_m2;
+  if (!is_most) return {task.solid, {}};
+  if (carries_outline(task, *host))
+    return {std::nullopt, "an outline on its wall or roof would not move along"};
+  const double depth_m = extents_of(*host, task.segmentation, feature).depth();
+  const double trimmed_m3 = std::min(feature.volume_m3, feature.new_area_m2 * depth_m);
+  const double by_m = trimmed_m3 / facet_m2;
+  MovedFacet moved =
+      move_facet(task.solid, host->facet, feature.sense == Sense::protrusion ? by_m : -by_m);
+  return {std::move(moved.solid), std::move(moved.reason)};
+}
+
+}  // namespace oriel
