@@ -1,7 +1,5 @@
 #include "interpret/yaml/yaml_tree.h"
 
-#include "interpret/yaml/libyaml_events.h"
-
 #include <algorithm>
 #include <exception>
 #include <istream>
@@ -203,19 +201,6 @@ void report(Span where, Findings& findings, const YAML::Exception& problem) {
                    explain_syntax(findings.source(), {offset, offset}, problem));
 }
 
-/// The tree, if the text is as packs are nearly always written and nothing is wrong with it.
-std::optional<YamlNode> read_quickly(Span where, const Source& source) {
-  Findings none(source);
-  TreeBuilder builder(where, none);
-  try {
-    if (!read_by_libyaml(source.text_of(where), builder) || !none.issues().empty())
-      return std::nullopt;
-  } catch (const Stop&) {
-    return std::nullopt;
-  }
-  return builder.take_root();
-}
-
 }  // namespace
 
 std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
@@ -235,7 +220,6 @@ std::optional<YamlNode> parse_yaml(Span where, Findings& findings) {
     findings.error(Code::R213, {where.begin, where.begin}, "a pack is no longer than 1 MiB");
     return std::nullopt;
   }
-  if (auto root = read_quickly(where, findings.source())) return root;
   TextBuffer buffer(findings.source().text_of(where));
   std::istream stream(&buffer);
   TreeBuilder builder(where, findings);
