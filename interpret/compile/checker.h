@@ -1,7 +1,7 @@
 #pragma once
 
 #include "interpret/language/findings.h"
-#include "interpret/language/syntax.h"
+#include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "kernel/model/description/feature_table.h"

@@ -134,7 +134,6 @@ void find_raised(std::vector<Class>& classes) {
 }
 
 void name_rules(Pack& pack) {
-  pack.names_of_rules.emplace_back();
   for (Rule& rule : pack.rules) {
     rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;
     pack.names_of_rules.push_back({rule.id, rule.name_of_label});

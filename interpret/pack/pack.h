@@ -216,7 +216,7 @@ struct Pack {
   std::vector<Relation> relations;
   std::vector<GroupKind> groups;
   std::vector<Rule> rules;
-  /// Of the rule i at i + 1, so that the first are those of no rule; once the pack is read.
+  /// Parallel to `rules`; once the pack is read.
   std::vector<NamesOfRule> names_of_rules;
   std::vector<Step> steps;
   Decide decide;

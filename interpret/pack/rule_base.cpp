@@ -6,8 +6,8 @@
 #include "interpret/pack/extend.h"
 #include "interpret/pack/load.h"
 #include "interpret/pack/pack.h"
-#include "interpret/yaml/read_file.h"
 #include "interpret/yaml/yaml_text.h"
+#include "interpret/yaml/yaml_tree.h"
 
 #include <filesystem>
 #include <set>

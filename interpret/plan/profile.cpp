@@ -2,8 +2,8 @@
 
 #include "interpret/language/suggest.h"
 #include "interpret/pack/embedded.h"
+#include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
-#include "interpret/pack/read_limits.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/sha256.h"
 
