@@ -206,7 +206,7 @@ class Validation {
   int buildings_ = 0;
   int invalid_ = 0;
   int unread_records_ = 0;
-  std::map<std::pair<std::string, int>, int> counts_;
+  std::map<std::pair<Code, int>, int> counts_;
 };
 
 }  // namespace
