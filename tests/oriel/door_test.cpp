@@ -32,7 +32,7 @@ TEST_SUITE("oriel") {
       read("/no/such/file.city.json");
       FAIL("nothing was thrown");
     } catch (const InputError& error) {
-      CHECK(error.issue().code == "E101");
+      CHECK(error.issue().code == Code::E101);
     }
   }
 
