@@ -215,13 +215,13 @@ ExprId Checker::check_word(const Syntax& syntax, ExprId text) {
         "R232", syntax.span,
         fmt::format("'{}' is {}; a word is needed here", text_of(syntax), describe(at(id))));
   }
-  const Attribute& attribute = schema()[static_cast<std::size_t>(at(text).index)];
-  const auto words = words_for(attribute.name);
+  const auto column = static_cast<std::size_t>(at(text).index);
+  const auto words = words_for(column);
   if (!words.empty() && std::ranges::find(words, syntax.name) == words.end()) {
     std::string advice = did_you_mean(syntax.name, words);
     if (advice.empty()) advice = fmt::format(" (it is one of {})", join(words));
     return fail("R234", syntax.span,
-                fmt::format("'{}' is never '{}'{}", attribute.name, syntax.name, advice));
+                fmt::format("'{}' is never '{}'{}", schema()[column].name, syntax.name, advice));
   }
   Expr expr{.op = Op::constant, .type = Type::text, .span = syntax.span};
   expr.number = word_number(syntax.name);

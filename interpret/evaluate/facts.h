@@ -85,8 +85,6 @@ struct Facts {
   /// Whether the host facet is of a kind, by HostKind and row; of no size where no rule asks for
   /// the kind or one behind it.
   std::array<std::vector<Truth>, 4> hosts;
-  /// The column of that attribute.
-  std::size_t host_inclination = 0;
   /// The denominator of the target scale, if there is one.
   double scale = 0;
 

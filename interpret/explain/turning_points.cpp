@@ -131,7 +131,7 @@ class TurnFinder {
   /// The inclination of the host's facet and the ends of walls, roofs and grounds: walls go first.
   void visit_facet(const Expr& expr) {
     Expr inclination{.op = Op::attribute,
-                     .index = static_cast<int>(column_of("host_inclination").value()),
+                     .index = static_cast<int>(column_of(Attribute::host_inclination)),
                      .level = expr.level,
                      .levels = expr.levels};
     pack_.code.push_back(inclination);
