@@ -91,11 +91,11 @@ TEST_SUITE("interpret") {
     holds         depth = 0.10 m                          <= 0.60 m                                         t.yaml:5:19
   door.ground     fails                                   door                                              t.yaml:9:5
     holds         self is opening = yes                                                                     t.yaml:12:9
-    fails         base_height = 0.61 m                         <= 0.60 m ($sill_max), misses by 0.01 m           t.yaml:13:9
-    holds         host_inclination = 90.00 deg            in 75.00 deg .. 105.00 deg                        t.yaml:13:33
+    fails         base_height = 0.61 m                    <= 0.60 m ($sill_max), misses by 0.01 m           t.yaml:13:9
+    holds         host_inclination = 90.00 deg            in 75.00 deg .. 105.00 deg                        t.yaml:13:38
   window.regular  holds, score 0.29                       window                                            t.yaml:14:5
     holds         self is opening = yes                                                                     t.yaml:16:15
-    holds         base_height = 0.61 m                         > 0.60 m ($sill_max)                              t.yaml:16:35
+    holds         base_height = 0.61 m                    > 0.60 m ($sill_max)                              t.yaml:16:35
     no veto       quality > 0.9 and not natural                                                             t.yaml:17:14
       fails       quality = 0.10                          > 0.90, misses by 0.80                            t.yaml:17:14
       unknown     not natural = ?                         natural is missing                                t.yaml:17:32

@@ -170,7 +170,7 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("surface rules are checked before any building is read") {
-    CHECK(surface_fault("hight > 1 m")
+    CHECK(surface_fault("base_hight > 1 m")
               .find("R204 unknown attribute 'base_hight'; did you mean 'base_height'?") !=
           std::string::npos);
     CHECK(surface_fault("volume > 1 m3").find("R204") != std::string::npos);
