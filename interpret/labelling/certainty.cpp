@@ -27,7 +27,7 @@ bool Evaluator::is_always_known(ExprId id) const {
     case Op::flag:
       return most_in(static_cast<std::size_t>(expr.index)) < kHuge;
     case Op::facet_is:
-      return most_in(facts_->host_inclination) < kHuge;
+      return most_in(column_of(Attribute::host_inclination)) < kHuge;
     case Op::is_class:
       return !has_unknown((expr.is_previous
                                ? facts_->previous
