@@ -236,7 +236,7 @@ void Prover::similarity(const Expr& expr, ConditionReport& report) {
 void Prover::facet(const Expr& expr, ConditionReport& report) {
   const auto kind = static_cast<HostKind>(expr.index);
   const HostRange range = range_of(pack_->hosts, kind);
-  const auto found = table_->number(feature_of(expr), "host_inclination");
+  const auto found = table_->number(feature_of(expr), Attribute::host_inclination);
   constexpr Dimension kAngle{0, 1};
   report.value = "host_inclination = " + (found ? write(*found, kAngle) : "?");
   report.bound =

@@ -9,8 +9,8 @@ SurfaceDecider::SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable&
                                const MoreAttributes* more)
     : surfaces_(surfaces),
       more_(more),
-      facts_(surfaces.pack, table),
-      evaluator_(surfaces.pack, facts_),
+      context_(surfaces.pack, table),
+      evaluator_(surfaces.pack, context_),
       conjuncts_(surfaces.rules.size()) {
   for (std::size_t r = 0; r < conjuncts_.size(); ++r)
     for (const ExprId id : surfaces.rules[r].when) add_conjuncts(id, conjuncts_[r]);

@@ -1,8 +1,8 @@
 #include "interpret/surfaces/surfaces.h"
 
 #include "interpret/compile/role.h"
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
-#include "interpret/evaluate/facts.h"
 #include "interpret/pack/names.h"
 #include "interpret/surfaces/surface_decider.h"
 #include "interpret/surfaces/surface_rules.h"
@@ -112,8 +112,8 @@ std::string place_of(const Pack& pack, rules::Span span) {
 
 std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, std::size_t row,
                        int last) {
-  const rules::Facts facts(surfaces.pack, table);
-  rules::Evaluator evaluator(surfaces.pack, facts);
+  const rules::EvaluationContext context(surfaces.pack, table);
+  rules::Evaluator evaluator(surfaces.pack, context);
   const int number = static_cast<int>(row);
   Frame frame;
   frame.size = 1;

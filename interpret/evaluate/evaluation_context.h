@@ -60,15 +60,15 @@ struct Links {
 
 /// One building or more, laid out for evaluation: everything a pack asks for by name is found once,
 /// before the first rule is run. Refers to the tables and graphs, which must outlive it.
-struct Facts {
-  Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+struct EvaluationContext {
+  EvaluationContext(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
   /// Several buildings, the features of one behind those of the other; nothing relates two. What is
   /// asked for is copied.
-  Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings);
+  EvaluationContext(const Pack& pack, std::span<const FeaturesOfBuilding> buildings);
   /// The same for surfaces, of which neither relations nor classes are known.
-  Facts(const Pack& pack, const SurfaceTable& table);
-  Facts(const Facts&) = delete;
-  Facts& operator=(const Facts&) = delete;
+  EvaluationContext(const Pack& pack, const SurfaceTable& table);
+  EvaluationContext(const EvaluationContext&) = delete;
+  EvaluationContext& operator=(const EvaluationContext&) = delete;
 
   std::size_t rows = 0;
   /// 0, 1, … rows - 1: a block of features is a piece of it.
@@ -90,7 +90,7 @@ struct Facts {
 
  private:
   /// Room for so many features.
-  Facts(const Pack& pack, std::size_t features);
+  EvaluationContext(const Pack& pack, std::size_t features);
   void find_hosts(const Pack& pack);
   void link(const Pack& pack, auto lists_of_relation);
 

@@ -1,4 +1,4 @@
-#include "interpret/evaluate/facts.h"
+#include "interpret/evaluate/evaluation_context.h"
 
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/evaluate/comparisons.h"
@@ -107,7 +107,7 @@ FeatureLinks joined_links(std::span<const FeaturesOfBuilding> buildings,
 
 }  // namespace
 
-Facts::Facts(const Pack& pack, std::size_t features)
+EvaluationContext::EvaluationContext(const Pack& pack, std::size_t features)
     : rows(features),
       row_numbers(rows),
       columns(feature_schema().size()),
@@ -117,8 +117,9 @@ Facts::Facts(const Pack& pack, std::size_t features)
   std::iota(row_numbers.begin(), row_numbers.end(), 0);
 }
 
-Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph)
-    : Facts(pack, table.rows()) {
+EvaluationContext::EvaluationContext(const Pack& pack, const FeatureTable& table,
+                                     const FeatureGraph& graph)
+    : EvaluationContext(pack, table.rows()) {
   if (rows == 0) return;
   TextCodes codes(pack);
   for (const std::size_t i : pack.reads.texts) {
@@ -135,8 +136,9 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
   });
 }
 
-Facts::Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings)
-    : Facts(pack, rows_of_all(buildings)) {
+EvaluationContext::EvaluationContext(const Pack& pack,
+                                     std::span<const FeaturesOfBuilding> buildings)
+    : EvaluationContext(pack, rows_of_all(buildings)) {
   if (rows == 0) return;
   TextCodes codes(pack);
   for (const std::size_t i : pack.reads.texts) {
@@ -160,7 +162,7 @@ Facts::Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings)
 
 /// Kind by kind: of one are those in its range that were of none before, unknown those whose
 /// inclination is missing. The last kind is what is left.
-void Facts::find_hosts(const Pack& pack) {
+void EvaluationContext::find_hosts(const Pack& pack) {
   const auto& asked = pack.reads.host_kinds;
   constexpr double kAny = std::numeric_limits<double>::infinity();
   const auto last = std::find(asked.rbegin(), asked.rend(), true);
@@ -177,7 +179,7 @@ void Facts::find_hosts(const Pack& pack) {
 }
 
 /// Relations of the pack read the columns, and the relation they narrow, which stands before them.
-void Facts::link(const Pack& pack, auto lists_of_relation) {
+void EvaluationContext::link(const Pack& pack, auto lists_of_relation) {
   const std::size_t built_in = relation_schema().size();
   narrowed_.reserve(pack.relations.size());
   for (std::size_t i = 0; i < relations.size(); ++i) {
@@ -193,7 +195,7 @@ void Facts::link(const Pack& pack, auto lists_of_relation) {
   }
 }
 
-Facts::Facts(const Pack& pack, const SurfaceTable& table)
+EvaluationContext::EvaluationContext(const Pack& pack, const SurfaceTable& table)
     : rows(table.rows()),
       row_numbers(rows),
       columns(surface_schema().size()),
