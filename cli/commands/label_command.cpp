@@ -31,16 +31,16 @@ std::string listing(const Building& building, const PipelineResult& line) {
   const FeatureTable& of = line.description.table;
   std::vector<std::vector<std::string>> rows{
       {"feature", "label", "score", "margin", "rule", "a m", "b m", "base height m"}};
-  const auto number = [&](FeatureId id, const char* name) {
-    const auto value = of.number(id, name);
+  const auto number = [&](FeatureId id, Attribute attribute) {
+    const auto value = of.number(id, attribute);
     return value ? fmt::format("{:.2f}", *value) : std::string("-");
   };
   for (const Verdict& verdict : line.interpretation.verdicts) {
     if (verdict.label.empty()) continue;
     rows.push_back({of.id(verdict.feature), verdict.label, fmt::format("{:.2f}", verdict.score),
                     fmt::format("{:.2f}", verdict.margin), verdict.rule,
-                    number(verdict.feature, "a"), number(verdict.feature, "b"),
-                    number(verdict.feature, "base_height")});
+                    number(verdict.feature, Attribute::a), number(verdict.feature, Attribute::b),
+                    number(verdict.feature, Attribute::base_height)});
   }
   return fmt::format("{}: {} of {} features have a label\n{}\n", building.id, rows.size() - 1,
                      line.interpretation.verdicts.size(), table(rows));

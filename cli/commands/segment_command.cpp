@@ -31,17 +31,17 @@ std::string listing(const Building& building, const PipelineResult& line) {
   const FeatureTable& table_of = line.description.table;
   std::vector<std::vector<std::string>> rows{
       {"feature", "sense", "planes", "value", "volume m3", "a m", "b m", "c m", "base height m"}};
-  const auto number = [&](FeatureId id, const char* name) {
-    const auto value = table_of.number(id, name);
+  const auto number = [&](FeatureId id, Attribute attribute) {
+    const auto value = table_of.number(id, attribute);
     return value ? fmt::format("{:.3f}", *value) : std::string("-");
   };
   for (int i = 0; i < std::ssize(segmentation.features); ++i) {
     const FeatureId id{i};
     const Feature& feature = segmentation.features[id.index()];
-    rows.push_back({table_of.id(id), to_string(feature.sense),
-                    fmt::format("{}", feature.planes.size()), number(id, "value"),
-                    number(id, "volume"), number(id, "a"), number(id, "b"), number(id, "c"),
-                    number(id, "base_height")});
+    rows.push_back(
+        {table_of.id(id), to_string(feature.sense), fmt::format("{}", feature.planes.size()),
+         number(id, Attribute::value), number(id, Attribute::volume), number(id, Attribute::a),
+         number(id, Attribute::b), number(id, Attribute::c), number(id, Attribute::base_height)});
   }
   const SegmentationStats& stats = segmentation.stats;
   return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n", building.id,

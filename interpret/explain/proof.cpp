@@ -124,15 +124,15 @@ void Prover::find_missing(ExprId id, std::vector<std::string>& missing) const {
   for (const ExprId arg : expr.args) find_missing(arg, missing);
   const bool is_attribute = expr.op == Op::attribute || expr.op == Op::flag;
   if (!is_known(expr.level) || (!is_attribute && expr.op != Op::facet_is)) return;
-  const Attribute& attribute = expr.op == Op::facet_is
-                                   ? feature_schema()[column_of("host_inclination").value()]
-                                   : feature_schema()[static_cast<std::size_t>(expr.index)];
+  const Attribute attribute = expr.op == Op::facet_is
+                                  ? Attribute::host_inclination
+                                  : kAttributes[static_cast<std::size_t>(expr.index)];
+  const AttributeInfo& info = info_of(attribute);
   const FeatureId feature = feature_of(expr);
-  const bool has_value = attribute.unit == Unit::text
-                             ? !table_->text(feature, attribute.name).empty()
-                             : table_->number(feature, attribute.name).has_value();
-  if (!has_value && std::ranges::find(missing, attribute.name) == missing.end())
-    missing.push_back(attribute.name);
+  const bool has_value = info.unit == Unit::text ? !table_->text(feature, attribute).empty()
+                                                 : table_->number(feature, attribute).has_value();
+  if (!has_value && std::ranges::find(missing, info.name) == missing.end())
+    missing.push_back(info.name);
 }
 
 std::vector<ConditionReport> Prover::conditions(ExprId id) {
@@ -236,7 +236,7 @@ void Prover::similarity(const Expr& expr, ConditionReport& report) {
 void Prover::facet(const Expr& expr, ConditionReport& report) {
   const auto kind = static_cast<HostKind>(expr.index);
   const HostRange range = range_of(pack_->hosts, kind);
-  const auto found = table_->number(feature_of(expr), "host_inclination");
+  const auto found = table_->number(feature_of(expr), Attribute::host_inclination);
   constexpr Dimension kAngle{0, 1};
   report.value = "host_inclination = " + (found ? write(*found, kAngle) : "?");
   report.bound =

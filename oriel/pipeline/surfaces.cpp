@@ -28,8 +28,8 @@ class MeasuredWhenAsked : public MoreAttributes {
  public:
   explicit MeasuredWhenAsked(SurfaceSurvey& survey) : survey_(survey) {}
 
-  [[nodiscard]] bool is_pending(std::size_t column) const override {
-    const auto measure = measure_of(column);
+  [[nodiscard]] bool is_pending(SurfaceAttribute attribute) const override {
+    const auto measure = measure_of(attribute);
     const auto pending = std::span(kSurfaceMeasures).subspan(done_);
     return measure && std::ranges::find(pending, *measure) != pending.end();
   }

@@ -39,10 +39,10 @@ std::optional<AttributeTest> attribute_test(const Pack& pack, ExprId id, bool is
 
 /// What must be true of a feature for which all of some conditions hold, as far as it can be told
 /// from attributes compared with constants, words, and classes with and without `not`.
-class Demands {
+class Constraints {
  public:
   /// All of `conditions`. A predicate that is asked for adds what all its rules have in common.
-  Demands(const Pack& pack, const std::vector<ExprId>& conditions);
+  Constraints(const Pack& pack, const std::vector<ExprId>& conditions);
 
   /// Two conditions that cannot hold together, the later one second; of one that contradicts itself
   /// twice the same.
@@ -53,13 +53,13 @@ class Demands {
   [[nodiscard]] bool imply(ExprId condition) const;
 
  private:
-  Demands(const Pack& pack, int depth) : pack_(&pack), depth_(depth) {}
+  Constraints(const Pack& pack, int depth) : pack_(&pack), depth_(depth) {}
   void add(ExprId id, bool is_negated);
   void add_interval(int column, const Interval& interval);
   void add_words(const Expr& expr, ExprId id, bool is_negated);
   void add_predicate(ClassId id, ExprId by);
   void add_other(ExprId id, bool is_negated);
-  void keep_common(const Demands& other);
+  void keep_common(const Constraints& other);
   [[nodiscard]] bool implies_words(const Expr& expr, bool is_negated) const;
   [[nodiscard]] bool implies(ExprId id, bool is_negated) const;
   void contradict(ExprId earlier, ExprId later);

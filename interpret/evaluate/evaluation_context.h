@@ -60,15 +60,15 @@ struct Links {
 
 /// One building or more, laid out for evaluation: everything a pack asks for by name is found once,
 /// before the first rule is run. Refers to the tables and graphs, which must outlive it.
-struct Facts {
-  Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
+struct EvaluationContext {
+  EvaluationContext(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
   /// Several buildings, the features of one behind those of the other; nothing relates two. What is
   /// asked for is copied.
-  Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings);
+  EvaluationContext(const Pack& pack, std::span<const FeaturesOfBuilding> buildings);
   /// The same for surfaces, of which neither relations nor classes are known.
-  Facts(const Pack& pack, const SurfaceTable& table);
-  Facts(const Facts&) = delete;
-  Facts& operator=(const Facts&) = delete;
+  EvaluationContext(const Pack& pack, const SurfaceTable& table);
+  EvaluationContext(const EvaluationContext&) = delete;
+  EvaluationContext& operator=(const EvaluationContext&) = delete;
 
   std::size_t rows = 0;
   /// 0, 1, … rows - 1: a block of features is a piece of it.
@@ -85,14 +85,12 @@ struct Facts {
   /// Whether the host facet is of a kind, by HostKind and row; of no size where no rule asks for
   /// the kind or one behind it.
   std::array<std::vector<Truth>, 4> hosts;
-  /// The column of that attribute.
-  std::size_t host_inclination = 0;
   /// The denominator of the target scale, if there is one.
   double scale = 0;
 
  private:
   /// Room for so many features.
-  Facts(const Pack& pack, std::size_t features);
+  EvaluationContext(const Pack& pack, std::size_t features);
   void find_hosts(const Pack& pack);
   void link(const Pack& pack, auto lists_of_relation);
 

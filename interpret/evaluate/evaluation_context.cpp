@@ -1,4 +1,4 @@
-#include "interpret/evaluate/facts.h"
+#include "interpret/evaluate/evaluation_context.h"
 
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/evaluate/comparisons.h"
@@ -19,6 +19,8 @@
 namespace oriel::rules {
 
 namespace {
+
+constexpr std::size_t kHostInclination = column_of(Attribute::host_inclination);
 
 /// Numbers of texts: of the pack's words their position, of others those that follow.
 class TextCodes {
@@ -64,11 +66,11 @@ std::size_t rows_of_all(std::span<const FeaturesOfBuilding> buildings) {
 }
 
 std::vector<double> joined_numbers(std::span<const FeaturesOfBuilding> buildings,
-                                   std::size_t column, std::size_t rows) {
+                                   Attribute attribute, std::size_t rows) {
   std::vector<double> joined;
   joined.reserve(rows);
   for (const FeaturesOfBuilding& building : buildings) {
-    const auto numbers = building.table->numbers(column);
+    const auto numbers = building.table->numbers(attribute);
     joined.insert(joined.end(), numbers.begin(), numbers.end());
   }
   return joined;
@@ -105,27 +107,27 @@ FeatureLinks joined_links(std::span<const FeaturesOfBuilding> buildings,
 
 }  // namespace
 
-Facts::Facts(const Pack& pack, std::size_t features)
+EvaluationContext::EvaluationContext(const Pack& pack, std::size_t features)
     : rows(features),
       row_numbers(rows),
       columns(feature_schema().size()),
       relations(relation_schema().size() + pack.relations.size()),
       membership(pack.classes.size(), std::vector<Truth>(rows, Truth::no)),
-      host_inclination(column_of("host_inclination").value()),
       coded_texts_(columns.size()) {
   std::iota(row_numbers.begin(), row_numbers.end(), 0);
 }
 
-Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph)
-    : Facts(pack, table.rows()) {
+EvaluationContext::EvaluationContext(const Pack& pack, const FeatureTable& table,
+                                     const FeatureGraph& graph)
+    : EvaluationContext(pack, table.rows()) {
   if (rows == 0) return;
   TextCodes codes(pack);
   for (const std::size_t i : pack.reads.texts) {
-    code_texts(table.texts(i), codes, coded_texts_[i]);
+    code_texts(table.texts(kAttributes[i]), codes, coded_texts_[i]);
     columns[i] = coded_texts_[i];
   }
-  for (const std::size_t i : pack.reads.numbers) columns[i] = table.numbers(i);
-  columns[host_inclination] = table.numbers(host_inclination);
+  for (const std::size_t i : pack.reads.numbers) columns[i] = table.numbers(kAttributes[i]);
+  columns[kHostInclination] = table.numbers(Attribute::host_inclination);
   find_hosts(pack);
   link(pack, [&](const std::string& relation) {
     const FeatureLinks& links = graph.links(relation);
@@ -134,22 +136,23 @@ Facts::Facts(const Pack& pack, const FeatureTable& table, const FeatureGraph& gr
   });
 }
 
-Facts::Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings)
-    : Facts(pack, rows_of_all(buildings)) {
+EvaluationContext::EvaluationContext(const Pack& pack,
+                                     std::span<const FeaturesOfBuilding> buildings)
+    : EvaluationContext(pack, rows_of_all(buildings)) {
   if (rows == 0) return;
   TextCodes codes(pack);
   for (const std::size_t i : pack.reads.texts) {
     for (const FeaturesOfBuilding& building : buildings)
-      code_texts(building.table->texts(i), codes, coded_texts_[i]);
+      code_texts(building.table->texts(kAttributes[i]), codes, coded_texts_[i]);
     columns[i] = coded_texts_[i];
   }
   joined_numbers_.resize(columns.size());
   const auto join = [&](std::size_t column) {
-    joined_numbers_[column] = joined_numbers(buildings, column, rows);
+    joined_numbers_[column] = joined_numbers(buildings, kAttributes[column], rows);
     columns[column] = joined_numbers_[column];
   };
   for (const std::size_t i : pack.reads.numbers) join(i);
-  if (joined_numbers_[host_inclination].empty()) join(host_inclination);
+  if (joined_numbers_[kHostInclination].empty()) join(kHostInclination);
   find_hosts(pack);
   joined_lists_.reserve(relation_schema().size());
   link(pack, [&](const std::string& relation) {
@@ -159,7 +162,7 @@ Facts::Facts(const Pack& pack, std::span<const FeaturesOfBuilding> buildings)
 
 /// Kind by kind: of one are those in its range that were of none before, unknown those whose
 /// inclination is missing. The last kind is what is left.
-void Facts::find_hosts(const Pack& pack) {
+void EvaluationContext::find_hosts(const Pack& pack) {
   const auto& asked = pack.reads.host_kinds;
   constexpr double kAny = std::numeric_limits<double>::infinity();
   const auto last = std::find(asked.rbegin(), asked.rend(), true);
@@ -168,7 +171,7 @@ void Facts::find_hosts(const Pack& pack) {
   for (std::size_t kind = 0; kind < static_cast<std::size_t>(asked.rend() - last); ++kind) {
     std::vector<Truth>& answers = hosts[kind];
     answers.resize(rows);
-    compare_range(columns[host_inclination], ranges[kind].low_deg, ranges[kind].high_deg, answers);
+    compare_range(columns[kHostInclination], ranges[kind].low_deg, ranges[kind].high_deg, answers);
     for (std::size_t before = 0; before < kind; ++before)
       for (std::size_t row = 0; row < rows; ++row)
         answers[row] = hosts[before][row] == Truth::yes ? Truth::no : answers[row];
@@ -176,7 +179,7 @@ void Facts::find_hosts(const Pack& pack) {
 }
 
 /// Relations of the pack read the columns, and the relation they narrow, which stands before them.
-void Facts::link(const Pack& pack, auto lists_of_relation) {
+void EvaluationContext::link(const Pack& pack, auto lists_of_relation) {
   const std::size_t built_in = relation_schema().size();
   narrowed_.reserve(pack.relations.size());
   for (std::size_t i = 0; i < relations.size(); ++i) {
@@ -192,7 +195,7 @@ void Facts::link(const Pack& pack, auto lists_of_relation) {
   }
 }
 
-Facts::Facts(const Pack& pack, const SurfaceTable& table)
+EvaluationContext::EvaluationContext(const Pack& pack, const SurfaceTable& table)
     : rows(table.rows()),
       row_numbers(rows),
       columns(surface_schema().size()),
@@ -200,12 +203,13 @@ Facts::Facts(const Pack& pack, const SurfaceTable& table)
   std::iota(row_numbers.begin(), row_numbers.end(), 0);
   if (rows == 0) return;
   TextCodes codes(pack);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (surface_schema()[i].unit == Unit::text) {
-      code_texts(table.texts(i), codes, coded_texts_[i]);
+  for (const SurfaceAttribute attribute : kSurfaceAttributes) {
+    const std::size_t i = column_of(attribute);
+    if (info_of(attribute).unit == Unit::text) {
+      code_texts(table.texts(attribute), codes, coded_texts_[i]);
       columns[i] = coded_texts_[i];
     } else {
-      columns[i] = table.numbers(i);
+      columns[i] = table.numbers(attribute);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "interpret/explain/demands.h"
+#include "interpret/explain/constraints.h"
 
 #include "interpret/compile/fold.h"
 #include "interpret/evaluate/evaluator.h"
@@ -12,7 +12,7 @@ namespace oriel::rules {
 
 namespace {
 
-/// Predicates of predicates are looked into so deep; what is deeper demands nothing.
+/// Predicates of predicates are looked into so deep; what is deeper constrains nothing.
 constexpr int kDeepest = 4;
 
 const Expr& at(const Pack& pack, ExprId id) { return pack.code[static_cast<std::size_t>(id)]; }
@@ -80,7 +80,7 @@ std::optional<AttributeTest> facet_test(const Pack& pack, ExprId id) {
   const Expr& expr = at(pack, id);
   if (expr.level != 0) return std::nullopt;
   const HostRange range = range_of(pack.hosts, static_cast<HostKind>(expr.index));
-  return AttributeTest{static_cast<int>(column_of("host_inclination").value()),
+  return AttributeTest{static_cast<int>(column_of(Attribute::host_inclination)),
                        {range.low_deg, range.high_deg, false, false, id, id}};
 }
 
@@ -151,15 +151,16 @@ bool is_mirrored(const Pack& pack, ExprId p, ExprId q) {
   return true;
 }
 
-Demands::Demands(const Pack& pack, const std::vector<ExprId>& conditions) : Demands(pack, 0) {
+Constraints::Constraints(const Pack& pack, const std::vector<ExprId>& conditions)
+    : Constraints(pack, 0) {
   for (const ExprId id : conditions) add(id, false);
 }
 
-void Demands::contradict(ExprId earlier, ExprId later) {
+void Constraints::contradict(ExprId earlier, ExprId later) {
   if (!contradiction_) contradiction_ = {earlier, later};
 }
 
-void Demands::add(ExprId id, bool is_negated) {
+void Constraints::add(ExprId id, bool is_negated) {
   const Expr& expr = at(*pack_, id);
   if (expr.op == Op::negation) return add(expr.args[0], !is_negated);
   const bool is_conjunction = expr.op == (is_negated ? Op::any_of : Op::all_of);
@@ -174,7 +175,7 @@ void Demands::add(ExprId id, bool is_negated) {
   add_other(id, is_negated);
 }
 
-void Demands::add_interval(int column, const Interval& interval) {
+void Constraints::add_interval(int column, const Interval& interval) {
   Interval& left = intervals_[column];
   const bool was_empty = left.is_empty();
   if (interval.low > left.low || (interval.low == left.low && interval.is_low_open)) {
@@ -191,7 +192,7 @@ void Demands::add_interval(int column, const Interval& interval) {
   contradict(std::min(left.low_by, left.high_by), std::max(left.low_by, left.high_by));
 }
 
-void Demands::add_words(const Expr& expr, ExprId id, bool is_negated) {
+void Constraints::add_words(const Expr& expr, ExprId id, bool is_negated) {
   auto allowed = words_of(*pack_, expr);
   if (!allowed || is_negated != (expr.op == Op::not_equal)) return;
   const auto [place, is_new] = words_.try_emplace(at(*pack_, expr.args[0]).index);
@@ -203,18 +204,18 @@ void Demands::add_words(const Expr& expr, ExprId id, bool is_negated) {
 }
 
 /// What all rules of a predicate have in common holds for every feature that is one.
-void Demands::add_predicate(ClassId id, ExprId by) {
+void Constraints::add_predicate(ClassId id, ExprId by) {
   const Class& c = pack_->classes[static_cast<std::size_t>(id)];
   if (!c.is_abstract || !c.has_rules || depth_ >= kDeepest) return;
-  std::optional<Demands> common;
+  std::optional<Constraints> common;
   for (const Rule& rule : pack_->rules) {
     if (rule.label != id) continue;
-    Demands demands(*pack_, depth_ + 1);
-    for (const ExprId condition : rule.require) demands.add(condition, false);
+    Constraints constraints(*pack_, depth_ + 1);
+    for (const ExprId condition : rule.require) constraints.add(condition, false);
     if (!common)
-      common = std::move(demands);
+      common = std::move(constraints);
     else
-      common->keep_common(demands);
+      common->keep_common(constraints);
   }
   if (!common) return;
   for (auto [column, interval] : common->intervals_) {
@@ -231,7 +232,7 @@ void Demands::add_predicate(ClassId id, ExprId by) {
 }
 
 /// Conditions of any kind contradict their own opposite.
-void Demands::add_other(ExprId id, bool is_negated) {
+void Constraints::add_other(ExprId id, bool is_negated) {
   const Expr& expr = at(*pack_, id);
   // The bounds of walls, roofs and grounds touch, but no facet is two of them.
   const auto is_other_facet = [&](const Expr& mine) {
@@ -248,7 +249,7 @@ void Demands::add_other(ExprId id, bool is_negated) {
 }
 
 /// The smallest interval around both.
-void Demands::keep_common(const Demands& other) {
+void Constraints::keep_common(const Constraints& other) {
   for (auto mine = intervals_.begin(); mine != intervals_.end();) {
     const auto theirs = other.intervals_.find(mine->first);
     if (theirs == other.intervals_.end()) {
@@ -278,9 +279,9 @@ void Demands::keep_common(const Demands& other) {
   }
 }
 
-bool Demands::imply(ExprId condition) const { return implies(condition, false); }
+bool Constraints::imply(ExprId condition) const { return implies(condition, false); }
 
-bool Demands::implies_words(const Expr& expr, bool is_negated) const {
+bool Constraints::implies_words(const Expr& expr, bool is_negated) const {
   const auto words = words_of(*pack_, expr);
   const auto mine = words_.find(at(*pack_, expr.args[0]).index);
   if (!words || mine == words_.end()) return false;
@@ -289,7 +290,7 @@ bool Demands::implies_words(const Expr& expr, bool is_negated) const {
                              [&](double w) { return words->contains(w) == wants_in; });
 }
 
-bool Demands::implies(ExprId id, bool is_negated) const {
+bool Constraints::implies(ExprId id, bool is_negated) const {
   const Expr& expr = at(*pack_, id);
   if (expr.op == Op::negation) return implies(expr.args[0], !is_negated);
   const auto is_implied = [&](ExprId arg) { return implies(arg, is_negated); };
