@@ -1,6 +1,5 @@
 #include "kernel/segment/complex/cell_complex.h"
 
-#include "kernel/segment/complex/conform.h"
 #include "kernel/segment/complex/outlines.h"
 #include "kernel/segment/complex/owners.h"
 #include "kernel/segment/complex/sheet.h"
