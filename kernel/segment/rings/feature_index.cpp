@@ -1,4 +1,4 @@
-#include "kernel/segment/rings/residents.h"
+#include "kernel/segment/rings/feature_index.h"
 
 #include "kernel/base/index.h"
 
@@ -24,25 +24,25 @@ Reach reach_of_ring(const Solid& solid, const Facet& facet, const Loop& loop,
 
 }  // namespace
 
-Residents::Residents(const Segmentation& segmentation, const Tolerances& tolerances)
+FeatureIndex::FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances)
     : segmentation_(segmentation), tolerances_(tolerances), planes_(segmentation.planes.size()) {
   for (int i = 0; i < std::ssize(segmentation.features); ++i)
     for (const PlaneId plane : segmentation.features[at(i)].planes)
       planes_[plane.index()].features.push_back(FeatureId{i});
 }
 
-const std::vector<Residents::Resident>& Residents::on(PlaneId plane) {
+const std::vector<FeatureIndex::PlacedCap>& FeatureIndex::on(PlaneId plane) {
   OfPlane& here = planes_[plane.index()];
   if (!here.is_known) {
     here.is_known = true;
-    here.residents.reserve(here.features.size());
-    for (const FeatureId id : here.features) here.residents.push_back({id, cap_of(id, plane)});
-    std::ranges::stable_sort(here.residents, {}, [](const Resident& r) { return r.cap.u0; });
+    here.caps.reserve(here.features.size());
+    for (const FeatureId id : here.features) here.caps.push_back({id, cap_of(id, plane)});
+    std::ranges::stable_sort(here.caps, {}, [](const PlacedCap& r) { return r.cap.u0; });
   }
-  return here.residents;
+  return here.caps;
 }
 
-Reach Residents::cap_of(FeatureId id, PlaneId number) const {
+Reach FeatureIndex::cap_of(FeatureId id, PlaneId number) const {
   const Plane& plane = segmentation_.planes[number.index()];
   const ReachAxes axes = axes_in(plane.normal);
   Reach cap;
@@ -55,38 +55,37 @@ Reach Residents::cap_of(FeatureId id, PlaneId number) const {
 }
 
 template <class Test>
-bool Residents::any_within(PlaneId plane, const Reach& reach, Test test) {
-  const std::vector<Resident>& residents = on(plane);
+bool FeatureIndex::any_within(PlaneId plane, const Reach& reach, Test test) {
+  const std::vector<PlacedCap>& caps = on(plane);
   const double slack = tolerances_.weld_m + tolerances_.plane_offset_m;
-  auto r = std::ranges::lower_bound(residents, reach.u0 - slack, {},
-                                    [](const Resident& resident) { return resident.cap.u0; });
-  for (; r != residents.end() && r->cap.u0 <= reach.u1; ++r)
+  auto r = std::ranges::lower_bound(caps, reach.u0 - slack, {},
+                                    [](const PlacedCap& resident) { return resident.cap.u0; });
+  for (; r != caps.end() && r->cap.u0 <= reach.u1; ++r)
     if (reach.holds(r->cap, slack) && test(*r)) return true;
   return false;
 }
 
-std::vector<FeatureId> Residents::within(PlaneId plane, const Reach& reach) {
+std::vector<FeatureId> FeatureIndex::within(PlaneId plane, const Reach& reach) {
   std::vector<FeatureId> found;
-  any_within(plane, reach, [&](const Resident& r) {
+  any_within(plane, reach, [&](const PlacedCap& r) {
     found.push_back(r.id);
     return false;
   });
   return found;
 }
 
-bool Residents::fills(PlaneId plane, const Reach& reach) {
+bool FeatureIndex::fills(PlaneId plane, const Reach& reach) {
   const double least_m2 = kSameRing * reach.area();
-  return any_within(plane, reach, [&](const Resident& r) { return r.cap.area() >= least_m2; });
+  return any_within(plane, reach, [&](const PlacedCap& r) { return r.cap.area() >= least_m2; });
 }
 
-bool all_rings_have_residents(const Solid& solid, Residents& residents,
-                              const Tolerances& tolerances) {
+bool are_all_rings_filled(const Solid& solid, FeatureIndex& caps, const Tolerances& tolerances) {
   for (int f = 0; f < std::ssize(solid.facets); ++f) {
     const Facet& facet = solid.facets[at(f)];
     if (facet.loops.size() == 1) continue;
     const ReachAxes axes = axes_in(solid.planes[facet.plane.index()].normal);
     for (std::size_t l = 1; l < facet.loops.size(); ++l)
-      if (!residents.fills(facet.plane, reach_of_ring(solid, facet, facet.loops[l], axes)) &&
+      if (!caps.fills(facet.plane, reach_of_ring(solid, facet, facet.loops[l], axes)) &&
           !is_slit(ring_of(solid, FacetId{f}, facet.loops[l]), tolerances))
         return false;
   }

@@ -9,11 +9,11 @@
 
 namespace oriel::detail {
 
-/// The features that a segmentation has so far, found by the planes of their caps. What is appended
-/// later is none of them.
-class Residents {
+/// The features that a segmentation has so far, to be found by the planes of their caps. What is
+/// appended later is none of them.
+class FeatureIndex {
  public:
-  Residents(const Segmentation& segmentation, const Tolerances& tolerances);
+  FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances);
 
   /// The features with a cap within a rectangle of a plane, from left to right.
   [[nodiscard]] std::vector<FeatureId> within(PlaneId plane, const Reach& reach);
@@ -22,16 +22,16 @@ class Residents {
   [[nodiscard]] bool fills(PlaneId plane, const Reach& reach);
 
  private:
-  struct Resident {
+  struct PlacedCap {
     FeatureId id;
     Reach cap;  ///< of its points in that plane
   };
   struct OfPlane {
     bool is_known = false;  ///< caps are measured when they are asked for
     std::vector<FeatureId> features;
-    std::vector<Resident> residents;  ///< by Reach::u0
+    std::vector<PlacedCap> caps;  ///< by Reach::u0
   };
-  const std::vector<Resident>& on(PlaneId plane);
+  const std::vector<PlacedCap>& on(PlaneId plane);
   [[nodiscard]] Reach cap_of(FeatureId id, PlaneId number) const;
   /// One of those with a cap within the rectangle, asked from left to right, passes the test.
   template <class Test>
@@ -42,9 +42,8 @@ class Residents {
   std::vector<OfPlane> planes_;
 };
 
-/// True if each ring of a solid's facets has a resident: then add_ring_features has nothing to add.
-/// So it is for nearly all solids, and it is known without a look at the input polygons.
-bool all_rings_have_residents(const Solid& solid, Residents& residents,
-                              const Tolerances& tolerances);
+/// True if each ring of a solid's facets is filled by a feature: then add_ring_features has nothing
+/// to add. So it is for nearly all solids, and it is known without a look at the input polygons.
+bool are_all_rings_filled(const Solid& solid, FeatureIndex& caps, const Tolerances& tolerances);
 
 }  // namespace oriel::detail

@@ -14,7 +14,7 @@ namespace oriel::detail {
 /// lies in: their polygons and vertices, their boxes and surfaces. One that lies flat in a facet,
 /// within plane_offset_m, becomes an imprint there. The others are left alone, as are those
 /// without area.
-void join_loose_polygons(const Building& building, const Solid& solid, Segmentation& segmentation,
-                         const Tolerances& tolerances);
+void join_unassigned_polygons(const Building& building, const Solid& solid,
+                              Segmentation& segmentation, const Tolerances& tolerances);
 
 }  // namespace oriel::detail

@@ -1,4 +1,4 @@
-#include "kernel/segment/flush/loose.h"
+#include "kernel/segment/flush/unassigned_polygons.h"
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
@@ -21,7 +21,7 @@ namespace {
 constexpr double kAskew_deg = 5;
 constexpr double kThickWall_m = 0.5;
 
-struct LoosePolygon {
+struct UnassignedPolygon {
   int source = -1;
   std::vector<Outline> rings;
   Vec3 normal;
@@ -42,22 +42,23 @@ class Joiner {
       : building_(building), solid_(solid), out_(segmentation), tolerances_(tolerances) {}
 
   void run() {
-    for (const LoosePolygon& polygon : loose_polygons())
+    for (const UnassignedPolygon& polygon : unassigned_polygons())
       if (!join(polygon)) lay(polygon);
   }
 
  private:
   /// The largest first, so that what lies within another comes behind it.
-  [[nodiscard]] std::vector<LoosePolygon> loose_polygons() const {
+  [[nodiscard]] std::vector<UnassignedPolygon> unassigned_polygons() const {
     int count = 0;
     for (const Polygon& polygon : building_.polygons) count = std::max(count, polygon.source + 1);
     std::vector<char> has_facet(at(count), 0);
     for (const Facet& facet : solid_.facets)
       for (const int source : facet.polygons) has_facet[at(source)] = 1;
-    std::vector<LoosePolygon> loose;
+    std::vector<UnassignedPolygon> loose;
     for (const Polygon& polygon : building_.polygons) {
       if (polygon.source < 0 || has_facet[at(polygon.source)]) continue;
-      LoosePolygon found{polygon.source, outlines_of(building_, polygon, solid_.grid_m), {}, 0};
+      UnassignedPolygon found{
+          polygon.source, outlines_of(building_, polygon, solid_.grid_m), {}, 0};
       double round_m = 0;
       for (const Outline& ring : found.rings) round_m += perimeter(ring);
       const Vec3 area = area_vector(found.rings);
@@ -65,7 +66,7 @@ class Joiner {
       found.normal = normalised(area);
       if (found.area_m2 > tolerances_.weld_m * round_m / 2) loose.push_back(std::move(found));
     }
-    std::ranges::sort(loose, {}, [](const LoosePolygon& p) {
+    std::ranges::sort(loose, {}, [](const UnassignedPolygon& p) {
       const Vec3 first = p.rings[0][0];
       return std::tuple(-p.area_m2, first.x, first.y, first.z, p.source);
     });
@@ -77,7 +78,7 @@ class Joiner {
   }
 
   /// True if there is an opening that the polygon belongs to.
-  bool join(const LoosePolygon& polygon) {
+  bool join(const UnassignedPolygon& polygon) {
     std::optional<std::pair<double, FeatureId>> smallest;
     for (int i = 0; i < std::ssize(out_.features); ++i) {
       const Feature& f = out_.features[at(i)];
@@ -94,7 +95,7 @@ class Joiner {
   }
 
   /// The size of the opening's rectangle if the polygon covers it as it must.
-  [[nodiscard]] std::optional<double> covered_m2(const LoosePolygon& polygon, const Feature& f,
+  [[nodiscard]] std::optional<double> covered_m2(const UnassignedPolygon& polygon, const Feature& f,
                                                  Vec3 normal) const {
     std::vector<Vec3> points;
     for (const int v : f.vertices) points.push_back(out_.vertices[at(v)].point);
@@ -119,7 +120,7 @@ class Joiner {
   }
 
   /// Adds the polygon to a feature, and to all that this one lies in.
-  void add_to(FeatureId id, const LoosePolygon& polygon) {
+  void add_to(FeatureId id, const UnassignedPolygon& polygon) {
     const int first = static_cast<int>(out_.vertices.size());
     for (const Vec3 p : polygon.rings[0]) out_.vertices.push_back({p, false});
     std::vector<FeatureId> around{id};
@@ -140,7 +141,7 @@ class Joiner {
   }
 
   /// Makes the polygon an imprint of the facet in which it lies.
-  void lay(const LoosePolygon& polygon) {
+  void lay(const UnassignedPolygon& polygon) {
     for (int c = 0; c < std::ssize(out_.cells); ++c) {
       const Cell& cell = out_.cells[at(c)];
       for (int f = 0; f < std::ssize(cell.facets); ++f) {
@@ -155,7 +156,7 @@ class Joiner {
     }
   }
 
-  [[nodiscard]] bool lies_in(const LoosePolygon& polygon, const Facet& facet,
+  [[nodiscard]] bool lies_in(const UnassignedPolygon& polygon, const Facet& facet,
                              const Plane& plane) const {
     if (!is_parallel(polygon.normal, plane.normal, tolerances_.coplanar_deg)) return false;
     const auto is_off = [&](Vec3 p) {
@@ -167,7 +168,7 @@ class Joiner {
     return middle && contains(outlines, plane.normal, *middle);
   }
 
-  void add_imprint(const LoosePolygon& polygon, CellFacet home, const Plane& cell_plane) {
+  void add_imprint(const UnassignedPolygon& polygon, CellFacet home, const Plane& cell_plane) {
     const Cell& cell = out_.cells[home.cell.index()];
     Feature f;
     f.sense = Sense::imprint;
@@ -214,8 +215,8 @@ class Joiner {
 
 }  // namespace
 
-void join_loose_polygons(const Building& building, const Solid& solid, Segmentation& segmentation,
-                         const Tolerances& tolerances) {
+void join_unassigned_polygons(const Building& building, const Solid& solid,
+                              Segmentation& segmentation, const Tolerances& tolerances) {
   Joiner(building, solid, segmentation, tolerances).run();
 }
 

@@ -9,7 +9,7 @@
 namespace oriel::detail {
 
 /// Polygons of a subdivision that lie inset in another of its polygons, the host.
-struct Inset {
+struct ContainedPolygons {
   int subdivision = -1;
   /// A polygon of the host.
   int host = -1;
@@ -26,14 +26,14 @@ struct Inset {
   Outline whole;
 };
 
-/// Everything inset, subdivision by subdivision, the largest first.
+/// Everything contained, subdivision by subdivision, the largest first.
 ///
 /// A host is one polygon or, where hints differ, the connected polygons of one hint. Polygons lie
 /// inset in it if they fill an inner ring of it, or if it runs along three sides of them, as a wall
-/// does around a door: a chain of its edges that turns inward only, by kInset_deg or more. Pieces
+/// does around a door: a chain of its edges that turns inward only, by kTurn_deg or more. Pieces
 /// of a triangulation, or of any division into convex pieces, share one side with each other and so
-/// are never inset. What is thinner than weld_m is no inset.
-std::vector<Inset> find_insets(const Solid& solid, const Subdivisions& subdivisions,
-                               const Tolerances& tolerances);
+/// are never contained. What is thinner than weld_m is no contained.
+std::vector<ContainedPolygons> find_contained(const Solid& solid, const Subdivisions& subdivisions,
+                                              const Tolerances& tolerances);
 
 }  // namespace oriel::detail

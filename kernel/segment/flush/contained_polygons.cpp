@@ -1,4 +1,4 @@
-#include "kernel/segment/flush/insets.h"
+#include "kernel/segment/flush/contained_polygons.h"
 
 #include "kernel/base/index.h"
 
@@ -14,35 +14,38 @@ namespace oriel::detail {
 namespace {
 
 /// How far a chain around three sides must turn: two right angles, less what lets the sides lean.
-constexpr double kInset_deg = 150;
+constexpr double kTurn_deg = 150;
 /// A chain may turn outward by this much at a vertex and still be straight: noise.
 constexpr double kStraight_deg = 1;
 
 /// A cycle of edges.
 using EdgeLoop = std::vector<int>;
 
-class InsetFinder {
+class ContainedFinder {
  public:
-  InsetFinder(const Solid& solid, const Subdivisions& subdivisions, const Tolerances& tolerances)
+  ContainedFinder(const Solid& solid, const Subdivisions& subdivisions,
+                  const Tolerances& tolerances)
       : solid_(solid),
         subdivisions_(subdivisions),
         tolerances_(tolerances),
         mark_(subdivisions.polygons.size(), 0) {}
 
-  std::vector<Inset> run() {
+  std::vector<ContainedPolygons> run() {
     for (subdivision_ = 0; subdivision_ < std::ssize(subdivisions_.subdivisions); ++subdivision_) {
       const Subdivision& subdivision = subdivisions_.subdivisions[at(subdivision_)];
       normal_ = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()].normal;
       for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) look_into({p});
       if (subdivision.has_hints) look_into_hints(subdivision);
     }
-    const auto key = [](const Inset& i) {
+    const auto key = [](const ContainedPolygons& i) {
       return std::tuple(i.subdivision, -i.area_m2, i.polygons);
     };
     std::ranges::sort(out_, {}, key);
     // A host of several polygons may show again what one of them has shown.
     std::set<std::vector<int>> seen;
-    std::erase_if(out_, [&](const Inset& inset) { return !seen.insert(inset.polygons).second; });
+    std::erase_if(out_, [&](const ContainedPolygons& contained) {
+      return !seen.insert(contained.polygons).second;
+    });
     return std::move(out_);
   }
 
@@ -182,7 +185,7 @@ class InsetFinder {
         chain.push_back(loop[(i + 1) % size]);
       }
       ++i;
-      if (chain.size() >= 3 && turn >= kInset_deg) has_found |= look_behind(host, chain);
+      if (chain.size() >= 3 && turn >= kTurn_deg) has_found |= look_behind(host, chain);
     }
     return has_found;
   }
@@ -245,14 +248,14 @@ class InsetFinder {
   Vec3 normal_;
   std::vector<int> mark_;  ///< by polygon, the number of the flood that reached it last
   int last_mark_ = 0;
-  std::vector<Inset> out_;
+  std::vector<ContainedPolygons> out_;
 };
 
 }  // namespace
 
-std::vector<Inset> find_insets(const Solid& solid, const Subdivisions& subdivisions,
-                               const Tolerances& tolerances) {
-  return InsetFinder(solid, subdivisions, tolerances).run();
+std::vector<ContainedPolygons> find_contained(const Solid& solid, const Subdivisions& subdivisions,
+                                              const Tolerances& tolerances) {
+  return ContainedFinder(solid, subdivisions, tolerances).run();
 }
 
 }  // namespace oriel::detail

@@ -1,4 +1,4 @@
-#include "kernel/segment/planes/plane_ranks.h"
+#include "kernel/segment/sections/edge_index.h"
 
 #include <cstddef>
 #include <vector>
