@@ -55,8 +55,8 @@ class PlyReader {
  private:
   Checked<Document> refuse() { return {std::nullopt, {std::move(*issue_)}}; }
 
-  bool fail(std::string sentence, std::string code = Code::E110) {
-    issue_ = error_at(name_, text_, words_.offset(), {std::move(code), std::move(sentence)});
+  bool fail(std::string sentence, Code code = Code::E110) {
+    issue_ = error_at(name_, text_, words_.offset(), {code, std::move(sentence)});
     return false;
   }
 
