@@ -79,7 +79,8 @@ std::string Prover::show(ExprId id, double other) {
   const double value = number(id);
   if (std::isnan(value)) return "?";
   if (expr.type == Type::text)
-    return table_->texts(static_cast<std::size_t>(expr.index))[feature_of(expr).index()];
+    return table_->texts(
+        kAttributes[static_cast<std::size_t>(expr.index)])[feature_of(expr).index()];
   return write(value, expr.dimension, std::isnan(other) ? value : other);
 }
 

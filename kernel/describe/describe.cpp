@@ -312,7 +312,7 @@ void describe_place_in_facet(FeatureTable& table, const Subject& s,
 }
 
 void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
-                      const std::vector<int>& group_of, const char* name) {
+                      const std::vector<int>& group_of, Attribute attribute) {
   std::map<std::pair<int, Sense>, int> counts;
   const auto kind = [&](std::size_t i) {
     return std::pair(group_of[i], detail::kind_of(subjects[i].feature->sense));
@@ -320,7 +320,7 @@ void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
   for (std::size_t i = 0; i < subjects.size(); ++i)
     if (group_of[i] >= 0) ++counts[kind(i)];
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (group_of[i] >= 0) table.set(subjects[i].id, name, counts[kind(i)]);
+    if (group_of[i] >= 0) table.set(subjects[i].id, attribute, counts[kind(i)]);
 }
 
 InFacade in_facade(const Subject& s, int facade) {
@@ -403,8 +403,8 @@ Description describe(const Building& building, const Segmentation& segmentation,
   for (std::size_t i = 0; i < subjects.size(); ++i)
     if (storeys[i] >= 0) out.table.set(subjects[i].id, Attribute::storey, storeys[i]);
   if (asked.companions) {
-    count_companions(out.table, subjects, facades, "per_facade");
-    count_companions(out.table, subjects, storeys, "per_storey");
+    count_companions(out.table, subjects, facades, Attribute::per_facade);
+    count_companions(out.table, subjects, storeys, Attribute::per_storey);
   }
   detail::name_features(out.table, building, segmentation);
   out.graph = detail::relate(segmentation, placed, storeys, asked.neighbours);
