@@ -21,7 +21,7 @@ std::shared_ptr<Arrival> Intake::next() {
   Issue issue;
   issue.code = "E117";
   issue.sentence =
-      fmt::format("does not begin as it did when the run began; delete {}.journal to begin anew",
+      fmt::format("does not begin as it did when the run began; delete {}.journal to start again",
                   arguments_.status_stem);
   issue.place.file = arrival->input_name;
   throw InputError(std::move(issue));

@@ -22,9 +22,9 @@ ExitCode Run::go(const Visitor& visitor) {
   if (stdins > 1 || (stdins > 0 && arguments_.repeat > 1))
     throw CLI::ValidationError("input", "stdin can be read only once");
   if (arguments_.is_isolated && !visitor.make)
-    throw CLI::ValidationError("--isolate", "goes with commands that write record by record");
+    throw CLI::ValidationError("--isolate", "works only with commands that write record by record");
   if (!arguments_.reuse.empty() && !visitor.make)
-    throw CLI::ValidationError("--reuse", "goes with commands that write record by record");
+    throw CLI::ValidationError("--reuse", "works only with commands that write record by record");
   if (!begin_books(visitor)) return code_;
   const bool is_all_read =
       resume_ && resume_->state() && resume_->position().input >= arguments_.inputs.size();

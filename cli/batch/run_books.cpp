@@ -71,7 +71,9 @@ void Run::restore(const ordered_json& state, const Visitor& visitor) {
   records_ = {counted[0], counted[1], counted[2], counted[3]};
   ledger_->restore(state.at("ledger"));
   if (visitor.counts != nullptr) *visitor.counts = state.at("counts").get<Counts>();
-  std::fputs(fmt::format("goes on behind {} buildings\n", buildings_).c_str(), stderr);
+  std::fputs(
+      fmt::format("resumes after {} building{}\n", buildings_, buildings_ == 1 ? "" : "s").c_str(),
+      stderr);
 }
 
 /// The arrival is done: from here the run can go on.

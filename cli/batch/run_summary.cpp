@@ -23,12 +23,12 @@ void Run::tell_summary(const std::string& verb, const std::map<std::string, int>
     if (!label.empty()) parts.push_back(fmt::format("{} {}", count, label));
   if (const auto unknown = counts.find(""); unknown != counts.end())
     parts.push_back(fmt::format("{} unknown", unknown->second));
-  std::string text =
-      fmt::format("{} {} of {} buildings", verb, buildings_ - set_aside_, buildings_);
+  std::string text = fmt::format("{} of {} building{} {}", buildings_ - set_aside_, buildings_,
+                                 buildings_ == 1 ? "" : "s", verb);
   if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), what_of_them);
   if (open_ > 0) text += fmt::format("; {} open", open_);
   if (set_aside_ > 0) {
-    text += fmt::format("; {} set aside", set_aside_);
+    text += fmt::format("; {} rejected", set_aside_);
     if (const std::string codes = codes_text(); !codes.empty()) text += " (" + codes + ")";
   }
   std::fputs((text + "\n").c_str(), stderr);
@@ -43,7 +43,7 @@ void Run::tell_table(const std::string& verb, const std::map<std::string, int>& 
   add("buildings", buildings_);
   add("done", buildings_ - set_aside_);
   if (open_ > 0) add("open", open_);
-  add("set aside", set_aside_);
+  add("rejected", set_aside_);
   for (const auto& [code, count] : report_.errors()) add("  " + code, count);
   for (const auto& [label, count] : counts)
     add("feature " + (label.empty() ? "unknown" : label) + what_of_them, count);

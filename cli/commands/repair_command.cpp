@@ -62,7 +62,7 @@ std::string summary_of(const Building& building, const OnLine& line) {
   const RepairReport& report = line.repair;
   if (!report.was_needed)
     return fmt::format("{}: {}\n", building.id,
-                       line.solid ? "closed as it came" : "could not be repaired");
+                       line.solid ? "closed already" : "could not be repaired");
   if (!line.solid)
     return fmt::format("{}: stays open, {} open edges\n", building.id, report.open_edges.size());
   double closed_m2 = 0;
@@ -103,8 +103,7 @@ class Repairer {
       if (report_ && has_ended_) report_->commit();
     };
     const ExitCode code = run_.go(visitor);
-    run_.tell_summary(fmt::format("repaired {}, found closed {}, together", repaired_, closed_),
-                      {});
+    run_.tell_summary(fmt::format("closed ({} repaired, {} found closed)", repaired_, closed_), {});
     return code;
   }
 
@@ -183,7 +182,7 @@ void add_repair(CLI::App& app, Action& action) {
   add_solid_arguments(*command, *arguments);
   add_run_arguments(*command, *arguments);
   command->footer(
-      "Buildings that stay open are written as they came, and the exit code is 3.\n"
+      "Buildings that stay open are written unchanged, and the exit code is 3.\n"
       "Example:\n  oriel repair house.city.json -o repaired.city.json\n"
       "  oriel repair city/*.city.json -o repaired/ --close any --report repairs.jsonl");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });

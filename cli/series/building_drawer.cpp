@@ -39,7 +39,7 @@ void mend_unchanged(const Document& document, const Building& building, const On
   generalised.is_drawn_anew = true;
   told.issues.push_back(building_issue(
       Severity::note, "G419", building.id,
-      fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
+      fmt::format("was not valid in the input ({}) and is redrawn", findings[0].code)));
 }
 
 /// A mended solid of more facets is drawn without its steps being judged: with all that lies within
@@ -108,7 +108,7 @@ void BuildingDrawer::give_up(const Document& document, const OnLine& line, Issue
     return;
   }
   fault.severity = Severity::warning;
-  fault.sentence += "; it stays as it came";
+  fault.sentence += "; it stays unchanged";
   drawn.told.issues.push_back(fault);
   drawn.all.push_back(untouched(document, document.buildings[drawn.building], line, drawn.told));
 }

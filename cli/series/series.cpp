@@ -82,7 +82,7 @@ class SeriesWriter {
       outputs_.commit();
     };
     const ExitCode code = run_.go(visitor);
-    run_.tell_summary(fmt::format("made {} levels of", scales_.size()),
+    run_.tell_summary(fmt::format("drawn at {} scales", scales_.size()),
                       {{"operation", operations_}}, " in the log");
     return code;
   }

@@ -21,7 +21,7 @@ void check_outputs(const LabelArguments& arguments) {
     refuse_usage("--to", "G414", "the levels of a series are CityJSON, those of streams streams");
   if (arguments.is_isolated || !arguments.reuse.empty() || arguments.is_resumable)
     refuse_usage("--series", "G414",
-                 "goes without --isolate, --reuse and --resume, which are of one scale");
+                 "does not work with --isolate, --reuse and --resume, which are of one scale");
 }
 
 }  // namespace

@@ -142,42 +142,42 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("values bounds and misses are shown in units") {
     const ConditionReport range = judged("b in 0.3 m .. 2.2 m", {{"b", 2.5}});
-    CHECK(range.value == "b = 2.50 m");
-    CHECK(range.bound == "in 0.30 m .. 2.20 m");
+    CHECK(range.value == "b is 2.50 m");
+    CHECK(range.bound == "must be within 0.30 m .. 2.20 m");
     CHECK(range.miss == "misses by 0.30 m");
 
     const ConditionReport list = judged("sense in [hole, imprint]", {{"sense", "cavity"}});
-    CHECK(list.value == "sense = cavity");
-    CHECK(list.bound == "in [hole, imprint]");
+    CHECK(list.value == "sense is cavity");
+    CHECK(list.bound == "must be one of [hole, imprint]");
     CHECK(list.miss.empty());
 
     const ConditionReport similar = judged("a ~ b by 10 %", {{"a", 1.0}, {"b", 1.5}});
-    CHECK(similar.value == "a = 1.00 m");
-    CHECK(similar.bound == "~ 1.50 m by 10 %");
-    CHECK(similar.miss == "differs 33.3 %");
+    CHECK(similar.value == "a is 1.00 m");
+    CHECK(similar.bound == "must be within 10 % of 1.50 m");
+    CHECK(similar.miss == "differs by 33.3 %");
 
     const ConditionReport turned = judged("2 m <= a", {{"a", 1.0}});
-    CHECK(turned.value == "a = 1.00 m");
-    CHECK(turned.bound == ">= 2.00 m");
+    CHECK(turned.value == "a is 1.00 m");
+    CHECK(turned.bound == "must be at least 2.00 m");
     CHECK(turned.miss == "misses by 1.00 m");
 
     const ConditionReport derived = judged("a / b >= 1.2", {{"a", 1.0}, {"b", 1.0}});
-    CHECK(derived.value == "a / b = 1.00");
-    CHECK(derived.bound == ">= 1.20");
+    CHECK(derived.value == "a / b is 1.00");
+    CHECK(derived.bound == "must be at least 1.20");
 
     const ConditionReport facet = judged("host is roof", {{"host_inclination", 80.0}});
     CHECK(facet.miss == "misses by 5.00 deg");
 
     const ConditionReport count = judged("split_order = 2", {{"split_order", 1.0}});
-    CHECK(count.value == "split_order = 1");
-    CHECK(count.bound == "= 2");
+    CHECK(count.value == "split_order is 1");
+    CHECK(count.bound == "must be 2");
     CHECK(count.miss == "misses by 1");
   }
 
   TEST_CASE("a narrow miss is shown with enough decimals") {
     const ConditionReport report = judged("height <= 0.6 m", {{"height", 0.6004}});
-    CHECK(report.value == "height = 0.6004 m");
-    CHECK(report.bound == "<= 0.6000 m");
+    CHECK(report.value == "height is 0.6004 m");
+    CHECK(report.bound == "must be at most 0.6000 m");
     CHECK(report.miss == "misses by 0.0004 m");
   }
 
@@ -187,7 +187,7 @@ TEST_SUITE("interpret") {
     CHECK(report.missing == std::vector<std::string>{"a", "natural", "sense"});
     REQUIRE(report.parts.size() == 2);
     CHECK(report.parts[0].parts.size() == 2);
-    CHECK(report.parts[1].value == "sense = ?");
+    CHECK(report.parts[1].value == "sense is ?");
   }
 
   TEST_CASE("the nearest miss is that of the other feature that misses least") {
@@ -198,11 +198,11 @@ TEST_SUITE("interpret") {
     const Explanation explanation = explain_first(kPack, scene);
     const TermReport& term = explanation.rules[2].terms[1];
     // f1 is an opening and differs by 33 %, f2 is alike and none, f3 is neither.
-    CHECK(term.value == "count(alike where is opening) = 0 of 1");
+    CHECK(term.value == "count(alike where is opening) is 0 of 1");
     CHECK(term.nearest == "f1");
     REQUIRE(term.nearest_misses.size() == 1);
-    CHECK(term.nearest_misses[0].value == "a = 2.10 m");
-    CHECK(term.nearest_misses[0].miss == "differs 33.3 %");
+    CHECK(term.nearest_misses[0].value == "a is 2.10 m");
+    CHECK(term.nearest_misses[0].miss == "differs by 33.3 %");
     CHECK(to_json(explanation)
               .find(R"("nearest":{"feature":"f1","misses":[{"text":"a ~ other.a )"
                     R"(by 10 %")") != std::string::npos);
@@ -222,16 +222,16 @@ TEST_SUITE("interpret") {
       return text;
     };
     CHECK(said("exists(beside where a < self.a)") ==
-          " f1 a = 2.00 m < 1.00 m (self.a) misses by 1.00 m");
-    CHECK(said("exists(beside where a > 3 m and sense = cavity)") == " f3 sense = hole = cavity ");
+          " f1 a is 2.00 m must be below 1.00 m (self.a) misses by 1.00 m");
+    CHECK(said("exists(beside where a > 3 m and sense = cavity)") == " f3 sense is hole must be cavity ");
     CHECK(said("none(beside where a > 2 m)") == "in the way: f2, f3");
     CHECK(said("all(beside where a > 2 m)") == "in the way: f1");
     CHECK(said("not exists(beside where a > 3 m)") == "in the way: f3");
     CHECK(said("count(beside where a > 2.2 m) >= 3") ==
-          "misses by 1 f1 a = 2.00 m > 2.20 m misses by 0.20 m");
+          "misses by 1 f1 a is 2.00 m must be above 2.20 m misses by 0.20 m");
     CHECK(said("count(beside where a > 2.2 m) < 2") == "in the way: f2, f3");
     CHECK(said("count(beside where a > 2.2 m) in 3 .. 5") ==
-          "misses by 1 f1 a = 2.00 m > 2.20 m misses by 0.20 m");
+          "misses by 1 f1 a is 2.00 m must be above 2.20 m misses by 0.20 m");
   }
 
   TEST_CASE("the smallest change of a param that flips the label is found") {
