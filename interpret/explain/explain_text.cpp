@@ -10,7 +10,7 @@ namespace oriel {
 namespace {
 
 /// Cells wider than this do not push the others aside.
-constexpr std::size_t kWidestCell = 48;
+constexpr std::size_t kWidestCell = 56;
 
 const char* mark_of(Outcome outcome) {
   if (outcome == Outcome::unknown) return "unknown";

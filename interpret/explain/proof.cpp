@@ -182,7 +182,7 @@ ConditionReport Prover::bare_condition(ExprId id) {
       break;
     case Op::flag:
     case Op::is_class:
-      report.value = report.text + " is " + yes_or_no(judged);
+      report.value = report.text + ": " + yes_or_no(judged);
       break;
     case Op::facet_is:
       facet(expr, report);

@@ -86,21 +86,21 @@ TEST_SUITE("interpret") {
   TEST_CASE("an unknown feature is explained with its nearest candidate") {
     CHECK(to_text(explain_first(kPack, window_with_a_low_sill())) ==
           R"(f0 -> unknown   best candidate: window 0.29 (< min_score 0.35)
-  opening.shape   holds                                   opening                                           t.yaml:8:5
-    holds         sense = hole                            = hole                                            t.yaml:8:50
-    holds         depth = 0.10 m                          <= 0.60 m                                         t.yaml:5:19
-  door.ground     fails                                   door                                              t.yaml:9:5
-    holds         self is opening = yes                                                                     t.yaml:12:9
-    fails         height = 0.61 m                         <= 0.60 m ($sill_max), misses by 0.01 m           t.yaml:13:9
-    holds         host_inclination = 90.00 deg            in 75.00 deg .. 105.00 deg                        t.yaml:13:33
-  window.regular  holds, score 0.29                       window                                            t.yaml:14:5
-    holds         self is opening = yes                                                                     t.yaml:16:15
-    holds         height = 0.61 m                         > 0.60 m ($sill_max)                              t.yaml:16:35
-    no veto       quality > 0.9 and not natural                                                             t.yaml:17:14
-      fails       quality = 0.10                          > 0.90, misses by 0.80                            t.yaml:17:14
-      unknown     not natural = ?                         natural is missing                                t.yaml:17:32
-    0.87 x1       a = 2.10 m                              rises 0.40 m .. 0.90 m, falls 2.00 m .. 2.80 m    t.yaml:19:9
-    0.00 x2       count(alike where is opening) = 0 of 0  rises 0 .. 3, nearest miss f1: a = 2.10 m ~ 1.40 m by 10 %, differs 33.3 % t.yaml:20:9
+  opening.shape   holds                                    opening                                                   t.yaml:8:5
+    holds         sense is hole                                                                                      t.yaml:8:50
+    holds         depth is 0.10 m                          at most 0.60 m                                            t.yaml:5:19
+  door.ground     fails                                    door                                                      t.yaml:9:5
+    holds         self is opening: yes                                                                               t.yaml:12:9
+    fails         height is 0.61 m                         must be at most 0.60 m ($sill_max), misses by 0.01 m      t.yaml:13:9
+    holds         host_inclination is 90.00 deg            within 75.00 deg .. 105.00 deg                            t.yaml:13:33
+  window.regular  holds, score 0.29                        window                                                    t.yaml:14:5
+    holds         self is opening: yes                                                                               t.yaml:16:15
+    holds         height is 0.61 m                         above 0.60 m ($sill_max)                                  t.yaml:16:35
+    no veto       quality > 0.9 and not natural                                                                      t.yaml:17:14
+      fails       quality is 0.10                          must be above 0.90, misses by 0.80                        t.yaml:17:14
+      unknown     not natural: ?                           natural is missing                                        t.yaml:17:32
+    0.87 x1       a is 2.10 m                              rises 0.40 m .. 0.90 m, falls 2.00 m .. 2.80 m            t.yaml:19:9
+    0.00 x2       count(alike where is opening) is 0 of 0  rises 0 .. 3, nearest miss f1: a is 2.10 m, must be within 10 % of 1.40 m, differs by 33.3 % t.yaml:20:9
   nearest flip: sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground
 )");
   }
