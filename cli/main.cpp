@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "cli/terminal/signals.h"
 #include "kernel/base/issue.h"
@@ -52,8 +53,11 @@ int run(int argc, char** argv) {
   add_split(app, action);
   add_merge(app, action);
   add_rules(app, action);
+  LogOptions logging;
+  add_log_arguments(app, logging);
   try {
     app.parse(argc, argv);
+    set_up_logging(logging);
     const ExitCode code = action();
     finish_stdout();
     return exit_with(code);
@@ -73,6 +77,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   clean_up_on_signals();
+  set_up_logging({});
   Report report(true);
   try {
     return run(argc, argv);

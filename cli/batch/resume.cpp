@@ -17,14 +17,16 @@ using nlohmann::ordered_json;
 
 constexpr std::uint64_t kWhole = std::numeric_limits<std::uint64_t>::max();
 
-/// The command line but for -j, which changes nothing in what is written.
+/// The command line but for -j and what is logged, which change nothing in what is written.
 std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string text, word;
-  bool is_number_next = false;
+  bool is_value_next = false;
   while (std::getline(file, word, '\0')) {
-    if (std::exchange(is_number_next, word == "-j" || word == "--jobs")) continue;
-    if (word.starts_with("-j") || word.starts_with("--jobs")) continue;
+    const bool has_value = word == "-j" || word == "--jobs" || word == "--log-level";
+    if (std::exchange(is_value_next, has_value)) continue;
+    if (word.starts_with("-j") || word.starts_with("--jobs") || word.starts_with("--log-"))
+      continue;
     text += word + '\0';
   }
   return text;

@@ -1,6 +1,7 @@
 #include "cli/batch/run.h"
 
 #include "cli/batch/isolation.h"
+#include "kernel/base/log.h"
 #include "kernel/base/sha256.h"
 #include "kernel/io/files/output_file.h"
 
@@ -38,6 +39,7 @@ ExitCode Run::go(const Visitor& visitor) {
     }
     run_inputs(visitor);
     progress_->finish({bytes_, buildings_, set_aside_});
+    log_stages();
   }
   visitor.commit();
   if (!arguments_.timings_file.empty()) write_file(arguments_.timings_file, to_json(timings_));
@@ -46,6 +48,14 @@ ExitCode Run::go(const Visitor& visitor) {
   if (ledger_) close_books();
   if (resume_) resume_->remove();
   return code_;
+}
+
+/// One line for each stage that took time.
+void Run::log_stages() const {
+  for (std::size_t s = 0; s < kStageNames.size(); ++s)
+    if (const double ms = timings_.back().ms(static_cast<Stage>(s)); ms > 0)
+      log("oriel").info("stage {}: buildings={} set_aside={} ms={:.0f}", kStageNames[s], buildings_,
+                        set_aside_, ms);
 }
 
 void Run::keep_errors(const std::vector<Issue>& issues) {

@@ -108,6 +108,7 @@ class Run {
   [[nodiscard]] nlohmann::ordered_json state(const Visitor& visitor) const;
   void restore(const nlohmann::ordered_json& state, const Visitor& visitor);
   void tell(const std::vector<Issue>& issues);
+  void log_stages() const;
   [[nodiscard]] std::string codes_text() const;
   void tell_table(const std::string& verb, const std::map<std::string, int>& counts,
                   const std::string& what_of_them) const;

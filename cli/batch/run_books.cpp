@@ -1,8 +1,8 @@
 #include "cli/batch/run.h"
+#include "cli/terminal/logging.h"
 #include "kernel/base/sha256.h"
 #include "kernel/io/files/partial_files.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ bool Run::begin_books(const Visitor& visitor) {
     if (const auto finished = resume_->finished()) {
       was_done_ = true;
       code_ = static_cast<ExitCode>(*finished);
-      std::fputs("all of it was done before\n", stderr);
+      run_log().info("all of it was done before");
       return false;
     }
   }
@@ -71,9 +71,7 @@ void Run::restore(const ordered_json& state, const Visitor& visitor) {
   records_ = {counted[0], counted[1], counted[2], counted[3]};
   ledger_->restore(state.at("ledger"));
   if (visitor.counts != nullptr) *visitor.counts = state.at("counts").get<Counts>();
-  std::fputs(
-      fmt::format("resumes after {} building{}\n", buildings_, buildings_ == 1 ? "" : "s").c_str(),
-      stderr);
+  run_log().info("resumes after {} building{}", buildings_, buildings_ == 1 ? "" : "s");
 }
 
 /// The arrival is done: from here the run can go on.
@@ -91,8 +89,7 @@ void Run::close_books() {
         fmt::format("of {} records {} were passed on, {} refused, {} not selected", records_.read,
                     records_.passed_on, records_.refused, records_.not_selected));
   if (notes_) notes_->commit();
-  if (earlier_)
-    std::fputs(fmt::format("took {} records from {}\n", reused_, arguments_.reuse).c_str(), stderr);
+  if (earlier_) run_log().info("took {} records from {}", reused_, arguments_.reuse);
   ledger_->close();
   Account account;
   account.inputs = arguments_.inputs;

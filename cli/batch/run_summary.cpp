@@ -1,6 +1,5 @@
 #include "cli/batch/run.h"
-
-#include <cstdio>
+#include "cli/terminal/logging.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +30,7 @@ void Run::tell_summary(const std::string& verb, const std::map<std::string, int>
     text += fmt::format("; {} rejected", set_aside_);
     if (const std::string codes = codes_text(); !codes.empty()) text += " (" + codes + ")";
   }
-  std::fputs((text + "\n").c_str(), stderr);
+  run_log().write(LogLevel::info, text);
 }
 
 void Run::tell_table(const std::string& verb, const std::map<std::string, int>& counts,
@@ -47,11 +46,8 @@ void Run::tell_table(const std::string& verb, const std::map<std::string, int>& 
   for (const auto& [code, count] : report_.errors()) add("  " + code, count);
   for (const auto& [label, count] : counts)
     add("feature " + (label.empty() ? "unknown" : label) + what_of_them, count);
-  std::fputs(table(rows).c_str(), stderr);
-  std::fputs(fmt::format("{:.1f} s, {:.1f} buildings/s, {:.2f} MB/s\n", progress_->seconds(),
-                         progress_->buildings_per_s(), progress_->mb_per_s())
-                 .c_str(),
-             stderr);
+  run_log().info("{}{:.1f} s, {:.1f} buildings/s, {:.2f} MB/s", table(rows), progress_->seconds(),
+                 progress_->buildings_per_s(), progress_->mb_per_s());
 }
 
 }  // namespace oriel::cli

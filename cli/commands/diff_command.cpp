@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "interpret/score/label_diff.h"
 #include "kernel/io/records/feature_records.h"
@@ -48,9 +49,8 @@ ExitCode work(const Arguments& arguments) {
   const std::string text = arguments.is_json ? to_json(diff) + "\n" : to_text(diff);
   std::fputs(text.c_str(), stdout);
   if (!arguments.most || diff.differences() <= *arguments.most) return code;
-  std::fputs(
-      fmt::format("{} differences; {} are allowed\n", diff.differences(), *arguments.most).c_str(),
-      stderr);
+  run_log().write(LogLevel::error, fmt::format("{} differences; {} are allowed", diff.differences(),
+                                               *arguments.most));
   return graver(code, ExitCode::set_aside);
 }
 

@@ -3,6 +3,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/stored_features.h"
 #include "cli/terminal/file_watch.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 
 #include <chrono>
@@ -53,10 +54,8 @@ void print(const std::string& text) {
       is_first = false;
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    std::fputs(fmt::format("{} buildings in {:.2f} s; waiting for {} to be saved\n",
-                           features.buildings(), took.count(), arguments.rules)
-                   .c_str(),
-               stderr);
+    run_log().info("{} buildings in {:.2f} s; waiting for {} to be saved", features.buildings(),
+                   took.count(), arguments.rules);
     files.wait();
   }
 }

@@ -1,5 +1,6 @@
 #include "cli/commands/labelling.h"
 
+#include "cli/terminal/logging.h"
 #include "interpret/surfaces/annotate.h"
 #include "kernel/base/sha256.h"
 
@@ -134,8 +135,7 @@ void LabelOutputs::end() {
   has_ended_ = true;
   if (!destination_) return;
   const std::string path = destination_->end();
-  if (path != "-" && arguments_.is_verbose)
-    std::fputs(fmt::format("wrote {}\n", path).c_str(), stderr);
+  if (path != "-" && arguments_.is_verbose) run_log().info("wrote {}", path);
 }
 
 void LabelOutputs::commit() {

@@ -2,12 +2,12 @@
 #include "cli/streams/common_header.h"
 #include "cli/streams/provenance.h"
 #include "cli/streams/shards.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "kernel/io/files/output_file.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -49,10 +49,8 @@ class Merger {
     for (const Shard& shard : list_.shards) append(shard, file_of_.at(shard.name), out);
     if (has_errors_) return ExitCode::input;
     out.commit();
-    std::fputs(fmt::format("merged {} of {} features of {} shards\n", features_, expected_,
-                           list_.shards.size())
-                   .c_str(),
-               stderr);
+    run_log().info("merged {} of {} features of {} shards", features_, expected_,
+                   list_.shards.size());
     return ExitCode::clean;
   }
 

@@ -4,6 +4,7 @@
 #include "cli/output/destination.h"
 #include "cli/pipeline/mended_line.h"
 #include "cli/pipeline/written_proof.h"
+#include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/repair_json.h"
 #include "kernel/model/version.h"
@@ -61,17 +62,17 @@ LabelledBuilding repaired_building(const Building& building, const OnLine& line,
 std::string summary_of(const Building& building, const OnLine& line) {
   const RepairReport& report = line.repair;
   if (!report.was_needed)
-    return fmt::format("{}: {}\n", building.id,
+    return fmt::format("{}: {}", building.id,
                        line.solid ? "closed already" : "could not be repaired");
   if (!line.solid)
-    return fmt::format("{}: stays open, {} open edges\n", building.id, report.open_edges.size());
+    return fmt::format("{}: stays open, {} open edges", building.id, report.open_edges.size());
   double closed_m2 = 0;
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return fmt::format(
       "{}: repaired: {} doubles dropped, {} vertices put into edges, {} polygons cut at contacts, "
       "{} edges of more than two "
       "polygons, {} polygons turned round, {} dangling sheets ({:.2f} m2) and {} inner faces "
-      "({:.2f} m2) left out, {} holes closed ({:.2f} m2), {} detached shells, {} cavities\n",
+      "({:.2f} m2) left out, {} holes closed ({:.2f} m2), {} detached shells, {} cavities",
       building.id, report.duplicates.size(), report.t_vertices, report.cut, report.crowded_edges,
       report.turned, report.dangling.size(), report.dangling_area_m2, report.inner.size(),
       report.inner_area_m2, report.caps.size(), closed_m2, report.detached_shells, report.cavities);
@@ -139,7 +140,7 @@ class Repairer {
       prove(document, building, line, solids);
       if (!run_.is_last_run()) continue;
       if (line.solid) ++(line.repair.was_needed ? repaired_ : closed_);
-      if (arguments_.is_verbose) std::fputs(summary_of(building, line).c_str(), stderr);
+      if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, line));
       if (report_)
         report_->append(repair_json(building, line.solid.has_value(), line.repair, line.issues));
     }

@@ -1,5 +1,6 @@
 #include "cli/commands/rules_commands.h"
 #include "cli/pipeline/line.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "interpret/testing/rule_tests.h"
 #include "kernel/io/files/output_file.h"
@@ -83,7 +84,7 @@ ExitCode work(const Arguments& arguments) {
     std::fputs(to_text(*tested.value).c_str(), stdout);
     if (!is_covered(*tested.value, arguments)) {
       code = ExitCode::rules;
-      std::fputs(fmt::format("{}: less is covered than was asked for\n", file).c_str(), stderr);
+      run_log().write(LogLevel::error, file + ": less is covered than was asked for");
     }
     if (tested.value->failed() > 0) code = ExitCode::rules;
     reports.push_back(std::move(*tested.value));

@@ -1,4 +1,5 @@
 #include "cli/commands/rules_commands.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "interpret/pack/pack_schema.h"
 #include "interpret/pack/rule_base.h"
@@ -43,7 +44,7 @@ ExitCode format(const Arguments& arguments) {
       code = graver(code, ExitCode::rules);
     } else if (arguments.is_check) {
       if (*formatted.value == text_of(pack)) continue;
-      std::fputs(fmt::format("{} is not in canonical form\n", pack).c_str(), stderr);
+      run_log().write(LogLevel::error, pack + " is not in canonical form");
       code = graver(code, ExitCode::rules);
     } else if (!arguments.is_write) {
       std::fputs(formatted.value->c_str(), stdout);

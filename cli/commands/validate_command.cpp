@@ -1,12 +1,12 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/reader.h"
 #include "kernel/validate/validate.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <utility>
@@ -196,7 +196,7 @@ class Validation {
       separator = ", ";
     }
     if (unread_records_ > 0) text += fmt::format("; {} records could not be read", unread_records_);
-    std::fputs((text + "\n").c_str(), stderr);
+    run_log().write(LogLevel::info, text);
   }
 
   const Arguments& arguments_;

@@ -1,4 +1,5 @@
 #include "cli/series/series.h"
+#include "cli/terminal/logging.h"
 #include "generalise/series/scale_series.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/levels/level_file.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -182,7 +182,7 @@ ExitCode write_level_at(const std::string& name, double scale, const std::string
   OutputFile whole(out);
   if (!mover.move(file, whole, report)) return ExitCode::input;
   whole.commit();
-  std::fputs(fmt::format("1:{} from {}\n", scale, file).c_str(), stderr);
+  run_log().info("1:{} from {}", scale, file);
   return ExitCode::clean;
 }
 

@@ -1,5 +1,7 @@
 #include "cli/terminal/progress.h"
 
+#include "cli/terminal/logging.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -43,7 +45,9 @@ std::string time_text(double seconds) {
 }  // namespace
 
 ProgressStyle progress_style_of(const std::string& name) {
+  if (!progress_log().is_on(LogLevel::info)) return ProgressStyle::none;
   if (name == "json") return ProgressStyle::json;
+  if (logs_json()) return ProgressStyle::none;
   const bool is_bar =
       name == "bar" || (name.empty() && isatty(STDERR_FILENO) != 0 && !is_piped_on());
   return is_bar ? ProgressStyle::bar : ProgressStyle::none;
@@ -101,7 +105,7 @@ std::string Progress::json() const {
       mb_per_s());
   if (all_bytes_ > 0) text += fmt::format(",\"all_bytes\":{}", all_bytes_);
   if (const auto left = seconds_left()) text += fmt::format(",\"seconds_left\":{:.1f}", *left);
-  text += fmt::format(",\"is_done\":{}}}\n", end_.has_value());
+  text += fmt::format(",\"is_done\":{}}}", end_.has_value());
   return text;
 }
 
@@ -112,8 +116,9 @@ void Progress::show(const ProgressCounts& counts) {
   const auto every = std::chrono::milliseconds(style_ == ProgressStyle::bar ? 100 : 1000);
   if (now - last_ < every) return;
   last_ = now;
-  has_bar_ = style_ == ProgressStyle::bar;
-  std::fputs((has_bar_ ? bar() : json()).c_str(), stderr);
+  if (style_ == ProgressStyle::json) return progress_log().write(LogLevel::info, json());
+  has_bar_ = true;
+  std::fputs(bar().c_str(), stderr);
   std::fflush(stderr);
 }
 
@@ -121,7 +126,7 @@ void Progress::finish(const ProgressCounts& counts) {
   counts_ = counts;
   end_ = Clock::now();
   wipe();
-  if (style_ == ProgressStyle::json) std::fputs(json().c_str(), stderr);
+  if (style_ == ProgressStyle::json) progress_log().write(LogLevel::info, json());
 }
 
 }  // namespace oriel::cli

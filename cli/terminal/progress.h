@@ -13,8 +13,8 @@ namespace oriel::cli {
 /// for machines, or not at all.
 enum class ProgressStyle { bar, json, none };
 
-/// What `name` (bar, json, none) says; empty: a bar on a terminal, if stdout is
-/// no pipe; else nothing.
+/// What `name` (bar, json, none) says; empty: a bar on a terminal, if stdout is no pipe; else
+/// nothing. With --log-json there is no bar, and without level info nothing.
 ProgressStyle progress_style_of(const std::string& name);
 
 /// Counts of a run so far.

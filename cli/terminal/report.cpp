@@ -1,31 +1,27 @@
 #include "cli/terminal/report.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <unistd.h>
+#include "cli/terminal/logging.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
 
 namespace oriel::cli {
 
 namespace {
 
-bool has_colours() {
-  const char* no_colour = std::getenv("NO_COLOR");
-  return isatty(STDERR_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
-}
-
-const char* colour_of(Severity severity) {
-  switch (severity) {
-    case Severity::error:
-      return "\033[31m";
-    case Severity::warning:
-      return "\033[33m";
-    case Severity::note:
-      return "\033[36m";
-  }
-  return "";
+/// With --log-json a finding is an object of its parts.
+std::string json_of(const Issue& issue) {
+  nlohmann::ordered_json object{{"code", issue.code}, {"message", issue.sentence}};
+  const auto add = [&](const char* name, const std::string& text) {
+    if (!text.empty()) object[name] = text;
+  };
+  add("file", issue.place.file);
+  if (issue.place.line > 0) object["line"] = issue.place.line;
+  if (issue.place.column > 0) object["column"] = issue.place.column;
+  add("building", issue.place.building);
+  add("feature", issue.place.feature);
+  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 /// Characters, not bytes: continuation bytes of UTF-8 take no column.
@@ -46,13 +42,11 @@ void Report::tell(const std::vector<Issue>& issues) {
 
 void Report::tell(const Issue& issue) {
   if (issue.severity == Severity::error) ++errors_[issue.code];
-  if (issue.severity == Severity::note && !is_verbose_) return;
-  const std::string head = to_string(issue.severity);
-  const std::string text =
-      has_colours()
-          ? fmt::format("{}{}\033[0m: {}\n", colour_of(issue.severity), head, to_string(issue))
-          : fmt::format("{}: {}\n", head, to_string(issue));
-  std::fputs(text.c_str(), stderr);
+  LogLevel level = is_verbose_ ? LogLevel::info : LogLevel::debug;
+  if (issue.severity == Severity::warning) level = LogLevel::warning;
+  if (issue.severity == Severity::error) level = LogLevel::error;
+  const Log log = findings_log();
+  if (log.is_on(level)) log.write(level, logs_json() ? json_of(issue) : to_string(issue));
 }
 
 std::string table(const std::vector<std::vector<std::string>>& rows) {

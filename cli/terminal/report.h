@@ -9,8 +9,8 @@
 
 namespace oriel::cli {
 
-/// Tells the user on stderr what was found. Colours only on a terminal and without NO_COLOR; notes
-/// only if asked for.
+/// Reports to the user what was found (findings_log), and counts errors. Notes stand on level debug
+/// unless they are asked for.
 class Report {
  public:
   explicit Report(bool is_verbose) : is_verbose_(is_verbose) {}

@@ -1,7 +1,6 @@
 #include "cli/terminal/timings.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,22 +11,14 @@ void Timings::add(const Timings& more) {
 }
 
 std::string to_json(const std::vector<Timings>& runs) {
-  constexpr std::array<std::pair<Stage, const char*>, 7> kStages = {
-      {{Stage::read, "read"},
-       {Stage::solidify, "solidify"},
-       {Stage::segment, "segment"},
-       {Stage::describe, "describe"},
-       {Stage::interpret, "interpret"},
-       {Stage::generalise, "generalise"},
-       {Stage::write, "write"}}};
   std::string out = "{";
-  for (const auto& [stage, name] : kStages) {
+  for (std::size_t s = 0; s < kStageNames.size(); ++s) {
     std::vector<double> values;
-    for (const Timings& run : runs) values.push_back(run.ms(stage));
+    for (const Timings& run : runs) values.push_back(run.ms(static_cast<Stage>(s)));
     std::ranges::sort(values);
     const std::size_t n = values.size();
     const double median = n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
-    out += fmt::format("\"{}_ms\":{:.3f},", name, median);
+    out += fmt::format("\"{}_ms\":{:.3f},", kStageNames[s], median);
   }
   return out + fmt::format("\"runs\":{}}}\n", runs.size());
 }

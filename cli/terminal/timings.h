@@ -8,6 +8,8 @@
 namespace oriel::cli {
 
 enum class Stage { read, solidify, segment, describe, interpret, generalise, write };
+inline constexpr std::array kStageNames{"read",      "solidify",   "segment", "describe",
+                                        "interpret", "generalise", "write"};
 
 /// How long the stages took: sums over what was done. Times never stand in data.
 class Timings {

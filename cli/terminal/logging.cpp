@@ -1,0 +1,146 @@
+#include "cli/terminal/logging.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <string_view>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/formatter.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace oriel::cli {
+
+namespace {
+
+using spdlog::details::log_msg;
+
+constexpr const char* kFindings = "findings";
+constexpr const char* kProgress = "progress";
+constexpr const char* kRun = "run";
+constexpr std::array kRooms{"kernel", "interpret", "generalise", "oriel"};
+
+bool is_json = false;
+
+bool has_colours() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return isatty(STDERR_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+std::string_view view(spdlog::string_view_t text) { return {text.data(), text.size()}; }
+
+void append(spdlog::memory_buf_t& line, std::string_view text) {
+  line.append(text.data(), text.data() + text.size());
+}
+
+/// Lines for a reader.
+class TextFormatter final : public spdlog::formatter {
+ public:
+  void format(const log_msg& message, spdlog::memory_buf_t& line) override {
+    const std::string_view logger = view(message.logger_name);
+    if (logger == kFindings)
+      append(line, head_of_finding(message.level));
+    else if (logger != kRun && logger != kProgress)
+      append(line,
+             fmt::format("[{}] {}: ", view(spdlog::level::to_string_view(message.level)), logger));
+    append(line, view(message.payload));
+    append(line, "\n");
+  }
+
+  [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<TextFormatter>(*this);
+  }
+
+ private:
+  [[nodiscard]] std::string head_of_finding(spdlog::level::level_enum level) const {
+    const bool is_error = level >= spdlog::level::err, is_warning = level == spdlog::level::warn;
+    const char* word = is_error ? "error" : is_warning ? "warning" : "note";
+    const char* colour = is_error ? "\033[31m" : is_warning ? "\033[33m" : "\033[36m";
+    return has_colours_ ? fmt::format("{}{}\033[0m: ", colour, word) : fmt::format("{}: ", word);
+  }
+
+  bool has_colours_ = has_colours();
+};
+
+/// A JSON object a line, for programs. Findings and progress are objects already: their members
+/// follow.
+class JsonFormatter final : public spdlog::formatter {
+ public:
+  void format(const log_msg& message, spdlog::memory_buf_t& line) override {
+    using nlohmann::ordered_json;
+    const std::string_view logger = view(message.logger_name), text = view(message.payload);
+    ordered_json object{{"time", utc(message.time)},
+                        {"level", view(spdlog::level::to_string_view(message.level))},
+                        {"logger", logger}};
+    if (logger == kFindings || logger == kProgress)
+      object.update(ordered_json::parse(text));
+    else
+      object["message"] = text;
+    append(line, object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  }
+
+  [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<JsonFormatter>();
+  }
+
+ private:
+  /// 2026-01-31T23:59:59.999Z
+  static std::string utc(spdlog::log_clock::time_point time) {
+    const std::time_t seconds = spdlog::log_clock::to_time_t(time);
+    const auto ms =
+        std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
+    std::tm parts{};
+    ::gmtime_r(&seconds, &parts);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &parts);
+    return fmt::format("{}.{:03}Z", text.data(), ms % 1000);
+  }
+};
+
+spdlog::level::level_enum level_of(const std::string& name,
+                                   spdlog::level::level_enum without_name) {
+  return name.empty() ? without_name : spdlog::level::from_str(name);
+}
+
+}  // namespace
+
+void add_log_arguments(CLI::App& command, LogOptions& options) {
+  const auto below = command.get_subcommands([](const CLI::App*) { return true; });
+  for (CLI::App* one : below) add_log_arguments(*one, options);
+  if (!below.empty()) return;
+  command
+      .add_option("--log-level", options.level,
+                  "What is logged on stderr (default: findings and summaries)")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->group("Logging");
+  command.add_flag("--log-json", options.is_json, "Log a JSON object a line")->group("Logging");
+}
+
+void set_up_logging(const LogOptions& options) {
+  is_json = options.is_json;
+  const auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  if (is_json)
+    sink->set_formatter(std::make_unique<JsonFormatter>());
+  else
+    sink->set_formatter(std::make_unique<TextFormatter>());
+  const auto add = [&](const char* name, spdlog::level::level_enum level) {
+    const auto logger = std::make_shared<spdlog::logger>(name, sink);
+    logger->set_level(level);
+    spdlog::drop(name);
+    spdlog::register_logger(logger);
+  };
+  for (const char* name : {kFindings, kProgress, kRun})
+    add(name, level_of(options.level, spdlog::level::info));
+  for (const char* name : kRooms) add(name, level_of(options.level, spdlog::level::warn));
+}
+
+bool logs_json() { return is_json; }
+
+Log findings_log() { return log(kFindings); }
+Log progress_log() { return log(kProgress); }
+Log run_log() { return log(kRun); }
+
+}  // namespace oriel::cli

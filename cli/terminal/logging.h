@@ -1,0 +1,40 @@
+#pragma once
+
+#include "kernel/base/log.h"
+
+#include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace oriel::cli {
+
+/// How much goes to stderr, and in which form.
+struct LogOptions {
+  /// trace, debug, info, warn, error or off. Empty: findings and summaries of the command, and
+  /// warnings of the library.
+  std::string level;
+  /// A JSON object on each line; else text.
+  bool is_json = false;
+};
+
+/// Adds `--log-level` and `--log-json` to a command, or to those below it if it has such.
+void add_log_arguments(CLI::App& command, LogOptions& options);
+
+/// All loggers of command and library write to stderr from now on. May be called again. In text the
+/// lines of the library begin with level and logger; findings begin with their severity, in colours
+/// only on a terminal and without NO_COLOR; what else the command says stands as it is.
+void set_up_logging(const LogOptions& options);
+
+/// Lines are JSON objects.
+bool logs_json();
+
+/// What the command found (Report), as a JSON object if logs_json(), else as text.
+Log findings_log();
+/// How far it is: JSON objects.
+Log progress_log();
+/// All else that the command says on stderr: summaries, files that were written.
+Log run_log();
+
+}  // namespace oriel::cli
