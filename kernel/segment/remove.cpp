@@ -253,8 +253,9 @@ class FeatureRemover {
   std::optional<std::string> take(Boundary& body, Boundary& trial,
                                   const std::vector<detail::Cap>& caps, const Feature& f) {
     const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
-    if (!is_within(carved.lump, f)) return "its cut would take more than the feature";
-    if (takes_others_along(carved.lump, trial, f)) return "a feature that stays would go with it";
+    if (!carved) return "its cut does not close any more";
+    if (!is_within(carved->lump, f)) return "its cut would take more than the feature";
+    if (takes_others_along(carved->lump, trial, f)) return "a feature that stays would go with it";
     std::swap(body, trial);
     return std::nullopt;
   }

@@ -1,7 +1,5 @@
 #include "kernel/segment/boundary/boundary.h"
 
-#include "kernel/segment/sections/even_search.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,7 +13,9 @@ double Boundary::area(int f) const {
 }
 
 std::size_t Boundary::place_of(Side side) const {
-  return first_not_less(std::span(number_of_side_), side, &std::pair<Side, int>::first);
+  const auto place =
+      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
+  return static_cast<std::size_t>(place - number_of_side_.begin());
 }
 
 const Boundary::OnSide* Boundary::on_side(Side side) const {

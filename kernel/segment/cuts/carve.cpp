@@ -1,7 +1,7 @@
 #include "kernel/segment/cuts/carve.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/base/issue.h"
 #include "kernel/segment/boundary/facet_copier.h"
 #include "kernel/segment/boundary/number_map.h"
 
@@ -75,7 +75,25 @@ class Remover {
     twins.start(body.half_edge_count());
     for (const auto& [rim, twin] : twin_of_rim_) twins.set(rim, twin);
     is_ring_ = is_hole_of_facet(body, caps);
-    find_lump();
+  }
+
+  /// Finds the facets inside the rims. False if the rims do not part them from the others.
+  bool find_lump() {
+    StampSet& seen = body_.world().scratch.facets_of_lump;
+    seen.start(body_.facet_count());
+    const auto push = [&](int f) {
+      if (seen.insert(f)) facets_.push_back(f);
+    };
+    for (const auto& [rim, twin] : twin_of_rim_) push(body_.facet_of(rim));
+    bool is_parted = true;
+    for (std::size_t i = 0; is_parted && i < facets_.size(); ++i)
+      body_.for_each_edge(facets_[i], [&](int e) {
+        if (is_rim(e)) return;
+        is_parted &= !is_rim(body_.twin(e));
+        push(body_.facet_of(body_.twin(e)));
+      });
+    std::ranges::sort(facets_);
+    return is_parted;
   }
 
   Carved run(FeatureId mark, std::vector<int> touched) {
@@ -95,30 +113,13 @@ class Remover {
     } else {
       close_rest(mark);
     }
-    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_, is_ring_};
+    return {std::move(copier_.boundary()), cap_point_, std::move(touched), has_rim_left_};
   }
 
  private:
   [[nodiscard]] bool is_rim(int e) const { return twin_of(e) >= 0; }
   /// The twin that a half-edge of the rim had before the cut; -1: it is none.
   [[nodiscard]] int twin_of(int rim) const { return body_.world().scratch.twin_of_rim.find(rim); }
-
-  /// The facets inside the rims, ascending.
-  void find_lump() {
-    StampSet& seen = body_.world().scratch.facets_of_lump;
-    seen.start(body_.facet_count());
-    const auto push = [&](int f) {
-      if (seen.insert(f)) facets_.push_back(f);
-    };
-    for (const auto& [rim, twin] : twin_of_rim_) push(body_.facet_of(rim));
-    for (std::size_t i = 0; i < facets_.size(); ++i)
-      body_.for_each_edge(facets_[i], [&](int e) {
-        if (is_rim(e)) return;
-        if (is_rim(body_.twin(e))) throw GeometryError("the rim of a cut does not separate a lump");
-        push(body_.facet_of(body_.twin(e)));
-      });
-    std::ranges::sort(facets_);
-  }
 
   /// A free edge that waits for its other side.
   struct Open {
@@ -220,7 +221,8 @@ class Remover {
     for (const CapLoop& loop : cap.loops)
       for (const CapEdge& edge : loop.edges)
         if (edge.rim >= 0) return body_.facet_of(twin_of(edge.rim));
-    throw GeometryError("a cap without a rim");
+    ORIEL_ASSERT(false, "each cap has an edge of the rim");
+    return -1;
   }
 
   /// On the largest new facet; if all caps are parts of old ones, only its point is told.
@@ -245,7 +247,7 @@ class Remover {
   FacetCopier copier_;
   std::size_t rim_size_ = 0;
   NumberMap twin_of_rim_;    ///< as they were before the cut, sorted
-  std::vector<int> facets_;  ///< of the lump
+  std::vector<int> facets_;  ///< of the lump, ascending
   std::vector<int> cap_facets_;
   Vec3 cap_point_;
   bool has_rim_left_ = false;
@@ -309,9 +311,11 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   return filled;
 }
 
-Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
-                std::vector<int> touched) {
-  return Remover(body, caps, is_hole).run(mark, std::move(touched));
+std::optional<Carved> take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole,
+                               FeatureId mark, std::vector<int> touched) {
+  Remover remover(body, caps, is_hole);
+  if (!remover.find_lump()) return std::nullopt;
+  return remover.run(mark, std::move(touched));
 }
 
 }  // namespace oriel::detail

@@ -4,6 +4,7 @@
 #include "kernel/segment/cuts/lump.h"
 #include "kernel/segment/sections/section.h"
 
+#include <optional>
 #include <vector>
 
 namespace oriel::detail {
@@ -43,8 +44,6 @@ struct Carved {
   /// Edges of the rest run along the caps' outlines: the caps are no mere pieces of the facets
   /// around them.
   bool has_rim_left = false;
-  /// The rim was a hole of one facet, and is gone without a trace.
-  bool is_ring = false;
 };
 
 /// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.
@@ -65,10 +64,9 @@ std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lum
 /// side out. Caps close both, and facets of the rest are made maximal again. `mark` is left on the
 /// largest cap of the rest.
 ///
-/// Throws GeometryError if the rims do not separate a lump; the body is then not to be used any
-/// more.
-Carved take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole, FeatureId mark,
-                std::vector<int> touched);
+/// Nothing, and the body is as it was, if the rims do not separate a lump.
+std::optional<Carved> take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole,
+                               FeatureId mark, std::vector<int> touched);
 
 /// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
 /// pocket, ascending; `cap`: what closes the rest.

@@ -59,7 +59,7 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
       own_planes_(std::move(own_planes)),
       stats_(stats),
       work_(work),
-      slots_(body, options, free_side, own_planes_, stats, work),
+      candidates_(body, options, free_side, own_planes_, stats, work),
       pockets_(body, free_side) {}
 
 std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
@@ -68,12 +68,12 @@ std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
 }
 
 std::optional<Choice> Chooser::natural_next() {
-  slots_.refresh(true);
+  candidates_.refresh(true);
   if (auto choice = best_section_cut(Pass::natural)) return choice;
   if (options_.max_order > 1)
     if (auto choice = first_of_least_order(patches(false, limit()))) return choice;
   if (auto choice = best_section_cut(Pass::wide_natural)) return choice;
-  slots_.refresh(false);
+  candidates_.refresh(false);
   auto choice = best_section_cut(Pass::strict);
   if (options_.max_order == 1) return choice;
   const auto holes = patches(true, choice ? choice->value : limit());
@@ -83,7 +83,7 @@ std::optional<Choice> Chooser::natural_next() {
 }
 
 std::optional<Choice> Chooser::paper_next() {
-  slots_.refresh(false);
+  candidates_.refresh(false);
   if (auto choice = best_section_cut(Pass::strict)) return choice;
   if (options_.max_order == 1) return std::nullopt;
   return corner_cut(patches(true, limit()));
@@ -143,7 +143,7 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
 /// The lump in front of a candidate. What only floods can tell is flooded, of pockets of one kind
 /// the first; a lump that is alone is none of a kind.
 Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
-  const Section& section = *candidate.slot->section;
+  const Section& section = *candidate.section;
   const int pocket = pockets_.find(section, candidate.region, is_alone);
   if (pocket >= 0 && !is_alone) {
     const int kind = pockets_.kind_of(pocket);
@@ -164,7 +164,7 @@ Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
 }
 
 Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
-  const Section& section = *candidate.slot->section;
+  const Section& section = *candidate.section;
   const Region& region = section.regions[at(candidate.region)];
   const auto flooded = pockets_.flooded(pocket, section, region);
   if (!flooded) return flood(candidate);
@@ -177,8 +177,8 @@ Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
 }
 
 Lump Chooser::flood(const Candidate& candidate) {
-  if (candidate.slot != flooded_) finder_.emplace(body_, *candidate.slot->section);
-  flooded_ = candidate.slot;
+  if (candidate.section != flooded_) finder_.emplace(body_, *candidate.section);
+  flooded_ = candidate.section;
   return finder_->find(candidate.region);
 }
 
@@ -199,7 +199,7 @@ std::optional<double> Chooser::key_of(Pass pass, const Region& region, double ne
 /// Gives a candidate its lump, and the key of that as a whole. False if it is no feature, or none
 /// of the pass.
 bool Chooser::check(Candidate& candidate, Pass pass, bool is_alone) {
-  const Section& section = *candidate.slot->section;
+  const Section& section = *candidate.section;
   const Region& region = section.regions[at(candidate.region)];
   Lump found = lump_at(candidate, is_alone);
   candidate.lump = static_cast<int>(lumps_.size());
@@ -221,8 +221,7 @@ bool Chooser::check(Candidate& candidate, Pass pass, bool is_alone) {
 }
 
 template <class Visit>
-void Chooser::for_each_candidate(const Slot& slot, Pass pass, Visit visit) const {
-  const Section& section = *slot.section;
+void Chooser::for_each_candidate(const Section& section, Pass pass, Visit visit) const {
   for (int r = 0; r < std::ssize(section.regions); ++r) {
     const Region& region = section.regions[at(r)];
     const double old = region.is_candidate ? section.old_area(region) : 0;
@@ -231,31 +230,34 @@ void Chooser::for_each_candidate(const Slot& slot, Pass pass, Visit visit) const
   }
 }
 
-/// Infinite if it has no candidate. Known of a slot that was not looked at again since.
+/// Infinite if it has no candidate. Known of a section that is the same as when it was last asked
+/// for.
 double Chooser::least_key(std::size_t number, Pass pass) {
   auto& leasts = leasts_[static_cast<std::size_t>(pass)];
-  if (leasts.empty()) leasts.resize(slots_.size());
+  if (leasts.empty()) leasts.resize(candidates_.size());
   Least& least = leasts[number];
-  const Slot& slot = slots_[number];
-  if (least.looks == slot.looks && banned_->empty()) return least.key;
-  least = {banned_->empty() ? slot.looks : -1, std::numeric_limits<double>::infinity()};
-  for_each_candidate(slot, pass, [&](int, double key) { least.key = std::min(least.key, key); });
+  const CutCandidates::Candidate& side = candidates_[number];
+  if (least.version == side.version && banned_->empty()) return least.key;
+  least = {banned_->empty() ? side.version : -1, std::numeric_limits<double>::infinity()};
+  for_each_candidate(*side.section, pass,
+                     [&](int, double key) { least.key = std::min(least.key, key); });
   return least.key;
 }
 
-/// Adds the candidates with no larger key; a slot that has others waits on with the least of them.
+/// Adds the candidates with no larger key; a section that has others waits on with the least of
+/// them.
 void Chooser::take_candidates(std::vector<Candidate>& candidates, Pass pass, double most) {
   const auto before = std::ssize(candidates);
   while (!waiting_.empty() && waiting_.front().first <= most) {
     const auto [least, number] = waiting_.front();
     std::ranges::pop_heap(waiting_, std::greater{});
-    const Slot& slot = slots_[number];
+    const Section& section = *candidates_[number].section;
     double next = std::numeric_limits<double>::infinity();
-    for_each_candidate(slot, pass, [&](int region, double key) {
+    for_each_candidate(section, pass, [&](int region, double key) {
       if (key > most)
         next = std::min(next, key);
       else if (key >= least)
-        candidates.push_back({number, &slot, region, -1, key});
+        candidates.push_back({number, &section, region, -1, key});
     });
     if (next < std::numeric_limits<double>::infinity()) {
       waiting_.back().first = next;
@@ -284,7 +286,7 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
       if (leads(c)) keys.push_back(c.key);
     if (keys.empty()) return;
     std::ranges::sort(keys);
-    // Candidates of one slot stand together, so one finder at a time does.
+    // Candidates of one section stand together, so one finder at a time does.
     flooded_ = nullptr;
     std::erase_if(candidates, [&](Candidate& c) {
       return leads(c) && !check(c, pass, is_alone_in(keys, c.key));
@@ -292,13 +294,14 @@ void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
   }
 }
 
-/// Only slots with a leader are asked for their candidates: most do not change from cut to cut.
-void Chooser::wait_for_slots(Pass pass) {
+/// Only sections with a leader are asked for their candidates: most do not change from cut to cut.
+void Chooser::wait_for_sections(Pass pass) {
   waiting_.clear();
-  slots_.promising().for_each([&](std::size_t number) {
+  for (std::size_t number = 0; number < candidates_.size(); ++number) {
+    if (!candidates_[number].has_regions()) continue;
     const double key = least_key(number, pass);
     if (key < std::numeric_limits<double>::infinity()) waiting_.emplace_back(key, number);
-  });
+  }
   std::ranges::make_heap(waiting_, std::greater{});
 }
 
@@ -306,15 +309,14 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass) {
   std::vector<Candidate> candidates;
   lumps_.clear();
   lump_of_kind_.assign(at(pockets_.kind_count()), -1);
-  wait_for_slots(pass);
+  wait_for_sections(pass);
   check_leaders(candidates, pass);
   std::optional<Choice> best;
-  Few<std::pair<std::size_t, bool>, 8> done;  // slots, and which kind of their regions
+  Few<std::pair<std::size_t, bool>, 8> done;  // sections, and which kind of their regions
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) least = std::min(least, c.key);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const bool is_material =
-        candidates[i].slot->section->regions[at(candidates[i].region)].is_material;
+    const bool is_material = candidates[i].section->regions[at(candidates[i].region)].is_material;
     const std::pair kind(candidates[i].number, is_material);
     if (!is_same_value(candidates[i].key, least) || std::ranges::find(done, kind) != done.end())
       continue;
@@ -328,7 +330,7 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass) {
 /// The leader with all lumps of the same plane and kind whose value is the same within value_rel.
 Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const {
   const Candidate& first = candidates[leader];
-  const Section& section = *first.slot->section;
+  const Section& section = *first.section;
   const Region& region = section.regions[at(first.region)];
   Choice choice;
   choice.is_hole = !region.is_material;
@@ -340,7 +342,7 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
   choice.section = &section;
   choice.pockets = &pockets_;
   for (const Candidate& c : candidates) {
-    if (c.slot != first.slot || c.lump < 0 ||
+    if (c.section != first.section || c.lump < 0 ||
         c.key > first.key * (1 + std::max(kSame, options_.tolerances.value_rel)))
       continue;
     if (section.regions[at(c.region)].is_material != region.is_material) continue;

@@ -2,9 +2,9 @@
 
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/cuts/corner_holes.h"
+#include "kernel/segment/cuts/cut_candidates.h"
 #include "kernel/segment/cuts/lump.h"
 #include "kernel/segment/cuts/pockets.h"
-#include "kernel/segment/cuts/slots.h"
 #include "kernel/segment/segment.h"
 
 #include <array>
@@ -57,25 +57,24 @@ class Chooser {
   std::optional<Choice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
-  void changed(const std::vector<Change>& changes) {
-    slots_.changed(changes);
+  void changed(const std::vector<RestChange>& changes) {
+    candidates_.invalidate(changes);
     pockets_.changed(changes);
   }
 
  private:
-  using Slot = Slots::Slot;
   /// The passes differ in which regions they take, and by what they sort them.
   enum class Pass { natural, wide_natural, strict };
   static constexpr std::size_t kPasses = 3;
-  /// The least key of a slot's regions in a pass, as the slot was when it was looked at so often.
+  /// The least key of the regions of a side of a plane in a pass, and at which version.
   struct Least {
-    int looks = -1;
+    int version = -1;
     double key = 0;
   };
   /// A region as a candidate of the pass at hand.
   struct Candidate {
-    std::size_t number = 0;  ///< of its slot
-    const Slot* slot = nullptr;
+    std::size_t number = 0;  ///< of its section in candidates_
+    const Section* section = nullptr;
     int region = -1;
     int lump = -1;  ///< in lumps_ once the flood has found it
     double key = 0;
@@ -89,10 +88,10 @@ class Chooser {
   [[nodiscard]] std::optional<double> key_of(Pass pass, const Region& region, double new_area,
                                              double old_area) const;
   [[nodiscard]] double least_key(std::size_t number, Pass pass);
-  void wait_for_slots(Pass pass);
+  void wait_for_sections(Pass pass);
   void take_candidates(std::vector<Candidate>& candidates, Pass pass, double most);
   template <class Visit>
-  void for_each_candidate(const Slot& slot, Pass pass, Visit visit) const;
+  void for_each_candidate(const Section& section, Pass pass, Visit visit) const;
   void check_leaders(std::vector<Candidate>& candidates, Pass pass);
   bool check(Candidate& candidate, Pass pass, bool is_alone);
   Lump lump_at(const Candidate& candidate, bool is_alone);
@@ -122,15 +121,15 @@ class Chooser {
   std::vector<int> own_planes_;
   SegmentationStats& stats_;
   std::int64_t& work_;
-  Slots slots_;
+  CutCandidates candidates_;
   const std::set<CutKey>* banned_ = nullptr;
   Pockets pockets_;
-  std::array<std::vector<Least>, kPasses> leasts_;  ///< by slot
+  std::array<std::vector<Least>, kPasses> leasts_;  ///< by section of candidates_
   // Found in the pass at hand.
-  /// Slots by the least key of what was not taken of them, a heap.
+  /// Sections by the least key of what was not taken of them, a heap.
   std::vector<std::pair<double, std::size_t>> waiting_;
   std::vector<Lump> lumps_;
-  const Slot* flooded_ = nullptr;  ///< the slot that finder_ is for
+  const Section* flooded_ = nullptr;  ///< the one that finder_ is for
   std::optional<LumpFinder> finder_;
   std::vector<int> lump_of_kind_;  ///< the first lump of each kind of pockets; -1: none yet
 };

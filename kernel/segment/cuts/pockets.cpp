@@ -18,11 +18,11 @@ bool is_of_pocket(const Region& region) {
 
 }  // namespace
 
-void Pockets::changed(const std::vector<Change>& changes) {
+void Pockets::changed(const std::vector<RestChange>& changes) {
   order_.pocket = -1;
   StampSet& is_touched = body_.world().scratch.met_points;
   is_touched.start(body_.world().points.size());
-  for (const Change& change : changes)
+  for (const RestChange& change : changes)
     for (const int p : change.points) is_touched.insert(p);
   const auto has_gone = [&](const Pocket& pocket) {
     const auto edges = edges_of(pocket);

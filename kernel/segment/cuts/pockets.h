@@ -2,7 +2,7 @@
 
 #include "kernel/segment/boundary/leaf.h"
 #include "kernel/segment/cuts/carve.h"
-#include "kernel/segment/cuts/slots.h"
+#include "kernel/segment/cuts/cut_candidates.h"
 #include "kernel/segment/instances/congruence.h"
 #include "kernel/segment/sections/section.h"
 
@@ -30,7 +30,7 @@ class Pockets {
 
   /// Tells that the body has changed in this way and no other: pockets that the changes have no
   /// point of stay known, with their numbers.
-  void changed(const std::vector<Change>& changes);
+  void changed(const std::vector<RestChange>& changes);
 
   /// The number of the pocket in front of a region; -1 if the lump there is none. Of one that
   /// `is_alone` it is not asked whether it is of a kind that is known.

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "kernel/segment/sections/even_search.h"
-
+#include <algorithm>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -36,7 +34,7 @@ class PlaneRanks {
     const auto place = static_cast<std::size_t>(rank);
     if (place < before_.size()) return static_cast<std::size_t>(before_[place]);
     if (!before_.empty()) return ranks_.size();
-    return first_not_less(std::span<const int>(ranks_), rank);
+    return static_cast<std::size_t>(std::ranges::lower_bound(ranks_, rank) - ranks_.begin());
   }
 
  private:

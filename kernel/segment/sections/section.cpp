@@ -1,7 +1,6 @@
 #include "kernel/segment/sections/section.h"
 
 #include "kernel/base/index.h"
-#include "kernel/segment/sections/nearly_sorted.h"
 #include "kernel/segment/sections/nested_loops.h"
 
 #include <algorithm>
@@ -29,17 +28,14 @@ class Sectioner {
         plane_rank_(world_.planes.rank_of(section.plane)),
         section_(section) {}
 
-  /// True if all living edges cross the plane.
-  bool run() {
+  void run() {
     ask_for_facets();
-    const bool do_all_cross = find_crossings();
-    if (section_.crossings.empty()) return do_all_cross;
-    if (!link_chords() || !close_loops()) {
+    find_crossings();
+    if (section_.crossings.empty()) return;
+    if (link_chords() && close_loops())
+      find_regions();
+    else
       section_.loops.clear();
-      return false;
-    }
-    find_regions();
-    return do_all_cross;
   }
 
   bool prune() {
@@ -63,18 +59,16 @@ class Sectioner {
     return (difference > 0) - (difference < 0);
   }
 
-  bool find_crossings() {
+  void find_crossings() {
     StampSet& crossed = scratch_.crossed_edges;
     crossed.start(body_.half_edge_count());
     auto& crossings = section_.crossings;
     crossings.reserve(edges_.size());
     const auto ranks = ranks_;
     const int direction = section_.direction, limit = plane_rank_ * direction;
-    std::size_t living = 0;
     for (const int one : edges_) {
       const auto& half = body_.edge(one);
       if (half.next < 0) continue;
-      ++living;
       int e = one, up = half.origin, down = body_.origin(half.twin);
       const bool is_one_up = ranks[at(up)] * direction > limit;
       if (is_one_up == (ranks[at(down)] * direction > limit)) continue;
@@ -86,7 +80,6 @@ class Sectioner {
       if (crossed.insert(e))
         crossings.push_back({e, meeting(up, down, ranks[at(down)] == plane_rank_)});
     }
-    return crossings.size() == living;
   }
 
   /// Where an edge meets the plane, from its upper and its lower end.
@@ -149,7 +142,7 @@ class Sectioner {
     if (ends.size() % 2 != 0) return false;
     const Vec3 line = line_in(facet);
     for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[at(end.crossing)].at);
-    sort_nearly_sorted(ends, [](const ChordEnd& p, const ChordEnd& q) {
+    std::ranges::sort(ends, [](const ChordEnd& p, const ChordEnd& q) {
       if (p.along != q.along) return p.along < q.along;
       return std::pair(p.leads_down, p.crossing) < std::pair(q.leads_down, q.crossing);
     });
@@ -375,13 +368,13 @@ class Sectioner {
 
 }  // namespace
 
-bool section_at(const Boundary& body, Section& section, std::span<const int> edges,
+void section_at(const Boundary& body, Section& section, std::span<const int> edges,
                 const SectionOptions& options) {
   section.crossings.clear();
   section.loops.clear();
   section.regions.clear();
   section.is_by_loop = false;
-  return Sectioner(body, section, edges, options).run();
+  Sectioner(body, section, edges, options).run();
 }
 
 bool prune_section(const Boundary& body, Section& section, const SectionOptions& options) {

@@ -84,8 +84,8 @@ struct SectionOptions {
 /// before. `edges` holds at least one half-edge of every edge that crosses the plane; dead ones and
 /// others do no harm. The air around the body has no region. A body whose crossings do not
 /// alternate along a facet (possible only where vertices lie on planes by decree) gives no loops
-/// and no regions. True if all living ones of `edges` cross the plane, each once.
-bool section_at(const Boundary& body, Section& section, std::span<const int> edges,
+/// and no regions.
+void section_at(const Boundary& body, Section& section, std::span<const int> edges,
                 const SectionOptions& options);
 
 /// Brings a section up to date after natural cuts whose parts it met in whole loops or not at all:

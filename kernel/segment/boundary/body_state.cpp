@@ -1,4 +1,4 @@
-#include "kernel/segment/instances/body_state.h"
+#include "kernel/segment/boundary/body_state.h"
 
 #include <cmath>
 

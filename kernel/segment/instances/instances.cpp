@@ -1,14 +1,15 @@
-#include "kernel/segment/instances/instance.h"
+#include "kernel/segment/instances/instances.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/issue.h"
 
 #include <algorithm>
 
 namespace oriel::detail {
 
-namespace {
-
-class Copier {
+/// Gives the body at a node the subtree of a congruent one: nodes, features and cells are those of
+/// the model, moved. No cut has a plane that its body has not, so the map has all planes needed.
+class Instances::Copier {
  public:
   Copier(const Subtree& model, const Congruence& how, World& world, CellWriter& cells,
          Segmentation& out)
@@ -20,10 +21,9 @@ class Copier {
         points_(world.scratch.moved_points),
         planes_(world.scratch.moved_planes) {}
 
-  bool run(NodeId node, FeatureId feature) {
+  void run(NodeId node, FeatureId feature) {
     fill(points_, world_.points.size(), how_.points);
     fill(planes_, world_.planes.size(), how_.planes);
-    if (!has_own_planes_only()) return false;
     node_ = node;
     feature_ = feature;
     new_node_ = static_cast<int>(out_.nodes.size());
@@ -38,23 +38,12 @@ class Copier {
     for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c) copy_cell(CellId{c});
     cells_.copy_sources(how_.sources, model_.first_cell, model_.last_cell, new_cell_);
     for (const auto& [marked, copy] : how_.marks) copy_host(FeatureId{marked}, FeatureId{copy});
-    return true;
   }
 
  private:
   static void fill(StampMap& map, int size, const NumberMap& numbers) {
     map.start(size);
     for (const auto& [one, other] : numbers) map.set(one, other);
-  }
-
-  [[nodiscard]] bool has_own_planes_only() const {
-    const auto is_own = [&](PlaneId id) { return planes_.find(cells_.side_of(id) >> 1) >= 0; };
-    for (int n = model_.first_node; n < model_.last_node; ++n)
-      if (!std::ranges::all_of(out_.nodes[at(n)].planes, is_own)) return false;
-    for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c)
-      for (const Facet& facet : out_.cells[at(c)].facets)
-        if (!is_own(facet.plane)) return false;
-    return std::ranges::all_of(out_.nodes[model_.node.index()].planes, is_own);
   }
 
   [[nodiscard]] NodeId moved(NodeId id) const {
@@ -70,6 +59,7 @@ class Copier {
   }
   PlaneId moved(PlaneId id) {
     const Side side = cells_.side_of(id);
+    if (planes_.find(side >> 1) < 0) throw GeometryError("a copy of a pocket has lost planes");
     return cells_.plane_id(2 * planes_.find(side >> 1) + (side & 1));
   }
 
@@ -139,11 +129,46 @@ class Copier {
   NumberMap made_;
 };
 
-}  // namespace
+void Instances::let_wait(std::vector<WaitingBody>& waiting, std::size_t first,
+                         const std::vector<std::size_t>& models) {
+  for (std::size_t i = 0; i < models.size(); ++i)
+    if (models[i] != i) {
+      int& number = waiting[first + models[i]].model;
+      if (number < 0) {
+        number = static_cast<int>(models_.size());
+        models_.emplace_back();
+      }
+      waiting[first + i].model = number;
+    }
+}
 
-bool copy_subtree(const Subtree& model, const Congruence& how, NodeId node, FeatureId feature,
-                  World& world, CellWriter& cells, Segmentation& out) {
-  return Copier(model, how, world, cells, out).run(node, feature);
+void Instances::open(const WaitingBody& body, std::size_t waiting) {
+  if (body.model < 0 || body.copy_of_model) return;
+  const int node = static_cast<int>(out_.nodes.size()),
+            feature = static_cast<int>(out_.features.size());
+  const CellId cell{static_cast<int>(out_.cells.size())};
+  models_[at(body.model)] = {{body.node, body.feature, node, node, feature, feature, cell, cell},
+                             waiting};
+  open_.push_back(body.model);
+}
+
+void Instances::close(std::size_t waiting) {
+  while (!open_.empty()) {
+    Model& model = models_[at(open_.back())];
+    if (waiting >= model.waiting) return;
+    model.subtree.last_node = static_cast<int>(out_.nodes.size());
+    model.subtree.last_feature = static_cast<int>(out_.features.size());
+    model.subtree.last_cell = CellId{static_cast<int>(out_.cells.size())};
+    open_.pop_back();
+  }
+}
+
+bool Instances::copy(const WaitingBody& body) {
+  if (!body.copy_of_model) return false;
+  const Subtree& model = models_[at(body.model)].subtree;
+  Copier(model, *body.copy_of_model, world_, cells_, out_).run(body.node, body.feature);
+  ++out_.stats.instanced;
+  return true;
 }
 
 }  // namespace oriel::detail

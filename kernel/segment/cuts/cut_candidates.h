@@ -1,0 +1,97 @@
+#pragma once
+
+#include "kernel/model/segmentation.h"
+#include "kernel/segment/sections/edge_index.h"
+#include "kernel/segment/sections/natural_chains.h"
+#include "kernel/segment/sections/section.h"
+#include "kernel/segment/segment.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace oriel::detail {
+
+/// What one part that was taken off has changed in the rest.
+struct RestChange {
+  /// The points of everything that has changed; an edge without any of them is unchanged. Sorted,
+  /// each once.
+  std::vector<int> points = {};
+  /// The edges around the part's cap, if it has a single one with a single outline that covers
+  /// nothing; else none.
+  std::vector<std::pair<int, int>> rim = {};
+  /// The cut follows existing edges: nothing was split.
+  bool is_natural = false;
+  /// Edges that the body may have since.
+  std::vector<std::pair<int, int>> new_edges = {};
+  /// Facets were covered, so that more edges than those bound other facets since.
+  bool has_covered = false;
+};
+
+/// Where the cuts by one plane may begin: for each side of each split plane of a body the section
+/// just beyond it, kept as long as no cut has touched it.
+class CutCandidates {
+ public:
+  enum class State : std::uint8_t {
+    stale,   ///< unknown: a cut has touched it since its section was made, or none ever was
+    shrunk,  ///< as active, but loops of its section have gone with parts; nothing else has changed
+    cached,  ///< nothing can be cut here, as the section has shown
+    active,  ///< the section is up to date
+  };
+  /// A split plane seen from one side.
+  struct Candidate {
+    std::size_t entry = 0;  ///< of its plane among the split planes
+    int direction = 1;      ///< as that of a Section
+    State state = State::stale;
+    int version = 0;             ///< counts how often it was brought up to date
+    Section* section = nullptr;  ///< null: none was kept ever
+
+    [[nodiscard]] bool has_regions() const {
+      return section != nullptr && !section->regions.empty();
+    }
+  };
+
+  /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of the
+  /// body.
+  CutCandidates(const Boundary& body, const SegmentOptions& options, Side free_side,
+                const std::vector<int>& own_planes, SegmentationStats& stats, std::int64_t& work);
+
+  /// Tells that the body has changed in this way and in no other since the last call.
+  void invalidate(std::span<const RestChange> changes);
+  /// Brings all candidates up to date. With `natural_only` those in which no natural region can be
+  /// stay stale, without regions.
+  void refresh(bool natural_only);
+
+  [[nodiscard]] std::size_t size() const { return candidates_.size(); }
+  [[nodiscard]] const Candidate& operator[](std::size_t i) const { return candidates_[i]; }
+
+ private:
+  /// The split planes of one normal class: planes_[first…last).
+  struct PlanesOfClass {
+    int number;
+    std::size_t first, last;
+  };
+  void invalidate(std::size_t k, const RestChange& change);
+  void bring_up_to_date(Candidate& candidate, std::size_t number);
+  void make_section(Candidate& candidate);
+  [[nodiscard]] bool prune(Candidate& candidate);
+  Section& section_of(Candidate& candidate);
+
+  const Boundary& body_;
+  World& world_;
+  SectionOptions section_options_;
+  SegmentationStats& stats_;
+  std::int64_t& work_;
+  std::vector<int> planes_;  ///< the split planes, ascending
+  std::vector<PlanesOfClass> classes_;
+  EdgeIndex edges_;
+  NaturalChains chains_;
+  std::vector<Candidate> candidates_;  ///< of each plane in front, then behind
+  std::deque<Section> sections_;       ///< of candidates
+  Section fresh_;                      ///< room for the section at hand
+};
+
+}  // namespace oriel::detail
