@@ -34,7 +34,7 @@ std::string command_line() {
 
 InputError not_the_same(const std::string& journal, const std::string& why) {
   Issue issue;
-  issue.code = "E117";
+  issue.code = Code::E117;
   issue.sentence =
       fmt::format("{}: the run cannot be resumed; delete this file to start again", why);
   issue.place.file = journal;

@@ -53,7 +53,7 @@ LabelledBuilding on_solid(const Document& document, const Building& building, co
                           LabelledBuilding labelled, const Tolerances& tolerances,
                           std::vector<Issue>& issues) {
   if (line.is_open) {
-    issues.push_back(building_issue(Severity::error, "G404", building.id,
+    issues.push_back(building_issue(Severity::error, Code::G404, building.id,
                                     "is open: its polygons are labelled unchanged"));
     return labelled;
   }

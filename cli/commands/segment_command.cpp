@@ -83,7 +83,7 @@ class Outputs {
     bool is_same = true;
     std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
     if (is_same) return text;
-    run_.set_aside(building_issue(Severity::error, "E901", building.id,
+    run_.set_aside(building_issue(Severity::error, Code::E901, building.id,
                                   "a fault of oriel's own: its balanced tree is another body"));
     return {};
   }
