@@ -60,7 +60,7 @@
   X(E303, 303, "Polygons that do not pair up at an edge") \
   X(E304, 0, "Degenerate polygons were dropped") \
   X(E305, 403, "An interior shell outside its solid") \
-  X(E307, 307, "Polygons that cannot be oriented consistently") \
+  X(E307, 307, "Polygons that cannot be oriented alike") \
   X(E308, 307, "Turned round") \
   X(E309, 0, "Facets were swallowed") \
   X(E310, 0, "A shell without volume") \
@@ -116,7 +116,7 @@
   X(G416, 0, "Gaps narrower than asked for") \
   X(G417, 0, "What runs through itself is mended first") \
   X(G418, 0, "A piece would be torn off") \
-  X(G419, 0, "A building that was not valid is redrawn") \
+  X(G419, 0, "A building that was not valid is drawn anew") \
   X(R200, 0, "The pack cannot be read") \
   X(R201, 0, "Not YAML") \
   X(R202, 0, "A key stands twice") \
