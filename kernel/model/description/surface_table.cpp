@@ -32,7 +32,8 @@ const std::vector<Attribute>& surface_schema() {
       {"azimuth", degree, "of its outward normal, clockwise from north; missing if level",
        "rules.md"},
       {"facing", text,
-       "how its outer side was found: solid (the closed shell), input (the order of its corners) or "
+       "how its outer side was found: solid (the closed shell), input (the order of its corners) "
+       "or "
        "position (what lies straight above it)",
        "rules.md"},
       // Its size.
