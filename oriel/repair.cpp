@@ -85,7 +85,7 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
   if (result.is_open)
     return {{},
             {building_issue(Severity::error, Code::G404, building.id,
-                            "is open: its polygons are labelled as they came")}};
+                            "is open: its polygons are labelled unchanged")}};
   Generalised whole{*result.solid, {}};
   whole.is_drawn_anew = true;
   LabelledBuilding drawn =

@@ -26,8 +26,9 @@ namespace {
 Format checked_format(const std::string& path, std::span<const Document> documents) {
   const auto format = format_of(path);
   if (!format || *format == Format::citygml)
-    refuse(path,
-           "is no name of a format that is written: .city.json, .city.jsonl, .obj, .off, .stl");
+    refuse(
+        path,
+        "is no name of a format that is written: .city.json, .city.jsonl, .obj, .off, .ply, .stl");
   for (const Document& document : documents) {
     const bool is_stream = document.format == Format::cityjson_seq;
     const bool becomes_stream = *format == Format::cityjson_seq;
@@ -41,11 +42,12 @@ Format checked_format(const std::string& path, std::span<const Document> documen
 
 std::string mesh_text(Format format, std::span<const Document> documents,
                       std::span<const OutputRecord> outputs) {
-  LabelledMesh mesh;
+  MeshSource mesh;
   for (std::size_t i = 0; i < documents.size(); ++i)
     append_mesh(mesh, documents[i], outputs[i].buildings);
   return format == Format::obj   ? write_obj(mesh)
          : format == Format::off ? write_off(mesh)
+         : format == Format::ply ? write_ply(mesh)
                                  : write_stl(mesh);
 }
 

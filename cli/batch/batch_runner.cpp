@@ -39,7 +39,7 @@ ExitCode BatchRunner::run_all() {
   for (const auto& [option, is_given] : {std::pair("--isolate", options_.is_isolated),
                                          std::pair("--reuse", !options_.reuse.empty())})
     if (producer_ == nullptr && is_given)
-      throw CLI::ValidationError(option, "goes with commands that write record by record");
+      throw CLI::ValidationError(option, "works only with commands that write record by record");
   if (!begin_status()) return state_.code;
   const bool is_all_read =
       resume_ && resume_->state() && resume_->position().input >= options_.inputs.size();
@@ -299,7 +299,7 @@ void BatchRunner::restore(const ordered_json& journal) {
   status_->restore(journal.at("ledger"));
   if (auto* counts = producer_ != nullptr ? producer_->counts() : nullptr)
     *counts = journal.at("counts").get<Counts>();
-  run_log().info("goes on behind {} buildings", state_.buildings);
+  run_log().info("resumes after {} building{}", state_.buildings, state_.buildings == 1 ? "" : "s");
 }
 
 void BatchRunner::write_status() {
@@ -347,11 +347,11 @@ void BatchRunner::report_summary(const std::string& verb, const std::map<std::st
     if (!label.empty()) parts.push_back(fmt::format("{} {}", count, label));
   if (const auto unknown = counts.find(""); unknown != counts.end())
     parts.push_back(fmt::format("{} unknown", unknown->second));
-  std::string text = fmt::format("{} {} of {} buildings", verb, state_.buildings - state_.set_aside,
-                                 state_.buildings);
+  std::string text = fmt::format("{} of {} building{} {}", state_.buildings - state_.set_aside,
+                                 state_.buildings, state_.buildings == 1 ? "" : "s", verb);
   if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), suffix);
   if (state_.open > 0) text += fmt::format("; {} open", state_.open);
-  if (state_.set_aside > 0) text += fmt::format("; {} set aside", state_.set_aside);
+  if (state_.set_aside > 0) text += fmt::format("; {} rejected", state_.set_aside);
   std::vector<std::string> codes;
   for (const auto& [code, count] : report_.errors())
     codes.push_back(fmt::format("{} {}", code, count));
@@ -369,7 +369,7 @@ std::string BatchRunner::summary_table(const std::string& verb,
   add("buildings", state_.buildings);
   add("done", state_.buildings - state_.set_aside);
   if (state_.open > 0) add("open", state_.open);
-  add("set aside", state_.set_aside);
+  add("rejected", state_.set_aside);
   for (const auto& [code, count] : report_.errors()) add("  " + code, count);
   for (const auto& [label, count] : counts)
     add("feature " + (label.empty() ? "unknown" : label) + suffix, count);

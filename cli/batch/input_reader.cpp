@@ -16,7 +16,7 @@ std::optional<InputEvent> InputReader::next() {
   Issue issue;
   issue.code = Code::E117;
   issue.sentence =
-      fmt::format("does not begin as it did when the run began; delete {}.journal to begin anew",
+      fmt::format("does not begin as it did when the run began; delete {}.journal to start again",
                   options_.status_stem);
   issue.place.file = options_.inputs[start_.input];
   throw InputError(std::move(issue));

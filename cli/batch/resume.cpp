@@ -58,7 +58,8 @@ std::string command_line() {
 InputError not_the_same(const std::string& journal, const std::string& why) {
   Issue issue;
   issue.code = Code::E117;
-  issue.sentence = fmt::format("{}: the run cannot go on; delete this file to begin anew", why);
+  issue.sentence =
+      fmt::format("{}: the run cannot be resumed; delete this file to start again", why);
   issue.place.file = journal;
   return InputError(std::move(issue));
 }
@@ -161,7 +162,7 @@ Resume::Resume(const RunOptions& options, const std::string& rules_sha256)
     throw not_the_same(path, "is of another command, program or rule pack");
   position_ = {state_->at("input"), state_->at("records"), state_->at("read_sha256")};
   if (!PartialFiles::restore(marks_of(state_->at("files"))))
-    throw not_the_same(path, "tells of outputs that are not there any more");
+    throw not_the_same(path, "lists outputs that are not there any more");
   for (const auto& [name, mark] : journal_.read())
     if (name != "-" && sha256_of_file(name) != mark.sha256)
       throw not_the_same(path, name + " has changed since");

@@ -112,8 +112,10 @@ ExitCode work(const Arguments& arguments) {
       which += " " + (explanations.empty() ? ids[i] : explanations[i].feature);
     if (shown < (explanations.empty() ? ids.size() : explanations.size())) which += " ...";
     throw CLI::ValidationError(
-        "feature",
-        fmt::format("'{}' names {} features; {}", arguments.feature, explanations.size(), which));
+        "feature", explanations.empty()
+                       ? fmt::format("no feature starts with '{}'; {}", arguments.feature, which)
+                       : fmt::format("{} features start with '{}'; {}", explanations.size(),
+                                     arguments.feature, which));
   }
   for (const Explanation& explanation : explanations)
     std::fputs((arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation)).c_str(),
@@ -132,13 +134,15 @@ void add_explain(CLI::App& app, Action& action) {
                                       "Id of a feature, or the beginning of one");
   auto* surface =
       command
-          ->add_option("--surface", arguments->surface,
-                       "Instead: the number of a polygon, to say what surface it is and why")
+          ->add_option(
+              "--surface", arguments->surface,
+              "Instead of a feature: the number of a polygon, to say what surface it is and why")
           ->check(CLI::NonNegativeNumber)
           ->excludes(feature);
   command
       ->add_option("--at", arguments->at,
-                   "Instead: a place in the input's coordinates, to say what lies there and why")
+                   "Instead of a feature: a place in the input's coordinates, to say what lies "
+                   "there and why")
       ->delimiter(',')
       ->expected(3)
       ->type_name("X,Y,Z")

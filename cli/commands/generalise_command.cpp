@@ -159,7 +159,7 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
   if (arguments.series.empty()) return std::nullopt;
   if (!arguments.explain.empty() || !arguments.metrics.empty())
     refuse_usage("--series", Code::G414,
-                 "goes without --explain and --metrics, which are of one scale");
+                 "does not work with --explain and --metrics, which are of one scale");
   const std::vector<double> scales = scales_of(arguments.series);
   if (arguments.target.profile.empty())
     return write_series(arguments, scales, std::nullopt, rules, report);

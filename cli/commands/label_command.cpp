@@ -63,8 +63,7 @@ bool has_semantics(Format format) {
 /// Says where the input's semantics and the rules disagree; nothing is written.
 ExitCode audit(const Arguments& arguments) {
   if (!arguments.out.empty() || !arguments.features.empty())
-    throw CLI::ValidationError("--existing",
-                               "audit changes nothing: it goes without -o and --features");
+    throw CLI::ValidationError("--existing", "audit changes nothing: leave out -o and --features");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -150,7 +149,7 @@ ExitCode work(Arguments& arguments) {
   arguments.only_names_surfaces = true;
   arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
                                    !arguments.has_reasons && !arguments.is_repaired;
-  if (arguments.is_json) throw CLI::ValidationError("--json", "goes with --existing audit only");
+  if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -184,7 +183,7 @@ void add_label(CLI::App& app, Action& action) {
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
       "Without -o and --features the labels are listed; a stream from stdin goes to stdout. "
-      "Polygons are written as they came, unless --repaired.\n"
+      "Polygons are written unchanged, unless --repaired.\n"
       "Example:\n  oriel label house.city.json -o labelled.city.json\n"
       "  oriel label city/*.city.json -o labelled/ --features parts.csv --rules my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });

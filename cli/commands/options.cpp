@@ -28,7 +28,7 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   command.add_option("--seed", selection.seed, "Which ones --random draws")->capture_default_str();
   command.add_flag("--exclude", selection.is_exclusion,
-                   "All buildings but those that --id, --bbox, --cotype and --random name");
+                   "All buildings except those that --id, --bbox, --cotype and --random name");
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ void add_jobs_argument(CLI::App& command, int& jobs) {
 void add_run_arguments(CLI::App& command, RunOptions& a) {
   command.add_option("--timings", a.timings_file,
                      "Write the milliseconds of each stage to this file, as JSON");
-  command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
+  command.add_option("--repeat", a.repeat, "Run this many times; --timings has the medians")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_jobs_argument(command, a.jobs);
@@ -121,11 +121,11 @@ void add_run_arguments(CLI::App& command, RunOptions& a) {
       ->check(CLI::IsMember({"bar", "json", "none"}));
   command.add_option("--status", a.status_stem,
                      "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
-                     "record with something set aside, and why)");
+                     "record of which something was rejected, and why)");
   command
-      .add_option(
-          "--allow-bad", a.allowed_bad,
-          "Up to so many buildings (N), or of a hundred (P%), may be set aside: exit code 0")
+      .add_option("--allow-bad", a.allowed_bad,
+                  "Up to this many buildings (N), or per cent of them (P%), may be rejected with "
+                  "exit code 0")
       ->check([](const std::string& text) {
         const bool is_share = text.ends_with('%');
         const std::string digits = text.substr(0, text.size() - (is_share ? 1 : 0));
@@ -144,7 +144,7 @@ void add_resume_argument(CLI::App& command, RunOptions& a) {
   command
       .add_flag(
           "--resume", a.is_resumable,
-          "Go on after the last whole record when the same command was killed; needs --status")
+          "Resume after the last whole record when the same command was killed; needs --status")
       ->needs(command.get_option("--status"))
       ->excludes(command.get_option("--repeat"));
 }
@@ -162,12 +162,12 @@ void add_reuse_argument(CLI::App& command, RunOptions& a) {
 void add_isolate_argument(CLI::App& command, RunOptions& a) {
   command.add_flag("--isolate", a.is_isolated,
                    "Work in forked processes: a hard crash (a signal) costs one building, which is "
-                   "set aside");
+                   "rejected");
   command
       .add_option(
           "--most-seconds", a.most_seconds,
-          "Set a building aside that takes longer, by the clock, so that another run may do "
-          "otherwise; needs --isolate")
+          "Reject a building that takes longer by the clock, so results may differ from run "
+          "to run; needs --isolate")
       ->check(CLI::Range(0.001, 1e6))
       ->needs(command.get_option("--isolate"));
 }

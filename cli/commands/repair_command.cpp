@@ -29,7 +29,7 @@ std::string summary_of(const Building& building, const Repaired& repaired) {
   const RepairReport& report = repaired.report;
   if (!report.was_needed)
     return fmt::format("{}: {}", building.id,
-                       repaired.solid ? "closed as it came" : "could not be repaired");
+                       repaired.solid ? "closed already" : "could not be repaired");
   if (!repaired.solid)
     return fmt::format("{}: stays open, {} open edges", building.id, report.open_edges.size());
   double closed_m2 = 0;
@@ -68,7 +68,7 @@ class Repairer final : public VisitingCommand {
   }
 
   [[nodiscard]] std::string summary() const {
-    return fmt::format("repaired {}, found closed {}, together", repaired_, closed_);
+    return fmt::format("closed ({} repaired, {} found closed)", repaired_, closed_);
   }
 
  private:
@@ -135,7 +135,7 @@ void add_repair(CLI::App& app, Action& action) {
   add_solid_arguments(*command, *arguments);
   add_run_arguments(*command, *arguments);
   command->footer(
-      "Buildings that stay open are written as they came, and the exit code is 3.\n"
+      "Buildings that stay open are written unchanged, and the exit code is 3.\n"
       "Example:\n  oriel repair house.city.json -o repaired.city.json\n"
       "  oriel repair city/*.city.json -o repaired/ --close any --report repairs.jsonl");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });

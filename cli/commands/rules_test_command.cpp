@@ -100,7 +100,7 @@ void add_rules_test(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* test = rules.add_subcommand("test", "Run the tests of rule packs");
   test->add_option("file", arguments->files,
-                   "Packs, with their tests in NAME.test.yaml beside NAME.yaml, or those tests")
+                   "Packs, with their tests in NAME.test.yaml next to NAME.yaml, or those tests")
       ->required();
   test->add_option("--junit", arguments->junit, "Write the results to this file, as JUnit XML");
   test->add_option("--min-coverage", arguments->min_coverage,

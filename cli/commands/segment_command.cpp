@@ -131,7 +131,7 @@ void add_segment(CLI::App& app, Action& action) {
                  "With --json: the faces between cells, and which cells touch")
       ->needs(json);
   command->add_flag("--tree", arguments->has_tree,
-                    "In place of the parts: the CSG tree as cut, balanced and with touching parts "
+                    "Instead of the parts: the CSG tree as cut, balanced and with touching parts "
                     "merged, its depth and weighted path, and the proof that it is the same body");
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   add_features_argument(*command, arguments->features);

@@ -63,7 +63,7 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
   if (arguments.has_scale) targets.scale = denominator_of(arguments.scale, "--scale");
   const std::vector<std::string> names = profile_names(arguments);
   if (names.empty() && arguments.edge_min_m > 0)
-    throw CLI::ValidationError("--edge-min", "goes with --profile or --to-lod");
+    throw CLI::ValidationError("--edge-min", "works only with --profile or --to-lod");
   for (const std::string& name : names) {
     auto loaded = load_profile_file(name);
     report.add(loaded.issues);

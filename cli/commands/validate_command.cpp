@@ -186,8 +186,8 @@ class Validation {
   }
 
   void report_summary() const {
-    std::string text =
-        fmt::format("{} of {} buildings are valid", buildings_ - invalid_, buildings_);
+    std::string text = fmt::format("{} of {} building{} valid", buildings_ - invalid_, buildings_,
+                                   buildings_ == 1 ? " is" : "s are");
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
       text += fmt::format("{}{} {}", separator, count, to_string(code.first));
@@ -214,7 +214,7 @@ class Validation {
 void add_validate(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "validate", "Judge the geometry of buildings as it was read, as val3dity does");
+      "validate", "Check the geometry of buildings as it was read, as val3dity does");
   add_input_arguments(*command, *arguments, true);
   command->add_flag("--json", arguments->is_json,
                     "One JSON object per building and line instead of text");
@@ -222,7 +222,7 @@ void add_validate(CLI::App& app, Action& action) {
                     "Leave out buildings that are valid");
   command
       ->add_option("--as", arguments->primitive,
-                   "Judge as what the file states (OBJ and OFF: a solid), as a solid, or as loose "
+                   "Check as what the file states (OBJ and OFF: a solid), as a solid, or as loose "
                    "surfaces")
       ->check(CLI::IsMember({"stated", "solid", "surfaces"}))
       ->capture_default_str();

@@ -123,7 +123,7 @@ ExitCode write_series(const LabelArguments& arguments, const std::vector<double>
   BatchRunner runner(arguments, &rules, report);
   SeriesWriter command(arguments, scales, std::move(profile), rules, runner, report);
   const ExitCode code = runner.run(command);
-  runner.report_summary(fmt::format("made {} levels of", scales.size()),
+  runner.report_summary(fmt::format("drawn at {} scales", scales.size()),
                         {{"operation", command.operations()}}, " in the log");
   return code;
 }

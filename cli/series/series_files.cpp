@@ -22,7 +22,7 @@ void check_outputs(const LabelArguments& arguments) {
                  "the levels of a series are CityJSON, those of streams streams");
   if (arguments.is_isolated || !arguments.reuse.empty() || arguments.is_resumable)
     refuse_usage("--series", Code::G414,
-                 "goes without --isolate, --reuse and --resume, which are of one scale");
+                 "does not work with --isolate, --reuse and --resume, which are of one scale");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
       const auto step = steps.find(sha256);
       if (step == steps.end())
         return shard_issue(file, !has_step
-                                     ? fmt::format("is not the output that {} tells of", status)
+                                     ? fmt::format("is not the output that {} lists", status)
                                      : fmt::format("was not made of shard {}: {} has another input",
                                                    shard.name, status));
       if (step->second.inputs.size() != 1)

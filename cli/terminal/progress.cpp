@@ -91,7 +91,7 @@ std::string Progress::bar() const {
     text += fmt::format("[{}{}] {} %, ", std::string(filled, '#'),
                         std::string(kWidth - filled, '.'), done * 100 / all_bytes_);
   }
-  text += fmt::format("{} buildings, {} set aside, {:.0f}/s, {:.1f} MB/s", counts_.buildings,
+  text += fmt::format("{} buildings, {} rejected, {:.0f}/s, {:.1f} MB/s", counts_.buildings,
                       counts_.set_aside, buildings_per_s(), mb_per_s());
   if (left) text += ", " + time_text(*left) + " left";
   return text;

@@ -22,6 +22,8 @@ class Prover {
   /// A condition; what `and` joins at its top becomes several.
   std::vector<ConditionReport> conditions(ExprId id);
   ConditionReport condition(ExprId id);
+  /// Without "must be" before the bound of one that fails.
+  ConditionReport bare_condition(ExprId id);
   TermReport term(const ScoreTerm& term);
   /// The frame of the feature.
   [[nodiscard]] Frame frame() const;

@@ -130,7 +130,7 @@ class FeatureRemover {
     if (f.sense == Sense::cavity) return fill_cavity(f);
     if (f.sense == Sense::imprint) {
       // There is nothing to cut: its facet is that of its host. What it owns went before it.
-      if (has_hosted_that_stays(id)) return "what lies in it cannot go";
+      if (has_hosted_that_stays(id)) return "what lies in it cannot be removed";
       return std::nullopt;
     }
     if (f.is_uncut) return "no cut frees it: only its ring is known";

@@ -104,7 +104,7 @@ void BuildingDrawer::give_up(const PipelineResult& result, Issue fault,
     return;
   }
   fault.severity = Severity::warning;
-  fault.sentence += "; it stays as it came";
+  fault.sentence += "; it stays unchanged";
   drawn.issues.push_back(fault);
   drawn.levels.push_back(untouched(result, drawn));
 }
@@ -123,10 +123,9 @@ void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised&
     return;
   }
   generalised.is_drawn_anew = true;
-  out.issues.push_back(
-      building_issue(Severity::note, Code::G419, building_.id,
-                     fmt::format("was not valid as it was read ({}) and is drawn anew",
-                                 to_string(findings[0].code))));
+  out.issues.push_back(building_issue(
+      Severity::note, Code::G419, building_.id,
+      fmt::format("was not valid in the input ({}) and is redrawn", to_string(findings[0].code))));
 }
 
 /// The building without any operation.

@@ -63,7 +63,7 @@ TEST_SUITE("cli") {
     const Outcome outcome =
         run({"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "out", "-j2"});
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("labelled 17 of 20 buildings"));
+    CHECK(outcome.says("17 of 20 buildings labelled"));
     const auto records = records_of(folder / "out.quarantine.jsonl");
     REQUIRE(records.size() == mixed.failed.size());
     for (std::size_t i = 0; i < records.size(); ++i) {
