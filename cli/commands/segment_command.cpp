@@ -30,7 +30,7 @@ std::string listing(const Building& building, const PipelineResult& line) {
   const Segmentation& segmentation = *line.segmentation;
   const FeatureTable& table_of = line.description.table;
   std::vector<std::vector<std::string>> rows{
-      {"feature", "sense", "planes", "value", "volume m3", "a m", "b m", "c m", "height m"}};
+      {"feature", "sense", "planes", "value", "volume m3", "a m", "b m", "c m", "base height m"}};
   const auto number = [&](FeatureId id, const char* name) {
     const auto value = table_of.number(id, name);
     return value ? fmt::format("{:.3f}", *value) : std::string("-");
@@ -41,7 +41,7 @@ std::string listing(const Building& building, const PipelineResult& line) {
     rows.push_back({table_of.id(id), to_string(feature.sense),
                     fmt::format("{}", feature.planes.size()), number(id, "value"),
                     number(id, "volume"), number(id, "a"), number(id, "b"), number(id, "c"),
-                    number(id, "height")});
+                    number(id, "base_height")});
   }
   const SegmentationStats& stats = segmentation.stats;
   return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n", building.id,

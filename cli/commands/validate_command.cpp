@@ -3,8 +3,8 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/reader.h"
-#include "kernel/validate/validate.h"
+#include "oriel/read.h"
+#include "oriel/validate.h"
 
 #include <algorithm>
 #include <map>

@@ -123,14 +123,14 @@ ExprId Checker::check_macro(const Syntax& syntax, Macro& macro) {
 }
 
 /// Of the middles of their lower edges in the facade: sqrt((self.along - other.along)^2 +
-/// (self.height - other.height)^2).
+/// (self.base_height - other.base_height)^2).
 ExprId Checker::check_distance(const Syntax& syntax) {
   const auto attribute = [&](const char* name, Syntax::Scope scope) {
     Syntax named{.span = syntax.span, .name_span = syntax.name_span, .name = name, .scope = scope};
     return check_attribute(named, index_of(schema(), name));
   };
   Expr sum{.op = Op::add, .dimension = {2, 0}, .span = syntax.span};
-  for (const char* name : {"along", "height"}) {
+  for (const char* name : {"along", "base_height"}) {
     Expr difference{.op = Op::subtract, .dimension = {1, 0}, .span = syntax.span};
     for (const auto scope : {Syntax::Scope::self, Syntax::Scope::other}) {
       difference.args.push_back(attribute(name, scope));
