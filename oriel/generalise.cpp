@@ -13,7 +13,7 @@ namespace {
 /// It could not be drawn as a valid solid of its own.
 bool is_invalid(const GeneralisedBuilding& drawn) {
   return std::ranges::any_of(drawn.issues, [](const Issue& issue) {
-    return issue.code == "G413" || issue.code == "G410";
+    return issue.code == Code::G413 || issue.code == Code::G410;
   });
 }
 
@@ -31,7 +31,7 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   drawn.building = building.id;
   if (!result.is_done()) return drawn;
   if (result.is_open) {
-    drawn.issues.push_back(building_issue(Severity::error, "G404", building.id,
+    drawn.issues.push_back(building_issue(Severity::error, Code::G404, building.id,
                                           "is open: there is no solid to redraw"));
     return drawn;
   }

@@ -84,7 +84,7 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
                                    const PipelineResult& result, const LabelledBuilding& labelled) {
   if (result.is_open)
     return {{},
-            {building_issue(Severity::error, "G404", building.id,
+            {building_issue(Severity::error, Code::G404, building.id,
                             "is open: its polygons are labelled as they came")}};
   Generalised whole{*result.solid, {}};
   whole.is_drawn_anew = true;

@@ -35,7 +35,8 @@ struct LeveledBuilding {
 
   /// All levels are valid solids in the file.
   [[nodiscard]] bool is_valid() const {
-    return !has_errors(issues) && std::ranges::find(issues, "G413", &Issue::code) == issues.end();
+    return !has_errors(issues) &&
+           std::ranges::find(issues, Code::G413, &Issue::code) == issues.end();
   }
 };
 
@@ -78,7 +79,7 @@ class SeriesDrawer {
   void add_levels(const Building& building, const PipelineResult& result,
                   std::vector<LeveledBuilding>& all, Series& series) {
     if (result.is_open) {
-      series.issues.push_back(building_issue(Severity::error, "G404", building.id,
+      series.issues.push_back(building_issue(Severity::error, Code::G404, building.id,
                                              "is open: there is no solid to redraw"));
       return;
     }

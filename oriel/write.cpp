@@ -16,7 +16,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& path, std::string sentence) {
   Issue issue;
-  issue.code = "E106";
+  issue.code = Code::E106;
   issue.sentence = std::move(sentence);
   issue.place.file = path;
   throw InputError(std::move(issue));

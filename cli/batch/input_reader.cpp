@@ -14,7 +14,7 @@ std::optional<InputEvent> InputReader::next() {
   auto event = next_unchecked();
   if (!event || !is_at_start || !has_changed(*event)) return event;
   Issue issue;
-  issue.code = "E117";
+  issue.code = Code::E117;
   issue.sentence =
       fmt::format("does not begin as it did when the run began; delete {}.journal to begin anew",
                   options_.status_stem);

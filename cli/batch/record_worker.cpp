@@ -49,8 +49,7 @@ void RecordWorker::work_on(WorkItem& item) const {
 }
 
 /// As if none of its buildings had come to the end.
-void RecordWorker::set_all_aside(WorkItem& item, const std::string& code,
-                                 const std::string& sentence) {
+void RecordWorker::set_all_aside(WorkItem& item, Code code, const std::string& sentence) {
   const std::vector<Building>& buildings = item.record()->document.value->buildings;
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     BuildingOutcome& outcome = item.outcome.buildings[i];
@@ -72,7 +71,7 @@ void RecordWorker::make_product(WorkItem& item) const {
   try {
     item.outcome.product = make();
   } catch (const std::exception& fault) {
-    set_all_aside(item, "E901", fmt::format("a fault of oriel's own: {}", fault.what()));
+    set_all_aside(item, Code::E901, fmt::format("a fault of oriel's own: {}", fault.what()));
     item.outcome.product = make();
   }
   item.results = {};

@@ -70,7 +70,7 @@ ResultCache::ResultCache(const std::string& status, const std::string& stem,
   } catch (const std::exception& why) {
     fault_.emplace();
     fault_->severity = Severity::warning;
-    fault_->code = "E124";
+    fault_->code = Code::E124;
     fault_->sentence = fmt::format("nothing is taken from this run: {}", why.what());
     fault_->place.file = status;
     notes_.clear();

@@ -28,7 +28,7 @@ constexpr std::size_t kMostBytes = 1 << 20;
 
 [[noreturn]] void fail(const std::string& path) {
   Issue issue;
-  issue.code = "E601";
+  issue.code = Code::E601;
   issue.sentence = "cannot be written: " + std::generic_category().message(errno);
   issue.place.file = path;
   throw OutputError(std::move(issue));
@@ -57,7 +57,7 @@ std::string command_line() {
 
 InputError not_the_same(const std::string& journal, const std::string& why) {
   Issue issue;
-  issue.code = "E117";
+  issue.code = Code::E117;
   issue.sentence = fmt::format("{}: the run cannot go on; delete this file to begin anew", why);
   issue.place.file = journal;
   return InputError(std::move(issue));

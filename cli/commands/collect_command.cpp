@@ -51,7 +51,7 @@ class Collect final : public VisitingCommand {
     const auto twin = collector_.add(line);
     if (!twin) return;
     runner_.set_aside(
-        building_issue(Severity::error, "E207", *twin,
+        building_issue(Severity::error, Code::E207, *twin,
                        "an earlier feature has a CityObject with this id; that one is "
                        "collected"));
   }

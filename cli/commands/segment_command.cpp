@@ -96,7 +96,7 @@ class Segmenter final : public VisitingCommand {
     bool is_same = true;
     std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
     if (is_same) return text;
-    runner_.set_aside(building_issue(Severity::error, "E901", building.id,
+    runner_.set_aside(building_issue(Severity::error, Code::E901, building.id,
                                      "a fault of oriel's own: its balanced tree is another body"));
     return {};
   }

@@ -52,7 +52,7 @@ double denominator_of(const std::string& text, const std::string& option) {
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
       !std::isfinite(value))
-    refuse_usage(option, "E125",
+    refuse_usage(option, Code::E125,
                  fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
   return value;
 }

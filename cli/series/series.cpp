@@ -89,9 +89,9 @@ class SeriesWriter final : public VisitingCommand {
     const std::string sentence =
         fmt::format("an earlier input has a CityObject '{}': that one is in the series", id);
     for (const std::string& building : made.drawn)
-      runner_.set_aside(building_issue(Severity::error, "E207", building, sentence));
+      runner_.set_aside(building_issue(Severity::error, Code::E207, building, sentence));
     if (!made.drawn.empty()) return;
-    Issue issue = building_issue(Severity::error, "E207", "", sentence);
+    Issue issue = building_issue(Severity::error, Code::E207, "", sentence);
     issue.place.file = document.name;
     runner_.set_aside(issue);
   }

@@ -1,6 +1,5 @@
 #include "interpret/surfaces/surfaces.h"
 
-#include "interpret/compile/role.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/evaluate/facts.h"
 #include "interpret/pack/names.h"

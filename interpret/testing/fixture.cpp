@@ -88,7 +88,7 @@ void set_value(const YamlNode& key, std::string_view name, const YamlNode& value
     read_related(std::string(name), value, feature, loader);
   } else {
     loader.findings.error(
-        "R204", key.span,
+        Code::R204, key.span,
         fmt::format("unknown attribute or relation '{}'{}", name, did_you_mean(name, all_keys())));
   }
 }
@@ -104,7 +104,7 @@ int read_times(const YamlNode* node, Loader& loader) {
   if (node == nullptr) return 1;
   const auto times = read_integer(*node, "a number of features", loader.findings);
   if (times && *times >= 1 && *times <= 100) return *times;
-  if (times) loader.findings.error("R212", node->span, "it lies in 1 .. 100");
+  if (times) loader.findings.error(Code::R212, node->span, "it lies in 1 .. 100");
   return 1;
 }
 
@@ -247,7 +247,7 @@ void check_hosts(const Fixture& fixture, const YamlNode& node, Loader& loader) {
   for (const FixtureFeature& feature : fixture)
     if (!feature.host.empty() &&
         std::ranges::find(fixture, feature.host, &FixtureFeature::name) == fixture.end())
-      loader.findings.error("R212", node.span,
+      loader.findings.error(Code::R212, node.span,
                             fmt::format("the host '{}' of '{}' is wall, roof, ground or a feature "
                                         "of the fixture",
                                         feature.host, feature.name));
@@ -282,7 +282,7 @@ Fixture read_fixture(const YamlNode& node, Loader& loader) {
     if (fixture.size() > kMostRepeated) break;
   }
   if (fixture.size() > kMostRepeated)
-    loader.findings.error("R213", node.span, "a fixture has no more than 10000 features");
+    loader.findings.error(Code::R213, node.span, "a fixture has no more than 10000 features");
   check_hosts(fixture, node, loader);
   return fixture;
 }
@@ -301,7 +301,7 @@ void override_features(const YamlNode& node, Fixture& fixture, Loader& loader) {
                 feature, loader);
     }
     if (!has_match)
-      loader.findings.error("R212", entry.key.span,
+      loader.findings.error(Code::R212, entry.key.span,
                             fmt::format("no feature of the fixture is called '{}'", pattern));
   }
 }

@@ -30,7 +30,7 @@ bool keep(const std::vector<Issue>& issues, GeneralisedBuilding& out) {
 }
 
 bool is_given_up(const GeneralisedBuilding& drawn) {
-  return std::ranges::find(drawn.issues, "G410", &Issue::code) != drawn.issues.end();
+  return std::ranges::find(drawn.issues, Code::G410, &Issue::code) != drawn.issues.end();
 }
 
 }  // namespace
@@ -118,14 +118,15 @@ void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised&
   if (findings.empty()) return;
   if (check_output(document_, building_, *result.solid).fault) {
     if (building_.is_solid)
-      out.issues.push_back(
-          invalid_before(building_, fmt::format("{} {}", findings[0].code, findings[0].sentence)));
+      out.issues.push_back(invalid_before(
+          building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence)));
     return;
   }
   generalised.is_drawn_anew = true;
-  out.issues.push_back(building_issue(
-      Severity::note, "G419", building_.id,
-      fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
+  out.issues.push_back(
+      building_issue(Severity::note, Code::G419, building_.id,
+                     fmt::format("was not valid as it was read ({}) and is drawn anew",
+                                 to_string(findings[0].code))));
 }
 
 /// The building without any operation.

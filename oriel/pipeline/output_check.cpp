@@ -22,9 +22,9 @@ OutputCheck check_output(const Document& document, const Building& building, con
     const auto findings = validate(as_written(document, building, solid, check.digits));
     if (findings.empty()) return check;
     if (check.digits < spare) continue;
-    check.fault = building_issue(Severity::error, "E318", building.id,
+    check.fault = building_issue(Severity::error, Code::E318, building.id,
                                  fmt::format("the repaired solid is not valid: {} {}",
-                                             findings[0].code, findings[0].sentence));
+                                             to_string(findings[0].code), findings[0].sentence));
     return check;
   }
 }
@@ -77,7 +77,7 @@ bool can_be_valid(const Document& document, const Building& building, const Soli
 }  // namespace
 
 Issue invalid_before(const Building& building, const std::string& why) {
-  return building_issue(Severity::warning, "G413", building.id,
+  return building_issue(Severity::warning, Code::G413, building.id,
                         "is not valid as it is written, as it was not when it was read: " + why);
 }
 
@@ -88,7 +88,7 @@ OutputCheck check_redrawn(const Document& document, const Building& building, co
   std::string why = check.fault->sentence;
   why.erase(0, why.find(": ") + 2);
   if (!can_be_valid(document, building, own)) return {0, {}, invalid_before(building, why)};
-  check.fault->code = "G410";
+  check.fault->code = Code::G410;
   check.fault->sentence = "would not be valid as it is written: " + why;
   return check;
 }

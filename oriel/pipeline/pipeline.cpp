@@ -28,7 +28,7 @@ void append(std::vector<Issue>& all, std::vector<Issue> more) {
 std::optional<Solid> opened(const Building& building, std::vector<Issue>& issues,
                             const Tolerances& tolerances) {
   const auto is_geometry = [](const Issue& issue) {
-    return issue.severity != Severity::error || issue.code.starts_with("E3");
+    return issue.severity != Severity::error || is_about_geometry(issue.code);
   };
   if (!std::ranges::all_of(issues, is_geometry)) return std::nullopt;
   auto shell = open_shell(building, tolerances);
@@ -49,7 +49,7 @@ Building without_hints(Building building) {
 
 Issue noise_note(const Building& building, const Tolerances& fitted) {
   return building_issue(
-      Severity::note, "E126", building.id,
+      Severity::note, Code::E126, building.id,
       fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: what is "
                   "within {:.1f} mm is one plane (--plane-offset)",
                   1e3 * noise_of(building), 1e3 * fitted.plane_offset_m));
@@ -123,7 +123,7 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
 }  // namespace
 
 Issue own_fault(const Building& building, const std::exception& fault) {
-  return building_issue(Severity::error, "E901", building.id,
+  return building_issue(Severity::error, Code::E901, building.id,
                         fmt::format("a fault of oriel's own: {}", fault.what()));
 }
 
@@ -149,7 +149,7 @@ PipelineResult run_to_solid(const Building& building, const Tolerances& toleranc
 
 PipelineResult run_from_solid(PipelineResult out, const Building& building, const RuleBase* rules,
                               const Tolerances& tolerances, const LabelOptions& options) {
-  const auto is_ours = [](const Issue& issue) { return issue.code == "E901"; };
+  const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
   if (std::ranges::none_of(out.issues, is_ours)) {
     try {
       if (options.ignores_semantics)

@@ -28,7 +28,7 @@ TEST_SUITE("interpret") {
       for (const Issue& issue : checked.issues) {
         CHECK(issue.place.line >= 1);
         CHECK(issue.place.column >= 1);
-        CHECK_FALSE(issue.code.empty());
+        CHECK(issue.code != Code::none);
       }
       if (checked.value) labels(*checked.value, scene);
       ++(checked.value ? loaded : refused);
