@@ -1,6 +1,6 @@
 #pragma once
 
-#include "generalise/account.h"
+#include "generalise/feature_outcome.h"
 #include "generalise/generalise.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
@@ -53,7 +53,7 @@ struct TargetReport {
   /// "1:5000", "LoD 2.0".
   std::string target;
   /// One for each feature, if asked for.
-  std::vector<Deed> changes;
+  std::vector<FeatureOutcome> changes;
   /// If asked for, and the building could be drawn.
   std::optional<TargetFigures> figures;
 };

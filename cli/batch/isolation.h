@@ -11,7 +11,7 @@ namespace oriel::cli {
 
 /// Works on records in forked processes, so that a hard crash costs one building. A worker gets a
 /// batch of records, which it has in its memory from the start, and sends back what came of each.
-/// If a signal ends it, the building that it was at is lost (E123), and another worker goes on with
+/// If a signal ends it, the building that it was at is lost (E123), and another worker resumes with
 /// that record. This process has one thread only and works on nothing itself: it reads, and takes
 /// what comes in the order of the inputs.
 class Isolation {

@@ -11,7 +11,7 @@
 
 namespace oriel::cli {
 
-/// How far a run has come, in a file beside its outputs: a line for outputs that are done,
+/// How far a run has come, in a file next to its outputs: a line for outputs that are done,
 /// inputs that are read, and each state the run was in. A line that was cut off by the end of the
 /// program does not count.
 class Journal {
@@ -49,7 +49,7 @@ class Journal {
 nlohmann::ordered_json to_json(const FileMarks& marks);
 FileMarks marks_of(const nlohmann::ordered_json& json);
 
-/// A run of a command that may be killed at any moment and goes on after its last whole record when
+/// A run of a command that may be killed at any moment and resumes after its last whole record when
 /// the same command is given again. What it needs to know stands in STEM.journal; outputs grow as
 /// PATH.partial and come to their place by rename.
 class Resume {
@@ -62,7 +62,7 @@ class Resume {
   };
 
   /// `rules_sha256` and the command line say whether it is the same run. Throws InputError E117 if
-  /// the journal is that of another command, or the outputs it tells of are not there.
+  /// the journal is that of another command, or the outputs that it names are not there.
   Resume(const RunOptions& options, const std::string& rules_sha256);
 
   /// What went before: empty for a run that begins.

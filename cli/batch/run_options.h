@@ -9,7 +9,7 @@
 
 namespace oriel::cli {
 
-/// What all commands that run buildings down the line have in common.
+/// Options that all commands over buildings share.
 struct RunOptions {
   std::vector<std::string> inputs;
   std::string lod;
@@ -27,7 +27,7 @@ struct RunOptions {
   bool is_verbose = false;
   std::string timings_file;
   int repeat = 1;
-  /// Records on the line at the same time; results do not depend on it.
+  /// Records that are worked on at the same time; results do not depend on it.
   int jobs = 1;
   /// Buildings are worked on in forked processes.
   bool is_isolated = false;
@@ -40,13 +40,13 @@ struct RunOptions {
   std::string progress;
   /// STEM.status.json of an earlier run, from which results are taken; empty: of none.
   std::string reuse;
-  /// The run may be killed and goes on when the command is given again.
+  /// The run may be killed and resumes when the command is given again.
   bool is_resumable = false;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";
-  /// What is asked for is what was read: buildings do not go down the line.
+  /// Only what was read is asked for: buildings do not pass the pipeline.
   bool ends_at_reading = false;
-  /// What is asked for is the solid: buildings are not segmented.
+  /// Only the solid is asked for: buildings are not segmented.
   bool ends_at_solid = false;
   /// What is asked of surfaces is what they are, and of features their labels: attributes are
   /// measured as far as rules read them.
@@ -58,9 +58,10 @@ struct RunOptions {
   [[nodiscard]] ReadOptions read_options(const std::string& input) const;
   /// The one input is a stream on stdin; what comes of it goes to stdout if nothing else is said.
   [[nodiscard]] bool is_piped_stream() const;
-  /// What the library does with a building, without outputs; `observer` is told how long it took.
+  /// What the library does with a building, without outputs; `observer` gets the time of each
+  /// stage.
   [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
-  /// All that a result depends on beside input and rules, as one text: what oriel_config_sha256 is
+  /// All that a result depends on besides input and rules, as one text: what oriel_config_sha256 is
   /// made of.
   [[nodiscard]] std::string configuration() const;
   /// True if no more of `buildings` was set aside than --allow-bad says.

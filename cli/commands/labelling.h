@@ -32,7 +32,7 @@ struct LabelArguments : RunOptions {
 
 void add_label_arguments(CLI::App& command, LabelArguments& arguments);
 
-/// The pack, with its findings told; nothing if it cannot be used.
+/// The pack, with its findings reported; nothing if it cannot be used.
 std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
 
 /// What those commands write: the buildings (-o) and the records of features (--features), each if
@@ -58,7 +58,7 @@ class LabelOutputs {
   void reopen();
   /// The outputs and what is in them so far.
   [[nodiscard]] PartPlaces places() const;
-  /// What a product depends on beside source, configuration and rules; empty if products are no
+  /// What a product depends on besides source, configuration and rules; empty if products are no
   /// stretches of the outputs' bytes.
   [[nodiscard]] std::string recipe() const;
   /// Adds to `product` what the labelled buildings of a record, and the features of a building,

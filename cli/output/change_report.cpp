@@ -12,29 +12,29 @@ void ChangeReport::begin(bool is_rehearsal) {
 }
 
 std::string ChangeReport::text(const std::string& building, const std::string& target,
-                               const std::vector<Deed>& deeds) const {
+                               const std::vector<FeatureOutcome>& outcomes) const {
   std::string all;
   if (explain_.empty()) return all;
   const bool is_json = explain_.ends_with(".jsonl");
-  for (const Deed& deed : deeds) {
+  for (const FeatureOutcome& one : outcomes) {
     if (is_json) {
       nlohmann::ordered_json line;
       line["building"] = building;
       line["target"] = target;
-      line["feature"] = deed.feature;
-      line["label"] = deed.label;
-      line["outcome"] = deed.outcome;
-      line["operation"] = deed.operation;
-      line["rule"] = deed.rule;
-      line["code"] = to_string(deed.code);
-      line["reason"] = deed.reason;
+      line["feature"] = one.feature;
+      line["label"] = one.label;
+      line["outcome"] = one.outcome;
+      line["operation"] = one.operation;
+      line["rule"] = one.rule;
+      line["code"] = to_string(one.code);
+      line["reason"] = one.reason;
       all += line.dump() + "\n";
       continue;
     }
-    std::string text = fmt::format("{} {} {} {}: {}", target, building, deed.feature,
-                                   deed.label.empty() ? "unknown" : deed.label, deed.outcome);
-    if (!deed.operation.empty()) text += fmt::format(", {} by {}", deed.operation, deed.rule);
-    if (!deed.reason.empty()) text += fmt::format(" ({} {})", to_string(deed.code), deed.reason);
+    std::string text = fmt::format("{} {} {} {}: {}", target, building, one.feature,
+                                   one.label.empty() ? "unknown" : one.label, one.outcome);
+    if (!one.operation.empty()) text += fmt::format(", {} by {}", one.operation, one.rule);
+    if (!one.reason.empty()) text += fmt::format(" ({} {})", to_string(one.code), one.reason);
     all += text + '\n';
   }
   return all;

@@ -25,7 +25,7 @@ class ChangeReport {
   void begin(bool is_rehearsal);
   /// What is written of a building. Several threads may call them; empty if it is not asked for.
   [[nodiscard]] std::string text(const std::string& building, const std::string& target,
-                                 const std::vector<Deed>& deeds) const;
+                                 const std::vector<FeatureOutcome>& outcomes) const;
   [[nodiscard]] std::string text(const std::string& building, const std::string& target,
                                  const TargetFigures& figures) const;
   void take(const Product& product);

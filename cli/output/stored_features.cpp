@@ -25,7 +25,7 @@ class Verdicts {
   Verdicts(const std::vector<DescribedBuilding>& buildings, const std::vector<Interpretation>& run)
       : buildings_(buildings), run_(run) {}
 
-  /// Puts into a record the verdict of its feature, behind those that were found so far; false if
+  /// Puts into a record the verdict of its feature, after those that were found so far; false if
   /// there is none.
   bool set(FeatureRecord& record) {
     const auto row = find(record);
@@ -131,7 +131,7 @@ void StoredFeatures::write(const std::string& path, const std::vector<Interpreta
       if (!verdicts.set(record)) return;
       writer.append({std::move(record)});
     });
-    // What the tables could be read without was not told yet: boxes, polygons.
+    // Boxes and polygons, without which the tables could be read, are not reported yet.
     if (has_errors(issues) && code_ == ExitCode::clean) {
       report_.add(issues);
       code_ = ExitCode::set_aside;

@@ -29,7 +29,7 @@ std::uint64_t size_of(const std::vector<std::string>& inputs) {
   return bytes;
 }
 
-/// stdout is a pipe: the command behind it may have a bar of its own.
+/// stdout is a pipe: the command after it may have a bar of its own.
 bool is_piped_on() {
   struct stat found {};
   return ::fstat(STDOUT_FILENO, &found) == 0 && S_ISFIFO(found.st_mode);

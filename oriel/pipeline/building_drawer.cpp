@@ -152,7 +152,7 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const Su
   TargetReport& report = out.reports.emplace_back();
   report.target = target_text(profile);
   if (options_.reports_changes)
-    report.changes = account(plan, *made.value, table, result.interpretation);
+    report.changes = feature_outcomes(plan, *made.value, table, result.interpretation);
   // What is kept of it is not known any more once it is redrawn.
   const Generalised changes{{},    made.value->removed, made.value->refused,
                             false, made.value->changed, made.value->uncleared};

@@ -12,7 +12,7 @@
 namespace oriel {
 
 /// What became of one feature, and why.
-struct Deed {
+struct FeatureOutcome {
   std::string feature;    ///< its id
   std::string label;      ///< empty: unknown
   std::string operation;  ///< of the plan; empty: none was asked for
@@ -25,8 +25,9 @@ struct Deed {
 };
 
 /// One for each feature, in their order.
-std::vector<Deed> account(const Plan& plan, const Generalised& generalised,
-                          const FeatureTable& table, const Interpretation& interpretation);
+std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised& generalised,
+                                             const FeatureTable& table,
+                                             const Interpretation& interpretation);
 
 /// Figures of a solid.
 struct SolidFigures {

@@ -1,4 +1,4 @@
-#include "generalise/account.h"
+#include "generalise/feature_outcome.h"
 
 #include "generalise/invariants/invariants.h"
 
@@ -10,36 +10,37 @@
 
 namespace oriel {
 
-std::vector<Deed> account(const Plan& plan, const Generalised& generalised,
-                          const FeatureTable& table, const Interpretation& interpretation) {
-  std::vector<Deed> deeds;
+std::vector<FeatureOutcome> feature_outcomes(const Plan& plan, const Generalised& generalised,
+                                             const FeatureTable& table,
+                                             const Interpretation& interpretation) {
+  std::vector<FeatureOutcome> outcomes;
   for (int i = 0; i < static_cast<int>(table.rows()); ++i) {
     const FeatureId id{i};
-    Deed deed;
-    deed.feature = table.id(id);
-    deed.label = interpretation.verdicts[id.index()].label;
+    FeatureOutcome one;
+    one.feature = table.id(id);
+    one.label = interpretation.verdicts[id.index()].label;
     const auto step = std::ranges::find(plan.steps, id, &Step::feature);
     const auto refused = std::ranges::find(generalised.refused, id, &CarriedOut::Refused::feature);
     const bool is_gone = std::ranges::binary_search(generalised.removed, id);
     if (step != plan.steps.end()) {
-      deed.operation = step->operation;
-      deed.rule = step->rule;
+      one.operation = step->operation;
+      one.rule = step->rule;
     }
     if (is_gone)
-      deed.outcome =
-          deed.operation == "omit" || deed.operation == "flatten" ? "omitted" : "went along";
+      one.outcome =
+          one.operation == "omit" || one.operation == "flatten" ? "omitted" : "went along";
     else if (std::ranges::binary_search(generalised.changed, id))
-      deed.outcome = "changed";
+      one.outcome = "changed";
     else if (refused != generalised.refused.end()) {
-      deed.outcome = is_part(*refused, plan, interpretation) ? "kept" : "refused";
-      deed.code = refused->code;
-      deed.reason = refused->reason;
+      one.outcome = is_part(*refused, plan, interpretation) ? "kept" : "refused";
+      one.code = refused->code;
+      one.reason = refused->reason;
     } else {
-      deed.outcome = "kept";
+      one.outcome = "kept";
     }
-    deeds.push_back(std::move(deed));
+    outcomes.push_back(std::move(one));
   }
-  return deeds;
+  return outcomes;
 }
 
 SolidFigures figures_of(const Solid& solid, double least_edge_m) {
