@@ -1,6 +1,6 @@
 #include "cli/streams/provenance.h"
 
-#include "cli/batch/journal.h"
+#include "cli/batch/resume.h"
 
 #include <algorithm>
 #include <filesystem>
