@@ -1,5 +1,7 @@
 #include "interpret/compile/components.h"
 
+#include "kernel/base/index.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -9,19 +11,17 @@ namespace {
 
 constexpr int kUnseen = -1;
 
-std::size_t index(int id) { return static_cast<std::size_t>(id); }
-
 class Tarjan {
  public:
   Tarjan(int nodes, const std::vector<std::pair<int, int>>& edges)
-      : targets_(index(nodes)), order_(index(nodes), kUnseen), low_(index(nodes), 0) {
-    for (const auto& [from, to] : edges) targets_[index(from)].push_back(to);
-    result_.of_node.assign(index(nodes), kUnseen);
+      : targets_(oriel::at(nodes)), order_(oriel::at(nodes), kUnseen), low_(oriel::at(nodes), 0) {
+    for (const auto& [from, to] : edges) targets_[oriel::at(from)].push_back(to);
+    result_.of_node.assign(oriel::at(nodes), kUnseen);
   }
 
   Components run() {
     for (int node = 0; node < static_cast<int>(order_.size()); ++node)
-      if (order_[index(node)] == kUnseen) visit(node);
+      if (order_[oriel::at(node)] == kUnseen) visit(node);
     return result_;
   }
 
@@ -32,7 +32,7 @@ class Tarjan {
   };
 
   void enter(int node) {
-    order_[index(node)] = low_[index(node)] = seen_++;
+    order_[oriel::at(node)] = low_[oriel::at(node)] = seen_++;
     stack_.push_back(node);
     visits_.push_back({node, 0});
   }
@@ -41,15 +41,15 @@ class Tarjan {
     enter(root);
     while (!visits_.empty()) {
       Visit& at = visits_.back();
-      if (at.next == targets_[index(at.node)].size()) {
+      if (at.next == targets_[oriel::at(at.node)].size()) {
         leave();
         continue;
       }
-      const int target = targets_[index(at.node)][at.next++];
-      if (order_[index(target)] == kUnseen)
+      const int target = targets_[oriel::at(at.node)][at.next++];
+      if (order_[oriel::at(target)] == kUnseen)
         enter(target);
-      else if (result_.of_node[index(target)] == kUnseen)
-        low_[index(at.node)] = std::min(low_[index(at.node)], order_[index(target)]);
+      else if (result_.of_node[oriel::at(target)] == kUnseen)
+        low_[oriel::at(at.node)] = std::min(low_[oriel::at(at.node)], order_[oriel::at(target)]);
     }
   }
 
@@ -57,15 +57,15 @@ class Tarjan {
     const int node = visits_.back().node;
     visits_.pop_back();
     if (!visits_.empty()) {
-      int& low = low_[index(visits_.back().node)];
-      low = std::min(low, low_[index(node)]);
+      int& low = low_[oriel::at(visits_.back().node)];
+      low = std::min(low, low_[oriel::at(node)]);
     }
-    if (low_[index(node)] != order_[index(node)]) return;
+    if (low_[oriel::at(node)] != order_[oriel::at(node)]) return;
     int member = kUnseen;
     while (member != node) {
       member = stack_.back();
       stack_.pop_back();
-      result_.of_node[index(member)] = result_.count;
+      result_.of_node[oriel::at(member)] = result_.count;
     }
     ++result_.count;
   }

@@ -1,6 +1,7 @@
 #include "interpret/compile/reach.h"
 
 #include "interpret/explain/constraints.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
 #include <string>
@@ -12,14 +13,12 @@ namespace oriel::rules {
 
 namespace {
 
-std::size_t index(int id) { return static_cast<std::size_t>(id); }
-
 class Reach {
  public:
   Reach(const Pack& pack, Findings& findings) : pack_(&pack), findings_(&findings) {
     for (const Rule& rule : pack.rules) constraints_.emplace_back(pack, rule.require);
     for (std::size_t step = 0; step < pack.steps.size(); ++step) {
-      for (const int rule : pack.steps[step].rules) step_of_[index(rule)] = step;
+      for (const int rule : pack.steps[step].rules) step_of_[oriel::at(rule)] = step;
     }
   }
 
@@ -31,7 +30,7 @@ class Reach {
   }
 
  private:
-  [[nodiscard]] const Expr& at(ExprId id) const { return pack_->code[index(id)]; }
+  [[nodiscard]] const Expr& at(ExprId id) const { return pack_->code[oriel::at(id)]; }
   [[nodiscard]] std::string text_of(ExprId id) const {
     return std::string(pack_->source.text_of(at(id).span));
   }
@@ -69,7 +68,7 @@ class Reach {
     for (std::size_t j = 0; j < pack_->rules.size(); ++j) {
       const Rule& other = pack_->rules[j];
       if (i == j || !comes_first(j, i) || !holds_whenever(j, i)) continue;
-      const bool is_predicate = pack_->classes[index(rule.label)].is_abstract;
+      const bool is_predicate = pack_->classes[oriel::at(rule.label)].is_abstract;
       const Place place = pack_->source.place(other.span.begin);
       findings_->warning(Code::R255, rule.span,
                          fmt::format("the rule '{}' {}: whenever it holds, so does '{}' ({}:{}:{})",
@@ -83,13 +82,13 @@ class Reach {
   [[nodiscard]] bool comes_first(std::size_t j, std::size_t i) const {
     const Rule& first = pack_->rules[j];
     const Rule& second = pack_->rules[i];
-    if (pack_->classes[index(second.label)].is_abstract)
+    if (pack_->classes[oriel::at(second.label)].is_abstract)
       return first.label == second.label && (!holds_whenever(i, j) || j < i);
-    if (pack_->classes[index(first.label)].is_abstract || !first.score.empty()) return false;
+    if (pack_->classes[oriel::at(first.label)].is_abstract || !first.score.empty()) return false;
     const bool is_refining =
         first.label != second.label && is_within(pack_->classes, second.label, first.label);
     if (is_refining) return false;
-    if (step_of_[index(static_cast<int>(j))] != step_of_[index(static_cast<int>(i))])
+    if (step_of_[oriel::at(static_cast<int>(j))] != step_of_[oriel::at(static_cast<int>(i))])
       return step_of_[j] < step_of_[i] && first.label != second.label;
     if (first.priority != second.priority) return first.priority > second.priority;
     return first.id < second.id;
@@ -118,7 +117,7 @@ bool covers_target(const Pack& pack, const Entry& first, const Entry& second) {
   if (first.group >= 0) return first.group == second.group;
   if (first.target == kNoClass) return true;
   if (second.group >= 0) {
-    const ClassId of = pack.groups[index(second.group)].of;
+    const ClassId of = pack.groups[oriel::at(second.group)].of;
     return is_within(pack.classes, of, first.target);
   }
   return is_within(pack.classes, second.target, first.target);

@@ -1,6 +1,7 @@
 #include "interpret/compile/strata.h"
 
 #include "interpret/compile/components.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
 #include <deque>
@@ -13,8 +14,6 @@
 namespace oriel::rules {
 
 namespace {
-
-std::size_t index(int id) { return static_cast<std::size_t>(id); }
 
 /// A rule for the class `reader` asks whether something is a `read`.
 struct Question {
@@ -35,7 +34,7 @@ class QuestionFinder {
       : pack_(&pack), rule_(rule), questions_(&questions) {}
 
   void run() {
-    const Rule& rule = pack_->rules[index(rule_)];
+    const Rule& rule = pack_->rules[oriel::at(rule_)];
     for (const ExprId id : rule.require) visit(id, false);
     for (const ExprId id : rule.unless) visit(id, true);
     for (const ScoreTerm& term : rule.score) visit(term.value, true);
@@ -44,7 +43,7 @@ class QuestionFinder {
  private:
   void visit(ExprId id, bool is_strict) {
     if (id == kNoExpr) return;
-    const Expr& expr = pack_->code[index(id)];
+    const Expr& expr = pack_->code[oriel::at(id)];
     if (expr.op == Op::is_class) {
       if (expr.is_previous) return;  // known from the round before
       ask(expr, is_strict);
@@ -58,10 +57,10 @@ class QuestionFinder {
   }
 
   void ask(const Expr& expr, bool is_strict) {
-    const ClassId reader = pack_->rules[index(rule_)].label;
+    const ClassId reader = pack_->rules[oriel::at(rule_)].label;
     for (const ClassId read : members_of(pack_->classes, expr.index)) {
       if (is_refining(expr, reader) && !is_strictly_within(reader, read)) continue;
-      const bool is_decided = !pack_->classes[index(read)].is_abstract;
+      const bool is_decided = !pack_->classes[oriel::at(read)].is_abstract;
       const bool is_new = asked_.emplace(read, is_strict || is_decided).second;
       if (is_new) questions_->push_back({reader, read, is_strict || is_decided, expr.span});
     }
@@ -70,7 +69,7 @@ class QuestionFinder {
   /// A rule for a subclass that asks `self is CLASS` refines that label. Only features that have
   /// it, or one between, can get the subclass, so that the other subclasses do not matter.
   [[nodiscard]] bool is_refining(const Expr& expr, ClassId reader) const {
-    const bool is_abstract = pack_->classes[index(expr.index)].is_abstract;
+    const bool is_abstract = pack_->classes[oriel::at(expr.index)].is_abstract;
     return expr.level == 0 && !is_abstract && is_strictly_within(reader, expr.index);
   }
   [[nodiscard]] bool is_strictly_within(ClassId id, ClassId ancestor) const {
@@ -97,38 +96,40 @@ std::vector<Question> find_path(ClassId from, ClassId to, const std::vector<Ques
   std::vector<const Question*> came_by(component.size(), nullptr);
   std::deque<ClassId> waiting = {from};
   std::vector<bool> is_seen(component.size(), false);
-  is_seen[index(from)] = true;
-  while (!waiting.empty() && !is_seen[index(to)]) {
+  is_seen[oriel::at(from)] = true;
+  while (!waiting.empty() && !is_seen[oriel::at(to)]) {
     const ClassId at = waiting.front();
     waiting.pop_front();
     for (const Question& q : questions) {
-      const bool is_step = q.reader == at && component[index(q.read)] == component[index(from)];
-      if (!is_step || is_seen[index(q.read)]) continue;
-      is_seen[index(q.read)] = true;
-      came_by[index(q.read)] = &q;
+      const bool is_step =
+          q.reader == at && component[oriel::at(q.read)] == component[oriel::at(from)];
+      if (!is_step || is_seen[oriel::at(q.read)]) continue;
+      is_seen[oriel::at(q.read)] = true;
+      came_by[oriel::at(q.read)] = &q;
       waiting.push_back(q.read);
     }
   }
   std::vector<Question> path;
-  for (ClassId at = to; at != from; at = path.back().reader) path.push_back(*came_by[index(at)]);
+  for (ClassId at = to; at != from; at = path.back().reader)
+    path.push_back(*came_by[oriel::at(at)]);
   std::ranges::reverse(path);
   return path;
 }
 
 std::string describe(const Pack& pack, const Question& q) {
   const Place place = pack.source.place(q.span.begin);
-  return fmt::format("'{}' asks for '{}' ({}:{}:{})", pack.classes[index(q.reader)].name,
-                     pack.classes[index(q.read)].name, place.file, place.line, place.column);
+  return fmt::format("'{}' asks for '{}' ({}:{}:{})", pack.classes[oriel::at(q.reader)].name,
+                     pack.classes[oriel::at(q.read)].name, place.file, place.line, place.column);
 }
 
 /// A predicate above a decided class that could be asked for in its place.
 std::string suggest_cut(const Pack& pack, const Question& q) {
-  ClassId above = pack.classes[index(q.read)].parent;
+  ClassId above = pack.classes[oriel::at(q.read)].parent;
   while (above != kNoClass) {
-    const Class& c = pack.classes[index(above)];
+    const Class& c = pack.classes[oriel::at(above)];
     if (c.is_abstract && c.has_rules && above != q.reader)
       return fmt::format("; to cut the circle ask for '{}' in place of '{}'", c.name,
-                         pack.classes[index(q.read)].name);
+                         pack.classes[oriel::at(q.read)].name);
     above = c.parent;
   }
   return "; to cut the circle ask for an abstract class there, one that is found by its shape";
@@ -139,7 +140,7 @@ void report_circle(const Pack& pack, const Question& strict, const std::vector<Q
   std::string circle = describe(pack, strict);
   for (const Question& q : find_path(strict.read, strict.reader, questions, component))
     circle += ", " + describe(pack, q);
-  const char* reason = pack.classes[index(strict.read)].is_abstract
+  const char* reason = pack.classes[oriel::at(strict.read)].is_abstract
                            ? "not, none, count, unless and scores ask for what is known already"
                            : "a label is decided before it is asked for";
   findings.error(
@@ -152,8 +153,8 @@ bool check_circles(const Pack& pack, const std::vector<Question>& questions,
                    const std::vector<int>& component, Findings& findings) {
   std::vector<int> reported;
   for (const Question& q : questions) {
-    const int c = component[index(q.read)];
-    const bool is_inside = q.is_strict && c == component[index(q.reader)];
+    const int c = component[oriel::at(q.read)];
+    const bool is_inside = q.is_strict && c == component[oriel::at(q.reader)];
     if (!is_inside || std::ranges::find(reported, c) != reported.end()) continue;
     reported.push_back(c);
     report_circle(pack, q, questions, component, findings);
@@ -164,13 +165,13 @@ bool check_circles(const Pack& pack, const std::vector<Question>& questions,
 /// The stratum of every component. They are numbered so that what is waited for comes first.
 std::vector<int> find_levels(const Pack& pack, std::vector<Question> questions,
                              const Components& components) {
-  const auto component = [&](ClassId id) { return components.of_node[index(id)]; };
+  const auto component = [&](ClassId id) { return components.of_node[oriel::at(id)]; };
   std::ranges::stable_sort(questions, {}, [&](const Question& q) { return component(q.reader); });
-  std::vector<int> levels(index(components.count), 0);
+  std::vector<int> levels(oriel::at(components.count), 0);
   for (const Question& q : questions) {
-    const int step = pack.classes[index(q.read)].is_abstract ? 0 : 1;
-    int& level = levels[index(component(q.reader))];
-    level = std::max(level, levels[index(component(q.read))] + step);
+    const int step = pack.classes[oriel::at(q.read)].is_abstract ? 0 : 1;
+    int& level = levels[oriel::at(component(q.reader))];
+    level = std::max(level, levels[oriel::at(component(q.read))] + step);
   }
   return levels;
 }
@@ -179,7 +180,7 @@ std::vector<int> find_levels(const Pack& pack, std::vector<Question> questions,
 /// its decision.
 /// The greatest priority first, then the smallest id.
 void sort_by_rank(const Pack& pack, Step& step) {
-  const auto rule = [&](int id) -> const Rule& { return pack.rules[index(id)]; };
+  const auto rule = [&](int id) -> const Rule& { return pack.rules[oriel::at(id)]; };
   std::ranges::sort(step.rules, [&](int p, int q) {
     return rule(p).priority != rule(q).priority ? rule(p).priority > rule(q).priority
                                                 : rule(p).id < rule(q).id;
@@ -190,19 +191,20 @@ void sort_by_rank(const Pack& pack, Step& step) {
 void make_steps(Pack& pack, const std::vector<Question>& questions, const Components& components) {
   const std::vector<int> levels = find_levels(pack, questions, components);
   const int last = levels.empty() ? -1 : *std::ranges::max_element(levels);
-  std::vector<Step> predicates(index(components.count));
-  std::vector<Step> decisions(index(last + 1));
+  std::vector<Step> predicates(oriel::at(components.count));
+  std::vector<Step> decisions(oriel::at(last + 1));
   for (int rule = 0; rule < static_cast<int>(pack.rules.size()); ++rule) {
-    const ClassId label = pack.rules[index(rule)].label;
-    const int c = components.of_node[index(label)];
-    const bool is_predicate = pack.classes[index(label)].is_abstract;
-    Step& step = is_predicate ? predicates[index(c)] : decisions[index(levels[index(c)])];
+    const ClassId label = pack.rules[oriel::at(rule)].label;
+    const int c = components.of_node[oriel::at(label)];
+    const bool is_predicate = pack.classes[oriel::at(label)].is_abstract;
+    Step& step =
+        is_predicate ? predicates[oriel::at(c)] : decisions[oriel::at(levels[oriel::at(c)])];
     step.is_decision = !is_predicate;
     step.rules.push_back(rule);
   }
   for (const Question& q : questions) {
-    const int c = components.of_node[index(q.reader)];
-    if (c == components.of_node[index(q.read)]) predicates[index(c)].is_recursive = true;
+    const int c = components.of_node[oriel::at(q.reader)];
+    if (c == components.of_node[oriel::at(q.read)]) predicates[oriel::at(c)].is_recursive = true;
   }
   for (Step& step : decisions) sort_by_rank(pack, step);
   const auto add = [&](Step& step) {
@@ -210,13 +212,13 @@ void make_steps(Pack& pack, const std::vector<Question>& questions, const Compon
   };
   for (int level = 0; level <= last; ++level) {
     for (int c = 0; c < components.count; ++c)
-      if (levels[index(c)] == level) add(predicates[index(c)]);
-    add(decisions[index(level)]);
+      if (levels[oriel::at(c)] == level) add(predicates[oriel::at(c)]);
+    add(decisions[oriel::at(level)]);
   }
 }
 
 bool asks_for_subclass(const Pack& pack, ExprId id, ClassId ancestor, ClassId label) {
-  const Expr& expr = pack.code[index(id)];
+  const Expr& expr = pack.code[oriel::at(id)];
   if (expr.op == Op::all_of)
     return std::ranges::any_of(
         expr.args, [&](ExprId arg) { return asks_for_subclass(pack, arg, ancestor, label); });
@@ -227,27 +229,27 @@ bool asks_for_subclass(const Pack& pack, ExprId id, ClassId ancestor, ClassId la
 /// R245: see find_strata.
 void check_tree(const Pack& pack, Findings& findings) {
   for (const Rule& rule : pack.rules) {
-    ClassId above = pack.classes[index(rule.label)].parent;
+    ClassId above = pack.classes[oriel::at(rule.label)].parent;
     const auto is_predicate = [&](ClassId id) {
-      return pack.classes[index(id)].is_abstract && pack.classes[index(id)].has_rules;
+      return pack.classes[oriel::at(id)].is_abstract && pack.classes[oriel::at(id)].has_rules;
     };
-    while (above != kNoClass && !is_predicate(above)) above = pack.classes[index(above)].parent;
+    while (above != kNoClass && !is_predicate(above)) above = pack.classes[oriel::at(above)].parent;
     const bool is_asked = above == kNoClass || std::ranges::any_of(rule.require, [&](ExprId id) {
                             return asks_for_subclass(pack, id, above, rule.label);
                           });
     if (is_asked) continue;
-    const std::string& name = pack.classes[index(above)].name;
+    const std::string& name = pack.classes[oriel::at(above)].name;
     findings.error(Code::R245, rule.span,
                    fmt::format("'{}' is a kind of '{}', which has rules of its own: require 'self "
                                "is {}'",
-                               pack.classes[index(rule.label)].name, name, name));
+                               pack.classes[oriel::at(rule.label)].name, name, name));
   }
 }
 
 }  // namespace
 
 std::vector<ClassId> members_of(const std::vector<Class>& classes, ClassId id) {
-  const Class& c = classes[index(id)];
+  const Class& c = classes[oriel::at(id)];
   if (c.is_abstract && c.has_rules) return {id};
   std::vector<ClassId> members;
   for (ClassId other = 0; other < static_cast<ClassId>(classes.size()); ++other)

@@ -42,8 +42,8 @@ class Rectangles {
 };
 
 double gap_of(const Group& group, const Rectangles& rectangles, const FeatureGraph& graph) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double gap = kInfinity;
+  constexpr double kFurthest = std::numeric_limits<double>::infinity();
+  double gap = kFurthest;
   for (const FeatureId member : group.members)
     for (const FeatureId other : graph.others("same_facade", member)) {
       if (!std::ranges::binary_search(group.members, other)) continue;
@@ -51,7 +51,7 @@ double gap_of(const Group& group, const Rectangles& rectangles, const FeatureGra
       if (std::isnan(distance)) return kNone;
       gap = std::min(gap, distance);
     }
-  return gap < kInfinity ? gap : kNone;
+  return gap < kFurthest ? gap : kNone;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "interpret/labelling/labelling.h"
 
 #include "interpret/evaluate/comparisons.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,8 +9,6 @@
 namespace oriel::rules {
 
 namespace {
-
-std::size_t index(int id) { return static_cast<std::size_t>(id); }
 
 /// True if a member was raised.
 bool raise_all(std::vector<Truth>& members, const std::vector<Truth>& truths) {
@@ -99,15 +98,15 @@ bool Labelling::apply_predicate(const Rule& rule) {
     judge(*pack_, rule, evaluator_, held, {});
     held.finish();
   }
-  for (const ClassId at : pack_->classes[index(rule.label)].raised)
-    has_changed = raise_all(context_->membership[index(at)], truths) || has_changed;
+  for (const ClassId at : pack_->classes[oriel::at(rule.label)].raised)
+    has_changed = raise_all(context_->membership[oriel::at(at)], truths) || has_changed;
   return has_changed;
 }
 
 /// Also raises what `id` is a kind of, where that is the union of its subclasses.
 void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
-  for (const ClassId at : pack_->classes[index(id)].raised) {
-    Truth& member = context_->membership[index(at)][row];
+  for (const ClassId at : pack_->classes[oriel::at(id)].raised) {
+    Truth& member = context_->membership[oriel::at(at)][row];
     member = std::max(member, truth);
   }
 }
@@ -116,12 +115,12 @@ void Labelling::run_decision(const Step& step) {
   evaluator_.forget();
   candidate_count_ = rows_at_hand_count_ = 0;
   are_in_order_ = !step.is_scored && pack_->decide.min_score <= 1;
-  for (const int id : step.rules) unknown_rows_[index(rule(id).label)].clear();
+  for (const int id : step.rules) unknown_rows_[oriel::at(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
   const auto rows = std::span(rows_at_hand_).first(rows_at_hand_count_);
   for (const int row : rows)
-    if (!are_in_order_) decide(index(row));
-  for (const int row : rows) note_decision(index(row));
+    if (!are_in_order_) decide(oriel::at(row));
+  for (const int row : rows) note_decision(oriel::at(row));
   settle_unknown(step);
 }
 
@@ -147,7 +146,7 @@ std::span<const int> Labelling::open_rows(ClassId label) {
   std::size_t size = 0;
   for (std::size_t row = 0; row < decided_.size(); ++row) {
     open_rows_[size] = static_cast<int>(row);
-    size += static_cast<std::size_t>(is_class_open_[index(decided_[row] + 1)]);
+    size += static_cast<std::size_t>(is_class_open_[oriel::at(decided_[row] + 1)]);
   }
   return std::span(open_rows_).first(size);
 }
@@ -184,7 +183,7 @@ void Labelling::add_candidates(int id, Conjunction& held, std::span<const double
   const ClassId label = rule(id).label;
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const bool holds = truths[i] == Truth::yes;
-    int& first = first_candidate_[index(rows[i])];
+    int& first = first_candidate_[oriel::at(rows[i])];
     candidates_[count] = {id, priority, label, first, scores[i]};
     rows_at_hand_[at_hand] = rows[i];
     at_hand += holds && first < 0 ? 1U : 0U;
@@ -203,7 +202,7 @@ void Labelling::add_winners(int id, Conjunction& held) {
   const ClassId label = rule(id).label;
   for (std::size_t i = 0; i < truths.size(); ++i) {
     if (truths[i] != Truth::yes) continue;
-    const std::size_t row = index(rows[i]);
+    const std::size_t row = oriel::at(rows[i]);
     if (label_now_[row] == kNoClass) {
       label_now_[row] = label;
       rows_at_hand_[rows_at_hand_count_++] = rows[i];
@@ -234,7 +233,7 @@ void Labelling::note_unknown(int id, Conjunction& held) {
   if (!held.is_open() || !has_unknown(truths)) return;
   for (std::size_t i = 0; i < truths.size(); ++i)
     if (truths[i] == Truth::unknown)
-      unknown_rows_[index(rule(id).label)].push_back(held.frame().rows[0][i]);
+      unknown_rows_[oriel::at(rule(id).label)].push_back(held.frame().rows[0][i]);
 }
 
 /// By what wins: enough score, then priority, then score, then the rule's id.
@@ -248,10 +247,10 @@ bool Labelling::beats(const Candidate& p, const Candidate& q) const {
 }
 
 void Labelling::decide(std::size_t row) {
-  const Candidate* best = &candidates_[index(first_candidate_[row])];
+  const Candidate* best = &candidates_[oriel::at(first_candidate_[row])];
   const Candidate* second = nullptr;  // the best for another label
-  for (int c = best->next; c >= 0; c = candidates_[index(c)].next) {
-    const Candidate* const next = &candidates_[index(c)];
+  for (int c = best->next; c >= 0; c = candidates_[oriel::at(c)].next) {
+    const Candidate* const next = &candidates_[oriel::at(c)];
     const bool is_better = beats(*next, *best);
     if (next->label != best->label) {
       if (is_better)
@@ -267,8 +266,8 @@ void Labelling::decide(std::size_t row) {
   choice.score = best->score;
   double margin = best->score;
   for (int c = second == nullptr ? -1 : first_candidate_[row]; c >= 0;
-       c = candidates_[index(c)].next) {
-    const Candidate& other = candidates_[index(c)];
+       c = candidates_[oriel::at(c)].next) {
+    const Candidate& other = candidates_[oriel::at(c)];
     if (other.label == best->label || other.priority != best->priority) continue;
     margin = std::min(margin, best->score - other.score);
     choice.is_ambiguous = margin < pack_->decide.ambiguous_below;
@@ -282,8 +281,9 @@ void Labelling::decide(std::size_t row) {
 void Labelling::settle_unknown(const Step& step) {
   for (const int id : step.rules) {
     const ClassId label = rule(id).label;
-    for (const int row : unknown_rows_[index(label)])
-      if (is_open(decided_[index(row)], label)) raise_membership(label, index(row), Truth::unknown);
+    for (const int row : unknown_rows_[oriel::at(label)])
+      if (is_open(decided_[oriel::at(row)], label))
+        raise_membership(label, oriel::at(row), Truth::unknown);
   }
 }
 

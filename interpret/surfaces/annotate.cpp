@@ -5,6 +5,7 @@
 #include "interpret/pack/pack.h"
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/surfaces/surfaces.h"
+#include "kernel/base/index.h"
 #include "kernel/model/version.h"
 
 #include <algorithm>
@@ -21,8 +22,6 @@ namespace {
 
 using rules::Emission;
 using rules::Role;
-
-std::size_t index(int id) { return static_cast<std::size_t>(id); }
 
 /// Four digits are enough to compare and keep the files short.
 double rounded(double score) { return std::round(score * 1e4) / 1e4; }
@@ -64,7 +63,7 @@ class Annotator {
 
   /// Features that list a polygon, the smallest first.
   [[nodiscard]] std::span<const int> features_of(const Polygon& polygon) const {
-    return (*owners_)[index(polygon.source)];
+    return (*owners_)[oriel::at(polygon.source)];
   }
   /// The smallest feature that lists the polygon and has a role, or -1.
   [[nodiscard]] int find_labelled(const Polygon& polygon) const;
@@ -137,7 +136,7 @@ void Annotator::find_owners() {
 
 int Annotator::find_labelled(const Polygon& polygon) const {
   for (const int feature : features_of(polygon))
-    if (kinds_[index(feature)] != Kind::nothing) return feature;
+    if (kinds_[oriel::at(feature)] != Kind::nothing) return feature;
   return -1;
 }
 
@@ -163,27 +162,28 @@ void Annotator::add_surfaces() {
   for (std::size_t row = 0; row < building_.polygons.size(); ++row) {
     const Polygon& polygon = building_.polygons[row];
     const auto next = static_cast<int>(result_.surfaces.size());
-    polygons_[index(polygon.source)] = &polygon;
-    int& surface = result_.surface_of_polygon[index(polygon.source)];
+    polygons_[oriel::at(polygon.source)] = &polygon;
+    int& surface = result_.surface_of_polygon[oriel::at(polygon.source)];
     const int feature = find_labelled(polygon);
-    if (feature < 0 || kinds_[index(feature)] != Kind::opening) {
+    if (feature < 0 || kinds_[oriel::at(feature)] != Kind::opening) {
       surface = next;
       result_.surfaces.emplace_back().type = verdicts_[row].type;
       if (options_.has_reasons)
         result_.surfaces.back().members.emplace_back("oriel_why", std::move(reasons_[row]));
       continue;
     }
-    surface = opening_surfaces_[index(feature)];
+    surface = opening_surfaces_[oriel::at(feature)];
     if (surface >= 0) continue;
-    surface = opening_surfaces_[index(feature)] = next;
-    result_.surfaces.push_back({roles_[index(feature)].emission->type, -1, members_of(feature)});
+    surface = opening_surfaces_[oriel::at(feature)] = next;
+    result_.surfaces.push_back(
+        {roles_[oriel::at(feature)].emission->type, -1, members_of(feature)});
   }
 }
 
 bool Annotator::is_host_surface(const Polygon& polygon) const {
-  const int surface = result_.surface_of_polygon[index(polygon.source)];
+  const int surface = result_.surface_of_polygon[oriel::at(polygon.source)];
   if (surface < 0) return false;
-  const std::string& type = result_.surfaces[index(surface)].type;
+  const std::string& type = result_.surfaces[oriel::at(surface)].type;
   return type == "WallSurface" || type == "RoofSurface";
 }
 
@@ -192,7 +192,7 @@ bool Annotator::is_host_surface(const Polygon& polygon) const {
 int Annotator::surface_around(const Feature& opening) const {
   if (!opening.host_facet) return -1;
   const Cell& cell = segmentation_.cells[opening.host_facet->cell.index()];
-  const Facet& facet = cell.facets[index(opening.host_facet->facet)];
+  const Facet& facet = cell.facets[oriel::at(opening.host_facet->facet)];
   const Vec3 normal = segmentation_.planes[facet.plane.index()].normal;
   const int surface = nearest_surface(opening.box, normal, facet.polygons);
   if (surface >= 0) return surface;
@@ -206,7 +206,7 @@ int Annotator::surface_around(const Feature& opening) const {
 int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<int>& sources) const {
   std::optional<std::tuple<double, double, double, int>> best;
   for (const int source : sources) {
-    const Polygon* polygon = polygons_[index(source)];
+    const Polygon* polygon = polygons_[oriel::at(source)];
     if (polygon == nullptr || !is_host_surface(*polygon)) continue;
     const Vec3 area = rules::area_vector(building_, *polygon);
     const double percent_aligned = std::round(100 * std::abs(dot(normalised(area), normal)));
@@ -214,23 +214,23 @@ int Annotator::nearest_surface(const Box& box, Vec3 normal, const std::vector<in
     const std::tuple key(distance, -percent_aligned, -length(area), source);
     if (!best || key < *best) best = key;
   }
-  return best ? result_.surface_of_polygon[index(std::get<3>(*best))] : -1;
+  return best ? result_.surface_of_polygon[oriel::at(std::get<3>(*best))] : -1;
 }
 
 void Annotator::add_parents() {
   for (std::size_t feature = 0; feature < opening_surfaces_.size(); ++feature)
     if (const int surface = opening_surfaces_[feature]; surface >= 0)
-      result_.surfaces[index(surface)].parent = surface_around(segmentation_.features[feature]);
+      result_.surfaces[oriel::at(surface)].parent = surface_around(segmentation_.features[feature]);
 }
 
 Members Annotator::members_of(int feature) const {
-  const Verdict& verdict = interpretation_.verdicts[index(feature)];
-  const Role& role = roles_[index(feature)];
+  const Verdict& verdict = interpretation_.verdicts[oriel::at(feature)];
+  const Role& role = roles_[oriel::at(feature)];
   Members members = {{"oriel_id", table_.id(verdict.feature)}, {"oriel_label", role.label}};
   if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
   members.emplace_back("oriel_score", rounded(verdict.score));
   members.emplace_back("oriel_rule", verdict.rule);
-  if (const auto& groups = groups_[index(feature)]; !groups.empty())
+  if (const auto& groups = groups_[oriel::at(feature)]; !groups.empty())
     members.emplace_back("oriel_groups", joined(groups));
   if (explainer_) members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
   return members;
@@ -241,8 +241,8 @@ void Annotator::add_installations() {
   std::vector<std::vector<int>> polygons(roles_.size());
   for (const Polygon& polygon : building_.polygons)
     for (const int feature : features_of(polygon))
-      if (kinds_[index(feature)] == Kind::installation) {
-        polygons[index(feature)].push_back(polygon.source);
+      if (kinds_[oriel::at(feature)] == Kind::installation) {
+        polygons[oriel::at(feature)].push_back(polygon.source);
         break;
       }
   for (std::size_t feature = 0; feature < roles_.size(); ++feature) {
@@ -260,7 +260,7 @@ void Annotator::add_installations() {
       installation.attributes.push_back(std::move(member));
     std::ranges::sort(polygons[feature]);
     for (const int polygon : polygons[feature])
-      installation.surfaces.push_back(result_.surface_of_polygon[index(polygon)]);
+      installation.surfaces.push_back(result_.surface_of_polygon[oriel::at(polygon)]);
     installation.polygons = std::move(polygons[feature]);
     result_.installations.push_back(std::move(installation));
   }

@@ -27,6 +27,8 @@ std::uint64_t mixed(std::uint64_t hash) {
   return hash ^ (hash >> 31U);
 }
 
+}  // namespace
+
 /// Which ids a stream had so far: 16 bytes for each, at a load of at most one half. Ids are known
 /// by a hash of 128 bits: among 10^9 of them two share one with a probability of 10^-21.
 class IdSet {
@@ -71,6 +73,8 @@ bool IdSet::insert(std::string_view id) {
   ++count_;
   return true;
 }
+
+namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
