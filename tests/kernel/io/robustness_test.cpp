@@ -26,7 +26,7 @@ void read_and_write(const test::TemporaryFolder& folder, const std::string& name
     // Of a CityGML building that could not be read nothing is written.
     if (record.value->format == Format::citygml && !record.value->source) continue;
     CHECK_FALSE(write_cityjson(*record.value, labelled, {.removed = {"gone"}}).empty());
-    LabelledMesh mesh;
+    MeshSource mesh;
     append_mesh(mesh, *record.value, labelled);
     CHECK_FALSE(write_obj(mesh).empty());
     CHECK_FALSE(write_off(mesh).empty());
