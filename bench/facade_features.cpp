@@ -39,7 +39,7 @@ FacadeBuilding make_building(const std::vector<Line>& lines) {
   const int first = at(lines[0], 0), first_facade = at(lines[0], 2);
   static constexpr std::array<std::pair<const char*, std::size_t>, 8> kColumns = {
       {{"inclination", 6},
-       {"height", 7},
+       {"base_height", 7},
        {"a", 8},
        {"b", 9},
        {"c", 10},

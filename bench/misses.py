@@ -34,8 +34,8 @@ def size_of(box):
 
 
 def told(record):
-    numbers = "  ".join(f"{name} {record[key]:.2f}" for name, key in (("w", "width_m"), ("h", "height_of_m"), (
-        "d", "depth_m"), ("recess", "recess_m"), ("z", "height_m"), ("score", "score")) if isinstance(record.get(key), float))
+    numbers = "  ".join(f"{name} {record[key]:.2f}" for name, key in (("w", "width_m"), ("h", "height_m"), (
+        "d", "depth_m"), ("recess", "recess_m"), ("z", "base_height_m"), ("score", "score")) if isinstance(record.get(key), float))
     return f"{record['id']} {record['label'] or 'unknown'} ({record['rule'] or '-'}) {record['sense']} {numbers} in {record['host'] or '-'}"
 
 

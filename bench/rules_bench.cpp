@@ -124,9 +124,10 @@ std::string pack_of(int rules) {
   for (int i = 1; i < rules; ++i)
     text += fmt::format(
         "  - id: {0}.r{1}\n    label: {0}\n    priority: {1}\n    require:\n"
-        "      - self is opening and host is wall and height > $sill_max\n"
+        "      - self is opening and host is wall and base_height > $sill_max\n"
         "      - b in 0.3 m .. 2.{1} m and depth <= 0.6 m\n"
-        "      - count(same_facade where is opening and abs(height - self.height) <= 0.2 m) >= 2\n"
+        "      - count(same_facade where is opening and abs(base_height - self.base_height) <= 0.2 "
+        "m) >= 2\n"
         "    unless: [quality > 0.9 and not natural]\n"
         "    score:\n      - a: {{rise: 1.6 m .. 2.0 m, fall: 2.6 m .. 3.2 m, weight: 2}}\n"
         "      - count(alike where is opening): {{rise: 0 .. 3}}\n",

@@ -24,7 +24,7 @@ void finish_stdout() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush()) return;
   oriel::Issue issue;
-  issue.code = "E601";
+  issue.code = oriel::Code::E601;
   issue.sentence = "cannot be written: " + std::generic_category().message(errno);
   issue.place.file = "stdout";
   throw oriel::OutputError(std::move(issue));
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     return exit_with(ExitCode::output);
   } catch (const std::exception& fault) {
     oriel::Issue issue;
-    issue.code = "E901";
+    issue.code = oriel::Code::E901;
     issue.sentence = std::string("a fault of oriel's own: ") + fault.what();
     report.tell(issue);
     return exit_with(ExitCode::internal);

@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(
   cmake g++ ninja-build clang-format
   libcgal-dev libopenmesh-dev libboost-dev libgmp-dev libmpfr-dev
-  libyaml-cpp-dev libyaml-dev libspdlog-dev libfmt-dev libcli11-dev libsimdjson-dev libexpat1-dev nlohmann-json3-dev libtbb-dev libmimalloc-dev nettle-dev
+  libyaml-cpp-dev libspdlog-dev libfmt-dev libcli11-dev libsimdjson-dev libexpat1-dev nlohmann-json3-dev libtbb-dev libmimalloc-dev nettle-dev
   doctest-dev librapidcheck-dev libbenchmark-dev libeigen3-dev
 )
 

@@ -20,8 +20,8 @@ struct Deed {
   /// "kept": nothing was asked for, or is_part(); "omitted"; "changed"; "went along": with what
   /// carries it or with its row; "refused": it is as it was.
   std::string outcome;
-  std::string code;    ///< of a refusal, and of a part
-  std::string reason;  ///< of a refusal, and of a part
+  Code code = Code::none;  ///< of a refusal, and of a part
+  std::string reason;      ///< of a refusal, and of a part
 };
 
 /// One for each feature, in their order.

@@ -144,7 +144,7 @@ class InvariantEnforcer {
       if (broken) reason = std::move(*broken);
       return broken.has_value();
     });
-    undone_.add({plan_.steps[step].feature, std::move(reason.code), std::move(reason.sentence)});
+    undone_.add({plan_.steps[step].feature, reason.code, std::move(reason.sentence)});
   }
 
   [[nodiscard]] bool may_be_undone(FeatureId id) const {
@@ -173,7 +173,7 @@ class InvariantEnforcer {
     for (const detail::PlanTask& task : detail::tasks_of(plan_, segmentation_)) {
       if (std::ranges::find(task.steps, id, &Step::feature) == task.steps.end()) continue;
       for (const Step& step : task.steps)
-        if (!undone_.contains(step.feature)) undone_.add({step.feature, "G403", reason});
+        if (!undone_.contains(step.feature)) undone_.add({step.feature, Code::G403, reason});
     }
   }
 
@@ -185,7 +185,7 @@ class InvariantEnforcer {
          new_short_edges(solid_, out.solid, segmentation_, out.removed, invariants_.least_edge_m))
       for (const Step& step : plan_.steps)
         if (is_removed_piece(step.feature, out) && is_torn(step.feature, edge))
-          undone_.add({step.feature, "G418",
+          undone_.add({step.feature, Code::G418,
                        fmt::format("an edge of {:.2f} m would be left", edge.length_m)});
     return undone_.size() > count;
   }
@@ -198,7 +198,7 @@ class InvariantEnforcer {
           stays_as_it_was(segmentation_, segmentation_.features[step.feature.index()].parent,
                           out) &&
           carries_its_parent(segmentation_, step.feature))
-        undone_.add({step.feature, "G411", "what stands on it would hang in the air"});
+        undone_.add({step.feature, Code::G411, "what stands on it would hang in the air"});
     return undone_.size() > count;
   }
 

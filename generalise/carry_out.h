@@ -1,6 +1,7 @@
 #pragma once
 
 #include "generalise/invariants/invariants.h"
+#include "kernel/base/code.h"
 #include "kernel/model/plan.h"
 #include "kernel/segment/remove.h"
 
@@ -22,7 +23,7 @@ struct CarriedOut {
   /// Steps that were not carried out, by feature, each with its code.
   struct Refused {
     FeatureId feature;
-    std::string code;
+    Code code = Code::none;
     std::string reason;
   };
   std::vector<Refused> refused;

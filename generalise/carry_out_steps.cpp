@@ -37,7 +37,7 @@ class StepRunner {
     return segmentation_.features[step.feature.index()];
   }
 
-  void fail(const detail::PlanTask& task, const std::string& code, const std::string& reason) {
+  void fail(const detail::PlanTask& task, Code code, const std::string& reason) {
     for (const Step& step : task.steps)
       failed_.try_emplace(step.feature, CarriedOut::Refused{step.feature, code, reason});
   }
@@ -72,7 +72,7 @@ class StepRunner {
     const FeatureId id = task.steps[0].feature;
     if (failed_.contains(id) || std::ranges::binary_search(out.removed, id)) return;
     detail::Placed placed = merge({out.solid, segmentation_, task.steps, plan_.scale});
-    if (!placed.solid) return fail(task, "G403", placed.reason);
+    if (!placed.solid) return fail(task, Code::G403, placed.reason);
     out.solid = std::move(*placed.solid);
     out.changed.push_back(id);
     std::ranges::sort(out.changed);
@@ -93,10 +93,10 @@ class StepRunner {
     if (is_in_another) return;  // it went with what carries it
     const Operator& its = operator_named(task.operation);
     detail::Placed placed = its.redraw({out.solid, segmentation_, task.steps, plan_.scale});
-    if (!placed.solid) return fail(task, "G403", placed.reason);
+    if (!placed.solid) return fail(task, Code::G403, placed.reason);
     if (task.operation == "flatten" && validator_ &&
         validator_.fitness_of(*placed.solid) == Fitness::unfit)
-      return fail(task, "G403", "the moved facet would meet another part");
+      return fail(task, Code::G403, "the moved facet would meet another part");
     out.solid = std::move(*placed.solid);
     const std::size_t kept = its.kept(task.steps);
     for (std::size_t i = 0; i < kept; ++i) {

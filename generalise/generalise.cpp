@@ -24,12 +24,13 @@ Issue refusal_issue(const CarriedOut::Refused& refusal, const Segmentation& segm
     return note;
   }
   const bool is_piece = parent.is_valid() && label.empty();
-  Issue issue = building_issue(
-      is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
-      is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}", table.id(parent),
-                             target, refusal.reason)
-               : fmt::format("is not {} at {}: {}", refusal.code == "G403" ? "changed" : "omitted",
-                             target, refusal.reason));
+  Issue issue =
+      building_issue(is_piece ? Severity::note : Severity::warning, refusal.code, table.building(),
+                     is_piece ? fmt::format("is a piece of {} and stays with it at {}: {}",
+                                            table.id(parent), target, refusal.reason)
+                              : fmt::format("is not {} at {}: {}",
+                                            refusal.code == Code::G403 ? "changed" : "omitted",
+                                            target, refusal.reason));
   issue.place.feature = table.id(refusal.feature);
   return issue;
 }
@@ -59,7 +60,8 @@ Pieces pieces_of(const Plan& plan, const FeatureTable& table,
 
 bool is_part(const CarriedOut::Refused& refused, const Plan& plan,
              const Interpretation& interpretation) {
-  if (refused.code != "G411" && refused.code != "G412" && refused.code != "G418") return false;
+  if (refused.code != Code::G411 && refused.code != Code::G412 && refused.code != Code::G418)
+    return false;
   const auto step = std::ranges::find(plan.steps, refused.feature, &Step::feature);
   return is_unnamed(refused.feature, interpretation) ||
          (step != plan.steps.end() && is_for_size(*step));
@@ -78,7 +80,7 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
     out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, plan, target));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
-        Severity::error, "G402", table.building(),
+        Severity::error, Code::G402, table.building(),
         fmt::format("nothing closed would be left at {}; it stays as it is", target)));
     return out;
   }

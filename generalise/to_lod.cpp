@@ -49,7 +49,7 @@ Checked<Redrawn> to_lod(const Building& building, const LabelledBuilding& labell
     out.issues = std::move(made.issues);
     if (!made.value) return out;
     const auto note = [&](const char* sentence) {
-      out.issues.push_back(building_issue(Severity::note, "G407", building.id, sentence));
+      out.issues.push_back(building_issue(Severity::note, Code::G407, building.id, sentence));
     };
     if (made.value->is_simplified)
       note("parts of its roof meet in a vertical edge: it became one block");

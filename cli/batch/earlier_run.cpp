@@ -86,7 +86,7 @@ EarlierRun::EarlierRun(const std::string& status, const std::string& recipe_sha2
   } catch (const std::exception& why) {
     fault_.emplace();
     fault_->severity = Severity::warning;
-    fault_->code = "E124";
+    fault_->code = Code::E124;
     fault_->sentence = fmt::format("nothing is taken from this run: {}", why.what());
     fault_->place.file = status;
     notes_.clear();

@@ -19,7 +19,7 @@ std::shared_ptr<Arrival> Intake::next() {
           : arrival->kind != Arrival::Kind::begin && arrival->number < start_.records;
   if (!has_changed) return arrival;
   Issue issue;
-  issue.code = "E117";
+  issue.code = Code::E117;
   issue.sentence =
       fmt::format("does not begin as it did when the run began; delete {}.journal to begin anew",
                   arguments_.status_stem);

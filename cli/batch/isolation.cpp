@@ -296,7 +296,7 @@ void Isolation::blame(Batch& batch, int status) {
   bool is_new = false;
   for (std::size_t i = from; i < to; ++i)
     is_new |= arrival.lost
-                  .emplace(i, building_issue(Severity::error, "E123", buildings[i].id,
+                  .emplace(i, building_issue(Severity::error, Code::E123, buildings[i].id,
                                              "its worker was ended by " + how))
                   .second;
   if (!is_new)

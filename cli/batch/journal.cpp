@@ -21,7 +21,7 @@ constexpr std::size_t kMostBytes = 1 << 20;
 
 [[noreturn]] void fail(const std::string& path) {
   Issue issue;
-  issue.code = "E601";
+  issue.code = Code::E601;
   issue.sentence = "cannot be written: " + std::generic_category().message(errno);
   issue.place.file = path;
   throw OutputError(std::move(issue));

@@ -65,15 +65,16 @@ void Ledger::add_unread(const std::string& input, const Issue& error) {
 void Ledger::append(const std::string& input, int line, const std::vector<Issue>& errors,
                     std::string_view record) {
   ++records_;
-  ++codes_[errors[0].code];
+  ++codes_[to_string(errors[0].code)];
   ordered_json entry{{"input", input}};
   if (line > 0) entry["line"] = line;
   entry["id"] = errors[0].place.building;
-  entry["code"] = errors[0].code;
+  entry["code"] = to_string(errors[0].code);
   entry["errors"] = ordered_json::array();
   for (const Issue& error : errors)
-    entry["errors"].push_back(
-        {{"id", error.place.building}, {"code", error.code}, {"sentence", error.sentence}});
+    entry["errors"].push_back({{"id", error.place.building},
+                               {"code", to_string(error.code)},
+                               {"sentence", error.sentence}});
   const std::string text(record);
   if (record.empty())
     entry["record"] = nullptr;

@@ -11,9 +11,9 @@ using nlohmann::ordered_json;
 ordered_json to_json(const std::vector<Issue>& issues) {
   ordered_json list = ordered_json::array();
   for (const Issue& issue : issues)
-    list.push_back({static_cast<int>(issue.severity), issue.code, issue.sentence, issue.place.file,
-                    issue.place.line, issue.place.column, issue.place.building, issue.place.feature,
-                    issue.excerpt});
+    list.push_back({static_cast<int>(issue.severity), to_string(issue.code), issue.sentence,
+                    issue.place.file, issue.place.line, issue.place.column, issue.place.building,
+                    issue.place.feature, issue.excerpt});
   return list;
 }
 
@@ -22,7 +22,7 @@ std::vector<Issue> issues_of(const ordered_json& list) {
   for (const ordered_json& entry : list) {
     Issue issue;
     issue.severity = static_cast<Severity>(entry.at(0).get<int>());
-    issue.code = entry.at(1);
+    issue.code = code_of(entry.at(1).get<std::string>()).value_or(Code::none);
     issue.sentence = entry.at(2);
     issue.place = {entry.at(3), entry.at(4), entry.at(5), entry.at(6), entry.at(7)};
     issue.excerpt = entry.at(8);

@@ -34,7 +34,7 @@ std::string command_line() {
 
 InputError not_the_same(const std::string& journal, const std::string& why) {
   Issue issue;
-  issue.code = "E117";
+  issue.code = Code::E117;
   issue.sentence = fmt::format("{}: the run cannot go on; delete this file to begin anew", why);
   issue.place.file = journal;
   return InputError(std::move(issue));

@@ -91,7 +91,7 @@ class Run {
   [[nodiscard]] OnLine on_line(const Building& building, Timings& timings) const;
   [[nodiscard]] BuildingOutcome outcome_of(OnLine& line) const;
   void work_on(Arrival& arrival, const Visitor& visitor) const;
-  void set_all_aside(Arrival& arrival, const std::string& code, const std::string& sentence) const;
+  void set_all_aside(Arrival& arrival, Code code, const std::string& sentence) const;
   void reuse(Arrival& arrival) const;
   void make_product(Arrival& arrival, const Visitor& visitor) const;
   void settle(Arrival& arrival, const Visitor& visitor);

@@ -16,7 +16,7 @@ namespace {
 
 Issue noise_note(const Building& building, const Tolerances& fitted) {
   return building_issue(
-      Severity::note, "E126", building.id,
+      Severity::note, Code::E126, building.id,
       fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: what is "
                   "within {:.1f} mm is one plane (--plane-offset)",
                   1e3 * noise_of(building), 1e3 * fitted.plane_offset_m));
@@ -81,8 +81,7 @@ void Run::work_on(Arrival& arrival, const Visitor& visitor) const {
 }
 
 /// As if none of its buildings had come to the end.
-void Run::set_all_aside(Arrival& arrival, const std::string& code,
-                        const std::string& sentence) const {
+void Run::set_all_aside(Arrival& arrival, Code code, const std::string& sentence) const {
   const std::vector<Building>& buildings = arrival.record.value->buildings;
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     BuildingOutcome& outcome = arrival.outcome.buildings[i];
@@ -101,7 +100,7 @@ void Run::make_product(Arrival& arrival, const Visitor& visitor) const {
   try {
     arrival.outcome.product = visitor.make(arrival.input, document, arrival.lines, arrival.timings);
   } catch (const std::exception& fault) {
-    set_all_aside(arrival, "E901", fmt::format("a fault of oriel's own: {}", fault.what()));
+    set_all_aside(arrival, Code::E901, fmt::format("a fault of oriel's own: {}", fault.what()));
     arrival.outcome.product = visitor.make(arrival.input, document, arrival.lines, arrival.timings);
   }
   arrival.lines = {};

@@ -56,7 +56,7 @@ class Collect {
   void add_feature(const std::string& line) {
     const auto twin = collector_.add(line);
     if (!twin) return;
-    run_.set_aside(building_issue(Severity::error, "E207", *twin,
+    run_.set_aside(building_issue(Severity::error, Code::E207, *twin,
                                   "an earlier feature has a CityObject with this id; that one is "
                                   "collected"));
   }

@@ -92,7 +92,8 @@ class Generaliser {
       now_at_building(i);
       if (!lines[i].is_done()) continue;
       if (lines[i].is_open) {
-        product.issues.push_back(building_issue(Severity::error, "G404", document.buildings[i].id,
+        product.issues.push_back(building_issue(Severity::error, Code::G404,
+                                                document.buildings[i].id,
                                                 "is open: there is no solid to redraw"));
         continue;
       }
@@ -160,7 +161,7 @@ std::vector<double> scales_of(const std::vector<std::string>& texts) {
   std::ranges::sort(scales);
   const auto twin = std::ranges::adjacent_find(scales);
   if (twin != scales.end())
-    refuse_usage("--series", "E125", fmt::format("the scale 1:{} stands twice", *twin));
+    refuse_usage("--series", Code::E125, fmt::format("the scale 1:{} stands twice", *twin));
   return scales;
 }
 
@@ -169,7 +170,7 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
                                     Report& report) {
   if (arguments.series.empty()) return std::nullopt;
   if (!arguments.explain.empty() || !arguments.metrics.empty())
-    refuse_usage("--series", "G414",
+    refuse_usage("--series", Code::G414,
                  "goes without --explain and --metrics, which are of one scale");
   const std::vector<double> scales = scales_of(arguments.series);
   if (arguments.target.profile.empty())

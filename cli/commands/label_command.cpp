@@ -31,7 +31,7 @@ struct Arguments : LabelArguments {
 std::string listing(const Building& building, const OnLine& line) {
   const FeatureTable& of = line.description.table;
   std::vector<std::vector<std::string>> rows{
-      {"feature", "label", "score", "margin", "rule", "a m", "b m", "height m"}};
+      {"feature", "label", "score", "margin", "rule", "a m", "b m", "base height m"}};
   const auto number = [&](FeatureId id, const char* name) {
     const auto value = of.number(id, name);
     return value ? fmt::format("{:.2f}", *value) : std::string("-");
@@ -41,7 +41,7 @@ std::string listing(const Building& building, const OnLine& line) {
     rows.push_back({of.id(verdict.feature), verdict.label, fmt::format("{:.2f}", verdict.score),
                     fmt::format("{:.2f}", verdict.margin), verdict.rule,
                     number(verdict.feature, "a"), number(verdict.feature, "b"),
-                    number(verdict.feature, "height")});
+                    number(verdict.feature, "base_height")});
   }
   return fmt::format("{}: {} of {} features have a label\n{}\n", building.id, rows.size() - 1,
                      line.interpretation.verdicts.size(), table(rows));
@@ -53,7 +53,7 @@ LabelledBuilding on_solid(const Document& document, const Building& building, co
                           LabelledBuilding labelled, const Tolerances& tolerances,
                           std::vector<Issue>& issues) {
   if (line.is_open) {
-    issues.push_back(building_issue(Severity::error, "G404", building.id,
+    issues.push_back(building_issue(Severity::error, Code::G404, building.id,
                                     "is open: its polygons are labelled as they came"));
     return labelled;
   }

@@ -79,7 +79,7 @@ class Merger {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
       Issue issue = shard_issue(path, "cannot be read: " + std::generic_category().message(errno));
-      issue.code = "E101";
+      issue.code = Code::E101;
       return tell(issue);
     }
     FileMark mark;

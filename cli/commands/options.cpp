@@ -85,8 +85,8 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
 
 }  // namespace
 
-void refuse_usage(const std::string& option, const std::string& code, const std::string& sentence) {
-  throw CLI::ValidationError(option, fmt::format("{} {}", code, sentence));
+void refuse_usage(const std::string& option, Code code, const std::string& sentence) {
+  throw CLI::ValidationError(option, fmt::format("{} {}", to_string(code), sentence));
 }
 
 CLI::Validator input_formats() {

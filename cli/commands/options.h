@@ -79,8 +79,7 @@ struct LineArguments {
 
 /// Throws CLI::ValidationError: wrong usage of `option` that has a code of its own
 /// (docs/errors.md), told as "--scale: E125 sentence"; exit code 2.
-[[noreturn]] void refuse_usage(const std::string& option, const std::string& code,
-                               const std::string& sentence);
+[[noreturn]] void refuse_usage(const std::string& option, Code code, const std::string& sentence);
 
 /// What `--from` may be.
 CLI::Validator input_formats();

@@ -23,9 +23,9 @@ struct Arguments {
 
 /// A finding as editors read it.
 nlohmann::ordered_json as_json(const Issue& issue) {
-  return {{"file", issue.place.file},     {"line", issue.place.line},
-          {"column", issue.place.column}, {"severity", to_string(issue.severity)},
-          {"code", issue.code},           {"sentence", issue.sentence}};
+  return {{"file", issue.place.file},      {"line", issue.place.line},
+          {"column", issue.place.column},  {"severity", to_string(issue.severity)},
+          {"code", to_string(issue.code)}, {"sentence", issue.sentence}};
 }
 
 ExitCode work(const Arguments& arguments) {

@@ -54,7 +54,7 @@ std::vector<std::string> truth_files(const std::vector<std::string>& named) {
     std::ranges::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
     if (files.size() == before) {
       Issue issue;
-      issue.code = "E101";
+      issue.code = Code::E101;
       issue.sentence = "the folder has no *.truth.json or *.truth.jsonl";
       issue.place.file = path;
       throw InputError(std::move(issue));
@@ -133,7 +133,7 @@ AreaScore compare_models(const Arguments& arguments, Compared& all, Report& repo
   code = graver(code, run.go(visitor));
   for (const auto& [building, faces] : all.faces)
     if (!faces.truth.empty())
-      report.tell(building_issue(Severity::warning, "E129", building,
+      report.tell(building_issue(Severity::warning, Code::E129, building,
                                  "is in none of the models: its areas are not compared"));
   return score;
 }

@@ -30,7 +30,7 @@ std::string listing(const Building& building, const OnLine& line) {
   const Segmentation& segmentation = *line.segmentation;
   const FeatureTable& table_of = line.description.table;
   std::vector<std::vector<std::string>> rows{
-      {"feature", "sense", "planes", "value", "volume m3", "a m", "b m", "c m", "height m"}};
+      {"feature", "sense", "planes", "value", "volume m3", "a m", "b m", "c m", "base height m"}};
   const auto number = [&](FeatureId id, const char* name) {
     const auto value = table_of.number(id, name);
     return value ? fmt::format("{:.3f}", *value) : std::string("-");
@@ -41,7 +41,7 @@ std::string listing(const Building& building, const OnLine& line) {
     rows.push_back({table_of.id(id), to_string(feature.sense),
                     fmt::format("{}", feature.planes.size()), number(id, "value"),
                     number(id, "volume"), number(id, "a"), number(id, "b"), number(id, "c"),
-                    number(id, "height")});
+                    number(id, "base_height")});
   }
   const SegmentationStats& stats = segmentation.stats;
   return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n", building.id,
@@ -83,7 +83,7 @@ class Outputs {
     bool is_same = true;
     std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
     if (is_same) return text;
-    run_.set_aside(building_issue(Severity::error, "E901", building.id,
+    run_.set_aside(building_issue(Severity::error, Code::E901, building.id,
                                   "a fault of oriel's own: its balanced tree is another body"));
     return {};
   }

@@ -42,14 +42,14 @@ struct Judgement {
 Finding finding_of(const Issue& issue) {
   Finding finding;
   finding.code = issue.code;
-  finding.val3dity = issue.code == "E314" ? 103 : issue.code == "E313" ? 902 : 0;
+  finding.val3dity = val3dity_number(issue.code);
   finding.sentence = issue.sentence;
   if (issue.place.line > 0) finding.sentence += fmt::format(" (line {})", issue.place.line);
   return finding;
 }
 
 Json json_of(const Finding& finding) {
-  Json out{{"code", finding.code}};
+  Json out{{"code", to_string(finding.code)}};
   if (finding.val3dity > 0) {
     out["val3dity"] = finding.val3dity;
     out["val3dity_name"] = val3dity_name(finding.val3dity);
@@ -86,7 +86,7 @@ std::string text_of(const Judgement& judgement) {
   std::string text = fmt::format("{}: {} finding{}\n", judgement.id, judgement.findings.size(),
                                  judgement.findings.size() == 1 ? "" : "s");
   for (const Finding& finding : judgement.findings) {
-    text += fmt::format("  {} {}", finding.code, finding.sentence);
+    text += fmt::format("  {} {}", to_string(finding.code), finding.sentence);
     // Sentences of reading name the number themselves.
     if (finding.val3dity > 0 && finding.sentence.find("(val3dity ") == std::string::npos)
       text += fmt::format(" (val3dity {} {})", finding.val3dity, val3dity_name(finding.val3dity));
@@ -137,7 +137,7 @@ class Validation {
   void judge(const Checked<Document>& record) {
     std::map<std::string, std::vector<Finding>> open_rings;
     for (const Issue& issue : record.issues) {
-      if (issue.code == "E314")
+      if (issue.code == Code::E314)
         open_rings[issue.place.building].push_back(finding_of(issue));
       else if (issue.severity == Severity::error &&
                !arguments_.selection.takes(issue.place.building, record.value->feature_type))
@@ -147,7 +147,7 @@ class Validation {
              "",
              "",
              {finding_of(issue)}});
-      else if (issue.code != "E311" && issue.code != "E312")  // judged with their places
+      else if (issue.code != Code::E311 && issue.code != Code::E312)  // judged with their places
         report_.tell(issue);
     }
     for (const Building& building : record.value->buildings)
@@ -190,7 +190,7 @@ class Validation {
         fmt::format("{} of {} buildings are valid", buildings_ - invalid_, buildings_);
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
-      text += fmt::format("{}{} {}", separator, count, code.first);
+      text += fmt::format("{}{} {}", separator, count, to_string(code.first));
       if (code.second > 0)
         text += fmt::format(" (val3dity {} {})", code.second, val3dity_name(code.second));
       separator = ", ";
@@ -206,7 +206,7 @@ class Validation {
   int buildings_ = 0;
   int invalid_ = 0;
   int unread_records_ = 0;
-  std::map<std::pair<std::string, int>, int> counts_;
+  std::map<std::pair<Code, int>, int> counts_;
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Arguments : LineArguments {
   std::string after;
 };
 
-[[noreturn]] void refuse(const char* code, const std::string& file, std::string sentence) {
+[[noreturn]] void refuse(Code code, const std::string& file, std::string sentence) {
   Issue issue;
   issue.code = code;
   issue.sentence = std::move(sentence);
@@ -83,7 +83,7 @@ ExitCode work(const Arguments& arguments) {
   ExitCode code = add_model(arguments, *rules, report, page, ids, false);
   if (page.buildings() == 0) {
     if (code == ExitCode::input) return code;
-    refuse("E127", arguments.inputs.front(), "there is no building to show");
+    refuse(Code::E127, arguments.inputs.front(), "there is no building to show");
   }
   if (!arguments.after.empty()) {
     std::vector<std::string> found;
@@ -91,7 +91,7 @@ ExitCode work(const Arguments& arguments) {
         add_model(arguments_after(arguments, std::move(ids)), *rules, report, page, found, true);
     if (found.empty() && second == ExitCode::input) return second;
     if (found.empty())
-      refuse("E128", arguments.after, "has none of the buildings that it should show after");
+      refuse(Code::E128, arguments.after, "has none of the buildings that it should show after");
     code = graver(code, second);
   }
   write_file(arguments.out, page_of(page.json()));

@@ -26,7 +26,7 @@ std::string Accounts::text(const std::string& building, const std::string& targe
       line["outcome"] = deed.outcome;
       line["operation"] = deed.operation;
       line["rule"] = deed.rule;
-      line["code"] = deed.code;
+      line["code"] = to_string(deed.code);
       line["reason"] = deed.reason;
       all += line.dump() + "\n";
       continue;
@@ -34,7 +34,7 @@ std::string Accounts::text(const std::string& building, const std::string& targe
     std::string text = fmt::format("{} {} {} {}: {}", target, building, deed.feature,
                                    deed.label.empty() ? "unknown" : deed.label, deed.outcome);
     if (!deed.operation.empty()) text += fmt::format(", {} by {}", deed.operation, deed.rule);
-    if (!deed.reason.empty()) text += fmt::format(" ({} {})", deed.code, deed.reason);
+    if (!deed.reason.empty()) text += fmt::format(" ({} {})", to_string(deed.code), deed.reason);
     all += text + '\n';
   }
   return all;

@@ -26,7 +26,7 @@ void append(std::vector<Issue>& all, std::vector<Issue> more) {
 std::optional<Solid> opened(const Building& building, std::vector<Issue>& issues,
                             const Tolerances& tolerances) {
   const auto is_geometry = [](const Issue& issue) {
-    return issue.severity != Severity::error || issue.code.starts_with("E3");
+    return issue.severity != Severity::error || is_about_geometry(issue.code);
   };
   if (!std::ranges::all_of(issues, is_geometry)) return std::nullopt;
   auto shell = open_shell(building, tolerances);
@@ -49,7 +49,7 @@ void make_solid(const Building& building, const Tolerances& tolerances, const Re
 }
 
 Issue fault_of_ours(const Building& building, const std::exception& fault) {
-  return building_issue(Severity::error, "E901", building.id,
+  return building_issue(Severity::error, Code::E901, building.id,
                         fmt::format("a fault of oriel's own: {}", fault.what()));
 }
 
@@ -74,7 +74,7 @@ OnLine run_line(const Building& building, const SegmentOptions& options,
 
 OnLine run_from_solid(OnLine out, const Building& building, const SegmentOptions& options,
                       const RuleBase* rules, Timings& timings, const DescribeOptions& describing) {
-  const auto is_ours = [](const Issue& issue) { return issue.code == "E901"; };
+  const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
   if (std::ranges::any_of(out.issues, is_ours)) return out;
   try {
     if (!out.solid) {

@@ -48,7 +48,7 @@ void measured_describe(const Building& building, Timings& timings, OnLine& line,
   try {
     timings.measure(Stage::describe, describe);
   } catch (const std::exception& fault) {
-    line.issues.push_back(building_issue(Severity::error, "E901", building.id,
+    line.issues.push_back(building_issue(Severity::error, Code::E901, building.id,
                                          fmt::format("a fault of oriel's own: {}", fault.what())));
   }
 }

@@ -47,11 +47,12 @@ bool make_valid(const Document& document, const Building& building, MendedSolid&
 
 Issue mended_warning(const Building& building, const OnLine& line) {
   const auto findings = validate(building);
-  const std::string why = findings.empty() ? "its surface"
-                                           : fmt::format("was not valid as it was read ({} {}) and",
-                                                         findings[0].code, findings[0].sentence);
+  const std::string why = findings.empty()
+                              ? "its surface"
+                              : fmt::format("was not valid as it was read ({} {}) and",
+                                            to_string(findings[0].code), findings[0].sentence);
   return building_issue(
-      Severity::warning, "G417", building.id,
+      Severity::warning, Code::G417, building.id,
       fmt::format("{} would not be valid as it is written: it is redrawn from the boundary of its "
                   "inside, with {} polygons cut",
                   why, line.repair.cut));

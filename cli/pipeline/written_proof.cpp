@@ -22,9 +22,9 @@ WrittenProof prove_written(const Document& document, const Building& building, c
     const auto findings = validate(as_written(document, building, solid, proof.digits));
     if (findings.empty()) return proof;
     if (proof.digits < spare) continue;
-    proof.fault = building_issue(Severity::error, "E318", building.id,
+    proof.fault = building_issue(Severity::error, Code::E318, building.id,
                                  fmt::format("the repaired solid is not valid: {} {}",
-                                             findings[0].code, findings[0].sentence));
+                                             to_string(findings[0].code), findings[0].sentence));
     return proof;
   }
 }
@@ -77,7 +77,7 @@ bool can_be_valid(const Document& document, const Building& building, const Soli
 }  // namespace
 
 Issue excuse_of(const Building& building, const std::string& why) {
-  return building_issue(Severity::warning, "G413", building.id,
+  return building_issue(Severity::warning, Code::G413, building.id,
                         "is not valid as it is written, as it was not when it was read: " + why);
 }
 
@@ -88,7 +88,7 @@ WrittenProof prove_redrawn(const Document& document, const Building& building, c
   std::string why = proof.fault->sentence;
   why.erase(0, why.find(": ") + 2);
   if (!can_be_valid(document, building, own)) return {0, {}, excuse_of(building, why)};
-  proof.fault->code = "G410";
+  proof.fault->code = Code::G410;
   proof.fault->sentence = "would not be valid as it is written: " + why;
   return proof;
 }

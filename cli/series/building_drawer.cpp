@@ -32,14 +32,15 @@ void mend_unchanged(const Document& document, const Building& building, const On
   if (findings.empty()) return;
   if (prove_written(document, building, *line.solid).fault) {
     if (building.is_solid)
-      told.issues.push_back(
-          excuse_of(building, fmt::format("{} {}", findings[0].code, findings[0].sentence)));
+      told.issues.push_back(excuse_of(
+          building, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence)));
     return;
   }
   generalised.is_drawn_anew = true;
-  told.issues.push_back(building_issue(
-      Severity::note, "G419", building.id,
-      fmt::format("was not valid as it was read ({}) and is drawn anew", findings[0].code)));
+  told.issues.push_back(
+      building_issue(Severity::note, Code::G419, building.id,
+                     fmt::format("was not valid as it was read ({}) and is drawn anew",
+                                 to_string(findings[0].code))));
 }
 
 /// A mended solid of more facets is drawn without its steps being judged: with all that lies within
@@ -60,15 +61,15 @@ std::optional<Issue> prove(const Document& document, const OnLine& line, DrawnBu
   return fault;
 }
 
-bool tells(const Product& told, const char* code) {
+bool tells(const Product& told, Code code) {
   return std::ranges::find(told.issues, code, &Issue::code) != told.issues.end();
 }
 
 }  // namespace
 
-bool DrawnBuilding::is_excused() const { return tells(told, "G413"); }
+bool DrawnBuilding::is_excused() const { return tells(told, Code::G413); }
 
-bool DrawnBuilding::is_given_up() const { return tells(told, "G410"); }
+bool DrawnBuilding::is_given_up() const { return tells(told, Code::G410); }
 
 DrawnBuilding BuildingDrawer::draw(const Document& document, std::size_t building,
                                    const OnLine& line, Judging judging) const {

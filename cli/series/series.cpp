@@ -42,7 +42,8 @@ struct Staged {
 
   /// All levels are valid solids in the file.
   [[nodiscard]] bool is_valid() const {
-    return !has_errors(issues) && std::ranges::find(issues, "G413", &Issue::code) == issues.end();
+    return !has_errors(issues) &&
+           std::ranges::find(issues, Code::G413, &Issue::code) == issues.end();
   }
 };
 
@@ -125,9 +126,9 @@ class SeriesWriter {
     const std::string sentence =
         fmt::format("an earlier input has a CityObject '{}': that one is in the series", id);
     for (const Staged& one : staged)
-      run_.set_aside(building_issue(Severity::error, "E207", one.building->id, sentence));
+      run_.set_aside(building_issue(Severity::error, Code::E207, one.building->id, sentence));
     if (!staged.empty()) return;
-    Issue issue = building_issue(Severity::error, "E207", "", sentence);
+    Issue issue = building_issue(Severity::error, Code::E207, "", sentence);
     issue.place.file = document.name;
     run_.set_aside(issue);
   }
@@ -179,7 +180,7 @@ class SeriesWriter {
   void stage(const Document& document, const Building& building, const OnLine& line,
              std::vector<Staged>& staged) {
     if (line.is_open) {
-      run_.set_aside(building_issue(Severity::error, "G404", building.id,
+      run_.set_aside(building_issue(Severity::error, Code::G404, building.id,
                                     "is open: there is no solid to redraw"));
       return;
     }
@@ -272,7 +273,7 @@ class SeriesWriter {
       series = scale_series(input_of(document, one), one.levels, *one.firing,
                             [&](Vec3 local_m) { return grid.place(local_m, frame); });
     } catch (const GeometryError& fault) {
-      run_.set_aside(building_issue(Severity::error, "E901", one.building->id,
+      run_.set_aside(building_issue(Severity::error, Code::E901, one.building->id,
                                     fmt::format("a fault of oriel's own: {}", fault.what())));
       return 0;
     }
@@ -319,7 +320,7 @@ double denominator_of(const std::string& text, const std::string& option) {
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
       !std::isfinite(value))
-    refuse_usage(option, "E125",
+    refuse_usage(option, Code::E125,
                  fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
   return value;
 }

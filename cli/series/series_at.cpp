@@ -27,9 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-InputError unusable(const std::string& file, std::string code, std::string sentence) {
+InputError unusable(const std::string& file, Code code, std::string sentence) {
   Issue issue;
-  issue.code = std::move(code);
+  issue.code = code;
   issue.sentence = std::move(sentence);
   issue.place.file = file;
   return InputError(std::move(issue));
@@ -37,7 +37,7 @@ InputError unusable(const std::string& file, std::string code, std::string sente
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw unusable(path, "E101", "cannot be read");
+  if (!file) throw unusable(path, Code::E101, "cannot be read");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -69,9 +69,9 @@ std::map<double, std::string> levels_of(const std::string& name) {
       }
   }
   if (levels.empty())
-    throw unusable(name, "E101", "has no levels: there is no " + name + ".1-N.city.json");
+    throw unusable(name, Code::E101, "has no levels: there is no " + name + ".1-N.city.json");
   if (endings.size() > 1)
-    throw unusable(name, "G409", "has levels of two series, .city.json and .city.jsonl");
+    throw unusable(name, Code::G409, "has levels of two series, .city.json and .city.jsonl");
   return levels;
 }
 
@@ -105,7 +105,7 @@ class LevelMover {
       out.append(*text);
     }
     if (log_.next() == nullptr) return true;
-    Issue issue = building_issue(Severity::error, "E120", log_.next()->building,
+    Issue issue = building_issue(Severity::error, Code::E120, log_.next()->building,
                                  "is no level of a series: it has no such building");
     issue.place.file = file;
     report.tell(issue);
@@ -150,7 +150,7 @@ class LevelMover {
   bool move(LevelState& state, const std::vector<SeriesOperation>& operations,
             Report& report) const {
     if (move_state(state, operations, from_, to_)) return true;
-    report.tell(building_issue(Severity::error, "G409", state.building,
+    report.tell(building_issue(Severity::error, Code::G409, state.building,
                                fmt::format("the level 1:{} and the log do not fit", from_)));
     return false;
   }

@@ -16,11 +16,12 @@ Format format_of_input(const LabelArguments& arguments, const std::string& input
 
 void check_outputs(const LabelArguments& arguments) {
   if (arguments.out == "-" || arguments.out.ends_with('/'))
-    refuse_usage("-o", "G414", "the files of a series need a name: -o NAME");
+    refuse_usage("-o", Code::G414, "the files of a series need a name: -o NAME");
   if (!arguments.to.empty())
-    refuse_usage("--to", "G414", "the levels of a series are CityJSON, those of streams streams");
+    refuse_usage("--to", Code::G414,
+                 "the levels of a series are CityJSON, those of streams streams");
   if (arguments.is_isolated || !arguments.reuse.empty() || arguments.is_resumable)
-    refuse_usage("--series", "G414",
+    refuse_usage("--series", Code::G414,
                  "goes without --isolate, --reuse and --resume, which are of one scale");
 }
 
@@ -32,7 +33,7 @@ SeriesFiles::Kind SeriesFiles::kind_of(const LabelArguments& arguments) {
   });
   if (streams == 0) return arguments.inputs.size() == 1 ? Kind::one_file : Kind::several_files;
   if (std::cmp_not_equal(streams, arguments.inputs.size()))
-    refuse_usage("input", "G414",
+    refuse_usage("input", Code::G414,
                  "streams and files make no common series: oriel cat turns files into streams");
   return Kind::streams;
 }
@@ -93,7 +94,7 @@ void SeriesFiles::check_header(const std::string& header, const Document& docume
   if (const auto issue = headers_.check(header, input)) throw InputError(*issue);
   if (kind_ != Kind::streams || input_ == 0 || document.buildings.empty()) return;
   Issue issue;
-  issue.code = "G414";
+  issue.code = Code::G414;
   issue.sentence =
       "has buildings in its header, which is not the first: oriel cat makes lines of it";
   issue.place.file = input;

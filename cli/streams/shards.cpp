@@ -31,7 +31,7 @@ ShardList ShardList::load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     Issue issue = shard_issue(path, "cannot be read: " + std::generic_category().message(errno));
-    issue.code = "E101";
+    issue.code = Code::E101;
     throw InputError(std::move(issue));
   }
   ShardList list;
@@ -48,7 +48,7 @@ ShardList ShardList::load(const std::string& path) {
 
 Issue shard_issue(const std::string& file, std::string sentence) {
   Issue issue;
-  issue.code = "E118";
+  issue.code = Code::E118;
   issue.sentence = std::move(sentence);
   issue.place.file = file;
   return issue;
@@ -60,7 +60,7 @@ ShardFile::ShardFile(const std::string& folder, std::string name)
 
 void ShardFile::fail() const {
   Issue issue = shard_issue(path_, "cannot be written: " + std::generic_category().message(errno));
-  issue.code = "E601";
+  issue.code = Code::E601;
   throw OutputError(std::move(issue));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// With --log-json a finding is an object of its parts.
 std::string json_of(const Issue& issue) {
-  nlohmann::ordered_json object{{"code", issue.code}, {"message", issue.sentence}};
+  nlohmann::ordered_json object{{"code", to_string(issue.code)}, {"message", issue.sentence}};
   const auto add = [&](const char* name, const std::string& text) {
     if (!text.empty()) object[name] = text;
   };
@@ -41,7 +41,7 @@ void Report::tell(const std::vector<Issue>& issues) {
 }
 
 void Report::tell(const Issue& issue) {
-  if (issue.severity == Severity::error) ++errors_[issue.code];
+  if (issue.severity == Severity::error) ++errors_[to_string(issue.code)];
   LogLevel level = is_verbose_ ? LogLevel::info : LogLevel::debug;
   if (issue.severity == Severity::warning) level = LogLevel::warning;
   if (issue.severity == Severity::error) level = LogLevel::error;

@@ -331,7 +331,7 @@ using FineParts = std::map<std::pair<FeatureId, std::string>, FinePart>;
 /// That the feature was to change and was refused, or nothing.
 std::string refusal_of(FeatureId feature, const Generalised& generalised) {
   const auto found = std::ranges::find(generalised.refused, feature, &CarriedOut::Refused::feature);
-  return found == generalised.refused.end() ? "" : "it was refused, " + found->code;
+  return found == generalised.refused.end() ? "" : "it was refused, " + to_string(found->code);
 }
 
 /// Why a new edge is there: its feature was refused, or it could not be cleared.
@@ -378,7 +378,7 @@ std::vector<Issue> fineness_issues(const Building& building, const Solid& before
   }
 
   std::vector<Issue> issues;
-  const auto report = [&](const FineParts& findings, const char* code, const char* what,
+  const auto report = [&](const FineParts& findings, Code code, const char* what,
                           bool is_left = true) {
     for (const auto& [whose, finding] : findings) {
       const auto& [feature, reason] = whose;
@@ -393,9 +393,9 @@ std::vector<Issue> fineness_issues(const Building& building, const Solid& before
       issues.push_back(std::move(issue));
     }
   };
-  report(edges, "G415", "edges below {} m left");
-  report(whole, "G415", "edges below {} m of parts that stay as they were", false);
-  report(gaps, "G416", "gaps below {} m left");
+  report(edges, Code::G415, "edges below {} m left");
+  report(whole, Code::G415, "edges below {} m of parts that stay as they were", false);
+  report(gaps, Code::G416, "gaps below {} m left");
   return issues;
 }
 

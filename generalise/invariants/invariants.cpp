@@ -19,7 +19,8 @@ double change_pct(double before, double after) {
 
 /// `what`: "the volume would change".
 Violation beyond_limit(std::string_view what, double by, double limit, std::string_view unit) {
-  return {"G405", fmt::format("{} by {:.3g} {}, more than {:g} {}", what, by, unit, limit, unit)};
+  return {Code::G405,
+          fmt::format("{} by {:.3g} {}, more than {:g} {}", what, by, unit, limit, unit)};
 }
 
 /// Of the lines at their main height less than half is left there.
@@ -62,12 +63,12 @@ Measures measures_of(const Solid& solid, const Invariants& invariants) {
 std::optional<Violation> violation(const Measures& before, const Measures& after,
                                    const Invariants& invariants) {
   const Limits& limits = invariants.limits;
-  if (after.lumps > before.lumps) return Violation{"G411", "the building would fall apart"};
+  if (after.lumps > before.lumps) return Violation{Code::G411, "the building would fall apart"};
   const double hanging_m2 = after.overhang_m2 - before.overhang_m2;
   if (limits.overhang_pct && hanging_m2 > *limits.overhang_pct / 100 * before.footprint_m2)
-    return Violation{"G411", fmt::format("{:.2f} m2 would hang in the air", hanging_m2)};
+    return Violation{Code::G411, fmt::format("{:.2f} m2 would hang in the air", hanging_m2)};
   if (limits.overhang_pct && reaches_out(before.box, after.box, kBoxSlack_m))
-    return Violation{"G412", "the building would reach further than it did"};
+    return Violation{Code::G412, "the building would reach further than it did"};
   const double footprint = change_pct(before.footprint_m2, after.footprint_m2);
   if (limits.footprint_pct && footprint > *limits.footprint_pct)
     return beyond_limit("the footprint would change", footprint, *limits.footprint_pct, "%");
@@ -81,10 +82,10 @@ std::optional<Violation> violation(const Measures& before, const Measures& after
   if (limits.top_m && top_m > *limits.top_m)
     return beyond_limit("its highest point would move", top_m, *limits.top_m, "m");
   if (limits.ridge_m && loses(before.roof.ridges, after.roof.ridges, *limits.ridge_m))
-    return Violation{"G405",
+    return Violation{Code::G405,
                      fmt::format("its ridge would move by more than {} m", *limits.ridge_m)};
   if (limits.eaves_m && loses(before.roof.eaves, after.roof.eaves, *limits.eaves_m))
-    return Violation{"G405",
+    return Violation{Code::G405,
                      fmt::format("its eaves would move by more than {} m", *limits.eaves_m)};
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include "generalise/invariants/party_walls.h"
 #include "generalise/invariants/roof_lines.h"
+#include "kernel/base/code.h"
 #include "kernel/model/limits.h"
 #include "kernel/model/solid.h"
 
@@ -23,7 +24,7 @@ enum class Fitness {
 struct Violation {
   /// G411: of what stays something would hang in the air; G412: it would reach out of its box; else
   /// G405.
-  std::string code;
+  Code code = Code::none;
   std::string sentence;  ///< "the footprint would change by 2.10 %"
 };
 

@@ -15,7 +15,7 @@
 
 // The operators that a pack can ask for. Each is one function; the table in operators.cpp says what
 // carrying out a plan has to know of it. To add one: a function here and in rows.cpp or single.cpp,
-// a row in the table, its arguments in interpret/pack (what a pack may write), a test in
+// a row in the table, its arguments in interpret/plan/operators.cpp, a test in
 // tests/generalise/operators, a section in docs/generalisation.md.
 
 namespace oriel {

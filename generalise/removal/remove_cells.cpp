@@ -318,11 +318,11 @@ class CellRemover {
   [[nodiscard]] std::optional<Refusal> fault_of(const Solid& made, const Ids& gone,
                                                 const Tolerances& tolerances) {
     if (lumps_of(made) > lumps_of(solid_))
-      return Refusal{{}, "the building would fall apart", "G411"};
+      return Refusal{{}, "the building would fall apart", Code::G411};
     // The planes are found anew, and a vertex may lie so far off its own.
     const double slack_m = tolerances.weld_m + tolerances.plane_offset_m + unseen_m_;
     if (reaches_out(box_of(solid_), box_of(made), slack_m))
-      return Refusal{{}, "the building would reach further than it did", "G412"};
+      return Refusal{{}, "the building would reach further than it did", Code::G412};
     if (auto broken = violation_of(made)) return broken;
     const double footprint_m2 = measures_of(made).footprint_m2;
     double most_m3 = tolerances.weld_m * surface_m2(solid_);
@@ -421,7 +421,8 @@ Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Rem
   CellRemover remover(solid, segmentation, remainder, validator, unseen_m, options);
   auto made = remover.run(std::move(refused), remainder.solid, fitness);
   for (Refusal& refusal : remainder.refused)
-    if (const Refusal* fault = remover.fault_of(refusal.feature); fault && fault->code != "G401")
+    if (const Refusal* fault = remover.fault_of(refusal.feature);
+        fault && fault->code != Code::G401)
       refusal = {refusal.feature, fault->reason, fault->code};
   if (!made) return remainder;
   remainder.solid = std::move(*made);

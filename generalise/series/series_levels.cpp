@@ -220,7 +220,7 @@ class Levels {
       add_tasks(before, tasks.first(tasks.size() / 2), best, issues);
       add_tasks(before, tasks.subspan(tasks.size() / 2), best, issues);
     } else {
-      Issue issue = building_issue(Severity::warning, "G408", input_.table.building(),
+      Issue issue = building_issue(Severity::warning, Code::G408, input_.table.building(),
                                    "stays as it is: a change that was made at a larger scale would "
                                    "be undone");
       issue.place.feature = input_.table.id(tasks[0][0].feature);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "interpret/language/findings.h"
-#include "interpret/language/syntax.h"
+#include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "kernel/model/description/feature_table.h"
@@ -98,7 +98,7 @@ class Checker {
     return pack_->code[static_cast<std::size_t>(id)];
   }
   [[nodiscard]] std::string_view text_of(const Syntax& syntax) const;
-  ExprId fail(const char* code, Span where, std::string sentence);
+  ExprId fail(Code code, Span where, std::string sentence);
   int word_number(const std::string& word);
 
   Pack* pack_;

@@ -61,7 +61,7 @@ class Reach {
   /// At the condition, or at the rule if the condition stands in a pack beneath.
   void warn_in(const Rule& rule, Span span, std::string sentence) {
     const bool is_own = pack_->source.is_in_first(span.begin);
-    findings_->warning("R254", is_own ? span : rule.span, std::move(sentence));
+    findings_->warning(Code::R254, is_own ? span : rule.span, std::move(sentence));
   }
 
   void report_shadowed(std::size_t i) {
@@ -71,7 +71,7 @@ class Reach {
       if (i == j || !comes_first(j, i) || !holds_whenever(j, i)) continue;
       const bool is_predicate = pack_->classes[index(rule.label)].is_abstract;
       const Place place = pack_->source.place(other.span.begin);
-      findings_->warning("R255", rule.span,
+      findings_->warning(Code::R255, rule.span,
                          fmt::format("the rule '{}' {}: whenever it holds, so does '{}' ({}:{}:{})",
                                      rule.id, is_predicate ? "adds nothing" : "never decides",
                                      other.id, place.file, place.line, place.column));
@@ -139,7 +139,7 @@ bool report_overlap(const Pack& pack, const Entry& first, const Entry& second, F
   const std::string where = fmt::format("{}:{}:{}", place.file, place.line, place.column);
   if (from == second.scale_from && to == second.scale_to) {
     findings.warning(
-        "R255", second.span,
+        Code::R255, second.span,
         fmt::format("the entry '{}' never decides: '{}' ({}) stands before it, without "
                     "a condition",
                     second.id, first.id, where));
@@ -147,7 +147,7 @@ bool report_overlap(const Pack& pack, const Entry& first, const Entry& second, F
   }
   if (from >= to || first.operation == second.operation) return false;
   findings.warning(
-      "R256", second.span,
+      Code::R256, second.span,
       fmt::format("at {} '{}' ({}) decides and '{}' does not: part their scales, or give the first "
                   "one a condition",
                   scale_text(from, to), first.id, where, second.id));

@@ -143,7 +143,7 @@ void report_circle(const Pack& pack, const Question& strict, const std::vector<Q
                            ? "not, none, count, unless and scores ask for what is known already"
                            : "a label is decided before it is asked for";
   findings.error(
-      "R243", strict.span,
+      Code::R243, strict.span,
       "these rules wait for each other: " + circle + "; " + reason + suggest_cut(pack, strict));
 }
 
@@ -237,7 +237,7 @@ void check_tree(const Pack& pack, Findings& findings) {
                           });
     if (is_asked) continue;
     const std::string& name = pack.classes[index(above)].name;
-    findings.error("R245", rule.span,
+    findings.error(Code::R245, rule.span,
                    fmt::format("'{}' is a kind of '{}', which has rules of its own: require 'self "
                                "is {}'",
                                pack.classes[index(rule.label)].name, name, name));

@@ -22,7 +22,7 @@ struct ConditionReport {
   std::string text;
   Place place;
   Outcome outcome = Outcome::unknown;
-  /// What was found, what was asked for and by how much it is missed: "height = 0.61 m",
+  /// What was found, what was asked for and by how much it is missed: "base_height = 0.61 m",
   /// "<= 0.60 m", "misses by 0.01 m"; empty where that makes no sense.
   std::string value;
   std::string bound;

@@ -98,7 +98,7 @@ std::string Prover::show_tally(ExprId id) {
   return text;
 }
 
-/// "mean(height of in_row) = 2.31 m of 4".
+/// "mean(base_height of in_row) = 2.31 m of 4".
 std::string Prover::show_aggregate(ExprId id, double other) {
   Evaluator::Tally tally;
   evaluator_->tally(id, frame(), std::span(&tally, 1));

@@ -16,7 +16,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 class Rectangles {
  public:
   explicit Rectangles(const FeatureTable& table) {
-    constexpr std::array<const char*, 4> kNames{"along", "width", "height", "top"};
+    constexpr std::array<const char*, 4> kNames{"along", "width", "base_height", "top"};
     for (std::size_t i = 0; i < kNames.size(); ++i)
       columns_[i] = table.numbers(column_of(kNames[i]).value());
   }

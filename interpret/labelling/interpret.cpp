@@ -15,17 +15,18 @@ namespace oriel {
 
 namespace {
 
-/// Without a branch on what was decided: what is said for explanations costs no more than to write
-/// it.
 std::vector<Verdict> verdicts_of(const rules::Pack& pack, std::span<const rules::Choice> choices) {
-  const rules::NamesOfRule* const names = pack.names_of_rules.data() + 1;
+  const rules::NamesOfRule none;
+  const auto names_of = [&](int rule) -> const rules::NamesOfRule& {
+    return rule < 0 ? none : pack.names_of_rules[static_cast<std::size_t>(rule)];
+  };
   std::vector<Verdict> verdicts(choices.size());
   for (std::size_t row = 0; row < choices.size(); ++row) {
     const rules::Choice& choice = choices[row];
-    const rules::NamesOfRule& rule = names[choice.rule];
+    const rules::NamesOfRule& rule = names_of(choice.rule);
     verdicts[row] = {
         FeatureId{static_cast<int>(row)}, rule.label, choice.score, choice.margin, rule.id,
-        names[choice.runner_up].label};
+        names_of(choice.runner_up).label};
   }
   return verdicts;
 }
@@ -33,7 +34,7 @@ std::vector<Verdict> verdicts_of(const rules::Pack& pack, std::span<const rules:
 Issue ambiguity(const rules::Pack& pack, const Verdict& verdict, const FeatureTable& table) {
   Issue issue;
   issue.severity = Severity::note;
-  issue.code = "R260";
+  issue.code = Code::R260;
   issue.sentence =
       fmt::format("{} {:.2f} is close to {}: margin {:.2f} < {:.2f}", verdict.label, verdict.score,
                   verdict.runner_up.text(), verdict.margin, pack.decide.ambiguous_below);
@@ -60,7 +61,7 @@ Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const Fea
   std::string sentence = fmt::format("after {} rounds {} features still change: {}", pack.rounds,
                                      rows.size(), fmt::join(ids, ", "));
   if (more > 0) sentence += fmt::format(" and {} more", more);
-  return building_issue(Severity::warning, "R261", table.building(), std::move(sentence));
+  return building_issue(Severity::warning, Code::R261, table.building(), std::move(sentence));
 }
 
 /// The buildings of `facts`.

@@ -15,7 +15,7 @@ MainParts::MainParts(const Segmentation& segmentation, const FeatureTable& table
 
 bool MainParts::has(FeatureId id) const {
   if (building_m3_ <= sizes_.area_m2 * sizes_.c_m) return true;
-  const auto height = table_.number(id, "height_of");
+  const auto height = table_.number(id, "height");
   const auto a = table_.number(id, "a"), b = table_.number(id, "b"), c = table_.number(id, "c");
   if (!height || !a || !b || !c || *height <= 0) return false;
   const Feature& feature = segmentation_.features[id.index()];

@@ -69,7 +69,7 @@ inline constexpr ExprId kNoExpr = -1;
 /// the k-th quantifier around it.
 inline constexpr int kMostLevels = 4;
 
-/// A typed expression: an element of Code, whose arguments stand before it.
+/// A typed expression: an element of ExprList, whose arguments stand before it.
 struct Expr {
   Op op = Op::constant;
   Type type = Type::number;
@@ -96,7 +96,7 @@ struct Expr {
 };
 
 /// All expressions of a pack.
-using Code = std::vector<Expr>;
+using ExprList = std::vector<Expr>;
 
 /// True if its value is the same for all features.
 inline bool is_constant(const Expr& expr) { return expr.levels == 0; }

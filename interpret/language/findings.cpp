@@ -11,15 +11,15 @@ constexpr std::size_t kMostFindings = 200;
 constexpr std::size_t kMostKept = 10'000;
 }  // namespace
 
-void Findings::error(std::string code, Span where, std::string sentence) {
+void Findings::error(Code code, Span where, std::string sentence) {
   ++errors_;
   if (findings_.size() < kMostKept)
-    findings_.push_back({where, Severity::error, std::move(code), std::move(sentence)});
+    findings_.push_back({where, Severity::error, code, std::move(sentence)});
 }
 
-void Findings::warning(std::string code, Span where, std::string sentence) {
+void Findings::warning(Code code, Span where, std::string sentence) {
   if (findings_.size() < kMostKept)
-    findings_.push_back({where, Severity::warning, std::move(code), std::move(sentence)});
+    findings_.push_back({where, Severity::warning, code, std::move(sentence)});
 }
 
 std::vector<Issue> Findings::issues() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/language/source.h"
+#include "kernel/base/issue.h"
 
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ class Findings {
  public:
   explicit Findings(const Source& source) : source_(&source) {}
 
-  void error(std::string code, Span where, std::string sentence);
-  void warning(std::string code, Span where, std::string sentence);
+  void error(Code code, Span where, std::string sentence);
+  void warning(Code code, Span where, std::string sentence);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
@@ -26,7 +27,7 @@ class Findings {
   struct Finding {
     Span where;
     Severity severity = Severity::error;
-    std::string code;
+    Code code = Code::none;
     std::string sentence;
     friend auto operator<=>(const Finding&, const Finding&) = default;
   };

@@ -87,7 +87,7 @@ class Lexer {
   }
 
   std::optional<Token> fail(std::size_t length, std::string sentence) {
-    findings_->error("R220", {base_ + at_, base_ + at_ + length}, std::move(sentence));
+    findings_->error(Code::R220, {base_ + at_, base_ + at_ + length}, std::move(sentence));
     return std::nullopt;
   }
 

@@ -29,6 +29,25 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return above[to.size()];
 }
 
+/// Names of earlier packs, with what they are called now and what a reader of such a pack must
+/// know.
+struct RenamedAttribute {
+  std::string_view old_name, name, explanation;
+};
+constexpr RenamedAttribute kRenamed[] = {
+    {"height_of", "height",
+     "'height' is the feature's own height and 'base_height' that of its foot over the ground"},
+    {"height", "base_height", "'base_height' is the height of the lowest point"},
+};
+
+std::string renamed_to(std::string_view name, const std::vector<std::string>& candidates) {
+  for (const RenamedAttribute& renamed : kRenamed)
+    if (renamed.old_name == name && contains(candidates, renamed.name))
+      return "; did you mean '" + std::string(renamed.name) + "'? " +
+             std::string(renamed.explanation);
+  return "";
+}
+
 }  // namespace
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
@@ -50,6 +69,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates) {
+  if (std::string renamed = renamed_to(name, candidates); !renamed.empty()) return renamed;
   const std::string found = nearest(name, candidates);
   return found.empty() ? "" : "; did you mean '" + found + "'?";
 }

@@ -13,7 +13,8 @@ bool contains(const std::vector<std::string>& names, std::string_view name);
 /// equals. Empty if none is near.
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
 
-/// "; did you mean 'height'?", or nothing.
+/// "; did you mean 'height'?", or nothing. Of an attribute that was called otherwise in earlier
+/// packs also what it and its new name mean.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
 
 /// "a, b, c", in their order.

@@ -59,7 +59,8 @@ class ListMerge {
       else
         base_->items[beneath] = std::move(item);
     } else if (beneath == npos) {
-      findings_->error("R246", item.span, "nothing of this id is beneath that could be removed");
+      findings_->error(Code::R246, item.span,
+                       "nothing of this id is beneath that could be removed");
     } else {
       removed_.insert(beneath);
     }
@@ -141,20 +142,20 @@ bool is_plain_name(const YamlNode& node) {
 std::optional<Span> append_pack(const YamlNode& node, std::set<std::string>& seen, Source& source,
                                 const PackFinder& find_pack, Findings& findings) {
   if (!is_plain_name(node)) {
-    findings.error("R246", node.span,
+    findings.error(Code::R246, node.span,
                    "after 'extends' stands a pack that is built in, or a file in the same folder, "
                    "by its name alone");
     return std::nullopt;
   }
   auto found = find_pack(node.text);
   if (!found) {
-    findings.error("R200", node.span,
+    findings.error(Code::R200, node.span,
                    "there is no pack '" + node.text +
                        "' here: neither built in nor a file in the folder of this pack");
     return std::nullopt;
   }
   if (!seen.insert(found->file).second || seen.size() > kMostBeneath + 1) {
-    findings.error("R246", node.span,
+    findings.error(Code::R246, node.span,
                    seen.contains(found->file) && seen.size() <= kMostBeneath + 1
                        ? "the pack extends itself"
                        : "no more than 8 packs stand beneath one");
@@ -162,7 +163,7 @@ std::optional<Span> append_pack(const YamlNode& node, std::set<std::string>& see
   }
   const std::size_t bad = find_bad_byte(found->text);
   if (bad == std::string_view::npos) return source.append(std::move(found->file), found->text);
-  findings.error("R200", node.span, "'" + node.text + "' is no UTF-8 text");
+  findings.error(Code::R200, node.span, "'" + node.text + "' is no UTF-8 text");
   return std::nullopt;
 }
 

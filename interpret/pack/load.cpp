@@ -37,7 +37,7 @@ void check_schema(Section& top, Findings& findings) {
   if (schema == nullptr) return;
   const auto text = read_text(*schema, "'schema'", findings);
   if (text && *text != kSchema)
-    findings.error("R212", schema->span,
+    findings.error(Code::R212, schema->span,
                    "the schema is " + std::string(kSchema) + ", not '" + *text + "'");
 }
 
@@ -52,7 +52,7 @@ bool is_small_enough(const Section& top, Findings& findings) {
     if (size_of(node) <= most) return;
     is_small = false;
     findings.error(
-        "R213", node->span,
+        Code::R213, node->span,
         std::string("'") + key + "' has no more than " + std::to_string(most) + " entries");
   };
   check("classes", kMostClasses);
@@ -92,7 +92,7 @@ void report_unused_macros(Loader& loader) {
   for (const Macro& macro : loader.names.macros)
     if (!macro.is_used && is_own(macro.span, loader)) unused.push_back(&macro);
   for (const Macro* macro : unused) {
-    loader.findings.warning("R242", macro->span,
+    loader.findings.warning(Code::R242, macro->span,
                             fmt::format("the macro '{}' is never used", macro->name));
     loader.checker.term(macro->body);
   }
@@ -102,7 +102,7 @@ void report_unused_params(const Loader& loader) {
   for (std::size_t i = 0; i < loader.pack.params.size(); ++i)
     if (const Param& param = loader.pack.params[i];
         !loader.names.is_param_used[i] && is_own(param.span, loader))
-      loader.findings.warning("R241", param.span,
+      loader.findings.warning(Code::R241, param.span,
                               fmt::format("the param '{}' is never used", param.name));
 }
 
@@ -111,7 +111,7 @@ void report_unused_relations(const Loader& loader) {
   for (const Relation& relation : loader.pack.relations)
     if (is_own(relation.span, loader) &&
         !used.contains(relation_number(loader.pack, relation.name)))
-      loader.findings.warning("R248", relation.span,
+      loader.findings.warning(Code::R248, relation.span,
                               fmt::format("the relation '{}' is never used", relation.name));
 }
 
@@ -134,7 +134,6 @@ void find_raised(std::vector<Class>& classes) {
 }
 
 void name_rules(Pack& pack) {
-  pack.names_of_rules.emplace_back();
   for (Rule& rule : pack.rules) {
     rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;
     pack.names_of_rules.push_back({rule.id, rule.name_of_label});
@@ -184,7 +183,7 @@ std::shared_ptr<const Pack> load(std::string text, std::string file, const PackF
   Findings findings(pack->source);
   const std::size_t bad = find_bad_byte(pack->source.text());
   if (bad != std::string_view::npos)
-    findings.error("R200", {bad, bad}, "this is no UTF-8 text");
+    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
   else if (const auto root = read_tree(pack->source, find_and_digest, findings))
     read_pack(*root, *pack, findings);
   pack->sha256 = std::move(digest);

@@ -5,6 +5,7 @@
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/yaml/yaml_tree.h"
+#include "kernel/model/limits.h"
 
 #include <optional>
 #include <string>
@@ -37,6 +38,10 @@ void read_emit(const YamlNode& node, Loader& loader);
 void read_surfaces(const YamlNode& node, Loader& loader);
 void read_generalise(const YamlNode& node, Loader& loader);
 void read_invariants(const YamlNode& node, Loader& loader);
+
+/// What `invariants:` of a pack or a profile says: a map of numbers above 0. Of what is wrong with
+/// it findings as of a Section, and R211.
+Limits read_limits(const YamlNode& node, Findings& findings);
 
 /// True if `node` can name something new; else an error R216 that calls it `what`.
 bool expect_name(const YamlNode& node, const std::string& what, Findings& findings);

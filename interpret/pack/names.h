@@ -1,7 +1,7 @@
 #pragma once
 
 #include "interpret/language/findings.h"
-#include "interpret/language/syntax.h"
+#include "interpret/language/parser.h"
 #include "interpret/pack/pack.h"
 
 #include <set>
@@ -64,5 +64,22 @@ bool is_identifier(std::string_view text);
 
 /// Dotted identifiers such as `door.ground`.
 bool is_rule_id(std::string_view text);
+
+/// What a feature is written as.
+struct Role {
+  /// Null: it is not written.
+  const Emission* emission = nullptr;
+  /// The class that has the emission: the label or what it is a kind of.
+  std::string label;
+  std::string subclass;
+
+  [[nodiscard]] bool is_installation() const {
+    return emission != nullptr && emission->type == "BuildingInstallation";
+  }
+  [[nodiscard]] bool is_opening() const { return emission != nullptr && !is_installation(); }
+};
+
+/// Of a feature with that label; of none without one.
+Role role_of(const Pack& pack, std::string_view label);
 
 }  // namespace oriel::rules

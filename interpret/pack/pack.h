@@ -216,7 +216,7 @@ struct Pack {
   std::vector<Relation> relations;
   std::vector<GroupKind> groups;
   std::vector<Rule> rules;
-  /// Of the rule i at i + 1, so that the first are those of no rule; once the pack is read.
+  /// Parallel to `rules`; once the pack is read.
   std::vector<NamesOfRule> names_of_rules;
   std::vector<Step> steps;
   Decide decide;
@@ -226,7 +226,7 @@ struct Pack {
   Limits limits;  ///< `invariants:`
   /// Null: the pack says nothing of surfaces but `hosts:`.
   std::shared_ptr<const SurfaceRules> surfaces;
-  Code code;
+  ExprList code;
   /// The words that texts are compared with; the value of a text is the number of its word.
   std::vector<std::string> words;
   /// Found when all of it is read.

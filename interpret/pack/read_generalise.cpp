@@ -44,11 +44,11 @@ void read_scale(const YamlNode& node, Entry& entry, Loader& loader) {
   if (dots != std::string_view::npos && !trimmed(all.substr(dots + 2)).empty())
     to = denominator(all.substr(dots + 2));
   if (!from || !to || dots == std::string_view::npos) {
-    loader.findings.error("R250", node.span, std::string(kScaleForm) + ", not '" + *text + "'");
+    loader.findings.error(Code::R250, node.span, std::string(kScaleForm) + ", not '" + *text + "'");
     return;
   }
   if (*from > *to)
-    loader.findings.error("R250", node.span,
+    loader.findings.error(Code::R250, node.span,
                           "the scale range is empty: the larger scale stands first");
   entry.scale_from = *from;
   entry.scale_to = *to;
@@ -58,7 +58,7 @@ void read_scale(const YamlNode& node, Entry& entry, Loader& loader) {
 const YamlNode* operator_name(const YamlNode& node, Findings& findings) {
   if (node.kind == YamlNode::Kind::scalar) return &node;
   if (node.kind == YamlNode::Kind::map && node.entries.size() == 1) return &node.entries[0].key;
-  findings.error("R211", node.span, "'do' is an operator: 'omit', or 'name: {arguments}'");
+  findings.error(Code::R211, node.span, "'do' is an operator: 'omit', or 'name: {arguments}'");
   return nullptr;
 }
 
@@ -74,7 +74,7 @@ void read_arguments(const YamlNode& node, const OperatorKind& kind, Entry& entry
     if (argument.kind == "word") {
       read.word = value->text;
       if (std::ranges::find(argument.words, read.word) == argument.words.end())
-        loader.findings.error("R211", value->span,
+        loader.findings.error(Code::R211, value->span,
                               "'" + argument.name + "' is one of " + join(argument.words) +
                                   ", not '" + value->text + "'");
     } else {
@@ -92,14 +92,14 @@ void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
   const auto found = std::ranges::find(table, name->text, &OperatorKind::name);
   if (found == table.end())
     loader.findings.error(
-        "R251", name->span,
+        Code::R251, name->span,
         "unknown operator '" + name->text + "'" + did_you_mean(name->text, names_of(table)));
   else if (node.kind == YamlNode::Kind::scalar)
     return;
   else if (!found->arguments.empty())
     read_arguments(node.entries[0].value, *found, entry, loader);
   else
-    loader.findings.error("R211", node.entries[0].value.span,
+    loader.findings.error(Code::R211, node.entries[0].value.span,
                           "'" + name->text + "' has no arguments: write do: " + name->text);
 }
 
@@ -115,7 +115,7 @@ void read_target(const YamlNode& node, Entry& entry, Loader& loader) {
   entry.group = index_of(loader.pack.groups, name);
   if (entry.group < 0)
     loader.findings.error(
-        "R253", node.span,
+        Code::R253, node.span,
         "unknown group '" + name + "'" + did_you_mean(name, names_of(loader.pack.groups)));
 }
 
@@ -124,11 +124,11 @@ void read_entry_id(const YamlNode& node, Entry& entry, std::set<std::string>& id
   if (!id) return;
   entry.id = *id;
   if (!is_rule_id(*id))
-    loader.findings.error("R216", node.span,
+    loader.findings.error(Code::R216, node.span,
                           "an entry cannot be called '" + *id +
                               "': an id is names joined by points, such as small.omit");
   else if (!ids.insert(*id).second)
-    loader.findings.error("R240", node.span, "there is an entry '" + *id + "' already");
+    loader.findings.error(Code::R240, node.span, "there is an entry '" + *id + "' already");
 }
 
 void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {

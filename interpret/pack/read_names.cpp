@@ -54,7 +54,7 @@ std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   if (!range) return param;
   param.range = {range->low, range->high};
   if (param.value < range->low || param.value > range->high)
-    loader.findings.error("R212", value_node->span, "the value is outside its range");
+    loader.findings.error(Code::R212, value_node->span, "the value is outside its range");
   return param;
 }
 
@@ -98,10 +98,10 @@ void check_tree(Loader& loader) {
     const bool is_circle = std::ranges::find(ancestors, id) != ancestors.end();
     if (!is_circle && ancestors.size() < kDeepestClassTree) continue;
     if (is_circle)
-      loader.findings.error("R244", c.span,
+      loader.findings.error(Code::R244, c.span,
                             fmt::format("the class '{}' is its own ancestor", c.name));
     else
-      loader.findings.error("R213", c.span, "a class tree is no deeper than 16 levels");
+      loader.findings.error(Code::R213, c.span, "a class tree is no deeper than 16 levels");
     c.parent = kNoClass;
   }
 }
@@ -118,7 +118,7 @@ bool expect_name(const YamlNode& node, const std::string& what, Findings& findin
   else if (contains(taken_names(), name))
     problem = "this name has a meaning of its own";
   if (problem == nullptr) return true;
-  findings.error("R216", node.span, what + " cannot be called '" + name + "': " + problem);
+  findings.error(Code::R216, node.span, what + " cannot be called '" + name + "': " + problem);
   return false;
 }
 
@@ -131,7 +131,7 @@ void read_header(const YamlNode& node, Loader& loader) {
   const YamlNode* version = section.require("version");
   if (version == nullptr || !read_text(*version, "a pack's version", loader.findings)) return;
   if (!is_version(version->text))
-    loader.findings.error("R212", version->span,
+    loader.findings.error(Code::R212, version->span,
                           "a version is three numbers such as 1.0.0, not '" + version->text + "'");
   loader.pack.version = version->text;
 }
@@ -171,10 +171,10 @@ void read_macros(const YamlNode& node, Loader& loader) {
     const bool is_named = expect_name(entry.key, "a macro", loader.findings);
     if (is_named && column_of(entry.key.text))
       loader.findings.error(
-          "R216", entry.key.span,
+          Code::R216, entry.key.span,
           "a macro cannot be called '" + entry.key.text + "': there is an attribute of this name");
     if (entry.key.text == kScaleName)
-      loader.findings.error("R216", entry.key.span,
+      loader.findings.error(Code::R216, entry.key.span,
                             "a macro cannot be called 'scale': it is the target scale's N");
     const auto where = expression_span(entry.value, loader.findings);
     auto body = where ? parse_expression(*where, loader.findings) : std::nullopt;

@@ -22,7 +22,7 @@ void read_relation(const YamlEntry& entry, Loader& loader) {
   const std::size_t errors = loader.findings.error_count();
   expect_name(entry.key, "a relation", loader.findings);
   if (is_of_cuts(name))
-    loader.findings.error("R216", entry.key.span,
+    loader.findings.error(Code::R216, entry.key.span,
                           "a relation cannot be called '" + name +
                               "': it says what was cut into what, and is built in");
   Relation relation;
@@ -46,7 +46,7 @@ void read_relation(const YamlEntry& entry, Loader& loader) {
 int read_size(const YamlNode& node, Loader& loader) {
   const auto size = read_integer(node, "'at_least'", loader.findings);
   if (size && *size >= 1 && *size <= kMostMembers) return *size;
-  if (size) loader.findings.error("R212", node.span, "'at_least' lies in 1 .. 1000000");
+  if (size) loader.findings.error(Code::R212, node.span, "'at_least' lies in 1 .. 1000000");
   return 2;
 }
 
@@ -77,7 +77,7 @@ int read_relation(const YamlNode& node, const std::string& what, Loader& loader)
   const bool is_broken =
       std::ranges::find(loader.names.broken_relations, name) != loader.names.broken_relations.end();
   if (number >= 0 || is_broken) return number;
-  loader.findings.error("R207", node.span,
+  loader.findings.error(Code::R207, node.span,
                         fmt::format("unknown relation '{}'{}", *text,
                                     did_you_mean(name, relation_names(loader.pack))));
   return -1;

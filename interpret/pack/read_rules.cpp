@@ -28,7 +28,7 @@ std::vector<ExprId> read_conditions(const YamlNode& node, Loader& loader) {
 void read_require(const YamlNode& node, Rule& rule, Loader& loader) {
   rule.require = read_conditions(node, loader);
   if (node.kind == YamlNode::Kind::sequence && node.items.empty())
-    loader.findings.error("R210", node.span, "a rule needs a condition under 'require'");
+    loader.findings.error(Code::R210, node.span, "a rule needs a condition under 'require'");
 }
 
 std::optional<Ramp> read_ramp(const YamlNode* node, Dimension dimension, Loader& loader) {
@@ -42,7 +42,8 @@ double read_weight(const YamlNode* node, Loader& loader) {
   if (node == nullptr) return 1;
   const auto weight = read_number(*node, "a weight", loader.findings);
   if (weight && *weight > 0 && *weight <= 1e6) return *weight;
-  if (weight) loader.findings.error("R212", node->span, "a weight is more than 0, at most 1000000");
+  if (weight)
+    loader.findings.error(Code::R212, node->span, "a weight is more than 0, at most 1000000");
   return 1;
 }
 
@@ -51,7 +52,7 @@ void check_ramps(const ScoreTerm& term, const YamlNode& node, Loader& loader) {
   const auto top = fold(loader.pack, term.rise->to);
   const auto drop = fold(loader.pack, term.fall->from);
   if (top && drop && *top > *drop)
-    loader.findings.error("R212", node.span, "the fall begins before the rise has ended");
+    loader.findings.error(Code::R212, node.span, "the fall begins before the rise has ended");
 }
 
 /// What stands after `expression:` in a score.
@@ -65,12 +66,12 @@ void read_judgement(const YamlNode& node, ScoreTerm& term, Loader& loader) {
   const YamlNode* fall = section.find("fall");
   if (value.type == Type::number) {
     if (rise == nullptr && fall == nullptr)
-      loader.findings.error("R210", node.span, "a number in a score needs 'rise' or 'fall'");
+      loader.findings.error(Code::R210, node.span, "a number in a score needs 'rise' or 'fall'");
     term.rise = read_ramp(rise, value.dimension, loader);
     term.fall = read_ramp(fall, value.dimension, loader);
     check_ramps(term, node, loader);
   } else if (rise != nullptr || fall != nullptr) {
-    loader.findings.error("R232", (rise != nullptr ? rise : fall)->span,
+    loader.findings.error(Code::R232, (rise != nullptr ? rise : fall)->span,
                           "a condition is 0 or 1; 'rise' and 'fall' are for numbers");
   }
 }
@@ -89,7 +90,7 @@ std::optional<ScoreTerm> read_term(const YamlNode& node, Loader& loader) {
     term.value = read_term_value(node.entries[0].key, loader);
     read_judgement(node.entries[0].value, term, loader);
   } else {
-    loader.findings.error("R211", node.span,
+    loader.findings.error(Code::R211, node.span,
                           "a score term is a condition or 'number: {rise: lo .. hi}'");
   }
   return term.value == kNoExpr ? std::nullopt : std::optional(term);
@@ -108,11 +109,11 @@ void read_rule_id(const YamlNode& node, Rule& rule, std::set<std::string>& ids, 
   if (!id) return;
   rule.id = *id;
   if (!is_rule_id(*id))
-    loader.findings.error("R216", node.span,
+    loader.findings.error(Code::R216, node.span,
                           "a rule cannot be called '" + *id +
                               "': an id is names joined by points, such as door.ground");
   else if (!ids.insert(*id).second)
-    loader.findings.error("R240", node.span, "there is a rule '" + *id + "' already");
+    loader.findings.error(Code::R240, node.span, "there is a rule '" + *id + "' already");
 }
 
 void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
@@ -136,7 +137,7 @@ void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader)
   if (label.is_abstract &&
       (section.find("score") != nullptr || section.find("priority") != nullptr))
     loader.findings.error(
-        "R232", node.span,
+        Code::R232, node.span,
         "'" + label.name + "' is abstract: it holds or not, and has neither score nor priority");
   loader.pack.rules.push_back(std::move(rule));
 }

@@ -3,7 +3,11 @@
 #include "interpret/yaml/section.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 namespace oriel::rules {
 
@@ -30,7 +34,7 @@ std::optional<std::string> read_choice(const YamlNode& node, const std::string& 
                                        Findings& findings) {
   auto text = read_text(node, what, findings);
   if (!text || std::ranges::find(choices, *text) != choices.end()) return text;
-  findings.error("R212", node.span,
+  findings.error(Code::R212, node.span,
                  what + " is one of " + join(choices) + ", not '" + *text + "'" +
                      did_you_mean(*text, choices));
   return std::nullopt;
@@ -41,7 +45,7 @@ std::optional<std::string> read_code(const YamlNode& node, Findings& findings) {
   auto code = read_text(node, "a code", findings);
   if (!code || !node.is_plain || code->find_first_not_of("0123456789.") != std::string::npos)
     return code;
-  findings.error("R211", node.span, "a code is a text: write \"" + *code + "\"");
+  findings.error(Code::R211, node.span, "a code is a text: write \"" + *code + "\"");
   return std::nullopt;
 }
 
@@ -71,7 +75,7 @@ void read_facet_range(const YamlNode* node, HostRange& range, Loader& loader) {
   if (!read) return;
   range = {read->low, read->high, read->low_expr, read->high_expr};
   if (range.low_deg < 0 || range.high_deg > 180)
-    loader.findings.error("R212", node->span, "an inclination lies in 0 deg .. 180 deg");
+    loader.findings.error(Code::R212, node->span, "an inclination lies in 0 deg .. 180 deg");
 }
 
 /// What it was folded from, or kNoExpr.
@@ -79,7 +83,8 @@ ExprId read_share(const YamlNode* node, const std::string& what, double& share, 
   const auto value = node == nullptr ? std::nullopt : read_quantity(*node, Dimension{}, loader);
   if (!value) return kNoExpr;
   share = value->value;
-  if (share < 0 || share > 1) loader.findings.error("R212", node->span, what + " lies in 0 .. 1");
+  if (share < 0 || share > 1)
+    loader.findings.error(Code::R212, node->span, what + " lies in 0 .. 1");
   return value->expr;
 }
 
@@ -93,7 +98,7 @@ void read_hosts(const YamlNode& node, Loader& loader) {
   read_facet_range(section.find("ground"), hosts.ground, loader);
   if (is_overlapping(hosts.wall, hosts.roof) || is_overlapping(hosts.wall, hosts.ground) ||
       is_overlapping(hosts.roof, hosts.ground))
-    loader.findings.error("R212", node.span, "wall, roof and ground overlap");
+    loader.findings.error(Code::R212, node.span, "wall, roof and ground overlap");
   const YamlNode* reach = section.find("ground_reach");
   if (reach == nullptr) return;
   if (const auto value = read_quantity(*reach, Dimension{1, 0}, loader))
@@ -116,7 +121,7 @@ void read_iterate(const YamlNode& node, Loader& loader) {
   if (rounds == nullptr) return;
   const auto count = read_integer(*rounds, "'rounds'", loader.findings);
   if (count && (*count < 2 || *count > kMostRounds))
-    loader.findings.error("R212", rounds->span, "'rounds' lies in 2 .. 8");
+    loader.findings.error(Code::R212, rounds->span, "'rounds' lies in 2 .. 8");
   loader.pack.rounds = count.value_or(0);
 }
 
@@ -128,6 +133,33 @@ void read_emit(const YamlNode& node, Loader& loader) {
     if (id != kNoClass)
       loader.pack.classes[static_cast<std::size_t>(id)].emission = std::move(emission);
   }
+}
+
+Limits read_limits(const YamlNode& node, Findings& findings) {
+  Limits limits;
+  const std::vector<std::pair<std::string, std::optional<double>*>> all{
+      {"footprint-pct", &limits.footprint_pct},
+      {"volume-pct", &limits.volume_pct},
+      {"overhang-pct", &limits.overhang_pct},
+      {"party-walls-pct", &limits.party_walls_pct},
+      {"top-m", &limits.top_m},
+      {"ridge-m", &limits.ridge_m},
+      {"eaves-m", &limits.eaves_m}};
+  std::vector<std::string> keys;
+  for (const auto& [key, into] : all) keys.push_back(key);
+  const Section section(node, "'invariants'", keys, findings);
+  for (const auto& [key, into] : all) {
+    const YamlNode* value = section.is_map() ? section.find(key) : nullptr;
+    if (value == nullptr) continue;
+    *into = read_number(*value, fmt::format("'{}'", key), findings);
+    if (*into && !(**into > 0))
+      findings.error(Code::R211, value->span, fmt::format("'{}' is more than 0", key));
+  }
+  return limits;
+}
+
+void read_invariants(const YamlNode& node, Loader& loader) {
+  loader.pack.limits = read_limits(node, loader.findings);
 }
 
 }  // namespace oriel::rules

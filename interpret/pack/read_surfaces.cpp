@@ -68,11 +68,11 @@ void SurfaceReader::read_id(const YamlNode& node, SurfaceRule& rule) {
   if (!id) return;
   rule.id = *id;
   if (!is_rule_id(*id))
-    findings_.error("R216", node.span,
+    findings_.error(Code::R216, node.span,
                     "an entry cannot be called '" + *id +
                         "': an id is names joined by points, such as ground.low");
   else if (!ids_.insert(*id).second)
-    findings_.error("R240", node.span, "there is an entry '" + *id + "' already");
+    findings_.error(Code::R240, node.span, "there is an entry '" + *id + "' already");
 }
 
 void SurfaceReader::read_type(const YamlNode& node, SurfaceRule& rule) {
@@ -81,7 +81,7 @@ void SurfaceReader::read_type(const YamlNode& node, SurfaceRule& rule) {
   rule.type = *type;
   const auto& types = surface_types();
   if (std::ranges::find(types, *type) == types.end())
-    findings_.error("R212", node.span,
+    findings_.error(Code::R212, node.span,
                     "a type of surface is one of " + join(types) + ", not '" + *type + "'" +
                         did_you_mean(*type, types));
 }
@@ -96,7 +96,7 @@ void SurfaceReader::read_when(const YamlNode& node, SurfaceRule& rule) {
   if (node.kind != YamlNode::Kind::sequence) return read_one(node);
   for (const YamlNode& item : node.items) read_one(item);
   if (node.items.empty())
-    findings_.error("R210", node.span, "an entry needs a condition under 'when'");
+    findings_.error(Code::R210, node.span, "an entry needs a condition under 'when'");
 }
 
 }  // namespace

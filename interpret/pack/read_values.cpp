@@ -14,7 +14,7 @@ namespace {
 std::optional<double> fold_here(ExprId id, Span where, Loader& loader) {
   const auto value = id == kNoExpr ? std::nullopt : fold(loader.pack, id);
   if (!value || std::isfinite(*value)) return value;
-  loader.findings.error("R212", where, "this has no value");
+  loader.findings.error(Code::R212, where, "this has no value");
   return std::nullopt;
 }
 
@@ -48,7 +48,7 @@ std::optional<FixedRange> read_range(const YamlNode& node, std::optional<Dimensi
   range.high = *high;
   range.dimension = *dimension;
   if (range.low <= range.high) return range;
-  loader.findings.error("R212", *where, "an empty range: its low end is above its high end");
+  loader.findings.error(Code::R212, *where, "an empty range: its low end is above its high end");
   return std::nullopt;
 }
 
@@ -70,7 +70,7 @@ ClassId read_class(const YamlNode& node, const std::string& what, Loader& loader
   const ClassId id = index_of(loader.pack.classes, *name);
   if (id < 0)
     loader.findings.error(
-        "R205", node.span,
+        Code::R205, node.span,
         "unknown class '" + *name + "'" + did_you_mean(*name, names_of(loader.pack.classes)));
   return id;
 }

@@ -6,8 +6,8 @@
 #include "interpret/pack/extend.h"
 #include "interpret/pack/load.h"
 #include "interpret/pack/pack.h"
-#include "interpret/yaml/read_file.h"
 #include "interpret/yaml/yaml_text.h"
+#include "interpret/yaml/yaml_tree.h"
 
 #include <filesystem>
 #include <set>
@@ -19,7 +19,7 @@ namespace {
 
 Checked<RuleBase> refuse(const std::string& path, std::string sentence) {
   Issue issue;
-  issue.code = "R200";
+  issue.code = Code::R200;
   issue.sentence = std::move(sentence);
   issue.place.file = path;
   return {std::nullopt, {std::move(issue)}};

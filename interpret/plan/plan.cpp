@@ -25,7 +25,7 @@ using rules::Truth;
 
 InputError bad_scale(double scale) {
   Issue issue;
-  issue.code = "R250";
+  issue.code = Code::R250;
   issue.sentence = fmt::format("a target scale is 1:N with N of at least 1, not 1:{}", scale);
   return InputError(std::move(issue));
 }
@@ -53,7 +53,7 @@ void set_membership(const rules::Pack& pack, const std::vector<ClassId>& labels,
   }
 }
 
-bool is_asking_for_class(const rules::Code& code, rules::ExprId id) {
+bool is_asking_for_class(const rules::ExprList& code, rules::ExprId id) {
   if (id == rules::kNoExpr) return false;
   const rules::Expr& expr = code[static_cast<std::size_t>(id)];
   if (expr.op == rules::Op::is_class) return true;

@@ -125,8 +125,8 @@ class ProfilePlanner {
 
   [[nodiscard]] bool reaches_ground(FeatureId id) const {
     const Sense sense = segmentation_.features[id.index()].sense;
-    const auto height = table_.number(id, "height");
-    return (sense == Sense::protrusion || sense == Sense::hole) && height && *height <= kOnGround_m;
+    const auto base_m = table_.number(id, "base_height");
+    return (sense == Sense::protrusion || sense == Sense::hole) && base_m && *base_m <= kOnGround_m;
   }
 
   /// A recess on the ground that is deeper than a wall, or open to the sky: an opening has a

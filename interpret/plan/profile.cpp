@@ -2,8 +2,8 @@
 
 #include "interpret/language/suggest.h"
 #include "interpret/pack/embedded.h"
+#include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
-#include "interpret/pack/read_limits.h"
 #include "interpret/yaml/section.h"
 #include "kernel/base/sha256.h"
 
@@ -34,7 +34,7 @@ class ProfileReader {
     if (!top.is_map()) return;
     if (const YamlNode* schema = top.require("schema");
         schema != nullptr && schema->text != kProfileSchema)
-      findings_.error("R212", schema->span, fmt::format("the schema is {}", kProfileSchema));
+      findings_.error(Code::R212, schema->span, fmt::format("the schema is {}", kProfileSchema));
     if (const YamlNode* header = top.require("profile")) {
       Section section(*header, "'profile'", {"name", "version"}, findings_);
       section.require("version");
@@ -56,7 +56,7 @@ class ProfileReader {
     if (chosen)
       profile_ = *chosen;
     else
-      findings_.error("R271", levels->span,
+      findings_.error(Code::R271, levels->span,
                       fmt::format("{}; the levels of '{}' are {}",
                                   level.empty() ? "a level is needed"
                                                 : fmt::format("there is no level '{}'", level),
@@ -98,7 +98,7 @@ class ProfileReader {
     else if (node.text == "blocks")
       profile_.form = Profile::Form::blocks;
     else
-      findings_.error("R211", node.span,
+      findings_.error(Code::R211, node.span,
                       "'form' is as-is, block or blocks, not '" + node.text + "'");
   }
 
@@ -112,7 +112,7 @@ class ProfileReader {
   bool word(const YamlNode* node, const std::string& first, const std::string& second) {
     if (node == nullptr || node->text == first) return false;
     if (node->text == second) return true;
-    findings_.error("R211", node->span,
+    findings_.error(Code::R211, node->span,
                     fmt::format("write {} or {}, not '{}'", first, second, node->text));
     return false;
   }
@@ -120,7 +120,7 @@ class ProfileReader {
   std::optional<double> positive(const YamlNode& node, const std::string& what) {
     const auto value = rules::read_number(node, what, findings_);
     if (value && !(*value > 0)) {
-      findings_.error("R211", node.span, what + " is more than 0");
+      findings_.error(Code::R211, node.span, what + " is more than 0");
       return std::nullopt;
     }
     return value;
@@ -133,7 +133,7 @@ class ProfileReader {
     if (verdicts != nullptr) read_verdicts(*verdicts);
     if ((sizes != nullptr && map != nullptr) ||
         (sizes == nullptr && map == nullptr && verdicts != nullptr)) {
-      findings_.error("R272", level.span,
+      findings_.error(Code::R272, level.span,
                       "verdicts of size need either 'sizes-m' with 'area-m2', or 'map-mm'");
       return;
     }
@@ -154,7 +154,7 @@ class ProfileReader {
     const Thresholds& t = *profile_.sizes;
     if (!t.is_chain())
       findings_.error(
-          "R270", sizes->span,
+          Code::R270, sizes->span,
           fmt::format("the sizes are no chain: c <= b < a and a*a > area > a*b must hold; "
                       "here c = {}, b = {}, a = {}, a*a = {}, area = {}, a*b = {}",
                       t.c_m, t.b_m, t.a_m, t.a_m * t.a_m, t.area_m2, t.a_m * t.b_m));
@@ -181,7 +181,7 @@ class ProfileReader {
       if (std::ranges::find(words, verdict) != words.end())
         profile_.sheets[place] = verdict;
       else
-        findings_.error("R211", own->span,
+        findings_.error(Code::R211, own->span,
                         fmt::format("write keep, {}, not '{}'", rules::join(words), verdict));
     }
   }
@@ -235,7 +235,7 @@ Checked<Profile> load_profile(std::string text, std::string file, const std::str
   Findings findings(source);
   const std::size_t bad = rules::find_bad_byte(source.text());
   if (bad != std::string_view::npos)
-    findings.error("R200", {bad, bad}, "this is no UTF-8 text");
+    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
   else if (const auto root = rules::parse_yaml({0, source.text().size()}, findings))
     ProfileReader(findings, profile).read(*root, level);
   out.issues = findings.issues();
@@ -251,7 +251,7 @@ Checked<Profile> load_profile_file(const std::string& name_and_level) {
     if (profile.name == name) return load_profile(std::string(profile.text), name + ".yaml", level);
   if (auto text = text_of_file(name)) return load_profile(std::move(*text), name, level);
   Issue issue;
-  issue.code = "R200";
+  issue.code = Code::R200;
   issue.sentence = "there is no profile here that can be read; the profiles built in are: " +
                    rules::join(embedded_profiles());
   issue.place.file = name;
@@ -274,7 +274,7 @@ std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base) {
         continue;
       Issue issue;
       issue.severity = Severity::warning;
-      issue.code = "R273";
+      issue.code = Code::R273;
       issue.sentence =
           fmt::format("the profile {} names the class '{}', which the pack {} does not have",
                       profile.title(), name, base.name());

@@ -1,7 +1,7 @@
 #include "interpret/surfaces/annotate.h"
 
-#include "interpret/compile/role.h"
 #include "interpret/explain/explain.h"
+#include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/surfaces/surfaces.h"

@@ -1,6 +1,5 @@
 #include "interpret/surfaces/surfaces.h"
 
-#include "interpret/compile/role.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/evaluate/facts.h"
 #include "interpret/pack/names.h"
@@ -48,7 +47,7 @@ std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::si
     case HostKind::roof:
       return top_by_default(pack, table, row);
     case HostKind::ground:
-      return table.number(row, "height").value_or(0) <= pack.hosts.ground_reach_m
+      return table.number(row, "base_height").value_or(0) <= pack.hosts.ground_reach_m
                  ? "GroundSurface"
                  : "OuterCeilingSurface";
     default:

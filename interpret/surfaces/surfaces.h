@@ -69,8 +69,8 @@ std::string explain_surface(const RuleBase& base, const SurfaceTable& table, std
 /// The same of every surface of the table, in its order.
 std::vector<std::string> explain_surfaces(const RuleBase& base, const SurfaceTable& table);
 
-/// The reason of each verdict in one line: "GroundSurface by ground.plate: looks_down; height <=
-/// $ground_reach". `verdicts` are those of interpret_surfaces for the table.
+/// The reason of each verdict in one line: "GroundSurface by ground.plate: looks_down; base_height
+/// <= $ground_reach". `verdicts` are those of interpret_surfaces for the table.
 std::vector<std::string> surface_reasons(const RuleBase& base, const SurfaceTable& table,
                                          const std::vector<SurfaceVerdict>& verdicts);
 

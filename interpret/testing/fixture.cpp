@@ -88,7 +88,7 @@ void set_value(const YamlNode& key, std::string_view name, const YamlNode& value
     read_related(std::string(name), value, feature, loader);
   } else {
     loader.findings.error(
-        "R204", key.span,
+        Code::R204, key.span,
         fmt::format("unknown attribute or relation '{}'{}", name, did_you_mean(name, all_keys())));
   }
 }
@@ -104,7 +104,7 @@ int read_times(const YamlNode* node, Loader& loader) {
   if (node == nullptr) return 1;
   const auto times = read_integer(*node, "a number of features", loader.findings);
   if (times && *times >= 1 && *times <= 100) return *times;
-  if (times) loader.findings.error("R212", node->span, "it lies in 1 .. 100");
+  if (times) loader.findings.error(Code::R212, node->span, "it lies in 1 .. 100");
   return 1;
 }
 
@@ -125,7 +125,7 @@ void repeat(const YamlNode& node, const FixtureFeature& feature, Fixture& fixtur
     const int row = i / columns;
     copy.name = fmt::format("{}.{}", feature.name, i + 1);
     copy.x = feature.x.value_or(0) + dx * (i % columns);
-    for (const char* name : {"height", "top"})
+    for (const char* name : {"base_height", "top"})
       if (const auto z = copy.numbers.find(name); z != copy.numbers.end()) z->second += dz * row;
     copy.numbers["storey"] += row;
     fixture.push_back(std::move(copy));
@@ -202,10 +202,10 @@ class Relating {
     if (number(i, "storey") && number(i, "storey") == number(j, "storey"))
       add_both("same_storey", i, j);
     const auto wide = gap(i, j, "width");
-    const auto high = gap(i, j, "height_of");
+    const auto high = gap(i, j, "height");
     if (wide && high && *high < 0 && *wide <= 1) add_both("beside", i, j);
     if (wide && high && *wide < 0 && *high >= 0 && *high <= 1) {
-      const bool is_higher = *number(i, "height") > *number(j, "height");
+      const bool is_higher = *number(i, "base_height") > *number(j, "base_height");
       is_higher ? add("above", j, i) : add("above", i, j);
     }
     if (is_alike(i, j)) add_both("alike", i, j);
@@ -215,7 +215,7 @@ class Relating {
   [[nodiscard]] std::optional<double> gap(std::size_t i, std::size_t j, const char* size) const {
     const auto middle = [&](std::size_t k) -> std::optional<double> {
       const auto extent = number(k, size);
-      const auto bottom = number(k, "height");
+      const auto bottom = number(k, "base_height");
       if (std::string_view(size) == "width") return at(k).x;
       return extent && bottom ? std::optional(*bottom + *extent / 2) : std::nullopt;
     };
@@ -233,8 +233,10 @@ class Relating {
       return p && q && std::abs(*p - *q) <= 0.1 * std::max(*p, *q);
     };
     if (sense(i)->second != sense(j)->second || !is_near("a") || !is_near("b")) return false;
-    if (!at(i).x || !at(j).x || !number(i, "height") || !number(j, "height")) return false;
-    return std::hypot(*at(i).x - *at(j).x, *number(i, "height") - *number(j, "height")) <= 6;
+    if (!at(i).x || !at(j).x || !number(i, "base_height") || !number(j, "base_height"))
+      return false;
+    return std::hypot(*at(i).x - *at(j).x, *number(i, "base_height") - *number(j, "base_height")) <=
+           6;
   }
 
   const Fixture* fixture_;
@@ -245,7 +247,7 @@ void check_hosts(const Fixture& fixture, const YamlNode& node, Loader& loader) {
   for (const FixtureFeature& feature : fixture)
     if (!feature.host.empty() &&
         std::ranges::find(fixture, feature.host, &FixtureFeature::name) == fixture.end())
-      loader.findings.error("R212", node.span,
+      loader.findings.error(Code::R212, node.span,
                             fmt::format("the host '{}' of '{}' is wall, roof, ground or a feature "
                                         "of the fixture",
                                         feature.host, feature.name));
@@ -280,7 +282,7 @@ Fixture read_fixture(const YamlNode& node, Loader& loader) {
     if (fixture.size() > kMostRepeated) break;
   }
   if (fixture.size() > kMostRepeated)
-    loader.findings.error("R213", node.span, "a fixture has no more than 10000 features");
+    loader.findings.error(Code::R213, node.span, "a fixture has no more than 10000 features");
   check_hosts(fixture, node, loader);
   return fixture;
 }
@@ -299,7 +301,7 @@ void override_features(const YamlNode& node, Fixture& fixture, Loader& loader) {
                 feature, loader);
     }
     if (!has_match)
-      loader.findings.error("R212", entry.key.span,
+      loader.findings.error(Code::R212, entry.key.span,
                             fmt::format("no feature of the fixture is called '{}'", pattern));
   }
 }
@@ -313,11 +315,11 @@ DescribedBuilding make_building(const std::string& name, const Fixture& fixture)
     for (const auto& [attribute, value] : feature.numbers) table.set(id, attribute, value);
     for (const auto& [attribute, value] : feature.texts) table.set(id, attribute, value);
     if (feature.x && !feature.numbers.contains("along")) table.set(id, "along", *feature.x);
-    const auto height = feature.numbers.find("height");
-    const auto extent = feature.numbers.find("height_of");
-    const bool is_known = height != feature.numbers.end() && extent != feature.numbers.end();
+    const auto base = feature.numbers.find("base_height");
+    const auto extent = feature.numbers.find("height");
+    const bool is_known = base != feature.numbers.end() && extent != feature.numbers.end();
     if (is_known && !feature.numbers.contains("top"))
-      table.set(id, "top", height->second + extent->second);
+      table.set(id, "top", base->second + extent->second);
   }
   return {std::move(table), Relating(fixture).run()};
 }

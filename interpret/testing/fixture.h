@@ -33,7 +33,7 @@ using Fixture = std::vector<FixtureFeature>;
 /// params that values may name.
 Fixture read_fixture(const YamlNode& node, Loader& loader);
 
-/// Sets what `node` says (`d.height: 0.61 m`, `w.*.b: 1 m`) of the features it names.
+/// Sets what `node` says (`d.base_height: 0.61 m`, `w.*.b: 1 m`) of the features it names.
 void override_features(const YamlNode& node, Fixture& fixture, Loader& loader);
 
 /// True if `pattern` is the name, or ends in `*` and the name begins with what stands before it.

@@ -1,8 +1,8 @@
 #include "interpret/testing/test_file.h"
 
 #include "interpret/language/suggest.h"
-#include "interpret/yaml/read_file.h"
 #include "interpret/yaml/section.h"
+#include "interpret/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -30,7 +30,7 @@ class TestReader {
     if (tests != nullptr && expect_list(*tests, "'tests'", findings()))
       for (const YamlNode& node : tests->items) read_test(node);
     if (tests != nullptr && tests->items.empty())
-      findings().error("R270", tests->span, "there is no test here");
+      findings().error(Code::R270, tests->span, "there is no test here");
     return std::move(tests_);
   }
 
@@ -57,16 +57,17 @@ class TestReader {
     if (property != nullptr) read_property(*property, test);
     const bool is_empty = test.labels.empty() && test.counts.empty() && test.groups.empty();
     if (is_empty && property == nullptr)
-      findings().error("R270", node.span, "this test expects nothing");
+      findings().error(Code::R270, node.span, "this test expects nothing");
     if (!test.because.empty() && test.labels.empty())
-      findings().error("R270", node.span, "'because' speaks of the features of 'expect': name one");
+      findings().error(Code::R270, node.span,
+                       "'because' speaks of the features of 'expect': name one");
     tests_.push_back(std::move(test));
   }
 
   void read_name(const YamlNode& node, RuleTest& test) {
     test.name = read_text(node, "a test's name", findings()).value_or("");
     if (!names_.insert(test.name).second)
-      findings().error("R240", node.span, "there is a test '" + test.name + "' already");
+      findings().error(Code::R240, node.span, "there is a test '" + test.name + "' already");
   }
 
   void use_fixture(const YamlNode& name, RuleTest& test) {
@@ -77,14 +78,14 @@ class TestReader {
     }
     std::vector<std::string> names;
     for (const auto& [fixture, features] : fixtures_) names.push_back(fixture);
-    findings().error("R212", name.span,
+    findings().error(Code::R212, name.span,
                      "there is no fixture '" + name.text + "'" + did_you_mean(name.text, names));
   }
 
   void read_given(const YamlNode& node, RuleTest& test) {
     if (node.kind == Kind::scalar) return use_fixture(node, test);
     if (node.kind != Kind::map || node.entries.size() != 1) {
-      findings().error("R211", node.span,
+      findings().error(Code::R211, node.span,
                        "'given' is a fixture, 'fixture: {feature.attribute: value}' or 'building: "
                        "FILE'");
       return;
@@ -105,7 +106,7 @@ class TestReader {
       check_name(entry.key, entry.key.text, names);
       const auto count = read_integer(entry.value, "a count", findings());
       if (count && *count < 0)
-        findings().error("R212", entry.value.span, "a count is not negative");
+        findings().error(Code::R212, entry.value.span, "a count is not negative");
       counts.emplace_back(entry.key.text, static_cast<std::size_t>(std::max(count.value_or(0), 0)));
     }
   }
@@ -113,7 +114,7 @@ class TestReader {
   void check_name(const YamlNode& node, const std::string& name,
                   const std::vector<std::string>& names) {
     if (std::ranges::find(names, name) == names.end())
-      findings().error("R205", node.span,
+      findings().error(Code::R205, node.span,
                        "the pack has no '" + name + "'" + did_you_mean(name, names));
   }
 
@@ -164,7 +165,7 @@ class TestReader {
     }
     const bool is_outcome = text == "holds" || text == "fails" || text == "unknown";
     if (!is_outcome || (at != std::string::npos && text == "holds"))
-      findings().error("R212", entry.value.span,
+      findings().error(Code::R212, entry.value.span,
                        "a reason is 'holds', 'fails', 'unknown', or 'fails at \"condition\"'");
     reason.outcome = text == "holds"   ? Outcome::holds
                      : text == "fails" ? Outcome::fails
@@ -181,7 +182,7 @@ class TestReader {
     if (const YamlNode* times = section.find("times"))
       perturbation.times = read_integer(*times, "'times'", findings()).value_or(1);
     if (perturbation.times < 1 || perturbation.times > kMostTimes)
-      findings().error("R212", node.span, "'times' lies in 1 .. 1000");
+      findings().error(Code::R212, node.span, "'times' lies in 1 .. 1000");
     test.perturbation = std::move(perturbation);
   }
 
@@ -190,7 +191,7 @@ class TestReader {
     const bool is_number = column && feature_schema()[*column].unit != Unit::text &&
                            feature_schema()[*column].unit != Unit::yes_no;
     if (!is_number) {
-      findings().error("R204", entry.key.span,
+      findings().error(Code::R204, entry.key.span,
                        "'" + entry.key.text + "' is no attribute that is a number" +
                            did_you_mean(entry.key.text, names_of(feature_schema())));
       return;
@@ -218,7 +219,8 @@ std::optional<RuleBase> load_tested(const YamlNode& node, const std::string& pat
   auto loaded = load_pack_file(embedded_pack(*name) ? *name : beside.string());
   issues = std::move(loaded.issues);
   if (!loaded.value)
-    findings.error("R270", node.span, "the pack '" + *name + "' cannot be tested: it has errors");
+    findings.error(Code::R270, node.span,
+                   "the pack '" + *name + "' cannot be tested: it has errors");
   return loaded.value;
 }
 
@@ -251,7 +253,7 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
   auto text = read_file(path);
   if (!text) {
     Issue issue;
-    issue.code = "R200";
+    issue.code = Code::R200;
     issue.sentence = "there are no tests here that can be read";
     issue.place.file = path;
     issues.push_back(std::move(issue));
@@ -264,7 +266,7 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
   TestFile file;
   const std::size_t bad = find_bad_byte(scratch.source.text());
   if (bad != std::string_view::npos) {
-    findings.error("R200", {bad, bad}, "this is no UTF-8 text");
+    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
   } else if (const auto root = parse_yaml({0, scratch.source.text().size()}, findings)) {
     check_traps(*root, findings);
     Section top(*root, "a file of tests", {"tests_for", "fixtures", "tests"}, findings);

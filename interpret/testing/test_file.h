@@ -20,7 +20,7 @@ struct Expectation {
   bool is_negated = false;
 };
 
-/// `door.ground: fails at "height <= $sill_max"`.
+/// `door.ground: fails at "base_height <= $sill_max"`.
 struct Reason {
   std::string rule;
   Outcome outcome = Outcome::holds;
@@ -28,7 +28,7 @@ struct Reason {
   std::string condition;
 };
 
-/// `property: {perturb: {height: 2 mm, a: 1 %}, times: 20}`.
+/// `property: {perturb: {base_height: 2 mm, a: 1 %}, times: 20}`.
 struct Perturbation {
   struct Amount {
     std::string attribute;

@@ -33,13 +33,13 @@ std::string describe(const YamlNode& node) {
 bool expect(const YamlNode& node, Kind kind, const std::string& what, const std::string& wanted,
             Findings& findings) {
   if (node.kind == kind) return true;
-  findings.error("R211", node.span, what + " is " + wanted + "; here stands " + describe(node));
+  findings.error(Code::R211, node.span, what + " is " + wanted + "; here stands " + describe(node));
   return false;
 }
 
 std::nullopt_t refuse(const YamlNode& node, const std::string& what, const std::string& wanted,
                       Findings& findings) {
-  findings.error("R211", node.span, what + " is " + wanted + ", not '" + node.text + "'");
+  findings.error(Code::R211, node.span, what + " is " + wanted + ", not '" + node.text + "'");
   return std::nullopt;
 }
 
@@ -76,7 +76,7 @@ std::optional<long> base_60(std::string_view text) {
 
 void check_scalar(const YamlNode& node, Findings& findings) {
   if (is_switch_word(node)) {
-    findings.error("R214", node.span,
+    findings.error(Code::R214, node.span,
                    "bare '" + node.text +
                        "' is a yes or no to some YAML readers and a text to others; write true, "
                        "false or \"" +
@@ -84,7 +84,7 @@ void check_scalar(const YamlNode& node, Findings& findings) {
     return;
   }
   if (const auto number = node.is_plain ? base_60(node.text) : std::nullopt)
-    findings.error("R214", node.span,
+    findings.error(Code::R214, node.span,
                    "bare '" + node.text + "' is the number " + std::to_string(*number) +
                        " in base 60 to some YAML readers; write \"" + node.text + "\"");
 }
@@ -96,7 +96,7 @@ void report_unknown_key(const YamlEntry& entry, const std::string& what,
   const bool is_rest_of_text = entry.value.kind == Kind::null && key.find(' ') != std::string::npos;
   const std::string advice =
       is_rest_of_text ? "; inside { } a text with a comma must be quoted" : did_you_mean(key, keys);
-  findings.error("R209", entry.key.span,
+  findings.error(Code::R209, entry.key.span,
                  fmt::format("unknown key '{}' in {}{} (keys: {})", key, what, advice, join(keys)));
 }
 
@@ -122,7 +122,7 @@ const YamlNode* Section::find(std::string_view key) const {
 const YamlNode* Section::require(std::string_view key) {
   const YamlNode* value = find(key);
   if (value == nullptr && is_map())
-    findings_->error("R210", node_->span, what_ + " needs the key '" + std::string(key) + "'");
+    findings_->error(Code::R210, node_->span, what_ + " needs the key '" + std::string(key) + "'");
   return value;
 }
 
@@ -165,7 +165,7 @@ std::optional<bool> read_flag(const YamlNode& node, const std::string& what, Fin
 std::optional<Span> expression_span(const YamlNode& node, Findings& findings) {
   if (!expect(node, Kind::scalar, "an expression", "a text", findings)) return std::nullopt;
   if (node.is_verbatim) return node.span;
-  findings.error("R221", node.span,
+  findings.error(Code::R221, node.span,
                  "an expression stands on one line without escapes, so that messages can point "
                  "into it");
   return std::nullopt;

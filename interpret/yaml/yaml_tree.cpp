@@ -1,9 +1,9 @@
 #include "interpret/yaml/yaml_tree.h"
 
-#include "interpret/yaml/libyaml_events.h"
-
 #include <algorithm>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <istream>
 #include <set>
 #include <streambuf>
@@ -41,7 +41,8 @@ class TreeBuilder : public YAML::EventHandler {
   [[nodiscard]] bool has_root() const { return has_root_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (has_root_) stop("R203", mark, "a pack is one YAML document; take out what follows '---'");
+    if (has_root_)
+      stop(Code::R203, mark, "a pack is one YAML document; take out what follows '---'");
   }
   void OnDocumentEnd() override {}
 
@@ -50,7 +51,7 @@ class TreeBuilder : public YAML::EventHandler {
     add(make_node(YamlNode::Kind::null, mark));
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-    stop("R203", mark, "a pack has no aliases (*name); write the value out, or use a macro");
+    stop(Code::R203, mark, "a pack has no aliases (*name); write the value out, or use a macro");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
@@ -80,17 +81,18 @@ class TreeBuilder : public YAML::EventHandler {
     std::optional<YamlNode> key;
   };
 
-  [[noreturn]] void stop(const char* code, const YAML::Mark& mark, std::string sentence) {
+  [[noreturn]] void stop(Code code, const YAML::Mark& mark, std::string sentence) {
     findings_->error(code, at(mark), std::move(sentence));
     throw Stop();
   }
   void refuse_anchor(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (anchor != 0)
-      stop("R203", mark, "a pack has no anchors (&name); write the value out, or use a macro");
+      stop(Code::R203, mark, "a pack has no anchors (&name); write the value out, or use a macro");
   }
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     // yaml-cpp reports a plain node as "?" and a quoted scalar as "!".
-    if (tag != "?" && tag != "!" && !tag.empty()) stop("R203", mark, "a pack has no tags (!name)");
+    if (tag != "?" && tag != "!" && !tag.empty())
+      stop(Code::R203, mark, "a pack has no tags (!name)");
   }
 
   [[nodiscard]] Span at(const YAML::Mark& mark) const {
@@ -100,7 +102,8 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   YamlNode make_node(YamlNode::Kind kind, const YAML::Mark& mark) {
-    if (++nodes_ > kMostYamlNodes) stop("R213", mark, "a pack has no more than 100000 YAML nodes");
+    if (++nodes_ > kMostYamlNodes)
+      stop(Code::R213, mark, "a pack has no more than 100000 YAML nodes");
     YamlNode node;
     node.kind = kind;
     node.span = at(mark);
@@ -131,7 +134,7 @@ YamlNode TreeBuilder::make_scalar(const YAML::Mark& mark, const std::string& tag
   const bool is_quoted = begin < text.size() && (text[begin] == '"' || text[begin] == '\'');
   if (!node.is_plain && is_quoted) {
     if (find_closing_quote(text, begin) == std::string_view::npos)
-      stop("R201", mark, "the quote that opens here is never closed");
+      stop(Code::R201, mark, "the quote that opens here is never closed");
     ++begin;
   }
   node.is_verbatim =
@@ -142,7 +145,7 @@ YamlNode TreeBuilder::make_scalar(const YAML::Mark& mark, const std::string& tag
 
 void TreeBuilder::open(YamlNode node) {
   if (open_.size() >= kMostYamlDepth) {
-    findings_->error("R213", node.span, "a pack nests no deeper than 64 levels");
+    findings_->error(Code::R213, node.span, "a pack nests no deeper than 64 levels");
     throw Stop();
   }
   open_.push_back({std::move(node), {}, {}});
@@ -173,9 +176,9 @@ void TreeBuilder::add(YamlNode node) {
 
 void TreeBuilder::add_key(Open& map, YamlNode key) {
   if (key.kind != YamlNode::Kind::scalar) {
-    findings_->error("R211", key.span, "a key is a text");
+    findings_->error(Code::R211, key.span, "a key is a text");
   } else if (!map.keys.insert(key.text).second) {
-    findings_->error("R202", key.span, "the key '" + key.text + "' stands here twice");
+    findings_->error(Code::R202, key.span, "the key '" + key.text + "' stands here twice");
   }
   map.key = std::move(key);
 }
@@ -194,23 +197,10 @@ void report(Span where, Findings& findings, const YAML::Exception& problem) {
   const auto mark = static_cast<std::size_t>(std::max(problem.mark.pos, 0));
   const std::size_t offset = std::min(where.begin + mark, where.end);
   if (offset < where.end && text[offset] == '*')
-    findings.error("R203", {offset, offset}, "a pack has no aliases (*name)");
+    findings.error(Code::R203, {offset, offset}, "a pack has no aliases (*name)");
   else
-    findings.error("R201", {offset, offset},
+    findings.error(Code::R201, {offset, offset},
                    explain_syntax(findings.source(), {offset, offset}, problem));
-}
-
-/// The tree, if the text is as packs are nearly always written and nothing is wrong with it.
-std::optional<YamlNode> read_quickly(Span where, const Source& source) {
-  Findings none(source);
-  TreeBuilder builder(where, none);
-  try {
-    if (!read_by_libyaml(source.text_of(where), builder) || !none.issues().empty())
-      return std::nullopt;
-  } catch (const Stop&) {
-    return std::nullopt;
-  }
-  return builder.take_root();
 }
 
 }  // namespace
@@ -229,10 +219,9 @@ std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
 
 std::optional<YamlNode> parse_yaml(Span where, Findings& findings) {
   if (where.end - where.begin > kMostBytes) {
-    findings.error("R213", {where.begin, where.begin}, "a pack is no longer than 1 MiB");
+    findings.error(Code::R213, {where.begin, where.begin}, "a pack is no longer than 1 MiB");
     return std::nullopt;
   }
-  if (auto root = read_quickly(where, findings.source())) return root;
   TextBuffer buffer(findings.source().text_of(where));
   std::istream stream(&buffer);
   TreeBuilder builder(where, findings);
@@ -247,10 +236,22 @@ std::optional<YamlNode> parse_yaml(Span where, Findings& findings) {
     return std::nullopt;
   }
   if (!builder.has_root()) {
-    findings.error("R201", {where.begin, where.begin}, "the pack is empty");
+    findings.error(Code::R201, {where.begin, where.begin}, "the pack is empty");
     return std::nullopt;
   }
   return builder.take_root();
+}
+
+std::optional<std::string> read_file(const std::string& path) {
+  std::error_code problem;
+  if (std::filesystem::is_directory(path, problem)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::string text(kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) return std::nullopt;
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace oriel::rules

@@ -44,6 +44,9 @@ struct YamlEntry {
 /// stay.
 std::optional<YamlNode> parse_yaml(Span where, Findings& findings);
 
+/// The bytes of a file, at most one more than a pack may have; nothing if it cannot be read.
+std::optional<std::string> read_file(const std::string& path);
+
 /// The offset of the quote that closes the one at `begin`, or npos.
 std::size_t find_closing_quote(std::string_view text, std::size_t begin);
 

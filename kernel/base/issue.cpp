@@ -34,17 +34,17 @@ std::string place_text(const Place& place) {
 std::string to_string(const Issue& issue) {
   std::string text = place_text(issue.place);
   if (!text.empty()) text += ": ";
-  if (!issue.code.empty()) text += issue.code + " ";
+  if (issue.code != Code::none) text += to_string(issue.code) + " ";
   text += issue.sentence;
   if (!issue.excerpt.empty()) text += "\n" + issue.excerpt;
   return text;
 }
 
-Issue building_issue(Severity severity, std::string code, const std::string& building,
+Issue building_issue(Severity severity, Code code, const std::string& building,
                      std::string sentence) {
   Issue issue;
   issue.severity = severity;
-  issue.code = std::move(code);
+  issue.code = code;
   issue.sentence = std::move(sentence);
   issue.place.building = building;
   return issue;

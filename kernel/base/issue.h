@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/base/code.h"
+
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,11 +23,9 @@ struct Place {
 };
 
 /// A finding about the user's data or rules: collected and returned, never thrown.
-/// Codes: E1xx syntax, E2xx building model, E3xx geometry (with val3dity's number where one fits),
-/// R2xx rules, G4xx operators, E5xx limits, E9xx ours. Every code has a line in docs/errors.md.
 struct Issue {
   Severity severity = Severity::error;
-  std::string code;
+  Code code = Code::none;
   std::string sentence;
   Place place;
   /// The source line and a caret under the place, or empty.
@@ -40,7 +40,7 @@ std::string to_string(const Issue& issue);
 std::string to_string(Severity severity);
 
 /// An issue about a building as a whole.
-Issue building_issue(Severity severity, std::string code, const std::string& building,
+Issue building_issue(Severity severity, Code code, const std::string& building,
                      std::string sentence);
 
 /// True if one of `issues` is an error.

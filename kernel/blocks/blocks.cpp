@@ -75,7 +75,7 @@ class BlockBuilder {
       return out;
     }
     out.issues.push_back(building_issue(
-        Severity::error, "G406", name_,
+        Severity::error, Code::G406, name_,
         heights_m_.empty() ? "no block can be made: the building covers no ground"
                            : "no block can be made: its outline touches itself in a point"));
     return out;

@@ -41,7 +41,7 @@ struct FeatureColumns {
   std::size_t c = column_of("c").value();
   std::size_t silhouette = column_of("silhouette").value();
   std::size_t width = column_of("width").value();
-  std::size_t height_of = column_of("height_of").value();
+  std::size_t height = column_of("height").value();
   std::size_t depth = column_of("depth").value();
   std::size_t inclination = column_of("inclination").value();
   std::size_t azimuth = column_of("azimuth").value();
@@ -50,7 +50,7 @@ struct FeatureColumns {
   std::size_t growth_out = column_of("growth_out").value();
   std::size_t growth_side = column_of("growth_side").value();
   std::size_t recess = column_of("recess").value();
-  std::size_t height = column_of("height").value();
+  std::size_t base_height = column_of("base_height").value();
   std::size_t top = column_of("top").value();
   std::size_t ground_source = column_of("ground_source").value();
   std::size_t below_ridge = column_of("below_ridge").value();
@@ -136,7 +136,7 @@ void describe_size(FeatureTable& table, const Subject& s) {
   table.set(s.id, columns().c, without_dust(c));
   table.set(s.id, columns().silhouette, a * b);
   table.set(s.id, columns().width, s.width.size());
-  table.set(s.id, columns().height_of, s.box.height);
+  table.set(s.id, columns().height, s.box.height);
   if (!s.normal) return;
   table.set(s.id, columns().depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
   const double inclination = detail::inclination_deg(*s.normal);
@@ -244,7 +244,7 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
   const Box& box = s.feature->box;
   const auto& facet = s.feature->host_facet;
   const detail::Foot foot = ground_of(s, segmentation, site);
-  table.set(s.id, columns().height, box.min.z - foot.ground_m);
+  table.set(s.id, columns().base_height, box.min.z - foot.ground_m);
   table.set(s.id, columns().top, box.max.z - foot.ground_m);
   table.set(s.id, columns().ground_source, foot.source);
   table.set(s.id, columns().below_ridge, site.ridge_m() - box.max.z);

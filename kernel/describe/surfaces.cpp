@@ -56,7 +56,7 @@ struct SurfaceColumns {
   std::size_t area = surface_column_of("area").value();
   std::size_t a = surface_column_of("a").value();
   std::size_t b = surface_column_of("b").value();
-  std::size_t height = surface_column_of("height").value();
+  std::size_t base_height = surface_column_of("base_height").value();
   std::size_t top = surface_column_of("top").value();
   std::size_t below_ridge = surface_column_of("below_ridge").value();
   std::size_t gap_above = surface_column_of("gap_above").value();
@@ -165,7 +165,7 @@ void SurfaceSurvey::State::describe(std::size_t row) {
   table.set(row, surface_columns().area, face.area_m2);
   table.set(row, surface_columns().facing, std::string(facings[row].source));
   if (!face.box.is_empty()) {
-    table.set(row, surface_columns().height, face.box.min.z - faces.low_m());
+    table.set(row, surface_columns().base_height, face.box.min.z - faces.low_m());
     table.set(row, surface_columns().top, face.box.max.z - faces.low_m());
     table.set(row, surface_columns().below_ridge, faces.high_m() - face.box.max.z);
   }

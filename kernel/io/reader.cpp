@@ -19,12 +19,12 @@ Format format_to_read(const std::string& path, const ReadOptions& options) {
   const detail::TextName name{path == "-" ? "stdin" : path, 0};
   if (!format)
     throw InputError(detail::error_in(
-        name, {"E106",
+        name, {Code::E106,
                "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj, "
                ".off or .ply, or --from cityjson, cityjsonseq, citygml, obj, off or ply"}));
   if (*format == Format::stl)
     throw InputError(
-        detail::error_in(name, {"E106", "STL is written only: it has no polygons to read"}));
+        detail::error_in(name, {Code::E106, "STL is written only: it has no polygons to read"}));
   return *format;
 }
 
@@ -91,7 +91,8 @@ std::string Reader::State::read_text() {
 
 Checked<Document> Reader::State::read_file() {
   std::string text = read_text();
-  if (text.empty()) return {std::nullopt, {detail::error_in(name, {"E102", "the file is empty"})}};
+  if (text.empty())
+    return {std::nullopt, {detail::error_in(name, {Code::E102, "the file is empty"})}};
   if (format == Format::obj) return detail::read_obj(text, name);
   if (format == Format::off) return detail::read_off(text, name);
   if (format == Format::ply) return detail::read_ply(text, name);
@@ -106,7 +107,7 @@ std::optional<Checked<Document>> Reader::State::read_line() {
       if (header) return std::nullopt;
       return Checked<Document>{
           std::nullopt,
-          {detail::error_in({name.file, 0}, {"E102",
+          {detail::error_in({name.file, 0}, {Code::E102,
                                              "the file is empty; expected a CityJSON "
                                              "header line"})}};
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/code.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/segment.h"
@@ -13,7 +14,7 @@ namespace oriel {
 struct Refusal {
   FeatureId feature;
   std::string reason;
-  std::string code = "G401";
+  Code code = Code::G401;
 };
 
 /// What is left of a solid when features are taken off it.

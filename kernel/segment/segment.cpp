@@ -163,7 +163,7 @@ void warn_of_budget(Segmentation& out, const Building& building, std::int64_t bu
       out.cells, [](const Cell& cell) { return cell.flag == LeafFlag::budget; });
   if (is_used_up)
     out.issues.push_back(building_issue(
-        Severity::warning, "E502", building.id,
+        Severity::warning, Code::E502, building.id,
         fmt::format("the work budget of {} half-edges is used up; the rest stays unsplit",
                     budget)));
 }

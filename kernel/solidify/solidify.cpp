@@ -26,8 +26,8 @@ namespace {
 using detail::ShellMesh;
 using detail::Soup;
 
-Issue error(const Building& building, std::string code, std::string sentence) {
-  return building_issue(Severity::error, std::move(code), building.id, std::move(sentence));
+Issue error(const Building& building, Code code, std::string sentence) {
+  return building_issue(Severity::error, code, building.id, std::move(sentence));
 }
 
 /// Refuses what the exact arithmetic has no room for.
@@ -43,7 +43,7 @@ void check_size(const Building& building, const Tolerances& tolerances,
   for (const Vec3 p : building.vertices)
     for (const double c : {p.x, p.y, p.z})
       reach = std::max(reach, std::isfinite(c) ? std::abs(c) : Box::kInfinity);
-  issues.push_back(error(building, "E501",
+  issues.push_back(error(building, Code::E501,
                          fmt::format("reaches {:.0f} m from its frame's origin, more than the "
                                      "{:.0f} m that weld_m = {} m allows",
                                      reach, limit, tolerances.weld_m)));
@@ -53,8 +53,8 @@ bool is_closed(const ShellMesh& mesh) {
   return std::ranges::count(mesh.twin, -1) == 0;  // in one go, as most have no open edge
 }
 
-Issue warning(const Building& building, std::string code, std::string sentence) {
-  return building_issue(Severity::warning, std::move(code), building.id, std::move(sentence));
+Issue warning(const Building& building, Code code, std::string sentence) {
+  return building_issue(Severity::warning, code, building.id, std::move(sentence));
 }
 
 /// What mending has done, as findings.
@@ -62,14 +62,14 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
                   std::vector<Issue>& issues) {
   if (report.t_vertices > 0 || !report.duplicates.empty())
     issues.push_back(building_issue(
-        Severity::note, "E317", building.id,
+        Severity::note, Code::E317, building.id,
         fmt::format("{} vertices were put into the edges that they lie on; {} polygons are there "
                     "twice and were dropped",
                     report.t_vertices, report.duplicates.size())));
   if (is_open) return;
   if (report.turned > 0)
     issues.push_back(warning(
-        building, "E308",
+        building, Code::E308,
         fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
                     report.turned)));
   if (!report.caps.empty()) {
@@ -79,14 +79,14 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
       largest = std::max(largest, cap.area_m2);
     }
     issues.push_back(
-        warning(building, "E316",
+        warning(building, Code::E316,
                 fmt::format("{} holes were closed by faces of oriel's own, {:.2f} m² together, the "
                             "largest {:.2f} m²",
                             report.caps.size(), sum, largest)));
   }
   if (!report.dangling.empty() || !report.inner.empty())
     issues.push_back(warning(
-        building, "E315",
+        building, Code::E315,
         fmt::format("{} polygons do not bound the solid and were left out: {} dangling sheets "
                     "({:.2f} m²), {} inner faces ({:.2f} m²)",
                     report.dangling.size() + report.inner.size(), report.dangling.size(),
@@ -116,7 +116,7 @@ Issue not_closed(const Building& building, const std::vector<OpenEdge>& edges) {
     const Vec3 p = edges[i].from;
     places += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", i > 0 ? ", " : "", p.x, p.y, p.z);
   }
-  return error(building, "E302",
+  return error(building, Code::E302,
                fmt::format("not closed: {} open edges in {} loops, the first at {} (val3dity 302)",
                            edges.size(), count_loops(edges), places));
 }
@@ -143,7 +143,7 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
     else if (has_errors(why))
       out.issues.insert(out.issues.end(), why.begin(), why.end());
     else
-      out.issues.push_back(error(building, "E302",
+      out.issues.push_back(error(building, Code::E302,
                                  "no open edges, but the same space is in front of most polygons "
                                  "and behind them: they enclose nothing (val3dity 302)"));
     return shells;
@@ -151,7 +151,7 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
   shells.soup = std::move(mended.soup);
   shells.mesh = detail::build_shell_mesh(shells.soup, building.id, out.issues);
   if (!has_errors(out.issues) && !is_closed(shells.mesh))
-    out.issues.push_back(error(building, "E302", "not closed after mending (val3dity 302)"));
+    out.issues.push_back(error(building, Code::E302, "not closed after mending (val3dity 302)"));
   return shells;
 }
 
@@ -180,7 +180,7 @@ Shells shells_of(const Building& building, const Tolerances& tolerances,
                  const RepairOptions& repair, Solidified& out) {
   Shells shells{detail::weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
-    out.issues.push_back(error(building, "E301",
+    out.issues.push_back(error(building, Code::E301,
                                fmt::format("{} polygons cannot enclose a volume (val3dity 301)",
                                            shells.soup.polygons.size())));
     return shells;
@@ -246,17 +246,18 @@ Solidified solidify(const Building& building, const Tolerances& tolerances,
   const int swallowed = snapped.swallowed + clusters.standing;
   if (swallowed > 0)
     out.issues.push_back(building_issue(
-        Severity::warning, "E309", building.id,
+        Severity::warning, Code::E309, building.id,
         fmt::format("{} facets are thinner than the tolerances ({} m) and were swallowed",
                     swallowed, tolerances.plane_offset_m)));
   if (solid.facets.empty())
-    out.issues.push_back(error(building, "E310", "nothing is left that encloses a volume"));
+    out.issues.push_back(error(building, Code::E310, "nothing is left that encloses a volume"));
   if (is_set_aside()) return out;
   detail::arrange_shells(solid, snapped.component, hints, building.id, out.issues);
   const bool may_be_open = snapped.has_united || snapped.swallowed > 0;
   if (!is_set_aside() && may_be_open && !oriel::is_closed(solid))
-    out.issues.push_back(error(
-        building, "E302", "not closed after its vertices were put on their planes (val3dity 302)"));
+    out.issues.push_back(
+        error(building, Code::E302,
+              "not closed after its vertices were put on their planes (val3dity 302)"));
   if (!is_set_aside()) out.value = std::move(solid);
   return out;
 }

@@ -57,67 +57,71 @@ namespace detail {
 
 namespace {
 
-/// oriel's code and val3dity's number.
-std::pair<const char*, int> code_of(Defect defect) {
+Code code_of(Defect defect) {
   switch (defect) {
     case Defect::empty:
-      return {"E313", 902};
+      return Code::E313;
     case Defect::too_few_points:
-      return {"E311", 101};
+      return Code::E311;
     case Defect::repeated_point:
-      return {"E312", 102};
+      return Code::E312;
     case Defect::ring_crosses_itself:
-      return {"E341", 104};
+      return Code::E341;
     case Defect::rings_cross:
-      return {"E342", 201};
+      return Code::E342;
     case Defect::rings_alike:
-      return {"E343", 202};
+      return Code::E343;
     case Defect::off_plane:
-      return {"E344", 203};
+      return Code::E344;
     case Defect::folded:
-      return {"E345", 204};
+      return Code::E345;
     case Defect::polygon_in_pieces:
-      return {"E346", 205};
+      return Code::E346;
     case Defect::hole_outside:
-      return {"E347", 206};
+      return Code::E347;
     case Defect::holes_nested:
-      return {"E348", 207};
+      return Code::E348;
     case Defect::holes_turned:
-      return {"E349", 208};
+      return Code::E349;
     case Defect::too_few_polygons:
-      return {"E301", 301};
+      return Code::E301;
     case Defect::open_shell:
-      return {"E302", 302};
+      return Code::E302;
     case Defect::many_at_edge:
-      return {"E303", 303};
+      return Code::E303;
     case Defect::many_at_vertex:
-      return {"E350", 303};
+      return Code::E350;
     case Defect::shell_in_pieces:
-      return {"E351", 305};
+      return Code::E351;
     case Defect::shell_crosses_itself:
-      return {"E352", 306};
+      return Code::E352;
     case Defect::polygon_turned:
-      return {"E308", 307};
+      return Code::E308;
     case Defect::one_sided:
-      return {"E307", 307};
+      return Code::E307;
     case Defect::shells_cross:
-      return {"E353", 401};
+      return Code::E353;
     case Defect::shells_alike:
-      return {"E354", 402};
+      return Code::E354;
     case Defect::cavity_outside:
-      return {"E305", 403};
+      return Code::E305;
     case Defect::solid_in_pieces:
-      return {"E355", 404};
+      return Code::E355;
     case Defect::shell_turned:
-      return {"E308", 405};
+      return Code::E308;
     case Defect::solids_cross:
-      return {"E356", 501};
+      return Code::E356;
     case Defect::solids_alike:
-      return {"E357", 502};
+      return Code::E357;
     case Defect::solids_apart:
-      return {"E358", 503};
+      return Code::E358;
   }
-  return {"E901", 0};
+  return Code::E901;
+}
+
+/// As of the code, which two defects share that have numbers of their own.
+int val3dity_number_of(Defect defect) {
+  return defect == Defect::shell_turned ? 405 : val3dity_number(code_of(defect));
 }
 
 std::string text_of(Vec3 p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z); }
@@ -126,9 +130,10 @@ std::string text_of(Vec3 p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x
 
 void FindingList::add(Defect defect, const Subject& subject, std::string sentence,
                       const std::vector<int>& vertices) {
-  const auto [code, number] = code_of(defect);
-  Finding finding{code,          number,          std::move(sentence), subject.body,
-                  subject.shell, subject.polygon, subject.ring,        {}};
+  Finding finding{code_of(defect),     val3dity_number_of(defect),
+                  std::move(sentence), subject.body,
+                  subject.shell,       subject.polygon,
+                  subject.ring,        {}};
   for (const int vertex : vertices) finding.at_m.push_back(building_.place(vertex));
   if (finding.at_m.size() == 1) finding.sentence += " at " + text_of(finding.at_m[0]);
   if (finding.at_m.size() == 2)

@@ -227,7 +227,7 @@ std::optional<PartedSolid> part_folded(const Solid& solid, const Building& writt
   Parter parter(solid);
   bool has_parted = false;
   for (const Finding& finding : findings) {
-    if (finding.code != "E345") return std::nullopt;
+    if (finding.code != Code::E345) return std::nullopt;
     const auto polygon = std::ranges::find(written.polygons, finding.polygon, &Polygon::source);
     if (polygon == written.polygons.end()) return std::nullopt;
     has_parted |= parter.part(at(finding.polygon), written, *polygon);

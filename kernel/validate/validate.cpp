@@ -75,7 +75,7 @@ JudgedSolids judge_shells(const SnappedBuilding& building, const Shells& shells,
 
 Finding out_of_range(const Building& building) {
   Finding finding;
-  finding.code = "E506";
+  finding.code = Code::E506;
   finding.sentence = fmt::format(
       "a coordinate of its {} vertices is not finite, or further than "
       "4.2 km from the building's origin",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/code.h"
 #include "kernel/model/building.h"
 
 #include <string>
@@ -33,7 +34,7 @@ struct ValidateOptions {
 /// Something wrong with the geometry of a building, and where.
 struct Finding {
   /// oriel's code, with a section in docs/errors.md.
-  std::string code;
+  Code code = Code::none;
   /// The number of val3dity's error that means the same, 0 if there is none.
   int val3dity = 0;
   /// What was found and what was expected, with the place, without code and building.

@@ -62,7 +62,8 @@ std::vector<int> weld_facets(Solid& solid, const std::vector<int>& first) {
 
 std::optional<PartedSolid> weld_written(const Solid& solid, const Building& written,
                                         const std::vector<Finding>& findings) {
-  if (std::ranges::find(findings, "E312", &Finding::code) == findings.end()) return std::nullopt;
+  if (std::ranges::find(findings, Code::E312, &Finding::code) == findings.end())
+    return std::nullopt;
   PartedSolid out{solid, {}};
   const std::vector<int> first = first_of_each_point(solid, written);
   for (std::size_t v = 0; v < first.size(); ++v) {

@@ -44,9 +44,11 @@ std::string place_of(const std::string& text, const std::string& word) {
 TEST_SUITE("cli") {
   TEST_CASE("a pack with a typo is refused with its place and a suggestion") {
     const std::string text =
-        replaced(residential(), "split_order <= 1 and height >=", "split_order <= 1 and heigth >=");
-    check_refused(text, place_of(text, "heigth") +
-                            ": R204 unknown attribute 'heigth'; did you mean 'height'?\n");
+        replaced(residential(),
+                 "split_order <= 1 and base_height >=", "split_order <= 1 and base_heigth >=");
+    check_refused(text,
+                  place_of(text, "heigth") +
+                      ": R204 unknown attribute 'base_heigth'; did you mean 'base_height'?\n");
     const Folder folder;
     const Outcome outcome = run({"rules", "check", folder.write("my.yaml", text)});
     CHECK(outcome.says("\n                             ^~~~~~\n"));

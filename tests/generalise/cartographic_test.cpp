@@ -128,7 +128,7 @@ TEST_SUITE("generalise") {
         for (const auto& [feature, code, reason] : fine.generalised.refused) {
           if (!reason.ends_with("would be drawn")) continue;
           ++refused;
-          CHECK(code == "G403");
+          CHECK(code == Code::G403);
           CHECK_FALSE(std::ranges::binary_search(fine.generalised.changed, feature));
           CHECK_FALSE(std::ranges::binary_search(fine.generalised.removed, feature));
         }
@@ -155,7 +155,7 @@ TEST_SUITE("generalise") {
     const Redraft made = redraft(line, 2500);
     CHECK(new_undersides(made.generalised.solid) == 0);
     const auto is_carried = [](const CarriedOut::Refused& refused) {
-      return refused.code == "G411" && refused.reason.starts_with("what stands on it");
+      return refused.code == Code::G411 && refused.reason.starts_with("what stands on it");
     };
     const auto& refused = made.generalised.refused;
     const auto piece = std::ranges::find_if(refused, is_carried);

@@ -154,7 +154,7 @@ TEST_SUITE("generalise") {
     REQUIRE(!pieces.empty());
     for (const Issue& issue : pieces) {
       CHECK(issue.severity == Severity::note);
-      CHECK(issue.code == "G401");
+      CHECK(issue.code == Code::G401);
       CHECK(issue.sentence.find("is a piece of f") == 0);
       const FeatureId id = line.table().find(issue.place.feature);
       REQUIRE(id.is_valid());
@@ -186,7 +186,7 @@ TEST_SUITE("generalise") {
     CHECK(plinth.stubs(whole) == 0);
     REQUIRE_FALSE(whole.refused.empty());
     for (const auto& refused : whole.refused) {
-      CHECK(refused.code == "G418");
+      CHECK(refused.code == Code::G418);
       CHECK(is_part(refused, plinth.plan, plinth.line.interpretation));
     }
   }
@@ -232,7 +232,7 @@ TEST_SUITE("generalise") {
         generalise({}, {}, FeatureTable("house", 0), {}, Plan{500, {}, {}});
     CHECK(!out.value);
     REQUIRE(out.issues.size() == 1);
-    CHECK(out.issues[0].code == "G402");
+    CHECK(out.issues[0].code == Code::G402);
     CHECK(out.issues[0].severity == Severity::error);
     CHECK(out.issues[0].place.building == "house");
     CHECK(out.issues[0].sentence.find("1:500") != std::string::npos);

@@ -189,7 +189,7 @@ TEST_SUITE("generalise") {
       for (const Issue& issue : fineness_issues(line.building(), line.solid, line.solid,
                                                 line.segmentation, line.table(), nothing, asked)) {
         CHECK((issue.severity == Severity::warning) == asked.is_everywhere);
-        codes += issue.code + ' ';
+        codes += to_string(issue.code) + ' ';
       }
       return codes;
     };

@@ -14,19 +14,20 @@ constexpr const char* kBatchPack =
     "relations:\n"
     "  same_row: {within: same facade, where: host is wall and other.host is wall and storey = "
     "other.storey}\n"
-    "  near: {within: beside, where: abs(height - other.height) <= 1 m}\n"
+    "  near: {within: beside, where: abs(base_height - other.base_height) <= 1 m}\n"
     "rules:\n"
     "  - {id: opening, label: opening, require: 'sense in [hole, imprint] and a > 0.3 m'}\n"
     "  - id: window\n"
     "    label: window\n"
     "    require: self is opening\n"
-    "    unless: height < 0.5 m\n"
+    "    unless: base_height < 0.5 m\n"
     "    score:\n"
     "      - count(same_facade where is opening and abs(a - self.a) <= 0.5 m): {rise: 0 .. 3}\n"
-    "      - mean(height of beside): {rise: 0 m .. 2 m}\n"
+    "      - mean(base_height of beside): {rise: 0 m .. 2 m}\n"
     "  - id: door\n"
     "    label: door\n"
-    "    require: [self is opening, exists(near where height > self.height) or height < 1 m]\n"
+    "    require: [self is opening, exists(near where base_height > self.base_height) or "
+    "base_height < 1 m]\n"
     "    score: [a: {rise: 0 m .. 2 m}]\n"
     "decide: {min_score: 0.1, ambiguous_below: 0.2}\n"
     "groups:\n"
@@ -46,7 +47,7 @@ MadeBuilding random_building(std::mt19937& random, int features) {
   std::vector<int> facades;
   for (int i = 0; i < features; ++i) {
     Values values;
-    for (const char* name : {"height", "a", "storey"})
+    for (const char* name : {"base_height", "a", "storey"})
       if (below(8) > 0) values[name] = below(6) * 0.5;
     if (below(8) > 0) values["host_inclination"] = below(4) > 0 ? 90.0 : 30.0;
     static constexpr const char* kSenses[] = {"hole", "imprint", "protrusion", "cavity"};

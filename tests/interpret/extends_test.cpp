@@ -53,13 +53,13 @@ std::string header(const std::string& extends) {
 const std::string kBase = pack_with(
     "params: {low: {value: 1 m, range: 0 m .. 2 m}}\n"
     "rules:\n"
-    "  - {id: w, label: window, require: height > $low}\n"
-    "  - {id: d, label: door, require: height <= $low}\n");
+    "  - {id: w, label: window, require: base_height > $low}\n"
+    "  - {id: d, label: door, require: base_height <= $low}\n");
 
 Scene two() {
   Scene scene;
-  scene.add({{"height", 0.5}});
-  scene.add({{"height", 1.5}});
+  scene.add({{"base_height", 0.5}});
+  scene.add({{"base_height", 1.5}});
   return scene;
 }
 
@@ -74,12 +74,12 @@ TEST_SUITE("interpret") {
     CHECK(packs.load("same.yaml").name() == "upper");
     packs.write("param.yaml", header("base.yaml") + "params: {low: {value: 0.2 m}}\n");
     CHECK(labels(packs.load("param.yaml"), two()) == Labels{"window", "window"});
-    packs.write("rule.yaml",
-                header("base.yaml") + "rules: [{id: w, label: window, require: height > 2 m}]\n");
+    packs.write("rule.yaml", header("base.yaml") +
+                                 "rules: [{id: w, label: window, require: base_height > 2 m}]\n");
     CHECK(labels(packs.load("rule.yaml"), two()) == Labels{"door", "-"});
     packs.write("added.yaml", header("base.yaml") +
                                   "classes: {bay: {}}\nrules: [{id: b, label: "
-                                  "bay, require: height > 1 m, priority: 1}]\n");
+                                  "bay, require: base_height > 1 m, priority: 1}]\n");
     CHECK(labels(packs.load("added.yaml"), two()) == Labels{"door", "bay"});
     packs.write("removed.yaml", header("base.yaml") + "rules: [{id: d, remove: true}]\n");
     CHECK(labels(packs.load("removed.yaml"), two()) == Labels{"-", "window"});

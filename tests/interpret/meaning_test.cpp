@@ -311,12 +311,12 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("params are constants") {
-    const RuleBase base = load(
-        pack_with("params: {sill_max: {value: 60 cm, range: 0.3 m .. 1 m, why: doors}}\n"
-                  "rules: [{id: d, label: door, require: height <= $sill_max * 2 - 0.1 m}]\n"));
+    const RuleBase base = load(pack_with(
+        "params: {sill_max: {value: 60 cm, range: 0.3 m .. 1 m, why: doors}}\n"
+        "rules: [{id: d, label: door, require: base_height <= $sill_max * 2 - 0.1 m}]\n"));
     Scene scene;
-    scene.add({{"height", 1.09}});
-    scene.add({{"height", 1.11}});
+    scene.add({{"base_height", 1.09}});
+    scene.add({{"base_height", 1.11}});
     CHECK(labels(base, scene) == Labels{"door", "-"});
   }
 

@@ -119,7 +119,7 @@ TEST_SUITE("interpret") {
     const auto wrong = format_pack_file(packs.write("p.yaml", kHead));
     CHECK_FALSE(wrong.value);
     REQUIRE_FALSE(wrong.issues.empty());
-    CHECK(wrong.issues[0].code == "R210");
+    CHECK(wrong.issues[0].code == Code::R210);
     CHECK_FALSE(format_pack_file("/nowhere.yaml").value);
   }
 

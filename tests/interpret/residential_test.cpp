@@ -18,35 +18,34 @@ RuleBase residential() {
 }
 
 /// What the kernel says of a recess of that size in a wall.
-Values recess(double width, double height_of, double height, double depth = 0.12) {
+Values recess(double width, double height, double base_height, double depth = 0.12) {
   return {{"sense", "hole"},
           {"natural", 1.0},
           {"width", width},
-          {"height_of", height_of},
-          {"depth", depth},
-          {"a", std::max(width, height_of)},
-          {"b", std::min(width, height_of)},
-          {"c", depth},
           {"height", height},
-          {"top", height + height_of},
-          {"volume", width * height_of * depth},
+          {"depth", depth},
+          {"a", std::max(width, height)},
+          {"b", std::min(width, height)},
+          {"c", depth},
+          {"base_height", base_height},
+          {"top", base_height + height},
+          {"volume", width * height * depth},
           {"inclination", 90.0},
           {"host_inclination", 90.0},
-          {"split_order", height == 0 ? 2.0 : 1.0}};
+          {"split_order", base_height == 0 ? 2.0 : 1.0}};
 }
 
 /// A block that sticks out of a wall.
-Values block(double width, double height_of, double depth, double height) {
-  Values values = recess(width, height_of, height, depth);
+Values block(double width, double height, double depth, double base_height) {
+  Values values = recess(width, height, base_height, depth);
   values["sense"] = "protrusion";
   return values;
 }
 
-/// A block that stands on a roof of 40 degrees; `height_of` counts from the lower edge of its foot.
-Values on_roof(double width, double deep, double height_of, double height = 7) {
-  Values values =
-      block(width, height_of, height_of * std::cos(40 * std::numbers::pi / 180), height);
-  double sizes[] = {width, deep, height_of};
+/// A block that stands on a roof of 40 degrees; `height` counts from the lower edge of its foot.
+Values on_roof(double width, double deep, double height, double base_height = 7) {
+  Values values = block(width, height, height * std::cos(40 * std::numbers::pi / 180), base_height);
+  double sizes[] = {width, deep, height};
   std::ranges::sort(sizes);
   values["c"] = sizes[0];
   values["b"] = sizes[1];

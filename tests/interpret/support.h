@@ -113,7 +113,7 @@ inline std::string findings(const std::string& text) {
 inline RuleBase load(const std::string& text) {
   auto checked = load_pack(text, "t.yaml");
   for (const Issue& issue : checked.issues)
-    if (issue.code != "R255") FAIL_CHECK(to_string(issue));
+    if (issue.code != Code::R255) FAIL_CHECK(to_string(issue));
   REQUIRE(checked.value);
   return *checked.value;
 }

@@ -25,7 +25,7 @@ inline std::string outcome_of(const Building& building, const Tolerances& tolera
   const auto solid = solidify(building, tolerances, repair);
   CHECK(solid.value.has_value() != has_errors(solid.issues));
   std::string out = solid.value ? "solid" : "";
-  for (const Issue& issue : solid.issues) out += (out.empty() ? "" : " ") + issue.code;
+  for (const Issue& issue : solid.issues) out += (out.empty() ? "" : " ") + to_string(issue.code);
   return out;
 }
 

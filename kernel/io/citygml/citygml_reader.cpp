@@ -38,7 +38,7 @@ std::optional<Fault> find_degrees(const GmlVertices& vertices, Vec3 origin) {
   const bool is_on_globe = std::max(std::abs(box.min.x), std::abs(box.max.x)) <= 180 &&
                            std::max(std::abs(box.min.y), std::abs(box.max.y)) <= 180;
   if (!is_on_globe || size.x > kSmallest || size.y > kSmallest) return std::nullopt;
-  return Fault{"E213",
+  return Fault{Code::E213,
                "the building is less than 1 cm wide: its coordinates look like degrees; "
                "expected metres"};
 }
@@ -106,7 +106,7 @@ Checked<Document> CityGmlReader::State::read_header() {
   Checked<Document> result;
   result.value = Document{name.file, Format::citygml, {}, std::move(source)};
   if (!first) {
-    result.issues.push_back(error_in(name, {"E209", "has no Building"}));
+    result.issues.push_back(error_in(name, {Code::E209, "has no Building"}));
     result.issues.back().severity = Severity::warning;
   }
   return result;
@@ -133,9 +133,10 @@ std::optional<Fault> CityGmlReader::State::claim_ids(const CityGmlBuilding& buil
   std::unordered_set<std::string> own;
   for (const CityGmlObject& object : building.objects)
     if (ids.contains(object.id) || !own.insert(object.id).second)
-      return Fault{"E207", fmt::format("the gml:id {} stands twice in the file; the building with "
-                                       "the first one is read",
-                                       in_quotes(object.id))};
+      return Fault{Code::E207,
+                   fmt::format("the gml:id {} stands twice in the file; the building with "
+                               "the first one is read",
+                               in_quotes(object.id))};
   ids.merge(own);
   return std::nullopt;
 }
@@ -166,12 +167,12 @@ Checked<Document> CityGmlReader::State::read_member(const XmlNode& member) {
     if (node != nullptr) result.issues.push_back(issue_at(*node, severity, id, std::move(what)));
   };
   tell(links.duplicate(), Severity::warning,
-       {"E207", "a gml:id stands twice in the building; nothing links to it"});
+       {Code::E207, "a gml:id stands twice in the building; nothing links to it"});
   tell(reader.open_ring(), Severity::warning,
-       {"E314",
+       {Code::E314,
         "a ring does not end where it began; it is read as if it did (val3dity 103 "
         "RING_NOT_CLOSED)"});
-  tell(building->implicit, Severity::note, {"E206", "implicit geometries are not read"});
+  tell(building->implicit, Severity::note, {Code::E206, "implicit geometries are not read"});
   return result;
 }
 

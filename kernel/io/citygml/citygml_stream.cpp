@@ -120,20 +120,21 @@ void CityGmlStream::State::on_doctype(void* data, const XML_Char* /*name*/,
                                       const XML_Char* /*system_id*/, const XML_Char* /*public_id*/,
                                       int /*has_subset*/) {
   static_cast<State*>(data)->refuse(
-      {"E114", "has a document type declaration (DOCTYPE); expected none: entities are not read"});
+      {Code::E114,
+       "has a document type declaration (DOCTYPE); expected none: entities are not read"});
 }
 
 void CityGmlStream::State::start(const Name& element, const XML_Char** attributes) {
   if (issue) return;
   if (++depth > kMaxDepth)
-    return refuse({"E503", fmt::format("elements are nested deeper than {}", kMaxDepth)});
+    return refuse({Code::E503, fmt::format("elements are nested deeper than {}", kMaxDepth)});
   if (depth == 1) return check_root(element);
   XmlNode* node = nullptr;
   if (!open.empty()) {
     node = &open.back()->children.emplace_back();
     if (XML_GetCurrentByteIndex(parser.get()) - root_start >
         static_cast<XML_Index>(Input::kMaxBytes))
-      return refuse({"E505", "a building of more than 4 GB"});
+      return refuse({Code::E505, "a building of more than 4 GB"});
   } else {
     const Vocabulary vocabulary = vocabulary_of(element.space);
     const bool is_bounds =
@@ -170,13 +171,13 @@ void CityGmlStream::State::end() {
 void CityGmlStream::State::check_root(const Name& element) {
   has_root = true;
   if (element.local != "CityModel" || element.space.find("citygml") == std::string_view::npos)
-    return refuse({"E107", fmt::format("is XML, but not CityGML: its root is {}; expected a "
-                                       "CityModel",
-                                       in_quotes(element.local))});
+    return refuse({Code::E107, fmt::format("is XML, but not CityGML: its root is {}; expected a "
+                                           "CityModel",
+                                           in_quotes(element.local))});
   if (vocabulary_of(element.space) != Vocabulary::core)
-    refuse({"E115", fmt::format("a CityModel of the namespace {}; expected CityGML 2.0 or 3.0 "
-                                "(citygml-tools brings older files up to date)",
-                                in_quotes(element.space))});
+    refuse({Code::E115, fmt::format("a CityModel of the namespace {}; expected CityGML 2.0 or 3.0 "
+                                    "(citygml-tools brings older files up to date)",
+                                    in_quotes(element.space))});
 }
 
 void CityGmlStream::State::note_envelope(const XmlNode& bounds) {
@@ -195,7 +196,7 @@ void CityGmlStream::State::feed() {
   } else if (status == XML_STATUS_ERROR) {
     refuse(fault_of(XML_GetErrorCode(parser.get()), is_last));
   } else if (!is_last && fed - XML_GetCurrentByteIndex(parser.get()) > kMaxToken) {
-    refuse({"E505", "a tag, comment or other markup of more than 16 MB"});
+    refuse({Code::E505, "a tag, comment or other markup of more than 16 MB"});
   }
 }
 
@@ -209,21 +210,21 @@ std::string_view CityGmlStream::State::ahead() const {
 }
 
 Fault CityGmlStream::State::fault_of(XML_Error error, bool is_last) const {
-  if (fed == 0) return {"E102", "the file is empty"};
+  if (fed == 0) return {Code::E102, "the file is empty"};
   const std::string_view rest = ahead();
   if (error == XML_ERROR_UNKNOWN_ENCODING || error == XML_ERROR_INCORRECT_ENCODING)
-    return {"E103",
+    return {Code::E103,
             "the encoding that the XML declaration names is not read; expected UTF-8, "
             "UTF-16 or ISO-8859-1"};
   if (!is_last && !has_root && !rest.starts_with('<'))
-    return {"E107", fmt::format("is not XML: it starts with {}; expected a CityGML file",
-                                in_quotes(rest.substr(0, 8)))};
+    return {Code::E107, fmt::format("is not XML: it starts with {}; expected a CityGML file",
+                                    in_quotes(rest.substr(0, 8)))};
   if (error == XML_ERROR_INVALID_TOKEN && find_non_utf8(rest.substr(0, 4)) == std::size_t{0})
-    return {"E103", "a byte that is not UTF-8"};
+    return {Code::E103, "a byte that is not UTF-8"};
   if (is_last && error == XML_ERROR_NO_ELEMENTS && !has_root)
-    return {"E102", "the file has no element"};
-  if (is_last) return {"E105", "the file ends inside the XML document"};
-  return {"E113", fmt::format("not valid XML: {}", XML_ErrorString(error))};
+    return {Code::E102, "the file has no element"};
+  if (is_last) return {Code::E105, "the file ends inside the XML document"};
+  return {Code::E113, fmt::format("not valid XML: {}", XML_ErrorString(error))};
 }
 
 void CityGmlStream::State::refuse(Fault fault) {

@@ -93,8 +93,8 @@ int GmlVertices::add(Vec3 point) {
   return found->second;
 }
 
-bool GmlReader::fail(const XmlNode& node, std::string code, std::string sentence) {
-  if (!fault_) fault_ = {{std::move(code), std::move(sentence)}, &node};
+bool GmlReader::fail(const XmlNode& node, Code code, std::string sentence) {
+  if (!fault_) fault_ = {{code, std::move(sentence)}, &node};
   return false;
 }
 
@@ -104,7 +104,7 @@ bool GmlReader::may_visit(const XmlNode& property, const XmlNode& value) {
   else if (depth_ > XmlLinks::kMaxDepth)
     fault_ = XmlLinks::too_deep(property);
   else if (followed_.contains(&value))
-    fail(property, "E212",
+    fail(property, Code::E212,
          fmt::format("the link {} leads in a circle", in_quotes(property.attribute("href"))));
   return !fault_;
 }
@@ -152,7 +152,7 @@ bool GmlReader::read_solids(const XmlNode& node, Context context, Bodies& bodies
   if (const auto own = as_whole(node.attribute("srsDimension")))
     context.dimension = static_cast<int>(*own);
   if (node.name != "Solid" && node.name != "MultiSolid" && node.name != "CompositeSolid")
-    return fail(node, "E204",
+    return fail(node, Code::E204,
                 fmt::format("a solid is {}; expected Solid, MultiSolid or "
                             "CompositeSolid",
                             in_quotes(node.name)));
@@ -176,7 +176,7 @@ bool GmlReader::read_surfaces(const XmlNode& node, Context context, Shell& shell
   if (is_polygon(node)) return read_polygon(node, context, shell);
   if (has_no_area(node)) return true;
   if (!holds_surfaces(node))
-    return fail(node, "E204",
+    return fail(node, Code::E204,
                 fmt::format("a surface is {}; expected a Polygon or a geometry of "
                             "polygons",
                             in_quotes(node.name)));
@@ -209,7 +209,7 @@ bool GmlReader::read_rings(const XmlNode& node, Context context,
       if (!read_ring(ring, context, (is_outer ? rings : holes).emplace_back())) return false;
   }
   if (rings.size() != 1)
-    return fail(node, "E201",
+    return fail(node, Code::E201,
                 fmt::format("a {} has {} exterior rings; expected one", node.name, rings.size()));
   std::ranges::move(holes, std::back_inserter(rings));
   return true;
@@ -217,13 +217,13 @@ bool GmlReader::read_rings(const XmlNode& node, Context context,
 
 bool GmlReader::read_ring(const XmlNode& ring, Context context, std::vector<int>& vertices) {
   if (ring.name != "LinearRing")
-    return fail(ring, "E204",
+    return fail(ring, Code::E204,
                 fmt::format("a ring is {}; expected a LinearRing", in_quotes(ring.name)));
   if (const auto own = as_whole(ring.attribute("srsDimension")))
     context.dimension = static_cast<int>(*own);
   for (const XmlNode& child : ring.children)
     if (!read_positions(child, context, vertices)) return false;
-  if (vertices.empty()) return fail(ring, "E210", "a ring has no coordinates");
+  if (vertices.empty()) return fail(ring, Code::E210, "a ring has no coordinates");
   if (vertices.size() > 1 && vertices.front() == vertices.back())
     vertices.pop_back();
   else if (open_ring_ == nullptr)
@@ -245,17 +245,17 @@ bool GmlReader::read_positions(const XmlNode& node, Context context, std::vector
     context.dimension = static_cast<int>(*own);
   if (context.dimension != 3)
     return fail(
-        node, "E210",
+        node, Code::E210,
         fmt::format("coordinates of {} dimensions (srsDimension); expected 3", context.dimension));
   std::vector<double> numbers;
   const bool are_numbers =
       for_each_word(node.text, has_commas ? ", \t\r\n" : " \t\r\n", [&](std::string_view word) {
         const auto number = as_double(word);
         if (!number)
-          return fail(node, "E210",
+          return fail(node, Code::E210,
                       fmt::format("the coordinate {} is not a number", in_quotes(word)));
         if (!(std::abs(*number) <= kMaxCoordinate_m))
-          return fail(node, "E506",
+          return fail(node, Code::E506,
                       fmt::format("a coordinate is {}; expected a finite number of "
                                   "at most 1e9",
                                   in_quotes(word)));
@@ -264,7 +264,7 @@ bool GmlReader::read_positions(const XmlNode& node, Context context, std::vector
       });
   if (!are_numbers) return false;
   if (numbers.empty() || numbers.size() % 3 != 0 || (node.name == "pos" && numbers.size() != 3))
-    return fail(node, "E210",
+    return fail(node, Code::E210,
                 fmt::format("a {} of {} numbers; expected {}", node.name, numbers.size(),
                             node.name == "pos" ? "three" : "three a point"));
   for (std::size_t i = 0; i < numbers.size(); i += 3)

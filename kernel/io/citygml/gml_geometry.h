@@ -97,7 +97,7 @@ class GmlReader {
   /// Calls `visit` with each value of `property`, up to the first fault; false if there is one.
   template <class Visit>
   bool for_each_value(const XmlNode& property, const Visit& visit);
-  bool fail(const XmlNode& node, std::string code, std::string sentence);
+  bool fail(const XmlNode& node, Code code, std::string sentence);
 
   XmlLinks& links_;
   GmlVertices& vertices_;

@@ -5,14 +5,14 @@
 namespace oriel::detail {
 
 NodeFault XmlLinks::too_deep(const XmlNode& property) {
-  return {{"E503", fmt::format("{} is nested deeper than {} properties, those behind links "
-                               "included",
-                               property.name, kMaxDepth)},
+  return {{Code::E503, fmt::format("{} is nested deeper than {} properties, those behind links "
+                                   "included",
+                                   property.name, kMaxDepth)},
           &property};
 }
 
 NodeFault XmlLinks::too_many(const XmlNode& property) {
-  return {{"E212", "links to links multiply what is in the building"}, &property};
+  return {{Code::E212, "links to links multiply what is in the building"}, &property};
 }
 
 XmlLinks::XmlLinks(const XmlNode& member) { add(member); }
@@ -34,13 +34,14 @@ std::vector<const XmlNode*> XmlLinks::values_of(const XmlNode& property) {
   if (!values.empty() || href.empty()) return values;
   const auto found = href.starts_with('#') ? target_of_.find(href.substr(1)) : target_of_.end();
   if (found == target_of_.end())
-    fault_ = {{"E211", fmt::format("the link {} of {} leads out of the building; expected '#' and "
-                                   "a gml:id in it",
-                                   in_quotes(href), property.name)},
-              &property};
+    fault_ = {
+        {Code::E211, fmt::format("the link {} of {} leads out of the building; expected '#' and "
+                                 "a gml:id in it",
+                                 in_quotes(href), property.name)},
+        &property};
   else if (found->second.is_twice)
-    fault_ = {{"E207", fmt::format("the link {} of {} names a gml:id that stands twice",
-                                   in_quotes(href), property.name)},
+    fault_ = {{Code::E207, fmt::format("the link {} of {} names a gml:id that stands twice",
+                                       in_quotes(href), property.name)},
               &property};
   else
     values.push_back(found->second.node);

@@ -62,7 +62,7 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   shell_ = 0;
   const auto boundaries = member(geometry, "boundaries");
   if (!boundaries) {
-    fail("E201", "the geometry has no 'boundaries'");
+    fail(Code::E201, "the geometry has no 'boundaries'");
   } else if (read_boundaries(*boundaries, kind) && place_vertices(building)) {
     building.is_solid = kind.is_solid;
     building.is_composite = kind.is_composite;
@@ -75,11 +75,12 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   if (const auto object = as_object(semantics))
     read_hints(*object, kind);
   else if (semantics && !semantics->is_null())
-    warnings_.push_back({"E208", fmt::format("'semantics' is {}; expected an object, so none are "
-                                             "read",
-                                             found_kind(semantics))});
+    warnings_.push_back(
+        {Code::E208, fmt::format("'semantics' is {}; expected an object, so none are "
+                                 "read",
+                                 found_kind(semantics))});
   if (!building.repeats.empty())
-    warnings_.push_back({"E312",
+    warnings_.push_back({Code::E312,
                          "a ring names a vertex twice in a row; it is read once (val3dity 102 "
                          "CONSECUTIVE_POINTS_SAME)"});
   if (auto degenerate = find_degenerate(polygons_, building.vertices))
@@ -88,8 +89,8 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   return std::nullopt;
 }
 
-bool GeometryReader::fail(std::string code, std::string sentence) {
-  fault_ = {std::move(code), std::move(sentence)};
+bool GeometryReader::fail(Code code, std::string sentence) {
+  fault_ = {code, std::move(sentence)};
   return false;
 }
 
@@ -140,22 +141,22 @@ bool GeometryReader::read_bodies(dom::element boundaries, GeometryKind kind) {
   } else {
     const auto bodies = as_array(boundaries);
     if (!bodies)
-      return fail("E202", fmt::format("'boundaries' is {}; expected an array of solids",
-                                      found_kind(boundaries)));
+      return fail(Code::E202, fmt::format("'boundaries' is {}; expected an array of solids",
+                                          found_kind(boundaries)));
     for (const dom::element body : *bodies) {
       if (!read_shells(body)) return false;
       ++body_;
     }
   }
   if (polygons_.empty())
-    return fail("E313", "the geometry has no polygon (val3dity 902 EMPTY_PRIMITIVE)");
+    return fail(Code::E313, "the geometry has no polygon (val3dity 902 EMPTY_PRIMITIVE)");
   return true;
 }
 
 bool GeometryReader::read_shells(dom::element body) {
   const auto shells = as_array(body);
   if (!shells)
-    return fail("E202",
+    return fail(Code::E202,
                 fmt::format("a solid is {}; expected an array of shells", found_kind(body)));
   shell_ = 0;
   for (const dom::element shell : *shells) {
@@ -169,14 +170,14 @@ bool GeometryReader::read_shells(dom::element body) {
 bool GeometryReader::read_surfaces(dom::element shell) {
   const auto surfaces = as_array(shell);
   if (!surfaces)
-    return fail("E202", fmt::format("a list of surfaces is {}; expected an array of surfaces",
-                                    found_kind(shell)));
+    return fail(Code::E202, fmt::format("a list of surfaces is {}; expected an array of surfaces",
+                                        found_kind(shell)));
   for (const dom::element surface : *surfaces) {
     const std::size_t number = polygons_.size();
     const auto rings = as_array(surface);
     if (!rings)
-      return fail("E202", fmt::format("polygon {} is {}; expected an array of rings", number,
-                                      found_kind(surface)));
+      return fail(Code::E202, fmt::format("polygon {} is {}; expected an array of rings", number,
+                                          found_kind(surface)));
     begin_polygon();
     for (const dom::element ring : *rings)
       if (!read_ring(ring)) return false;
@@ -189,16 +190,16 @@ bool GeometryReader::read_ring(dom::element element) {
   const std::size_t polygon = polygons_.size() - 1;
   const auto numbers = as_array(element);
   if (!numbers)
-    return fail("E202", fmt::format("a ring of polygon {} is {}; expected an array of vertex "
-                                    "numbers",
-                                    polygon, found_kind(element)));
+    return fail(Code::E202, fmt::format("a ring of polygon {} is {}; expected an array of vertex "
+                                        "numbers",
+                                        polygon, found_kind(element)));
   std::vector<int> ring;
   ring.reserve(numbers->size());
   for (const dom::element value : *numbers) {
     const auto number = as_integer(value);
     if (!number)
-      return fail("E202", fmt::format("a ring of polygon {} holds {}; expected a whole number",
-                                      polygon, found_kind(value)));
+      return fail(Code::E202, fmt::format("a ring of polygon {} holds {}; expected a whole number",
+                                          polygon, found_kind(value)));
     const int vertex = local_vertex(*number);
     if (vertex < 0) return false;
     ring.push_back(vertex);
@@ -217,15 +218,15 @@ inline int GeometryReader::local_vertex(std::int64_t number) {
 int GeometryReader::new_vertex(std::int64_t number) {
   const std::size_t polygon = polygons_.size() - 1;
   if (number < 0 || static_cast<std::size_t>(number) >= stored_.size()) {
-    fail("E203", fmt::format("polygon {} uses vertex {}; there are {} vertices, counted from 0",
-                             polygon, number, stored_.size()));
+    fail(Code::E203, fmt::format("polygon {} uses vertex {}; there are {} vertices, counted from 0",
+                                 polygon, number, stored_.size()));
     return -1;
   }
   const auto index = static_cast<std::size_t>(number);
   if (std::isnan(stored_[index].x)) {
-    fail("E202", fmt::format("polygon {} uses vertex {}, which is not an array of three whole "
-                             "numbers",
-                             polygon, index));
+    fail(Code::E202, fmt::format("polygon {} uses vertex {}, which is not an array of three whole "
+                                 "numbers",
+                                 polygon, index));
     return -1;
   }
   local_of_[index] = static_cast<int>(used_.size());
@@ -281,7 +282,7 @@ void GeometryReader::read_hints(dom::object semantics, GeometryKind kind) {
   const std::size_t count = kind.depth > 0 ? ends_[at(kind.depth) - 1].size() : polygons_.size();
   const bool fits = flatten(0, count, member(semantics, "values"), kind.depth, types);
   if (!surfaces || !fits)
-    warnings_.push_back({"E208",
+    warnings_.push_back({Code::E208,
                          "the semantics do not fit the geometry: 'values' must repeat the shape of "
                          "'boundaries' with numbers of 'surfaces' or null; what fits is read"});
 }

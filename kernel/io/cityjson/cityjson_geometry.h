@@ -65,7 +65,7 @@ class GeometryReader {
   void read_hints(dom::object semantics, GeometryKind kind);
   bool flatten(std::size_t begin, std::size_t end, const std::optional<dom::element>& values,
                int depth, const std::vector<std::string_view>& types);
-  bool fail(std::string code, std::string sentence);
+  bool fail(Code code, std::string sentence);
 
   const std::vector<Vec3>& stored_;
   const Transform& transform_;

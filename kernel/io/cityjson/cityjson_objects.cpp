@@ -21,21 +21,23 @@ std::optional<Fault> list_geometry(dom::element element, std::size_t number, Obj
   const auto object = as_object(element);
   const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
   if (!type)
-    return Fault{"E202", fmt::format("geometry {} is not an object with the text 'type'", number)};
+    return Fault{Code::E202,
+                 fmt::format("geometry {} is not an object with the text 'type'", number)};
   if (*type == "GeometryInstance") entry.has_instances = true;
   if (*type == "GeometryInstance" || *type == "MultiPoint" || *type == "MultiLineString")
     return std::nullopt;
   const auto kind = kind_of_geometry(*type);
   if (!kind)
-    return Fault{"E204", fmt::format("geometry {} has the unknown type {}; expected Solid, "
-                                     "MultiSolid, CompositeSolid, MultiSurface or CompositeSurface",
-                                     number, in_quotes(*type))};
+    return Fault{Code::E204,
+                 fmt::format("geometry {} has the unknown type {}; expected Solid, "
+                             "MultiSolid, CompositeSolid, MultiSurface or CompositeSurface",
+                             number, in_quotes(*type))};
   const auto lod = member(*object, "lod");
-  if (!lod) return Fault{"E201", fmt::format("geometry {} has no 'lod'", number)};
+  if (!lod) return Fault{Code::E201, fmt::format("geometry {} has no 'lod'", number)};
   if (!lod->is_string())
-    return Fault{"E202", fmt::format("the 'lod' of geometry {} is {}; expected a text such as "
-                                     "\"2.2\"",
-                                     number, found_kind(lod))};
+    return Fault{Code::E202, fmt::format("the 'lod' of geometry {} is {}; expected a text such as "
+                                         "\"2.2\"",
+                                         number, found_kind(lod))};
   entry.geometries.push_back({number, *object, *kind, *as_string(lod)});
   return std::nullopt;
 }
@@ -45,7 +47,8 @@ std::optional<Fault> list_geometries(dom::object object, ObjectEntry& entry) {
   if (!geometry) return std::nullopt;
   const auto elements = as_array(geometry);
   if (!elements)
-    return Fault{"E202", fmt::format("'geometry' is {}; expected an array", found_kind(geometry))};
+    return Fault{Code::E202,
+                 fmt::format("'geometry' is {}; expected an array", found_kind(geometry))};
   std::size_t number = 0;
   for (const dom::element element : *elements)
     if (auto fault = list_geometry(element, number++, entry)) return fault;
@@ -108,8 +111,8 @@ GeometryChoice choose(const ObjectEntry& entry, Family& family,
   if (family.lods.empty()) {
     if (std::exchange(family.was_reported, true)) return {};
     return {nullptr,
-            Fault{"E209", entry.has_instances ? "has template geometry only, which is not read"
-                                              : "has no geometry"},
+            Fault{Code::E209, entry.has_instances ? "has template geometry only, which is not read"
+                                                  : "has no geometry"},
             Severity::warning};
   }
   const bool is_there = !lod || family.lods.contains(*lod);
@@ -117,15 +120,16 @@ GeometryChoice choose(const ObjectEntry& entry, Family& family,
   if (const GeometryEntry* geometry = geometry_at(entry, chosen)) return {geometry, {}, {}};
   if (!is_there && !std::exchange(family.was_reported, true))
     return {nullptr,
-            Fault{"E205", fmt::format("has no geometry at lod {}; it has {}", chosen,
-                                      list_of(family.lods))},
+            Fault{Code::E205, fmt::format("has no geometry at lod {}; it has {}", chosen,
+                                          list_of(family.lods))},
             Severity::error};
   if (!is_there || entry.geometries.empty()) return {};
-  return {nullptr,
-          Fault{"E205", fmt::format("has no geometry at lod {}, which its family has; it is not "
+  return {
+      nullptr,
+      Fault{Code::E205, fmt::format("has no geometry at lod {}, which its family has; it is not "
                                     "labelled",
                                     chosen)},
-          Severity::note};
+      Severity::note};
 }
 
 }  // namespace
@@ -139,13 +143,14 @@ std::vector<ObjectEntry> list_objects(dom::object objects) {
     const auto object = as_object(field.value);
     const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
     if (!object)
-      entry.fault = {"E202", fmt::format("is {}; expected a CityObject", found_kind(field.value))};
+      entry.fault = {Code::E202,
+                     fmt::format("is {}; expected a CityObject", found_kind(field.value))};
     else if (!type)
-      entry.fault = {"E201", "has no 'type', or one that is no text"};
+      entry.fault = {Code::E201, "has no 'type', or one that is no text"};
     else if (*type != "Building" && *type != "BuildingPart")
       continue;
     else if (!ids.insert(field.key).second)
-      entry.fault = {"E207", "the id stands twice in 'CityObjects'; the first one is read"};
+      entry.fault = {Code::E207, "the id stands twice in 'CityObjects'; the first one is read"};
     else
       entry.fault = list_geometries(*object, entry);
     if (object) list_relatives(*object, entry);

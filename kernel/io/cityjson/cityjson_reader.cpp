@@ -92,14 +92,15 @@ std::optional<Vec3> as_vector(const std::optional<dom::element>& element) {
 std::optional<Fault> check_type(dom::object root, std::string_view expected) {
   const auto type = member(root, "type");
   if (as_string(type) != expected)
-    return Fault{"E107", fmt::format("is JSON, but not {}: its 'type' is {}", expected,
-                                     type && type->is_string() ? in_quotes(*as_string(type))
-                                                               : std::string(found_kind(type)))};
+    return Fault{Code::E107,
+                 fmt::format("is JSON, but not {}: its 'type' is {}", expected,
+                             type && type->is_string() ? in_quotes(*as_string(type))
+                                                       : std::string(found_kind(type)))};
   if (expected != "CityJSON") return std::nullopt;
   const auto version = member(root, "version");
   const std::string_view text = as_string(version).value_or(std::string_view());
   if (text == "1.1" || text == "2.0") return std::nullopt;
-  return Fault{"E108",
+  return Fault{Code::E108,
                fmt::format("CityJSON version {}; expected \"1.1\" or \"2.0\" (cjio upgrade "
                            "brings older files up to date)",
                            text.empty() ? std::string(found_kind(version)) : in_quotes(text))};
@@ -107,14 +108,14 @@ std::optional<Fault> check_type(dom::object root, std::string_view expected) {
 
 std::optional<Fault> read_transform(dom::object root, Transform& transform) {
   const auto element = member(root, "transform");
-  if (!element) return Fault{"E201", "has no 'transform', which CityJSON 1.1 and 2.0 require"};
+  if (!element) return Fault{Code::E201, "has no 'transform', which CityJSON 1.1 and 2.0 require"};
   const auto object = as_object(element);
   const auto scale = object ? as_vector(member(*object, "scale")) : std::nullopt;
   const auto translate = object ? as_vector(member(*object, "translate")) : std::nullopt;
   if (!scale || !translate)
-    return Fault{"E202", "'transform' must hold 'scale' and 'translate', three numbers each"};
+    return Fault{Code::E202, "'transform' must hold 'scale' and 'translate', three numbers each"};
   if (!(scale->x > 0 && scale->y > 0 && scale->z > 0))
-    return Fault{"E202", "'scale' of 'transform' must be three numbers above 0"};
+    return Fault{Code::E202, "'scale' of 'transform' must be three numbers above 0"};
   transform = {*scale, *translate};
   return std::nullopt;
 }
@@ -160,12 +161,13 @@ std::optional<Fault> read_model(dom::object root, const PlainArrays* plain, Mode
   const auto objects = member(root, "CityObjects");
   const auto vertices = member(root, "vertices");
   for (const auto& [name, element] : {std::pair("CityObjects", objects), {"vertices", vertices}})
-    if (!element) return Fault{"E201", fmt::format("has no '{}'", name)};
+    if (!element) return Fault{Code::E201, fmt::format("has no '{}'", name)};
   if (!objects->is_object())
-    return Fault{"E202",
+    return Fault{Code::E202,
                  fmt::format("'CityObjects' is {}; expected an object", found_kind(objects))};
   if (!vertices->is_array())
-    return Fault{"E202", fmt::format("'vertices' is {}; expected an array", found_kind(vertices))};
+    return Fault{Code::E202,
+                 fmt::format("'vertices' is {}; expected an array", found_kind(vertices))};
   model.objects = *as_object(objects);
   if (plain == nullptr) model.own = read_vertices(*as_array(vertices));
   model.vertices = plain != nullptr ? &plain->vertices(number_of_array(*vertices)) : &model.own;
@@ -225,7 +227,7 @@ std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const
   if (error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS) return std::nullopt;
   if (auto issue = find_json_error(name, text)) return issue;
   return error_in(name,
-                  {"E104", fmt::format("not valid JSON: {}", simdjson::error_message(error))});
+                  {Code::E104, fmt::format("not valid JSON: {}", simdjson::error_message(error))});
 }
 
 void CityJsonReader::State::read_buildings(const Model& model, const std::string& text,
@@ -242,7 +244,7 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
       issues.push_back(finding_of(name, severity, entry.id, fault));
     };
     if (entry.has_instances)
-      report(Severity::note, {"E206", "geometry templates (GeometryInstance) are not read"});
+      report(Severity::note, {Code::E206, "geometry templates (GeometryInstance) are not read"});
     if (choices[i].finding) report(choices[i].severity, *choices[i].finding);
     const GeometryEntry* chosen = choices[i].geometry;
     if (chosen == nullptr) continue;
@@ -259,7 +261,7 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
     source.places.push_back({entry.number, chosen->number});
   }
   if (entries.empty() && name.line == 0) {
-    issues.push_back(error_in(name, {"E209", "has no Building and no BuildingPart"}));
+    issues.push_back(error_in(name, {Code::E209, "has no Building and no BuildingPart"}));
     issues.back().severity = Severity::warning;
   }
 }
@@ -271,22 +273,22 @@ std::optional<Fault> CityJsonReader::State::check_header(const std::string& text
       stream_header_facts(std::string_view(text).substr(text.find_first_not_of(" \t\r\n")));
   is_astray = facts != of.facts;
   if (!is_astray) return std::nullopt;
-  return Fault{"E116",
+  return Fault{Code::E116,
                fmt::format("is a header {}, but that of the stream is {}", facts, of.facts)};
 }
 
 std::optional<Fault> CityJsonReader::State::check_feature(dom::object root,
                                                           const SequenceHeader& of) {
-  if (is_astray) return Fault{"E116", "stands behind a header that is not that of the stream"};
+  if (is_astray) return Fault{Code::E116, "stands behind a header that is not that of the stream"};
   const auto version = member(root, "version");
   if (version && as_string(version) != of.version)
-    return Fault{"E108", fmt::format("its 'version' is {}; the header says \"{}\"",
-                                     version->is_string() ? in_quotes(*as_string(version))
-                                                          : std::string(found_kind(version)),
-                                     of.version)};
+    return Fault{Code::E108, fmt::format("its 'version' is {}; the header says \"{}\"",
+                                         version->is_string() ? in_quotes(*as_string(version))
+                                                              : std::string(found_kind(version)),
+                                         of.version)};
   const auto id = as_string(member(root, "id"));
   if (id && !ids.insert(*id))
-    return Fault{"E207", "an earlier line of the stream has this id; that one is read"};
+    return Fault{Code::E207, "an earlier line of the stream has this id; that one is read"};
   return std::nullopt;
 }
 

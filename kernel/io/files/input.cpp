@@ -23,12 +23,13 @@ InputError failure(const std::string& path, Fault fault) {
 }
 
 InputError unreadable(const std::string& path, int reason) {
-  return failure(path, {"E101", "cannot be read: " + std::generic_category().message(reason)});
+  return failure(path, {Code::E101, "cannot be read: " + std::generic_category().message(reason)});
 }
 
 void check_size(const std::string& path, std::size_t size) {
   if (size <= Input::kMaxBytes) return;
-  throw failure(path, {"E505", "a record of more than 4 GB; split the file, or use CityJSONSeq"});
+  throw failure(path,
+                {Code::E505, "a record of more than 4 GB; split the file, or use CityJSONSeq"});
 }
 
 }  // namespace

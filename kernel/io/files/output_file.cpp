@@ -124,7 +124,7 @@ OutputFile::~OutputFile() {
 void OutputFile::fail(int reason) {
   const detail::TextName name{path_ == "-" ? "stdout" : path_, 0};
   throw OutputError(detail::error_in(
-      name, {"E601", "cannot be written: " + std::generic_category().message(reason)}));
+      name, {Code::E601, "cannot be written: " + std::generic_category().message(reason)}));
 }
 
 void OutputFile::append(std::string_view bytes) {

@@ -36,7 +36,7 @@ Fault no_object(std::string_view text) {
   const std::string_view kind = known_kind(text);
   const std::string found = kind.empty() ? "starts with " + in_quotes(text.substr(0, 8))
                                          : "looks like " + std::string(kind);
-  return {"E107", found + "; expected a CityJSON object, which starts with '{'"};
+  return {Code::E107, found + "; expected a CityJSON object, which starts with '{'"};
 }
 
 /// The offset of the first bracket that opens a level below kMaxDepth.
@@ -103,9 +103,10 @@ std::string reason_of(std::string message) {
 }
 
 Issue number_error(const TextName& name, std::string_view text, const std::string& number) {
-  return error_at(name, text, text.find(number),
-                  {"E504", fmt::format("the number {} is out of range; numbers must fit 64 bits",
-                                       in_quotes(number))});
+  return error_at(
+      name, text, text.find(number),
+      {Code::E504,
+       fmt::format("the number {} is out of range; numbers must fit 64 bits", in_quotes(number))});
 }
 
 /// True if `tail`, which starts with a byte that is not UTF-8, is a character cut off by the end.
@@ -124,22 +125,23 @@ std::optional<Issue> find_syntax_error(const TextName& name, std::string_view te
   if (!listener.position) return std::nullopt;
   const std::size_t end = text.find_last_not_of(kSpace) + 1;
   if (*listener.position >= end)
-    return error_at(name, text, end,
-                    {"E105", "the text ends in the middle of the JSON object: it is truncated"});
+    return error_at(
+        name, text, end,
+        {Code::E105, "the text ends in the middle of the JSON object: it is truncated"});
   return error_at(name, text, *listener.position,
-                  {"E104", "not valid JSON: " + reason_of(listener.reason)});
+                  {Code::E104, "not valid JSON: " + reason_of(listener.reason)});
 }
 
 /// What is wrong with a text that should be JSON of whatever kind.
 std::optional<Issue> find_text_error(const TextName& name, std::string_view text) {
   if (const auto deep = find_too_deep(text))
     return error_at(name, text, *deep,
-                    {"E503", fmt::format("nested deeper than {} levels", kMaxDepth)});
+                    {Code::E503, fmt::format("nested deeper than {} levels", kMaxDepth)});
   const auto bad = find_non_utf8(text);
   if (bad && !is_cut_character(text.substr(*bad)))
     return error_at(name, text, *bad,
-                    {"E103", fmt::format("byte 0x{:02X} is not UTF-8; JSON must be UTF-8",
-                                         static_cast<unsigned char>(text[*bad]))});
+                    {Code::E103, fmt::format("byte 0x{:02X} is not UTF-8; JSON must be UTF-8",
+                                             static_cast<unsigned char>(text[*bad]))});
   return find_syntax_error(name, text);
 }
 
@@ -148,7 +150,7 @@ std::optional<Issue> find_text_error(const TextName& name, std::string_view text
 std::optional<Issue> find_json_error(const TextName& name, std::string_view text) {
   const std::size_t start = text.find_first_not_of(kSpace);
   if (start == std::string_view::npos)
-    return error_in(name, {"E102", "the file is empty; expected a CityJSON object"});
+    return error_in(name, {Code::E102, "the file is empty; expected a CityJSON object"});
   if (text[start] != '{') return error_at(name, text, start, no_object(text.substr(start)));
   return find_text_error(name, text);
 }
@@ -157,7 +159,7 @@ std::optional<nlohmann::json> parse_slowly(const TextName& name, std::string_vie
                                            std::vector<Issue>& issues) {
   std::optional<Issue> issue;
   if (text.find_first_not_of(kSpace) == std::string_view::npos)
-    issue = error_in(name, {"E102", "the file is empty; expected JSON"});
+    issue = error_in(name, {Code::E102, "the file is empty; expected JSON"});
   else
     issue = find_text_error(name, text);
   if (!issue) return nlohmann::json::parse(text);

@@ -50,9 +50,9 @@ std::optional<Fault> find_degenerate(const std::vector<Polygon>& polygons,
     count += static_cast<int>(bad);
   }
   if (count == 0) return std::nullopt;
-  return Fault{"E311", fmt::format("{} rings have fewer than 3 distinct points, the first in "
-                                   "polygon {} (val3dity 101 TOO_FEW_POINTS)",
-                                   count, first)};
+  return Fault{Code::E311, fmt::format("{} rings have fewer than 3 distinct points, the first in "
+                                       "polygon {} (val3dity 101 TOO_FEW_POINTS)",
+                                       count, first)};
 }
 
 std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points) {
@@ -61,15 +61,16 @@ std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points) {
   for (const Vec3 p : points) {
     if (is_beyond(p.x) || is_beyond(p.y) || is_beyond(p.z)) {
       const double x = is_beyond(p.x) ? p.x : is_beyond(p.y) ? p.y : p.z;
-      return Fault{"E506", fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
+      return Fault{Code::E506,
+                   fmt::format("a vertex has the coordinate {} m; the limit is ±1e9 m", x)};
     }
     box.grow(p);
   }
   const Vec3 size = box.max - box.min;
   const double extent = std::max({size.x, size.y, size.z});
   if (extent <= kMaxExtent_m) return std::nullopt;
-  return Fault{"E501", fmt::format("the building is {:.0f} m across; the limit is {:.0f} m", extent,
-                                   kMaxExtent_m)};
+  return Fault{Code::E501, fmt::format("the building is {:.0f} m across; the limit is {:.0f} m",
+                                       extent, kMaxExtent_m)};
 }
 
 }  // namespace oriel::detail

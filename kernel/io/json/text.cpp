@@ -76,7 +76,7 @@ Issue error_at(const TextName& name, std::string_view text, std::size_t offset, 
 
 Issue error_in(const TextName& name, Fault fault) {
   return {Severity::error,
-          std::move(fault.code),
+          fault.code,
           std::move(fault.sentence),
           {name.file, name.line, 0, "", ""},
           ""};

@@ -17,7 +17,7 @@ struct TextName {
 
 /// A finding without its place: what a reader of a part says to the one that knows where it is.
 struct Fault {
-  std::string code;
+  Code code = Code::none;
   std::string sentence;
 };
 

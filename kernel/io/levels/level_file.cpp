@@ -155,7 +155,7 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
   } catch (const std::exception& fault) {
     std::string sentence = "is no level of a series: ";
     sentence += fault.what();
-    Issue issue = detail::error_in({file, 0}, {"E120", std::move(sentence)});
+    Issue issue = detail::error_in({file, 0}, {Code::E120, std::move(sentence)});
     issue.place.building = building;
     out.issues.push_back(std::move(issue));
     return out;

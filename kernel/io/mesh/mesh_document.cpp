@@ -53,7 +53,7 @@ Checked<Document> document_of(RawMesh mesh, const TextName& name, Format format)
   Checked<Document> result;
   if (mesh.faces.empty()) {
     result.issues.push_back(
-        error_in(name, {"E313", "the file has no face (val3dity 902 EMPTY_PRIMITIVE)"}));
+        error_in(name, {Code::E313, "the file has no face (val3dity 902 EMPTY_PRIMITIVE)"}));
     return result;
   }
   result.value.emplace();

@@ -62,9 +62,9 @@ class ObjReader {
     if (keyword == "g") return set_name(group_);
     if (keyword == "usemtl") return set_name(material_);
     if (std::ranges::find(kIgnored, keyword) == kIgnored.end())
-      report(words_.offset(), {"E109", fmt::format("unknown statement {}; expected v, f, g, o, "
-                                                   "usemtl or another statement of an OBJ file",
-                                                   in_quotes(keyword))});
+      report(words_.offset(), {Code::E109, fmt::format("unknown statement {}; expected v, f, g, o, "
+                                                       "usemtl or another statement of an OBJ file",
+                                                       in_quotes(keyword))});
   }
 
   void set_name(std::string& name) {
@@ -81,17 +81,17 @@ class ObjReader {
       const auto number = as_double(*word);
       if (!number)
         return report(words_.offset(),
-                      {"E109", fmt::format("{} is not a number", in_quotes(*word))});
+                      {Code::E109, fmt::format("{} is not a number", in_quotes(*word))});
       if (!std::isfinite(*number))
         return report(words_.offset(),
-                      {"E506", fmt::format("the coordinate is {}; expected a finite number",
-                                           in_quotes(*word))});
+                      {Code::E506, fmt::format("the coordinate is {}; expected a finite number",
+                                               in_quotes(*word))});
       numbers.push_back(*number);
     }
     const std::size_t count = numbers.size();
     if (count != 3 && count != 4 && count != 6)
       return report(words_.offset(),
-                    {"E109", fmt::format("a vertex of {} numbers; expected x y z", count)});
+                    {Code::E109, fmt::format("a vertex of {} numbers; expected x y z", count)});
     mesh_.points.push_back({numbers[0], numbers[1], numbers[2]});
   }
 
@@ -103,16 +103,17 @@ class ObjReader {
       face.push_back(*number);
     }
     if (face.size() < 3)
-      return report(words_.offset(),
-                    {"E311", fmt::format("a face of {} vertices; expected 3 or more (val3dity 101 "
-                                         "TOO_FEW_POINTS)",
-                                         face.size())});
+      return report(
+          words_.offset(),
+          {Code::E311, fmt::format("a face of {} vertices; expected 3 or more (val3dity 101 "
+                                   "TOO_FEW_POINTS)",
+                                   face.size())});
     mesh_.faces.push_back(std::move(face));
     mesh_.hints.push_back(hint_);
   }
 
   static Fault out_of_range(long long number) {
-    return {"E203", fmt::format("there is no vertex {}", number)};
+    return {Code::E203, fmt::format("there is no vertex {}", number)};
   }
 
   /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`; nothing after a finding.
@@ -130,9 +131,9 @@ class ObjReader {
     }
     if (!is_good) {
       report(offset,
-             {"E109", fmt::format("{} is not a corner of a face; expected v, v/vt, v//vn or "
-                                  "v/vt/vn",
-                                  in_quotes(word))});
+             {Code::E109, fmt::format("{} is not a corner of a face; expected v, v/vt, v//vn or "
+                                      "v/vt/vn",
+                                      in_quotes(word))});
       return std::nullopt;
     }
     const auto count = static_cast<long long>(mesh_.points.size());

@@ -55,8 +55,8 @@ class PlyReader {
  private:
   Checked<Document> refuse() { return {std::nullopt, {std::move(*issue_)}}; }
 
-  bool fail(std::string sentence, std::string code = "E110") {
-    issue_ = error_at(name_, text_, words_.offset(), {std::move(code), std::move(sentence)});
+  bool fail(std::string sentence, Code code = Code::E110) {
+    issue_ = error_at(name_, text_, words_.offset(), {code, std::move(sentence)});
     return false;
   }
 
@@ -69,9 +69,9 @@ class PlyReader {
   }
 
   bool read_header() {
-    if (!words_.next_line()) return fail("the file is empty; expected ply", "E102");
+    if (!words_.next_line()) return fail("the file is empty; expected ply", Code::E102);
     if (const std::string_view first = word(); first != "ply")
-      return fail(fmt::format("starts with {}; expected ply", in_quotes(first)), "E107");
+      return fail(fmt::format("starts with {}; expected ply", in_quotes(first)), Code::E107);
     if (!ends_line("ply") || !read_format()) return false;
     while (words_.next_line()) {
       const std::string_view keyword = word();
@@ -243,7 +243,8 @@ class PlyReader {
 
   bool check_finite(double coordinate) {
     return std::isfinite(coordinate) ||
-           fail(fmt::format("the coordinate is {}; expected a finite number", coordinate), "E506");
+           fail(fmt::format("the coordinate is {}; expected a finite number", coordinate),
+                Code::E506);
   }
 
   std::optional<long long> read_count() {
@@ -268,7 +269,7 @@ class PlyReader {
       return fail(fmt::format("a face of {} vertices; expected 3 or more (val3dity 101 "
                               "TOO_FEW_POINTS)",
                               *count),
-                  "E311");
+                  Code::E311);
     std::vector<int> face;
     for (long long i = 0; i < *count; ++i) {
       const auto number = as_whole(word());
@@ -276,7 +277,7 @@ class PlyReader {
       if (*number < 0 || *number >= vertex_count_)
         return fail(fmt::format("there is no vertex {}; there are {}, counted from 0", *number,
                                 vertex_count_),
-                    "E203");
+                    Code::E203);
       face.push_back(static_cast<int>(*number));
     }
     mesh_.faces.push_back(std::move(face));

@@ -38,7 +38,7 @@ RecordFormat format_to_use(const std::string& path) {
   const auto format = record_format_of(path);
   if (format) return *format;
   throw InputError(detail::error_in(
-      {path, 0}, {"E106",
+      {path, 0}, {Code::E106,
                   "the format of the feature records is unknown; expected a name in .csv, .json or "
                   ".jsonl"}));
 }

@@ -173,21 +173,21 @@ bool visit_csv_records(std::string_view text, const TextName& name, const Record
   std::optional<std::string> fault;
   if (!reader.next_line(line, fault)) {
     issues.push_back(
-        error_in(name, {"E102", "the file is empty; expected a header line of field names"}));
+        error_in(name, {Code::E102, "the file is empty; expected a header line of field names"}));
     return false;
   }
   for (const std::string_view needed : {"building", "id"})
     if (!fault && std::ranges::find(line, needed) == line.end())
       fault = fmt::format("the header names no field '{}'", needed);
   if (fault) {
-    issues.push_back(error_at(name, text, 0, {"E111", *fault}));
+    issues.push_back(error_at(name, text, 0, {Code::E111, *fault}));
     return false;
   }
   const std::vector<std::size_t> fields = fields_of(line);
   RecordCells record(record_fields().size());
   while (!fault && reader.next_line(line, fault)) {
     const auto wrong = fault ? fault : take_line(fields, line, record, take);
-    if (wrong) issues.push_back(error_at(name, text, reader.start(), {"E111", *wrong}));
+    if (wrong) issues.push_back(error_at(name, text, reader.start(), {Code::E111, *wrong}));
   }
   return true;
 }

@@ -59,7 +59,7 @@ std::optional<std::string> take_object(const nlohmann::json& object, const Recor
 void take_record(const nlohmann::json& object, const TextName& name, const std::string& prefix,
                  const RecordTaker& take, std::vector<Issue>& issues) {
   if (const auto fault = take_object(object, take))
-    issues.push_back(error_in(name, {"E111", prefix + *fault}));
+    issues.push_back(error_in(name, {Code::E111, prefix + *fault}));
 }
 
 }  // namespace
@@ -108,8 +108,8 @@ bool visit_json_records(std::string_view text, const TextName& name, bool is_lin
     if (!root) return false;
     if (!root->is_array()) {
       issues.push_back(
-          error_in(name, {"E111", fmt::format("the file holds {}; expected an array of records",
-                                              root->type_name())}));
+          error_in(name, {Code::E111, fmt::format("the file holds {}; expected an array of records",
+                                                  root->type_name())}));
       return false;
     }
     for (std::size_t i = 0; i < root->size(); ++i)

@@ -144,7 +144,7 @@ void TableBuilder::finish() {
   if (!rows_.empty()) result_->value->push_back({make_table(), make_graph()});
   if (dangling_ > 0)
     result_->issues.push_back(building_issue(
-        Severity::warning, "E121", building_,
+        Severity::warning, Code::E121, building_,
         fmt::format("{} relations lead to features that are not in the file, such as '{}'; labels "
                     "may differ from those of the whole building",
                     dangling_, first_dangling_)));

@@ -175,7 +175,7 @@ SeriesOperation operation_in(std::string_view line, const detail::TextName& name
   } catch (const std::exception& fault) {
     std::string sentence = "is no operation of a series: ";
     sentence += fault.what();
-    throw InputError(detail::error_in(name, {"E119", std::move(sentence)}));
+    throw InputError(detail::error_in(name, {Code::E119, std::move(sentence)}));
   }
 }
 

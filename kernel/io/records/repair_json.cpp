@@ -54,7 +54,7 @@ std::string repair_json(const Building& building, bool is_solid, const RepairRep
   });
   append_objects(out, "issues", issues, [&](const Issue& issue) {
     append_field(out, "severity", to_string(issue.severity));
-    append_field(out, "code", issue.code);
+    append_field(out, "code", to_string(issue.code));
     append_field(out, "sentence", issue.sentence);
   });
   return out + "}\n";

@@ -223,7 +223,7 @@ void append_stats(std::string& out, const SegmentationStats& stats) {
 void append_issue(std::string& out, const Issue& issue) {
   out += '{';
   append_field(out, "severity", std::string_view(to_string(issue.severity)));
-  append_field(out, "code", std::string_view(issue.code));
+  append_field(out, "code", to_string(issue.code));
   append_field(out, "sentence", std::string_view(issue.sentence));
   append_field(out, "feature", std::string_view(issue.place.feature));
   out += '}';

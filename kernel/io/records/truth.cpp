@@ -117,7 +117,7 @@ Checked<Truth> truth_of(const detail::TextName& name, std::string_view text) {
   if (!root) return result;
   Truth truth;
   if (const auto fault = read_root(*root, truth))
-    result.issues.push_back(detail::error_in(name, {"E112", *fault}));
+    result.issues.push_back(detail::error_in(name, {Code::E112, *fault}));
   else
     result.value = std::move(truth);
   return result;
@@ -152,7 +152,7 @@ Checked<std::vector<Truth>> read_truths(const std::string& path) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (!result.value && result.issues.empty())
-    result.issues.push_back(detail::error_in({path, 0}, {"E102", "the file is empty"}));
+    result.issues.push_back(detail::error_in({path, 0}, {Code::E102, "the file is empty"}));
   return result;
 }
 

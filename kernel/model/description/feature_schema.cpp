@@ -41,7 +41,7 @@ const std::vector<Attribute>& feature_schema() {
       {"silhouette", square_metre, "largest silhouette, a times b", "5.1"},
       // Its size as seen from its host.
       {"width", metre, "horizontal extent along the host's facet", "rules.md"},
-      {"height_of", metre, "vertical extent", "rules.md"},
+      {"height", metre, "vertical extent", "rules.md"},
       {"depth", metre, "extent along the normal of the host's facet", "rules.md"},
       {"recess", metre,
        "how far behind the plane of its cap half of its outline shows the feature's surface; "
@@ -58,7 +58,7 @@ const std::vector<Attribute>& feature_schema() {
        "5.1"},
       {"growth_side", metre, "how far it sticks out sideways along the host's facet", "5.1"},
       // Its place.
-      {"height", metre, "of its bottom over the ground at its foot", "5.2"},
+      {"base_height", metre, "of its bottom over the ground at its foot", "5.2"},
       {"top", metre, "of its top over the ground at its foot", "5.2"},
       {"ground_source", text,
        "what the ground at its foot is: facet (a ground facet beneath), wall (the foot of its "

@@ -40,7 +40,7 @@ const std::vector<Attribute>& surface_schema() {
       {"a", metre, "longer side of the smallest rectangle around it in its plane", "rules.md"},
       {"b", metre, "shorter side of that rectangle", "rules.md"},
       // Its place.
-      {"height", metre, "of its lowest point over the building's lowest point", "rules.md"},
+      {"base_height", metre, "of its lowest point over the building's lowest point", "rules.md"},
       {"top", metre, "of its highest point over the building's lowest point", "rules.md"},
       {"below_ridge", metre, "how far its highest point stays under the building's highest point",
        "rules.md"},

@@ -86,7 +86,7 @@ bool orient_alike(Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups,
                   const std::string& building, std::vector<Issue>& issues) {
   const auto turned = polygons_to_turn(soup, mesh, groups);
   if (!turned) {
-    issues.push_back(building_issue(Severity::error, "E307", building,
+    issues.push_back(building_issue(Severity::error, Code::E307, building,
                                     "the polygons cannot be oriented alike (val3dity 307)"));
     return false;
   }
@@ -97,7 +97,7 @@ bool orient_alike(Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups,
         std::reverse(ring.begin() + 1, ring.end());
       }
   issues.push_back(building_issue(
-      Severity::warning, "E308", building,
+      Severity::warning, Code::E308, building,
       fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
                   std::ranges::count(*turned, 1))));
   return true;
@@ -115,7 +115,7 @@ void pair_crowded(const Soup& soup, const EdgeGroups& groups, const std::vector<
   if (unpaired.empty()) return;
   const std::size_t h = at(unpaired[0]);
   issues.push_back(building_issue(
-      Severity::error, "E303", building,
+      Severity::error, Code::E303, building,
       fmt::format("{} polygons meet at the edge {} – {} and do not pair up (val3dity 303)",
                   unpaired.size(), place_text(soup, soup.corners[h]),
                   place_text(soup, soup.corners[at(mesh.next[h])]))));
@@ -197,7 +197,7 @@ void refuse_double_edges(const Soup& soup, const ShellMesh& mesh, const std::str
       continue;
     }
     issues.push_back(building_issue(
-        Severity::error, "E303", building,
+        Severity::error, Code::E303, building,
         fmt::format("the ring that starts at {} does not fit its neighbours (val3dity 303)",
                     place_text(soup, soup.ring(r).front()))));
   }

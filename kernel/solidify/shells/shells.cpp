@@ -106,7 +106,7 @@ void arrange_shells(Solid& solid, const std::vector<int>& component,
     const double volume = volume_of(solid, shell);
     if (volume == 0) {
       issues.push_back(
-          building_issue(Severity::error, "E310", building, "a shell encloses no volume"));
+          building_issue(Severity::error, Code::E310, building, "a shell encloses no volume"));
       return;
     }
     // Without a word from the input a lone component is an outer shell; of several, those turned
@@ -123,7 +123,7 @@ void arrange_shells(Solid& solid, const std::vector<int>& component,
   }
   if (turned > 0)
     issues.push_back(
-        building_issue(Severity::warning, "E308", building,
+        building_issue(Severity::warning, Code::E308, building,
                        fmt::format("{} shells were turned inside out (val3dity 405)", turned)));
 
   for (int c = 0; c < std::ssize(shells); ++c) {
@@ -134,7 +134,7 @@ void arrange_shells(Solid& solid, const std::vector<int>& component,
     const auto around = std::ranges::find_if(
         outers, [&](int o) { return winding_number(solid, shells[at(o)], eye) > 0.5; });
     if (around == outers.end()) {
-      issues.push_back(building_issue(Severity::error, "E305", building,
+      issues.push_back(building_issue(Severity::error, Code::E305, building,
                                       "an interior shell lies outside its solid (val3dity 403)"));
       return;
     }

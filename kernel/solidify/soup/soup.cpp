@@ -275,7 +275,7 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
   const int dropped = append_polygons(building, point_of, soup);
   if (dropped > 0)
     issues.push_back(building_issue(
-        Severity::note, "E304", building.id,
+        Severity::note, Code::E304, building.id,
         fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
                     tolerances.weld_m)));
   const Numbers order = canonical_order(soup);

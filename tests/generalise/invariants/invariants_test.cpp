@@ -19,7 +19,7 @@ namespace {
 std::string broken(const Solid& before, const Solid& after, const Invariants& invariants) {
   const auto found =
       violation(measures_of(before, invariants), measures_of(after, invariants), invariants);
-  return found ? found->code + " " + found->sentence : "";
+  return found ? to_string(found->code) + " " + found->sentence : "";
 }
 
 Invariants limited(Limits limits) {

@@ -218,8 +218,8 @@ TEST_SUITE("generalise") {
           gone += rest.refused.empty() ? 1 : 0;
           // A shaft under its head is a part of the building, and the air beside a roof is no hole.
           if (rest.refused.empty()) continue;
-          const std::string& code = rest.refused[0].code;
-          refused += code != "G411" && code != "G412" ? 1 : 0;
+          const Code code = rest.refused[0].code;
+          refused += code != Code::G411 && code != Code::G412 ? 1 : 0;
         }
       }
     CHECK(open == 12);
@@ -273,12 +273,12 @@ TEST_SUITE("generalise") {
     SolidValidator validator = any_solid;
     validator.violation_of = [](const Solid& solid) -> std::optional<Violation> {
       if (solid.facets.size() > 6) return std::nullopt;
-      return Violation{"G405", "the block would go"};
+      return Violation{Code::G405, "the block would go"};
     };
     const Remainder rest =
         remove_cells(s.solid, s.segmentation, {s.solid, {}, {{id, "as a test"}}}, validator);
     REQUIRE(rest.refused.size() == 1);
-    CHECK(rest.refused[0].code == "G405");
+    CHECK(rest.refused[0].code == Code::G405);
     CHECK(rest.refused[0].reason == "the block would go");
     CHECK(rest.removed.empty());
   }
@@ -328,7 +328,7 @@ TEST_SUITE("generalise") {
       REQUIRE(done.value);
       if (done.value->refused.empty()) continue;
       const CarriedOut::Refused& refused = done.value->refused[0];
-      CHECK(refused.code == "G411");
+      CHECK(refused.code == Code::G411);
       CHECK(done.issues[0].severity == Severity::note);
       CHECK(is_part(refused, plan, bare));
       Interpretation named = bare;
@@ -350,14 +350,14 @@ TEST_SUITE("generalise") {
     after.overhang_m2 = 0.2;
     CHECK_FALSE(violation(before, after, invariants));
     invariants.limits.overhang_pct = 0.1;
-    CHECK(violation(before, after, invariants)->code == "G411");
+    CHECK(violation(before, after, invariants)->code == Code::G411);
     after = before;
     after.box.max.z = 6.005;
     CHECK_FALSE(violation(before, after, invariants));
     after.box.max.z = 6.1;
-    CHECK(violation(before, after, invariants)->code == "G412");
+    CHECK(violation(before, after, invariants)->code == Code::G412);
     after.lumps = 1;
-    CHECK(violation(before, after, invariants)->code == "G411");
+    CHECK(violation(before, after, invariants)->code == Code::G411);
   }
 
   TEST_CASE("steps of other operators are not omissions") {

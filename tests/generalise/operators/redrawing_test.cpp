@@ -93,7 +93,7 @@ TEST_SUITE("generalise") {
     const auto out =
         carried(line, plan_for(line, step("enlarge", {{"to", 3}, {"gap", 1}}), is_high));
     CHECK_FALSE(out.refused.empty());
-    for (const auto& refused : out.refused) CHECK(refused.code == "G403");
+    for (const auto& refused : out.refused) CHECK(refused.code == Code::G403);
     CHECK(out.removed.empty());
     CHECK(volume_m3(out.solid) <= volume_m3(line.solid));
   }

@@ -101,7 +101,7 @@ TEST_SUITE("generalise") {
   TEST_CASE("a facet does not go if what must not change did") {
     SolidValidator validator = judging(kAlwaysValid);
     validator.violation_of = [](const Solid&) {
-      return Violation{"G405", "the footprint would change by 0.08 %"};
+      return Violation{Code::G405, "the footprint would change by 0.08 %"};
     };
     CHECK(reason_of(order(), validator) ==
           "a facet at it cannot go: the footprint would change by 0.08 %");

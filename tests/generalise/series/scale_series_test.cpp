@@ -151,7 +151,7 @@ TEST_SUITE("generalise") {
     SeriesInput input = input_of(line);
     input.fault_of = [&](const Solid& solid) -> std::optional<Issue> {
       if (solid.facets.size() >= least) return std::nullopt;
-      return building_issue(Severity::error, "G410", "house", "too few");
+      return building_issue(Severity::error, Code::G410, "house", "too few");
     };
     const auto levels = series_levels(input, kSeriesScales, plan_of(line));
     REQUIRE(levels.value);
@@ -159,7 +159,7 @@ TEST_SUITE("generalise") {
       CHECK(facets_at(levels.value->at(i)) == facets_at(free.value->at(2)));
       CHECK(levels.value->at(i).scale == kSeriesScales[i - 1]);
     }
-    CHECK(std::ranges::count(levels.issues, "G410", &Issue::code) == 3);
+    CHECK(std::ranges::count(levels.issues, Code::G410, &Issue::code) == 3);
     CHECK_FALSE(has_errors(levels.issues));
     check_both_ways(line, series_of(line, input));
     const ScaleSeries series = series_of(line, input);
@@ -171,7 +171,7 @@ TEST_SUITE("generalise") {
     const Line line = line_of_sample("house");
     SeriesInput input = input_of(line);
     input.fault_of = [](const Solid&) {
-      return building_issue(Severity::error, "G410", "house", "no");
+      return building_issue(Severity::error, Code::G410, "house", "no");
     };
     const auto levels = series_levels(input, kSeriesScales, plan_of(line));
     CHECK_FALSE(levels.value);
@@ -232,9 +232,9 @@ TEST_SUITE("generalise") {
     const auto bad = read_operations("{\"building\":\"a\"}\n", "log");
     CHECK_FALSE(bad.value);
     REQUIRE(bad.issues.size() == 1);
-    CHECK(bad.issues[0].code == "E119");
+    CHECK(bad.issues[0].code == Code::E119);
     const auto none = read_level("{}", "level", {"a"});
     CHECK_FALSE(none.value);
-    CHECK(none.issues.at(0).code == "E120");
+    CHECK(none.issues.at(0).code == Code::E120);
   }
 }

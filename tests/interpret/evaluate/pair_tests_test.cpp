@@ -28,7 +28,7 @@ Scene random_scene() {
   const bool has_gaps = *rc::gen::inRange(0, 2) == 1;
   for (int i = 0; i < count; ++i) {
     Values values;
-    for (const char* name : {"height", "a", "b"}) {
+    for (const char* name : {"base_height", "a", "b"}) {
       const int n = *rc::gen::inRange(-3, 4);
       if (!has_gaps || n != 0) values[name] = n * 0.5;
     }
@@ -43,12 +43,12 @@ TEST_SUITE("interpret") {
   // The least of a number and itself is that number, but no test of pairs is made of it.
   TEST_CASE("tests of pairs answer as the conditions that they are made of") {
     const std::array<std::string, 6> values = {
-        "height",
-        "(height - self.height)",
-        "(self.height - height)",
-        "abs(height - self.height)",
-        "abs(self.a - height)",
-        "(height - 2 * self.a)",
+        "base_height",
+        "(base_height - self.base_height)",
+        "(self.base_height - base_height)",
+        "abs(base_height - self.base_height)",
+        "abs(self.a - base_height)",
+        "(base_height - 2 * self.a)",
     };
     const std::array<std::string, 10> conditions = {
         "{0} <= 0.5 m",      "{0} < self.b",

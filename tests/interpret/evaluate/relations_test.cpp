@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* kInRow =
     "relations:\n"
-    "  in_row: {within: same storey, where: abs(height - other.height) <= 0.2 m}\n";
+    "  in_row: {within: same storey, where: abs(base_height - other.base_height) <= 0.2 m}\n";
 
 /// Windows in one storey at those heights; a height below 0 is missing.
 Scene storey(const std::vector<double>& heights) {
   Scene scene;
   for (const double height : heights) {
     Values values{{"sense", "hole"}, {"natural", 1.0}};
-    if (height >= 0) values["height"] = height;
+    if (height >= 0) values["base_height"] = height;
     scene.add(values);
   }
   for (int i = 0; i < static_cast<int>(heights.size()); ++i)
@@ -54,13 +54,13 @@ TEST_SUITE("interpret") {
     const Scene scene = storey({1.0, 1.1, 1.25, 2.0});
     CHECK(labels_with(kInRow, "count(in_row) = 2", scene) == Labels{"-", "window", "-", "-"});
     CHECK(labels_with(kInRow, "none(in_row)", scene) == Labels{"-", "-", "-", "window"});
-    CHECK(labels_with(kInRow, "all(in_row where height > self.height)", scene) ==
+    CHECK(labels_with(kInRow, "all(in_row where base_height > self.base_height)", scene) ==
           Labels{"window", "-", "-", "window"});
   }
 
   TEST_CASE("a quantifier over a declared relation answers as one with its condition written out") {
     // `where` of the relation, seen from the other feature.
-    const std::string written = "abs(self.height - height) <= 0.2 m";
+    const std::string written = "abs(self.base_height - base_height) <= 0.2 m";
     const auto same = [&](const std::string& p, const std::string& q, const Scene& scene) {
       for (const char* sign : {"", "not "})
         RC_ASSERT(labels_with(kInRow, std::string(sign) + "(" + p + ")", scene) ==
@@ -72,43 +72,46 @@ TEST_SUITE("interpret") {
       for (int i = 0; i < count; ++i) heights.push_back(*rc::gen::inRange(-1, 6) * 0.1);
       const Scene scene = storey(heights);
       for (const std::string op : {"exists", "none"})
-        same(op + "(in_row where height > 0.15 m)",
-             op + "(same_storey where " + written + " and height > 0.15 m)", scene);
-      same("count(in_row where height > 0.15 m) >= 1",
-           "count(same_storey where " + written + " and height > 0.15 m) >= 1", scene);
-      same("all(in_row where height > 0.15 m)",
-           "all(same_storey where not " + written + " or height > 0.15 m)", scene);
+        same(op + "(in_row where base_height > 0.15 m)",
+             op + "(same_storey where " + written + " and base_height > 0.15 m)", scene);
+      same("count(in_row where base_height > 0.15 m) >= 1",
+           "count(same_storey where " + written + " and base_height > 0.15 m) >= 1", scene);
+      same("all(in_row where base_height > 0.15 m)",
+           "all(same_storey where not " + written + " or base_height > 0.15 m)", scene);
     });
   }
 
   TEST_CASE("relations narrow one another and speak of self and other") {
     const std::string relations =
         "relations:\n"
-        "  in_row: {within: same_storey, where: height ~ other.height by 10 %}\n"
-        "  lower: {within: in_row, where: other.height < self.height and sense = other.sense}\n";
+        "  in_row: {within: same_storey, where: base_height ~ other.base_height by 10 %}\n"
+        "  lower: {within: in_row, where: other.base_height < self.base_height and sense = "
+        "other.sense}\n";
     CHECK(labels_with(relations, "count(lower) = 1", storey({1.0, 1.05, 1.5})) ==
           Labels{"-", "window", "-"});
   }
 
   TEST_CASE("aggregates are the least greatest and mean value of the others") {
     const Scene scene = storey({1.0, 2.0, 6.0});
-    CHECK(labels_with("", "min(height of same_storey) = 1 m", scene) ==
+    CHECK(labels_with("", "min(base_height of same_storey) = 1 m", scene) ==
           Labels{"-", "window", "window"});
-    CHECK(labels_with("", "max(height of same_storey) = 6 m", scene) ==
+    CHECK(labels_with("", "max(base_height of same_storey) = 6 m", scene) ==
           Labels{"window", "window", "-"});
-    CHECK(labels_with("", "mean(height of same_storey) = 4 m", scene) ==
+    CHECK(labels_with("", "mean(base_height of same_storey) = 4 m", scene) ==
           Labels{"window", "-", "-"});
-    CHECK(labels_with("", "mean(height * height of same_storey where height < 3 m) = 1 m2",
-                      scene) == Labels{"-", "window", "-"});
-    CHECK(labels_with("", "max(abs(height - self.height) of same_storey) = 5 m", scene) ==
+    CHECK(labels_with(
+              "", "mean(base_height * base_height of same_storey where base_height < 3 m) = 1 m2",
+              scene) == Labels{"-", "window", "-"});
+    CHECK(labels_with("", "max(abs(base_height - self.base_height) of same_storey) = 5 m", scene) ==
           Labels{"window", "-", "window"});
-    CHECK(labels_with("", "mean(height of same_storey where height > self.height) > 3 m", scene) ==
-          Labels{"window", "window", "-"});
+    CHECK(labels_with("",
+                      "mean(base_height of same_storey where base_height > self.base_height) > 3 m",
+                      scene) == Labels{"window", "window", "-"});
   }
 
   TEST_CASE("an aggregate of nothing or of something missing is unknown") {
     for (const std::string op : {"min", "max", "mean"}) {
-      const std::string condition = op + "(height of same_storey) > 0 m";
+      const std::string condition = op + "(base_height of same_storey) > 0 m";
       CHECK(labels_with("", condition, storey({1.0})) == Labels{"-"});
       CHECK(labels_with("", "not " + condition, storey({1.0})) == Labels{"-"});
       CHECK(labels_with("", condition, storey({1.0, -1, 2.0})) == Labels{"-", "window", "-"});
@@ -123,9 +126,9 @@ TEST_SUITE("interpret") {
       std::iota(order.begin(), order.end(), 0);
       std::ranges::next_permutation(order);
       std::ranges::reverse(order);
-      const RuleBase base = load(
-          pack_with("rules:\n  - {id: w, label: window, require: natural, score: [\"mean(height of "
-                    "same_storey)\": {rise: 0 m .. 5 m}]}\n"));
+      const RuleBase base = load(pack_with(
+          "rules:\n  - {id: w, label: window, require: natural, score: [\"mean(base_height of "
+          "same_storey)\": {rise: 0 m .. 5 m}]}\n"));
       const Scene scene = storey(heights);
       const Scene moved = scene.reordered(order);
       const auto before = interpret(base, scene.table(), scene.graph()).verdicts;
@@ -181,7 +184,7 @@ TEST_SUITE("interpret") {
     const RuleBase base =
         load(pack_with(std::string(kInRow) + kRows +
                        "generalise: [{id: rows.omit, scale: \"1:500 ..\", for: group row, when: "
-                       "height < 1.2 m, do: omit}]\n"));
+                       "base_height < 1.2 m, do: omit}]\n"));
     const auto omitted = [&](const std::vector<double>& heights) {
       const Scene scene = storey(heights);
       const auto verdicts = interpret(base, scene.table(), scene.graph());
@@ -197,7 +200,7 @@ TEST_SUITE("interpret") {
     Scene scene = storey({1.0, 1.1, 1.25});
     scene.relate_both("alike", FeatureId{0}, FeatureId{2});
     CHECK(labels_with("", "exists(alike)", scene) == Labels{"window", "-", "window"});
-    const std::string own = "relations: {alike: {within: WITHIN, where: height < 1.2 m}}\n";
+    const std::string own = "relations: {alike: {within: WITHIN, where: base_height < 1.2 m}}\n";
     const auto within = [&](const std::string& name) {
       return std::string(own).replace(own.find("WITHIN"), 6, name);
     };
@@ -213,12 +216,12 @@ TEST_SUITE("interpret") {
   TEST_CASE("the distance along a facade is that of the middles of lower edges") {
     Scene scene;
     for (const auto& [along, height] : {std::pair(1.0, 1.0), {4.0, 5.0}, {1.0, 3.0}})
-      scene.add({{"sense", "hole"}, {"along", along}, {"height", height}});
+      scene.add({{"sense", "hole"}, {"along", along}, {"base_height", height}});
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < i; ++j) scene.relate_both("same_facade", FeatureId{i}, FeatureId{j});
     CHECK(labels_with("", "max(distance_along(other) of same_facade) > 4 m", scene) ==
           Labels{"window", "window", "-"});
-    const FeatureId unplaced = scene.add({{"sense", "hole"}, {"height", 1.0}});
+    const FeatureId unplaced = scene.add({{"sense", "hole"}, {"base_height", 1.0}});
     for (int i = 0; i < 3; ++i) scene.relate_both("same_facade", FeatureId{i}, unplaced);
     const auto near = [&](const std::string& distance) {
       return labels_with("relations: {near: {within: same facade, where: distance_along(other) " +
@@ -234,17 +237,17 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("explain says what a declared relation is and what an aggregate is of") {
-    const RuleBase base =
-        load(pack_with(std::string(kInRow) + "rules: [{id: w, label: window, require: "
-                                             "[exists(in_row), max(height of in_row) > 2 m]}]\n"));
+    const RuleBase base = load(pack_with(std::string(kInRow) +
+                                         "rules: [{id: w, label: window, require: "
+                                         "[exists(in_row), max(base_height of in_row) > 2 m]}]\n"));
     const Scene scene = storey({1.0, 1.1});
     const auto verdicts = interpret(base, scene.table(), scene.graph());
     const auto report = explain(base, scene.table(), scene.graph(), verdicts, FeatureId{0});
     REQUIRE(report.rules.at(0).require.size() == 2);
     CHECK(report.rules[0].require[0].value == "exists(in_row) = 1 of 1");
     CHECK(report.rules[0].require[0].bound ==
-          "in_row: same_storey where abs(height - other.height) <= 0.2 m");
-    CHECK(report.rules[0].require[1].value == "max(height of in_row) = 1.10 m of 1");
+          "in_row: same_storey where abs(base_height - other.base_height) <= 0.2 m");
+    CHECK(report.rules[0].require[1].value == "max(base_height of in_row) = 1.10 m of 1");
     CHECK(report.rules[0].require[1].miss == "misses by 0.90 m");
   }
 

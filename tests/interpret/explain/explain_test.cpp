@@ -26,10 +26,10 @@ const std::string kPack =
     "    label: door\n"
     "    require:\n"
     "      - self is opening\n"
-    "      - height <= $sill_max and host is wall\n"
+    "      - base_height <= $sill_max and host is wall\n"
     "  - id: window.regular\n"
     "    label: window\n"
-    "    require: [self is opening and height > $sill_max]\n"
+    "    require: [self is opening and base_height > $sill_max]\n"
     "    unless: [quality > 0.9 and not natural]\n"
     "    score:\n"
     "      - a: {rise: 0.4 m .. 0.9 m, fall: 2.0 m .. 2.8 m}\n"
@@ -47,11 +47,11 @@ Scene window_with_a_low_sill() {
   Scene scene;
   scene.add({{"sense", "hole"},
              {"depth", 0.1},
-             {"height", 0.61},
+             {"base_height", 0.61},
              {"a", 2.1},
              {"host_inclination", 90.0},
              {"quality", 0.1}});
-  scene.add({{"sense", "hole"}, {"depth", 0.1}, {"height", 3.0}, {"a", 1.4}});
+  scene.add({{"sense", "hole"}, {"depth", 0.1}, {"base_height", 3.0}, {"a", 1.4}});
   scene.relate_both("same_facade", FeatureId{0}, FeatureId{1});
   return scene;
 }
@@ -91,11 +91,11 @@ TEST_SUITE("interpret") {
     holds         depth = 0.10 m                          <= 0.60 m                                         t.yaml:5:19
   door.ground     fails                                   door                                              t.yaml:9:5
     holds         self is opening = yes                                                                     t.yaml:12:9
-    fails         height = 0.61 m                         <= 0.60 m ($sill_max), misses by 0.01 m           t.yaml:13:9
-    holds         host_inclination = 90.00 deg            in 75.00 deg .. 105.00 deg                        t.yaml:13:33
+    fails         base_height = 0.61 m                    <= 0.60 m ($sill_max), misses by 0.01 m           t.yaml:13:9
+    holds         host_inclination = 90.00 deg            in 75.00 deg .. 105.00 deg                        t.yaml:13:38
   window.regular  holds, score 0.29                       window                                            t.yaml:14:5
     holds         self is opening = yes                                                                     t.yaml:16:15
-    holds         height = 0.61 m                         > 0.60 m ($sill_max)                              t.yaml:16:35
+    holds         base_height = 0.61 m                    > 0.60 m ($sill_max)                              t.yaml:16:35
     no veto       quality > 0.9 and not natural                                                             t.yaml:17:14
       fails       quality = 0.10                          > 0.90, misses by 0.80                            t.yaml:17:14
       unknown     not natural = ?                         natural is missing                                t.yaml:17:32
@@ -113,7 +113,8 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("a label is explained with rule margin and runner-up") {
     Scene scene;
-    scene.add({{"sense", "hole"}, {"depth", 0.1}, {"height", 0.1}, {"host_inclination", 90.0}});
+    scene.add(
+        {{"sense", "hole"}, {"depth", 0.1}, {"base_height", 0.1}, {"host_inclination", 90.0}});
     const Explanation explanation = explain_first(kPack, scene);
     CHECK(to_text(explanation).starts_with("f0 -> door 1.00 by door.ground, margin 1.00\n"));
     REQUIRE(explanation.best);
@@ -175,8 +176,8 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("a narrow miss is shown with enough decimals") {
-    const ConditionReport report = judged("height <= 0.6 m", {{"height", 0.6004}});
-    CHECK(report.value == "height = 0.6004 m");
+    const ConditionReport report = judged("base_height <= 0.6 m", {{"base_height", 0.6004}});
+    CHECK(report.value == "base_height = 0.6004 m");
     CHECK(report.bound == "<= 0.6000 m");
     CHECK(report.miss == "misses by 0.0004 m");
   }
@@ -192,8 +193,8 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("the nearest miss is that of the other feature that misses least") {
     Scene scene = window_with_a_low_sill();
-    scene.add({{"sense", "imprint"}, {"depth", 0.1}, {"height", 3.0}, {"a", 2.0}});
-    scene.add({{"sense", "hole"}, {"depth", 0.8}, {"height", 3.0}, {"a", 1.6}});
+    scene.add({{"sense", "imprint"}, {"depth", 0.1}, {"base_height", 3.0}, {"a", 2.0}});
+    scene.add({{"sense", "hole"}, {"depth", 0.8}, {"base_height", 3.0}, {"a", 1.6}});
     for (const int other : {2, 3}) scene.relate("same_facade", FeatureId{0}, FeatureId{other});
     const Explanation explanation = explain_first(kPack, scene);
     const TermReport& term = explanation.rules[2].terms[1];
@@ -238,10 +239,10 @@ TEST_SUITE("interpret") {
     const std::string low = "low: {value: 1 m, range: 0.5 m .. 2 m}";
     const std::string wide = "wide: {value: 2 m, range: 1 m .. 4 m}";
     const std::string rules =
-        "rules:\n  - {id: d, label: door, priority: 1, require: height <= $low}\n"
+        "rules:\n  - {id: d, label: door, priority: 1, require: base_height <= $low}\n"
         "  - {id: w, label: window, require: a < $wide}\n";
     const auto line = [&](double height, double a) {
-      return flip_line_of(low + ", " + wide, rules, {{"height", height}, {"a", a}});
+      return flip_line_of(low + ", " + wide, rules, {{"base_height", height}, {"a", a}});
     };
     CHECK(line(1.3, 1.0) == "nearest flip: low 1.00 m -> 1.30 m: door 1.00 by d");
     CHECK(line(0.8, 1.0) == "nearest flip: low 1.00 m -> 0.79 m: window 1.00 by w");
@@ -250,15 +251,16 @@ TEST_SUITE("interpret") {
     CHECK(line(1.31234567, 9) == "nearest flip: low 1.00 m -> 1.32 m: door 1.00 by d");
     CHECK(line(1.9999, 1.00001) == "nearest flip: wide 2.00 m -> 1.00 m: unknown");
     CHECK(line(3.0, 0.5) == "nearest flip: no param (2) flips the label within its range");
-    CHECK(flip_line_of("low: {value: 1 m}",
-                       "rules: [{id: d, label: door, require: height <= $low}]\n",
-                       {{"height", 1.1}}) == "nearest flip: no param has a range to be moved in");
-    CHECK(flip_line_of(low + ", wide: {value: 2 m}", rules, {{"height", 2.1}, {"a", 2.1}}) ==
+    CHECK(flip_line_of(
+              "low: {value: 1 m}", "rules: [{id: d, label: door, require: base_height <= $low}]\n",
+              {{"base_height", 1.1}}) == "nearest flip: no param has a range to be moved in");
+    CHECK(flip_line_of(low + ", wide: {value: 2 m}", rules, {{"base_height", 2.1}, {"a", 2.1}}) ==
           "nearest flip: no param (1) flips the label within its range; without a range: wide");
   }
 
   TEST_CASE("flips are found in scores hosts relations and labels of others") {
-    const Values values{{"sense", "hole"}, {"a", 1.3}, {"height", 1.0}, {"host_inclination", 70.0}};
+    const Values values{
+        {"sense", "hole"}, {"a", 1.3}, {"base_height", 1.0}, {"host_inclination", 70.0}};
     // 0.3 / (top - 1 m) is 0.6 at 1.5 m and sinks to 0.5 at 1.6 m.
     CHECK(
         flip_line_of("top: {value: 1.5 m, range: 1.1 m .. 3 m}",
@@ -276,13 +278,14 @@ TEST_SUITE("interpret") {
                        values) == "nearest flip: steep 75.00 deg -> 70.00 deg: window 1.00 by w");
     Scene scene;
     scene.add(values);
-    scene.add({{"sense", "imprint"}, {"a", 2.0}, {"height", 1.8}});
+    scene.add({{"sense", "imprint"}, {"a", 2.0}, {"base_height", 1.8}});
     scene.relate_both("beside", FeatureId{0}, FeatureId{1});
-    CHECK(flip_line(flip_of("near: {value: 0.5 m, range: 0 m .. 2 m}",
-                            "relations: {next: {within: beside, where: abs(height - other.height) "
-                            "<= $near}}\n"
-                            "rules: [{id: w, label: window, require: exists(next)}]\n",
-                            scene)) == "nearest flip: near 0.50 m -> 0.80 m: window 1.00 by w");
+    CHECK(flip_line(flip_of(
+              "near: {value: 0.5 m, range: 0 m .. 2 m}",
+              "relations: {next: {within: beside, where: abs(base_height - other.base_height) "
+              "<= $near}}\n"
+              "rules: [{id: w, label: window, require: exists(next)}]\n",
+              scene)) == "nearest flip: near 0.50 m -> 0.80 m: window 1.00 by w");
     CHECK(flip_line(flip_of("long: {value: 3 m, range: 1 m .. 4 m}",
                             "rules:\n  - {id: d, label: door, require: a >= $long and sense = "
                             "imprint}\n"
@@ -297,18 +300,20 @@ TEST_SUITE("interpret") {
           "  low: {{value: {} m, range: 0 m .. 2 m}}\n  wide: {{value: {} m, range: 0 m .. 4 m}}\n"
           "  near: {{value: {}, range: 0 .. 1}}\nclasses: {{window: {{}}, door: {{}}}}\n"
           "relations: {{like: {{within: beside, where: a ~ other.a by $near}}}}\nrules:\n"
-          "  - {{id: d, label: door, priority: 1, require: height in $low - 1 m .. $low and a > "
+          "  - {{id: d, label: door, priority: 1, require: base_height in $low - 1 m .. $low and a "
+          "> "
           "$wide / 2}}\n"
-          "  - {{id: w, label: window, require: exists(like where height > self.height), score: "
-          "[a: {{rise: $wide .. $wide + 1 m}}, height < $low]}}\ndecide: {{min_score: 0.3}}\n",
+          "  - {{id: w, label: window, require: exists(like where base_height > self.base_height), "
+          "score: "
+          "[a: {{rise: $wide .. $wide + 1 m}}, base_height < $low]}}\ndecide: {{min_score: 0.3}}\n",
           low, wide, near);
     };
     std::size_t flips = 0;
     CHECK(rc::check("flips", [&] {
       Scene scene;
       for (int i = 0; i < 4; ++i)
-        scene.add(
-            {{"a", *rc::gen::inRange(0, 30) * 0.1}, {"height", *rc::gen::inRange(0, 30) * 0.1}});
+        scene.add({{"a", *rc::gen::inRange(0, 30) * 0.1},
+                   {"base_height", *rc::gen::inRange(0, 30) * 0.1}});
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < i; ++j) scene.relate_both("beside", FeatureId{i}, FeatureId{j});
       const double low = *rc::gen::inRange(0, 21) * 0.1, wide = *rc::gen::inRange(0, 41) * 0.1;

@@ -128,7 +128,7 @@ std::set<std::string> keys_of_loader(const std::string& pack) {
   std::set<std::string> keys;
   for (const Issue& issue : load_pack(pack, "t.yaml").issues) {
     const std::size_t at = issue.sentence.find("(keys: ");
-    if (issue.code != "R209" || at == std::string::npos) continue;
+    if (issue.code != Code::R209 || at == std::string::npos) continue;
     std::string list = issue.sentence.substr(at + 7);
     list.back() = ',';
     while (!list.empty()) {

@@ -74,7 +74,7 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("an unknown condition does not fit") {
     const std::string entries =
-        "  - {id: low, scale: \"1:100 ..\", for: any, when: height < 1 m, do: omit}\n";
+        "  - {id: low, scale: \"1:100 ..\", for: any, when: base_height < 1 m, do: omit}\n";
     CHECK(steps(entries, window_door_and_wall(), 1000) == Steps{});
   }
 
@@ -131,7 +131,7 @@ TEST_SUITE("interpret") {
     const auto aggregated = [&](const std::vector<double>& places, double scale) {
       Scene scene;
       for (const double along : places) {
-        Values values{{"sense", "hole"}, {"width", 1.0}, {"height", 1.0}, {"top", 2.0}};
+        Values values{{"sense", "hole"}, {"width", 1.0}, {"base_height", 1.0}, {"top", 2.0}};
         if (along >= 0) values["along"] = along;
         scene.add(values);
       }

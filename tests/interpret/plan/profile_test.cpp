@@ -20,7 +20,7 @@ std::string codes_of(const std::string& level, const std::string& asked = "") {
   std::string codes;
   const auto loaded = load_profile(profile_with(level), "p.yaml", asked);
   CHECK(loaded.value.has_value() == !has_errors(loaded.issues));
-  for (const Issue& issue : loaded.issues) codes += issue.code + " ";
+  for (const Issue& issue : loaded.issues) codes += to_string(issue.code) + " ";
   return codes;
 }
 
@@ -156,6 +156,6 @@ TEST_SUITE("interpret") {
     REQUIRE(loaded.value);
     const auto issues = check_profile(*loaded.value, *load_pack_file("residential").value);
     REQUIRE(issues.size() == 1);
-    CHECK(issues[0].code == "R273");
+    CHECK(issues[0].code == Code::R273);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 SurfaceTable surface(double inclination, double height, const std::string& part = "") {
   SurfaceTable table(1);
   table.set(0, "inclination", inclination);
-  table.set(0, "height", height);
+  table.set(0, "base_height", height);
   table.set(0, "b", 2.0);
   if (!part.empty()) table.set(0, "part", part);
   return table;
@@ -35,7 +35,7 @@ SurfaceTable many_surfaces() {
   SurfaceTable many(1500);
   for (std::size_t row = 0; row < many.rows(); ++row) {
     many.set(row, "inclination", static_cast<double>(row % 181));
-    many.set(row, "height", static_cast<double>(row % 7) / 4);
+    many.set(row, "base_height", static_cast<double>(row % 7) / 4);
     if (row % 3 == 0) many.set(row, "gap_above", static_cast<double>(row % 11));
     if (row % 5 > 0) many.set(row, "b", static_cast<double>(row % 13) / 6);
     if (row % 2 == 0) many.set(row, "wall_up", static_cast<double>(row % 17) / 16);
@@ -91,7 +91,7 @@ TEST_SUITE("interpret") {
         "rules: []\n"
         "surfaces:\n"
         "  - {id: covered, type: OuterFloorSurface, when: [flat, gap_above < 4 m]}\n"
-        "  - {id: low, type: ClosureSurface, when: flat and height < $low}\n"
+        "  - {id: low, type: ClosureSurface, when: flat and base_height < $low}\n"
         "  - {id: door, type: GroundSurface, when: part = door}\n"
         "  - {id: flat, type: RoofSurface, when: flat}\n");
     CHECK(verdict(pack, surface(0, 5)).rule == "flat");
@@ -110,7 +110,7 @@ TEST_SUITE("interpret") {
     const auto verdicts = interpret_surfaces(base, many);
     for (std::size_t row = 0; row < many.rows(); ++row) {
       SurfaceTable one(1);
-      for (const char* name : {"inclination", "height", "gap_above", "b", "wall_up"})
+      for (const char* name : {"inclination", "base_height", "gap_above", "b", "wall_up"})
         if (const auto value = many.number(row, name)) one.set(0, name, *value);
       CHECK(interpret_surfaces(base, one).at(0).type == verdicts[row].type);
       CHECK(explain_surface(base, many, row).starts_with(verdicts[row].type + " by "));
@@ -126,7 +126,7 @@ TEST_SUITE("interpret") {
     for (int row = 0; row < static_cast<int>(known.rows()); row += 2) rows.push_back(row);
     SurfaceTable table(known.rows());
     for (std::size_t row = 0; row < known.rows(); ++row)
-      for (const char* name : {"inclination", "height"})
+      for (const char* name : {"inclination", "base_height"})
         table.set(row, name, *known.number(row, name));
     LateNumbers late(known, table);
     const auto verdicts = interpret_surfaces(base, table, rows, late);
@@ -167,11 +167,13 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("surface rules are checked before any building is read") {
-    CHECK(surface_fault("hight > 1 m")
-              .find("R204 unknown attribute 'hight'; did you mean 'height'?") != std::string::npos);
+    CHECK(surface_fault("base_hight > 1 m")
+              .find("R204 unknown attribute 'base_hight'; did you mean 'base_height'?") !=
+          std::string::npos);
     CHECK(surface_fault("volume > 1 m3").find("R204") != std::string::npos);
-    CHECK(surface_fault("height > 1").find("R231") != std::string::npos);
-    CHECK(surface_fault("height > 1 m2").find("R230") != std::string::npos);
+    CHECK(surface_fault("height > 1 m").find("did you mean 'base_height'?") != std::string::npos);
+    CHECK(surface_fault("base_height > 1").find("R231") != std::string::npos);
+    CHECK(surface_fault("base_height > 1 m2").find("R230") != std::string::npos);
     CHECK(surface_fault("part = wndow").find("R234") != std::string::npos);
     CHECK(surface_fault("facing = inside").find("R234") != std::string::npos);
     CHECK(surface_fault("self is window").find("R232 'self is window' speaks of features") !=

@@ -17,10 +17,10 @@ constexpr const char* kWindowsAndDoors =
     "pack: {name: t, version: 1.0.0}\n"
     "params: {low: {value: 0.6 m}}\n"
     "classes: {window: {}, door: {}}\n"
-    "relations: {row: {within: same storey, where: height ~ other.height by 1 %}}\n"
+    "relations: {row: {within: same storey, where: base_height ~ other.base_height by 1 %}}\n"
     "rules:\n"
-    "  - {id: w, label: window, require: sense = hole and height > $low}\n"
-    "  - {id: d, label: door, require: [sense = hole, height <= $low], unless: [a < 1 m]}\n"
+    "  - {id: w, label: window, require: sense = hole and base_height > $low}\n"
+    "  - {id: d, label: door, require: [sense = hole, base_height <= $low], unless: [a < 1 m]}\n"
     "groups: {rows: {of: window, by: row, at_least: 2}}\n";
 
 constexpr const char* kFixture =
@@ -29,8 +29,8 @@ constexpr const char* kFixture =
     "  front:\n"
     "    defaults: {facade: F, host: wall, sense: hole, a: 2 m}\n"
     "    features:\n"
-    "      w: {repeat: {columns: 3, rows: 2, dx: 2 m, dz: 3 m}, height: 1 m}\n"
-    "      d: {height: 0.1 m, x: 9 m}\n"
+    "      w: {repeat: {columns: 3, rows: 2, dx: 2 m, dz: 3 m}, base_height: 1 m}\n"
+    "      d: {base_height: 0.1 m, x: 9 m}\n"
     "tests:\n";
 
 BuildingReader no_buildings() {
@@ -75,7 +75,7 @@ TEST_SUITE("interpret") {
     CHECK(failures("given: front, expect: {w.*: window, w.1: not door, d: door}").empty());
     CHECK(failures("given: front, expect: {counts: {window: 6, door: 1, unknown: 0}}").empty());
     CHECK(failures("given: front, expect: {groups: {rows: 2}}").empty());
-    CHECK(failures("given: {front: {d.height: $low + 1 cm}}, expect: {d: window}").empty());
+    CHECK(failures("given: {front: {d.base_height: $low + 1 cm}}, expect: {d: window}").empty());
     CHECK(failures("given: {front: {d.sense: missing}}, expect: {d: unknown}").empty());
   }
 
@@ -101,8 +101,9 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("reasons are those that explain gives") {
     CHECK(failures("given: front, expect: {d: door}, because: {d: holds, w: fails}").empty());
-    CHECK(failures("given: front, expect: {d: door}, because: {w: 'fails at \"height > $low\"'}")
-              .empty());
+    CHECK(
+        failures("given: front, expect: {d: door}, because: {w: 'fails at \"base_height > $low\"'}")
+            .empty());
     CHECK(failures("given: {front: {d.a: 0.5 m}}, expect: {d: unknown}, "
                    "because: {d: 'fails at \"a < 1 m\"'}")
               .empty());
@@ -113,11 +114,12 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("a property holds for small noise and not for large") {
-    CHECK(failures("given: front, property: {perturb: {height: 1 mm, a: 1 %}, times: 20}").empty());
-    const auto found = failures("given: front, property: {perturb: {height: 1 m}, times: 50}");
+    CHECK(failures("given: front, property: {perturb: {base_height: 1 mm, a: 1 %}, times: 20}")
+              .empty());
+    const auto found = failures("given: front, property: {perturb: {base_height: 1 m}, times: 50}");
     REQUIRE(found.size() == 1);
     CHECK(found[0].starts_with("perturbation "));
-    CHECK(found == failures("given: front, property: {perturb: {height: 1 m}, times: 50}"));
+    CHECK(found == failures("given: front, property: {perturb: {base_height: 1 m}, times: 50}"));
   }
 
   TEST_CASE("what a file of tests gets wrong is found with its place") {
@@ -128,7 +130,7 @@ TEST_SUITE("interpret") {
           std::string::npos);
     CHECK(findings_of_test("given: {front: {d.heigth: 1 m}}, expect: {d: door}").find("R204") !=
           std::string::npos);
-    CHECK(findings_of_test("given: {front: {d.height: 1}}, expect: {d: door}").find("R231") !=
+    CHECK(findings_of_test("given: {front: {d.base_height: 1}}, expect: {d: door}").find("R231") !=
           std::string::npos);
     CHECK(findings_of_test("given: front, expects: {d: door}").find("R209") != std::string::npos);
   }
@@ -161,7 +163,7 @@ TEST_SUITE("interpret") {
     const BuildingReader read = [](const std::string& path) {
       CHECK(std::filesystem::path(path).filename() == "house.json");
       Scene scene;
-      scene.add({{"sense", "hole"}, {"height", 2.0}});
+      scene.add({{"sense", "hole"}, {"base_height", 2.0}});
       Checked<std::vector<DescribedBuilding>> found;
       found.value.emplace();
       found.value->push_back({scene.table(), scene.graph()});

@@ -23,10 +23,10 @@ TEST_SUITE("kernel/describe") {
                                       .remove({17, 0, 3}, {18, 0.3, 4})
                                       .build());
     for (const FeatureId door : {d.at({4, 0, 0}, {5, 0.3, 2}), d.at({14, 0, 2}, {15, 0.3, 4})}) {
-      check_numbers(d, door, {{"height", 0}, {"top", 2}});
+      check_numbers(d, door, {{"base_height", 0}, {"top", 2}});
       CHECK(d.table().text(door, "ground_source") == "facet");
     }
-    check_numbers(d, d.at({17, 0, 3}, {18, 0.3, 4}), {{"height", 1}});
+    check_numbers(d, d.at({17, 0, 3}, {18, 0.3, 4}), {{"base_height", 1}});
   }
 
   TEST_CASE("in a house on two levels of ground every door stands on its own") {
@@ -36,8 +36,8 @@ TEST_SUITE("kernel/describe") {
                                       .remove({4, 0, 0}, {5, 0.3, 2})
                                       .remove({14, 0, 2}, {15, 0.3, 4})
                                       .build());
-    check_numbers(d, d.at({4, 0, 0}, {5, 0.3, 2}), {{"height", 0}});
-    check_numbers(d, d.at({14, 0, 2}, {15, 0.3, 4}), {{"height", 0}});
+    check_numbers(d, d.at({4, 0, 0}, {5, 0.3, 2}), {{"base_height", 0}});
+    check_numbers(d, d.at({14, 0, 2}, {15, 0.3, 4}), {{"base_height", 0}});
   }
 
   TEST_CASE("on a slope the ground is the one below the feature") {
@@ -52,7 +52,7 @@ TEST_SUITE("kernel/describe") {
     const Described d = described(body.build());
     for (const double x : {4.0, 14.0}) {
       const FeatureId window = d.at({x, 0, 4}, {x + 1, 0.3, 6});
-      check_numbers(d, window, {{"height", 4 - 0.1 * (x + 0.5)}});
+      check_numbers(d, window, {{"base_height", 4 - 0.1 * (x + 0.5)}});
       CHECK(d.table().text(window, "ground_source") == "facet");
     }
   }
@@ -70,10 +70,10 @@ TEST_SUITE("kernel/describe") {
                                       .build());
     const FeatureId skylight = d.at({4.8, 3, 23}, {5.2, 4, 24});
     CHECK(d.table().text(skylight, "ground_source") == "wall");
-    check_numbers(d, skylight, {{"height", -1}, {"top", 0}});
+    check_numbers(d, skylight, {{"base_height", -1}, {"top", 0}});
     const FeatureId cavity = d.at({4.5, 2, 20}, {5.5, 4, 22});
     CHECK(d.table().text(cavity, "ground_source") == "body");
-    check_numbers(d, cavity, {{"height", 20}, {"top", 22}});
+    check_numbers(d, cavity, {{"base_height", 20}, {"top", 22}});
   }
 
   TEST_CASE("a window of a bay in the air stands over the ground and not over the bay") {
@@ -82,14 +82,14 @@ TEST_SUITE("kernel/describe") {
                                       .add({3, -1, 3}, {7, 0, 5})
                                       .remove({4, -1, 3.5}, {6, -0.8, 4.5})
                                       .build());
-    check_numbers(d, d.at({4, -1, 3.5}, {6, -0.8, 4.5}), {{"height", 3.5}, {"top", 4.5}});
-    check_numbers(d, d.at({3, -1, 3}, {7, 0, 5}), {{"height", 3}});
+    check_numbers(d, d.at({4, -1, 3.5}, {6, -0.8, 4.5}), {{"base_height", 3.5}, {"top", 4.5}});
+    check_numbers(d, d.at({3, -1, 3}, {7, 0, 5}), {{"base_height", 3}});
   }
 
   TEST_CASE("eaves and ridge are those of the roof") {
     const Described d = described(test::full_house());
     const FeatureId chimney = d.at({3, 2, 7.5}, {3.4, 2.36, 10});
-    check_numbers(d, chimney, {{"below_ridge", -1}, {"above_eaves", 1.5}, {"height", 7.5}});
+    check_numbers(d, chimney, {{"below_ridge", -1}, {"above_eaves", 1.5}, {"base_height", 7.5}});
     CHECK(d.number(chimney, "host_inclination") == doctest::Approx(36.8699).epsilon(1e-5));
     const FeatureId window = d.at({1, 0, 4}, {2.2, 0.2, 5.5});
     check_numbers(d, window, {{"below_ridge", 3.5}, {"above_eaves", -2}, {"edge_gap", 0.5}});
@@ -102,7 +102,7 @@ TEST_SUITE("kernel/describe") {
       for (const FeatureId id : test::all_features(d.segmented.segmentation))
         check_numbers(d, id, {{"host_inclination", 0}, {"inclination", 0}});
       const auto stands = test::features_of(d.segmented.segmentation, Sense::protrusion).at(0);
-      check_numbers(d, stands, {{"height", 4}});
+      check_numbers(d, stands, {{"base_height", 4}});
     }
   }
 
@@ -143,7 +143,7 @@ TEST_SUITE("kernel/describe") {
                    {"volume", 64},
                    {"surface", 96},
                    {"a", 4},
-                   {"height", 1}});
+                   {"base_height", 1}});
   }
 
   TEST_CASE("places along a facade count from its left end as seen from outside") {
@@ -161,7 +161,7 @@ TEST_SUITE("kernel/describe") {
 
   TEST_CASE("a flush edge has a gap of zero") {
     const Described d = described(test::house_with_door());
-    check_numbers(d, FeatureId{0}, {{"edge_gap", 0}, {"height", 0}, {"split_order", 2}});
+    check_numbers(d, FeatureId{0}, {{"edge_gap", 0}, {"base_height", 0}, {"split_order", 2}});
   }
 }
 

@@ -34,7 +34,7 @@ TEST_SUITE("kernel/describe") {
                    {"c", 0.2},
                    {"silhouette", 3},
                    {"width", 2},
-                   {"height_of", 1.5},
+                   {"height", 1.5},
                    {"depth", 0.2},
                    {"inclination", 90},
                    {"azimuth", 180},
@@ -42,7 +42,7 @@ TEST_SUITE("kernel/describe") {
                    {"growth_down", 0},
                    {"growth_out", 0},
                    {"growth_side", 0},
-                   {"height", 1},
+                   {"base_height", 1},
                    {"top", 2.5},
                    {"below_ridge", 3.5},
                    {"above_eaves", -5},
@@ -69,14 +69,14 @@ TEST_SUITE("kernel/describe") {
                    {"c", 0.5},
                    {"silhouette", 0.9},
                    {"width", 0.6},
-                   {"height_of", 1.5},
+                   {"height", 1.5},
                    {"depth", 1.5},
                    {"inclination", 0},
                    {"growth_up", 1.5},
                    {"growth_down", 0},
                    {"growth_out", 1.5},
                    {"growth_side", 0},
-                   {"height", 6},
+                   {"base_height", 6},
                    {"top", 7.5},
                    {"below_ridge", -1.5},
                    {"above_eaves", 0},
@@ -144,9 +144,9 @@ TEST_SUITE("kernel/describe") {
         return test::turned(p, {0, 0, 1}, degrees * std::numbers::pi / 180);
       }));
       REQUIRE(t.table().rows() == d.table().rows());
-      for (const char* name : {"a", "b", "c", "width", "height_of", "depth", "inclination",
-                               "height", "top", "below_ridge", "above_eaves", "edge_gap", "storey",
-                               "per_facade", "per_storey", "growth_out", "growth_up"}) {
+      for (const char* name : {"a", "b", "c", "width", "height", "depth", "inclination",
+                               "base_height", "top", "below_ridge", "above_eaves", "edge_gap",
+                               "storey", "per_facade", "per_storey", "growth_out", "growth_up"}) {
         CAPTURE(std::string(name));
         const auto numbers_in = [&](const FeatureTable& table) {
           const auto numbers = table.numbers(column_of(name).value());

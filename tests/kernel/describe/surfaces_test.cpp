@@ -131,13 +131,13 @@ TEST_SUITE("kernel/describe") {
     CHECK(table.number(floor, "gap_above").value() == doctest::Approx(3));
     CHECK(table.number(ceiling, "gap_below").value() == doctest::Approx(3));
     CHECK(table.number(floor, "wall_up").value() == doctest::Approx(8.0 / 12).epsilon(0.2));
-    CHECK(table.number(floor, "height").value() == doctest::Approx(3));
+    CHECK(table.number(floor, "base_height").value() == doctest::Approx(3));
     const std::size_t roof = row_at(building, table, 9, true);
     CHECK_FALSE(table.number(roof, "gap_above"));
     CHECK(table.number(roof, "below_ridge").value() == doctest::Approx(0));
     const std::size_t ground = row_at(building, table, 0, false);
     CHECK_FALSE(table.number(ground, "gap_below"));
-    CHECK(table.number(ground, "height").value() == doctest::Approx(0));
+    CHECK(table.number(ground, "base_height").value() == doctest::Approx(0));
   }
 
   TEST_CASE("what is measured of a surface does not depend on what else is") {

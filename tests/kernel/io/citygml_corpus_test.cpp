@@ -67,7 +67,7 @@ std::vector<Building> buildings_of(const std::string& path, const std::string& l
   std::vector<Building> buildings;
   for (auto& record : read_all(path, options)) {
     for (const Issue& issue : record.issues)
-      if (issue.severity == Severity::error) CHECK(issue.code == "E205");  // not at this level
+      if (issue.severity == Severity::error) CHECK(issue.code == Code::E205);  // not at this level
     REQUIRE(record.value);
     for (Building& building : record.value->buildings) buildings.push_back(std::move(building));
   }

@@ -64,7 +64,7 @@ inline Checked<Document> read_text(const std::string& text, const std::string& n
 /// The codes of all issues, separated by blanks.
 inline std::string codes_of(const std::vector<Issue>& issues) {
   std::string codes;
-  for (const Issue& issue : issues) codes += (codes.empty() ? "" : " ") + issue.code;
+  for (const Issue& issue : issues) codes += (codes.empty() ? "" : " ") + to_string(issue.code);
   return codes;
 }
 

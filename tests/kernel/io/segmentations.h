@@ -55,7 +55,7 @@ struct SmallSegmentation {
     segmentation.features = {bay, window};
     segmentation.stats = {3, 2, 5, 10, 20, 4};
     segmentation.issues = {
-        {Severity::warning, "E902", "a \"budget\"", {"", 0, 0, "house", "w1"}, ""}};
+        {Severity::warning, Code::E901, "a \"budget\"", {"", 0, 0, "house", "w1"}, ""}};
 
     table.set_id(FeatureId{0}, "b1");
     table.set_id(FeatureId{1}, "w1");

@@ -26,7 +26,7 @@ TEST_SUITE("kernel/segment") {
         if (budget > 1000) continue;
         CHECK(flagged > 0);
         REQUIRE(s.segmentation.issues.size() == 1);
-        CHECK(s.segmentation.issues[0].code == "E502");
+        CHECK(s.segmentation.issues[0].code == Code::E502);
         CHECK(s.segmentation.issues[0].severity == Severity::warning);
         CHECK(s.segmentation.issues[0].place.building == "body");
       }

@@ -17,7 +17,7 @@ using test::Segmented;
 /// half-edge mesh has no two edges between the same two vertices.
 bool is_solid(const Building& building) {
   const auto solid = solidify(building, {});
-  if (!solid.value) CHECK(solid.issues.at(0).code == "E303");
+  if (!solid.value) CHECK(solid.issues.at(0).code == Code::E303);
   return solid.value.has_value();
 }
 

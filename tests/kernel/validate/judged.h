@@ -17,7 +17,8 @@ namespace oriel::test {
 inline std::string codes_of(const Building& building) {
   std::string codes;
   for (const Finding& finding : validate(building))
-    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", finding.code, finding.val3dity);
+    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", to_string(finding.code),
+                         finding.val3dity);
   return codes;
 }
 

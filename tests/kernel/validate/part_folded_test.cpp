@@ -66,7 +66,7 @@ TEST_SUITE("kernel/validate") {
     const Solid solid = block_with_tip(true);
     const auto findings = validate(written(solid));
     REQUIRE(findings.size() == 1);
-    CHECK(findings[0].code == "E345");
+    CHECK(findings[0].code == Code::E345);
     const auto parted = part_folded(solid, written(solid), findings);
     REQUIRE(parted);
     CHECK(validate(written(parted->solid)).empty());
@@ -94,7 +94,7 @@ TEST_SUITE("kernel/validate") {
   TEST_CASE("a solid in which something else is wrong is not parted") {
     const Solid solid = block_with_tip(true);
     auto findings = validate(written(solid));
-    findings.back().code = "E352";
+    findings.back().code = Code::E352;
     CHECK_FALSE(part_folded(solid, written(solid), findings));
     CHECK_FALSE(part_folded(solid, written(solid), {}));
   }

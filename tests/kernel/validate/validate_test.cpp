@@ -77,7 +77,7 @@ TEST_SUITE("kernel/validate") {
     building.polygons.erase(building.polygons.begin());
     const auto findings = validate(building);
     REQUIRE(findings.size() == 1);
-    CHECK(findings[0].code == "E302");
+    CHECK(findings[0].code == Code::E302);
     CHECK(findings[0].shell == 0);
     REQUIRE(findings[0].at_m.size() == 2);
     for (const Vec3 end : findings[0].at_m) {
@@ -91,7 +91,7 @@ TEST_SUITE("kernel/validate") {
     CHECK(validate(open).empty());
     ValidateOptions options;
     options.primitive = ValidateOptions::Primitive::solid;
-    CHECK(validate(open, options)[0].code == "E301");
+    CHECK(validate(open, options)[0].code == Code::E301);
     Building composite = open;
     composite.is_composite = true;
     CHECK(codes_of(composite) == "E351 305");

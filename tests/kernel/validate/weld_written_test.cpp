@@ -87,7 +87,7 @@ TEST_SUITE("kernel/validate") {
     const Solid solid = block_with_bevel();
     const Building written = in_millimetres(solid);
     const auto findings = validate(written);
-    REQUIRE(std::ranges::find(findings, "E312", &Finding::code) != findings.end());
+    REQUIRE(std::ranges::find(findings, Code::E312, &Finding::code) != findings.end());
     const auto welded = weld_written(solid, written, findings);
     REQUIRE(welded);
     CHECK(welded->solid.facets.size() == 6);

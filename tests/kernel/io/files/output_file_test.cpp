@@ -60,7 +60,7 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("a place that cannot be written is refused with the reason") {
     const test::TemporaryFolder folder;
     const Issue missing = failure_of(folder.file("no/such/a.json"));
-    CHECK(missing.code == "E601");
+    CHECK(missing.code == Code::E601);
     CHECK(missing.sentence.find("No such file") != std::string::npos);
     CHECK(missing.place.file == folder.file("no/such/a.json"));
     std::filesystem::create_directory(folder.file("d"));
@@ -71,7 +71,7 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("a full device is refused") {
     if (!std::filesystem::exists("/dev/full")) return;
     CHECK(failure_of("/dev/full").sentence.find("No space") != std::string::npos);
-    CHECK(failure_of("/dev/null").code.empty());
+    CHECK(failure_of("/dev/null").code == Code::none);
   }
 
   TEST_CASE("links and permissions stay") {

@@ -16,7 +16,8 @@ namespace {
 std::string outcome_of(const std::string& text) {
   const auto record = test::read_text(text);
   std::string outcome;
-  for (const Issue& issue : record.issues) outcome += issue.code + " " + issue.sentence + "\n";
+  for (const Issue& issue : record.issues)
+    outcome += to_string(issue.code) + " " + issue.sentence + "\n";
   if (!record.value) return outcome;
   for (const Building& building : record.value->buildings) {
     outcome += fmt::format("{} {}\n", building.id, building.repeats.size());

@@ -33,7 +33,7 @@ TEST_SUITE("kernel/io") {
     CHECK(root["stats"] ==
           json::parse(R"({"leaves":3,"inner":2,"recursions":5,"protrusion_tests":10,
         "hole_tests":20,"candidates":4,"instanced":0})"));
-    CHECK(root["issues"] == json::parse(R"([{"severity":"warning","code":"E902",
+    CHECK(root["issues"] == json::parse(R"([{"severity":"warning","code":"E901",
         "sentence":"a \"budget\"","feature":"w1"}])"));
   }
 

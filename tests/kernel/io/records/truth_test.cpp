@@ -45,7 +45,7 @@ TEST_SUITE("kernel/io") {
     REQUIRE(truths.value->size() == 2);
     CHECK(truths.value->at(1).building == "j");
     REQUIRE(truths.issues.size() == 1);
-    CHECK(truths.issues[0].code == "E112");
+    CHECK(truths.issues[0].code == Code::E112);
     CHECK(truths.issues[0].place.line == 3);
     CHECK_FALSE(read_truths(folder.write("b.truth.jsonl", "\n")).value);
   }

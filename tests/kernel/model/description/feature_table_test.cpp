@@ -23,10 +23,10 @@ TEST_SUITE("kernel/model") {
 
   TEST_CASE("a value that was never set is missing and not zero") {
     FeatureTable table("house", 2);
-    CHECK_FALSE(table.number(FeatureId{0}, "height"));
-    table.set(FeatureId{0}, "height", 0.0);
-    CHECK(table.number(FeatureId{0}, "height") == 0.0);
-    CHECK_FALSE(table.number(FeatureId{1}, "height"));
+    CHECK_FALSE(table.number(FeatureId{0}, "base_height"));
+    table.set(FeatureId{0}, "base_height", 0.0);
+    CHECK(table.number(FeatureId{0}, "base_height") == 0.0);
+    CHECK_FALSE(table.number(FeatureId{1}, "base_height"));
     CHECK(table.text(FeatureId{1}, "sense").empty());
   }
 
@@ -47,12 +47,12 @@ TEST_SUITE("kernel/model") {
   TEST_CASE("columns of numbers stay apart in whatever order they are set") {
     FeatureTable table("house", 2);
     table.set(FeatureId{1}, "volume", 3.0);
-    table.set(FeatureId{0}, "height", 1.0);
+    table.set(FeatureId{0}, "base_height", 1.0);
     table.set(FeatureId{0}, "volume", 2.0);
     CHECK(table.number(FeatureId{0}, "volume") == 2.0);
     CHECK(table.number(FeatureId{1}, "volume") == 3.0);
-    CHECK(table.number(FeatureId{0}, "height") == 1.0);
-    CHECK_FALSE(table.number(FeatureId{1}, "height"));
+    CHECK(table.number(FeatureId{0}, "base_height") == 1.0);
+    CHECK_FALSE(table.number(FeatureId{1}, "base_height"));
     CHECK_FALSE(table.number(FeatureId{0}, "a"));
   }
 
@@ -99,7 +99,7 @@ TEST_SUITE("kernel/model") {
   }
 
   TEST_CASE("records carry the unit in the name") {
-    CHECK(record_name(feature_schema()[*column_of("height")]) == "height_m");
+    CHECK(record_name(feature_schema()[*column_of("base_height")]) == "base_height_m");
     CHECK(record_name(feature_schema()[*column_of("inclination")]) == "inclination_deg");
     CHECK(record_name(feature_schema()[*column_of("quality")]) == "quality");
   }
