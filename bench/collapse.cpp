@@ -6,17 +6,13 @@
 
 #include "bench/timing.h"
 #include "generalise/generalise.h"
-#include "interpret/labelling/interpret.h"
 #include "interpret/plan/plan.h"
 #include "kernel/base/index.h"
-#include "kernel/describe/describe.h"
 #include "kernel/io/reader.h"
 #include "kernel/mesh/hausdorff.h"
 #include "kernel/mesh/measures.h"
-#include "kernel/segment/flush/imprints.h"
-#include "kernel/segment/segment.h"
-#include "kernel/solidify/solidify.h"
 #include "kernel/validate/validate.h"
+#include "oriel/label.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,19 +140,17 @@ struct Rows {
 };
 
 void compare(const Building& building, const RuleBase& rules, double scale, Rows& rows) {
-  const auto solid = solidify(building);
-  if (!solid.value) return;
-  const Mesh before = to_mesh(*solid.value);
+  const PipelineResult labelled = label(building, rules);
+  if (!labelled.is_done() || labelled.is_open) return;
+  const Solid& solid = *labelled.solid;
+  const Mesh before = to_mesh(solid);
   if (before.findings().non_manifold_edges > 0 || before.findings().doubled_vertices > 0) return;
   const Surface surface = surface_of(before);
-  Segmentation segmentation = segment(building, *solid.value);
-  add_imprints(building, *solid.value, segmentation);
-  const Description description = describe(building, segmentation);
-  const Interpretation labels = interpret(rules, description.table, description.graph);
-  const Plan asked = plan(rules, description.table, description.graph, labels, scale);
+  const auto& [table, graph] = labelled.description;
+  const Plan asked = plan(rules, table, graph, labelled.interpretation, scale);
   Checked<Generalised> made;
   const double ours_ms = bench::cpu_ms_of(kCalls, [&] {
-    made = generalise(*solid.value, segmentation, description.table, labels, asked);
+    made = generalise(solid, *labelled.segmentation, table, labelled.interpretation, asked);
   });
   if (!made.value) return;
   const Mesh after = to_mesh(made.value->solid);

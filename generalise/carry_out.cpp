@@ -5,6 +5,7 @@
 #include "generalise/removal/clear_edges.h"
 #include "generalise/removal/facets.h"
 #include "generalise/tasks.h"
+#include "kernel/geometry/boxes.h"
 
 #include <algorithm>
 #include <functional>
@@ -207,7 +208,7 @@ class InvariantEnforcer {
   [[nodiscard]] bool is_torn(FeatureId piece, const ShortEdge& edge) const {
     const double off_m = options_.tolerances.plane_offset_m;
     const Box& box = segmentation_.features[piece.index()].box;
-    const int held = holds(box, edge.from, off_m) + holds(box, edge.to, off_m);
+    const int held = contains(box, edge.from, off_m) + contains(box, edge.to, off_m);
     if (!edge.feature.is_valid()) return held == 2;
     if (edge.length_m > pieces_.c_m[piece.index()] + 2 * off_m || held == 0) return false;
     return pieces_.c_m[edge.feature.index()] < invariants_.least_edge_m ||

@@ -3,6 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/area_vector.h"
 #include "kernel/segment/flush/draw_imprints.h"
 
 #include <algorithm>
@@ -20,12 +21,11 @@ namespace {
 
 /// Along the normal of a polygon, as long as its area without its holes.
 Vec3 area_vector(const Building& building, const Polygon& polygon) {
-  Vec3 sum;
-  const auto point = [&](int v) { return building.vertices[at(v)]; };
+  Vec3 doubled;
   for (const auto& ring : polygon.rings)
-    for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-      sum = sum + cross(point(ring[i]) - point(ring[0]), point(ring[i + 1]) - point(ring[0]));
-  return 0.5 * sum;
+    add_doubled_area(doubled, ring.size(),
+                     [&](std::size_t i) { return building.vertices[at(ring[i])]; });
+  return 0.5 * doubled;
 }
 
 /// What a facet is that no input polygon lies in.

@@ -1,6 +1,7 @@
 #include "generalise/invariants/fineness.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 
@@ -34,7 +35,7 @@ FeatureId smallest_around(const Segmentation& segmentation, const std::vector<Fe
   for (int i = 0; i < std::ssize(segmentation.features); ++i) {
     const Box& box = segmentation.features[at(i)].box;
     const double size_m = length(box.max - box.min);
-    if (size_m >= least_m || !holds(box, p) || !holds(box, q)) continue;
+    if (size_m >= least_m || !contains(box, p, kOnBox_m) || !contains(box, q, kOnBox_m)) continue;
     if (std::ranges::binary_search(removed, FeatureId{i})) continue;
     best = FeatureId{i};
     least_m = size_m;
@@ -201,11 +202,6 @@ std::optional<Vec3> crossing(const FacetSheet& a, const FacetSheet& b) {
 
 }  // namespace
 
-bool holds(const Box& box, Vec3 p, double off_m) {
-  return p.x >= box.min.x - off_m && p.x <= box.max.x + off_m && p.y >= box.min.y - off_m &&
-         p.y <= box.max.y + off_m && p.z >= box.min.z - off_m && p.z <= box.max.z + off_m;
-}
-
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,
                                    const std::vector<FeatureId>& removed, double least_m) {
   std::vector<ShortEdge> edges = edges_below(solid, least_m);
@@ -299,7 +295,8 @@ bool add_fine_owners(const Generalised& generalised, const Segmentation& segment
       const Feature& feature = segmentation.features[id.index()];
       id = feature.parent.is_valid() ? feature.parent : feature.host;
     }
-    if (id.is_valid() && table.number(id, "b").value_or(most_b_m) < most_b_m) owners.insert(id);
+    if (id.is_valid() && table.number(id, Attribute::b).value_or(most_b_m) < most_b_m)
+      owners.insert(id);
   }
   for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
   std::ranges::stable_sort(plan.steps, {}, &Step::feature);

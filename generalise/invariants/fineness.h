@@ -32,9 +32,6 @@ struct NarrowGap {
 /// is finer than a hundredth of it.
 inline constexpr double kOnBox_m = 1e-3;
 
-/// The point is in the box, or no more than `off_m` off it.
-bool holds(const Box& box, Vec3 point, double off_m = kOnBox_m);
-
 /// Edges shorter than `least_m`, each once, in the order of facets. Features that are `removed`
 /// (ascending) have none.
 std::vector<ShortEdge> short_edges(const Solid& solid, const Segmentation& segmentation,

@@ -2,6 +2,8 @@
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/area_within.h"
+#include "kernel/geometry/boxes.h"
+#include "kernel/model/area_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,37 +60,27 @@ double shared_m2(const Solid& solid, const PartyWall& wall) {
   return sum_m2;
 }
 
-Vec3 doubled_area(const Outline& outline) {
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-  return sum;
-}
-
 PartyWall wall_of(const Building& building, const Polygon& polygon, Vec3 moved_m) {
   PartyWall wall;
   for (const auto& ring : polygon.rings) {
     Outline& outline = wall.outlines.emplace_back();
     for (const int v : ring) outline.push_back(building.vertices[at(v)] + moved_m);
   }
-  wall.normal = normalised(doubled_area(wall.outlines[0]));
+  wall.normal = normalised(area_vector(wall.outlines[0]));
   return wall;
 }
 
 bool is_beside(const PartyWall& wall, const Box& box) {
   Box its;
   for (const Vec3 p : wall.outlines[0]) its.grow(p);
-  return its.min.x <= box.max.x && box.min.x <= its.max.x && its.min.y <= box.max.y &&
-         box.min.y <= its.max.y && its.min.z <= box.max.z && box.min.z <= its.max.z;
+  return overlap(its, box);
 }
 
 }  // namespace
 
 std::vector<PartyWall> party_walls(const Building& building, const Solid& solid,
                                    std::span<const Building> buildings) {
-  Box near = box_of(solid);
-  const Vec3 slack{kNear_m, kNear_m, kNear_m};
-  near = {near.min - slack, near.max + slack};
+  const Box near = grown(box_of(solid), kNear_m);
   std::vector<PartyWall> walls;
   for (const Building& other : buildings) {
     if (other.id == building.id) continue;

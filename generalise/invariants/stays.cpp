@@ -2,6 +2,7 @@
 
 #include "generalise/invariants/fineness.h"
 #include "kernel/base/index.h"
+#include "kernel/geometry/boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,8 @@ bool lies_in(const Loop& outline, const Solid& solid, const Facet& facet,
   Box box;
   for (const int v : facet.loops[0]) box.grow(solid.vertices[at(v)].point);
   const Vec3 corner = segmentation.vertices[at(outline[0])].point;
-  return std::abs(dot(plane.normal, corner) - plane.offset_m) <= kOnBox_m && holds(box, corner);
+  return std::abs(dot(plane.normal, corner) - plane.offset_m) <= kOnBox_m &&
+         contains(box, corner, kOnBox_m);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "generalise/removal/facets.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/boxes.h"
+#include "kernel/geometry/disjoint_sets.h"
+#include "kernel/model/area_vector.h"
 
 #include <algorithm>
 #include <map>
@@ -11,33 +14,17 @@ namespace oriel::detail {
 
 namespace {
 
-bool is_inside(const Box& inner, const Box& outer) {
-  return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
-         inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
-}
-
-double size_of(const Box& box) {
-  const Vec3 d = box.max - box.min;
-  return d.x * d.y * d.z;
-}
-
 /// Facets that share an edge have one number, the smallest of theirs.
 std::vector<int> connected(const Solid& solid) {
-  std::vector<int> parent(solid.facets.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](int i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
+  DisjointSets sets(solid.facets.size());
   std::map<std::pair<int, int>, int> facet_at;
   for_each_edge(solid, [&](int facet, int p, int q) {
     const auto [first, is_new] = facet_at.emplace(std::minmax(p, q), facet);
-    if (is_new) return;
-    const int i = find(first->second), j = find(facet);
-    parent[at(std::max(i, j))] = std::min(i, j);
+    if (!is_new) sets.unite(first->second, facet);
   });
-  for (int i = 0; i < std::ssize(parent); ++i) parent[at(i)] = find(i);
-  return parent;
+  std::vector<int> number(solid.facets.size());
+  for (int i = 0; i < std::ssize(number); ++i) number[at(i)] = sets.find(i);
+  return number;
 }
 
 /// What is known of a shell before it has its place.
@@ -73,12 +60,9 @@ void for_each_edge(const Solid& solid, const std::function<void(int, int, int)>&
 
 Plane plane_of(std::span<const Vertex> vertices, const Loop& outer) {
   const Vec3 first = vertices[at(outer[0])].point;
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < outer.size(); ++i)
-    sum =
-        sum + cross(vertices[at(outer[i])].point - first, vertices[at(outer[i + 1])].point - first);
   Plane plane;
-  plane.normal = normalised(sum);
+  plane.normal = normalised(
+      area_vector(outer.size(), [&](std::size_t i) { return vertices[at(outer[i])].point; }));
   plane.offset_m = dot(plane.normal, first);
   return plane;
 }
@@ -98,8 +82,8 @@ std::vector<Shell> shells_of(const Solid& solid) {
     piece.shell.is_cavity = true;
     double smallest = Box::kInfinity;
     for (std::size_t lump = 0; lump < boxes.size(); ++lump) {
-      if (!is_inside(piece.box, boxes[lump]) || size_of(boxes[lump]) >= smallest) continue;
-      smallest = size_of(boxes[lump]);
+      if (!is_within(piece.box, boxes[lump]) || volume_m3(boxes[lump]) >= smallest) continue;
+      smallest = volume_m3(boxes[lump]);
       piece.shell.lump = static_cast<int>(lump);
     }
     shells.push_back(std::move(piece.shell));

@@ -1,5 +1,7 @@
 #include "generalise/series/change.h"
 
+#include "kernel/geometry/disjoint_sets.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -27,7 +29,7 @@ bool means_the_same(const LevelFacet& a, const LevelFacet& b) {
   return a.type == b.type && a.members == b.members && a.installations == b.installations;
 }
 
-void compare(const GridRing& outer, const LevelFacet& before, const LevelFacet& after,
+void compare(const MicrometreRing& outer, const LevelFacet& before, const LevelFacet& after,
              Change& change) {
   if (before == after) return;
   if (!means_the_same(before, after)) {
@@ -44,10 +46,10 @@ void compare(const GridRing& outer, const LevelFacet& before, const LevelFacet& 
 struct ChangePiece {
   enum class Kind { removed, added, removed_hole, added_hole };
   Kind kind;
-  std::size_t index = 0;              ///< of a facet
-  const GridRing* outer = nullptr;    ///< of a hole
-  const GridRing* ring = nullptr;     ///< the hole, or the facet's outer ring
-  const LevelFacet* facet = nullptr;  ///< of a facet
+  std::size_t index = 0;                  ///< of a facet
+  const MicrometreRing* outer = nullptr;  ///< of a hole
+  const MicrometreRing* ring = nullptr;   ///< the hole, or the facet's outer ring
+  const LevelFacet* facet = nullptr;      ///< of a facet
 };
 
 std::vector<ChangePiece> pieces_of(const Change& change) {
@@ -61,39 +63,19 @@ std::vector<ChangePiece> pieces_of(const Change& change) {
     pieces.push_back({ChangePiece::Kind::added, i, nullptr, &outer, &facet});
   }
   for (const auto& [outer, holes] : change.holes) {
-    for (const GridRing& ring : holes.removed)
+    for (const MicrometreRing& ring : holes.removed)
       pieces.push_back({ChangePiece::Kind::removed_hole, 0, &outer, &ring, nullptr});
-    for (const GridRing& ring : holes.added)
+    for (const MicrometreRing& ring : holes.added)
       pieces.push_back({ChangePiece::Kind::added_hole, 0, &outer, &ring, nullptr});
   }
   return pieces;
 }
 
-/// JoinedPieces of numbers that grow together.
-class JoinedPieces {
- public:
-  explicit JoinedPieces(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The smaller number stands for both.
-  void unite(std::size_t i, std::size_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-void for_each_edge(const GridRing& ring,
-                   const std::function<void(const std::pair<GridPoint, GridPoint>&)>& visit) {
+void for_each_edge(
+    const MicrometreRing& ring,
+    const std::function<void(const std::pair<MicrometrePoint, MicrometrePoint>&)>& visit) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const GridPoint &p = ring[i], &q = ring[(i + 1) % ring.size()];
+    const MicrometrePoint &p = ring[i], &q = ring[(i + 1) % ring.size()];
     visit(std::minmax(p, q));
   }
 }
@@ -123,17 +105,17 @@ void apply_to_map(Map& map, const Changed& changed) {
   }
 }
 
-bool apply_holes(std::map<GridRing, LevelFacet>& facets, const GridRing& outer,
+bool apply_holes(std::map<MicrometreRing, LevelFacet>& facets, const MicrometreRing& outer,
                  const Change::Holes& change) {
   const auto facet = facets.find(outer);
   if (facet == facets.end()) return false;
   auto& holes = facet->second.holes;
-  for (const GridRing& ring : change.removed) {
+  for (const MicrometreRing& ring : change.removed) {
     const auto found = std::ranges::lower_bound(holes, ring);
     if (found == holes.end() || *found != ring) return false;
     holes.erase(found);
   }
-  for (const GridRing& ring : change.added) {
+  for (const MicrometreRing& ring : change.added) {
     const auto place = std::ranges::lower_bound(holes, ring);
     if (place != holes.end() && *place == ring) return false;
     holes.insert(place, ring);
@@ -159,21 +141,22 @@ Change difference(const LevelState& before, const LevelState& after) {
 
 std::vector<Change> parts_of(const Change& change) {
   const std::vector<ChangePiece> pieces = pieces_of(change);
-  JoinedPieces sets(pieces.size());
-  std::map<std::pair<GridPoint, GridPoint>, std::size_t> piece_at;
+  detail::DisjointSets sets(pieces.size());
+  std::map<std::pair<MicrometrePoint, MicrometrePoint>, int> piece_at;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto join = [&](const std::pair<GridPoint, GridPoint>& edge) {
-      const auto [first, is_new] = piece_at.emplace(edge, i);
-      if (!is_new) sets.unite(first->second, i);
+    const auto join = [&](const std::pair<MicrometrePoint, MicrometrePoint>& edge) {
+      const auto [first, is_new] = piece_at.emplace(edge, static_cast<int>(i));
+      if (!is_new) sets.unite(first->second, static_cast<int>(i));
     };
     for_each_edge(*pieces[i].ring, join);
     if (pieces[i].facet != nullptr)
-      for (const GridRing& hole : pieces[i].facet->holes) for_each_edge(hole, join);
+      for (const MicrometreRing& hole : pieces[i].facet->holes) for_each_edge(hole, join);
   }
   // A facet that gives way to another one with the same outer ring takes that one along, and so do
   // holes on it; they share its edges.
-  std::map<std::size_t, Change> parts;
-  for (std::size_t i = 0; i < pieces.size(); ++i) put(change, pieces[i], parts[sets.find(i)]);
+  std::map<int, Change> parts;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    put(change, pieces[i], parts[sets.find(static_cast<int>(i))]);
   std::vector<Change> out;
   for (auto& [number, part] : parts) out.push_back(std::move(part));
   return out;
@@ -207,8 +190,8 @@ bool apply(LevelState& state, const Change& change) {
 
 Box box_of(const Change& change) {
   Box box;
-  const auto grow = [&](const GridRing& ring) {
-    for (const GridPoint& p : ring) box.grow(metres_of(p));
+  const auto grow = [&](const MicrometreRing& ring) {
+    for (const MicrometrePoint& p : ring) box.grow(metres_of(p));
   };
   for (const auto* facets : {&change.removed, &change.added})
     for (const auto& [outer, facet] : *facets) grow(outer);

@@ -18,12 +18,12 @@ namespace {
 
 /// Without vertices that stand twice in a row, from the smallest one on; empty if less than a
 /// triangle is left.
-GridRing ring_of(const Loop& loop, const std::vector<GridPoint>& places) {
-  GridRing ring;
+MicrometreRing ring_of(const Loop& loop, const std::vector<MicrometrePoint>& places) {
+  MicrometreRing ring;
   for (const int v : loop)
     if (ring.empty() || ring.back() != places[at(v)]) ring.push_back(places[at(v)]);
   while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  if (std::set<GridPoint>(ring.begin(), ring.end()).size() < 3) return {};
+  if (std::set<MicrometrePoint>(ring.begin(), ring.end()).size() < 3) return {};
   std::ranges::rotate(ring, std::ranges::min_element(ring));
   return ring;
 }
@@ -52,9 +52,9 @@ std::string text_of(const Members& members) {
   return text;
 }
 
-std::string text_of(const GridRing& ring) {
+std::string text_of(const MicrometreRing& ring) {
   std::string text;
-  for (const GridPoint& p : ring) text += fmt::format("{} {} {},", p[0], p[1], p[2]);
+  for (const MicrometrePoint& p : ring) text += fmt::format("{} {} {},", p[0], p[1], p[2]);
   return text;
 }
 
@@ -75,7 +75,7 @@ class Builder {
   }
 
  private:
-  int vertex(const GridPoint& p) {
+  int vertex(const MicrometrePoint& p) {
     const auto [found, is_new] = number_of_.try_emplace(p, static_cast<int>(number_of_.size()));
     if (is_new) {
       const Vec3 input = metres_of(p);
@@ -84,15 +84,15 @@ class Builder {
     return found->second;
   }
 
-  Loop loop(const GridRing& ring) {
+  Loop loop(const MicrometreRing& ring) {
     Loop loop;
-    for (const GridPoint& p : ring) loop.push_back(vertex(p));
+    for (const MicrometrePoint& p : ring) loop.push_back(vertex(p));
     return loop;
   }
 
-  void add(const GridRing& outer, const LevelFacet& facet) {
+  void add(const MicrometreRing& outer, const LevelFacet& facet) {
     Facet made{PlaneId{static_cast<int>(solid_.planes.size())}, {loop(outer)}, {}};
-    for (const GridRing& hole : facet.holes) made.loops.push_back(loop(hole));
+    for (const MicrometreRing& hole : facet.holes) made.loops.push_back(loop(hole));
     solid_.planes.push_back(detail::plane_of(solid_.vertices, made.loops[0]));
     solid_.facets.push_back(std::move(made));
     const int number = static_cast<int>(out_.surfaces.size());
@@ -148,7 +148,7 @@ class Builder {
   const Frame& frame_;
   Solid solid_;
   LabelledBuilding out_;
-  std::map<GridPoint, int> number_of_;
+  std::map<MicrometrePoint, int> number_of_;
   std::map<std::string, int> surface_of_id_;
 };
 
@@ -166,7 +166,7 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
   LevelState state;
   state.building = labelled.building;
   const Solid& solid = *labelled.geometry;
-  std::vector<GridPoint> places;
+  std::vector<MicrometrePoint> places;
   places.reserve(solid.vertices.size());
   for (const Vertex& vertex : solid.vertices) places.push_back(place(vertex.point));
   std::vector<std::vector<std::string>> owners(solid.facets.size());
@@ -177,11 +177,11 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
     for (const int facet : installation.polygons) owners[at(facet)].push_back(installation.id);
   }
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-    GridRing outer = ring_of(solid.facets[f].loops[0], places);
+    MicrometreRing outer = ring_of(solid.facets[f].loops[0], places);
     if (outer.empty()) continue;
     LevelFacet facet;
     for (std::size_t i = 1; i < solid.facets[f].loops.size(); ++i)
-      if (GridRing hole = ring_of(solid.facets[f].loops[i], places); !hole.empty())
+      if (MicrometreRing hole = ring_of(solid.facets[f].loops[i], places); !hole.empty())
         facet.holes.push_back(std::move(hole));
     std::ranges::sort(facet.holes);
     if (const int surface = labelled.surface_of_polygon[f]; surface >= 0) {
@@ -226,7 +226,7 @@ std::string hash_of(const LevelState& state) {
   std::string text = state.building + "\n";
   for (const auto& [outer, facet] : state.facets) {
     text += text_of(outer) + "|";
-    for (const GridRing& hole : facet.holes) text += text_of(hole) + "|";
+    for (const MicrometreRing& hole : facet.holes) text += text_of(hole) + "|";
     text += facet.type + "|" + text_of(facet.members);
     for (const std::string& id : facet.installations) text += "|" + id;
     text += '\n';

@@ -10,7 +10,7 @@
 namespace oriel {
 
 /// Where a point of the building's frame comes to lie in the file.
-using Placer = std::function<GridPoint(Vec3 local_m)>;
+using Placer = std::function<MicrometrePoint(Vec3 local_m)>;
 
 /// The state of a building that has a geometry of its own, with vertices where the file has them.
 /// Vertices that become one are one; facets of which less than a triangle is left vanish. Of the

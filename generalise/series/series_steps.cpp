@@ -1,6 +1,7 @@
 #include "generalise/series/series_steps.h"
 
 #include "generalise/invariants/fineness.h"
+#include "kernel/geometry/boxes.h"
 
 #include <algorithm>
 #include <map>
@@ -42,8 +43,10 @@ std::size_t nearest(const std::vector<SeriesStep>& steps, const Change& part,
 }
 
 /// Some of the ring's points are in the box and some are not.
-bool passes(const GridRing& ring, const Box& box, Vec3 origin_m) {
-  const auto is_within = [&](const GridPoint& p) { return holds(box, metres_of(p) - origin_m); };
+bool passes(const MicrometreRing& ring, const Box& box, Vec3 origin_m) {
+  const auto is_within = [&](const MicrometrePoint& p) {
+    return contains(box, metres_of(p) - origin_m, kOnBox_m);
+  };
   return std::ranges::any_of(ring, is_within) && !std::ranges::all_of(ring, is_within);
 }
 

@@ -2,6 +2,7 @@
 
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/yaml/json_text.h"
+#include "kernel/geometry/boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +34,6 @@ std::map<int, const LabelledFaces*> innermost(const std::vector<LabelledFaces>& 
   return by_face;
 }
 
-bool holds(const Box& box, Vec3 p) {
-  return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&
-         p.z >= box.min.z && p.z <= box.max.z;
-}
-
 /// Files are up to 5 mm off the truth (noise), walls around a niche begin further off.
 constexpr double kNicheGrowth_m = 0.02;
 
@@ -45,10 +41,8 @@ constexpr double kNicheGrowth_m = 0.02;
 bool is_reveal(const Building& building, const Polygon& polygon, const FacesOfBuilding& faces,
                const std::string& truth_id) {
   const Box box = rules::box_of(building, polygon).moved(building.frame.origin_m);
-  const Vec3 growth{kNicheGrowth_m, kNicheGrowth_m, kNicheGrowth_m};
   return std::ranges::any_of(faces.niches, [&](const auto& niche) {
-    const Box grown{niche.second.min - growth, niche.second.max + growth};
-    return niche.first != truth_id && holds(grown, box.min) && holds(grown, box.max);
+    return niche.first != truth_id && is_within(box, grown(niche.second, kNicheGrowth_m));
   });
 }
 

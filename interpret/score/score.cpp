@@ -1,5 +1,7 @@
 #include "interpret/score/score.h"
 
+#include "kernel/geometry/boxes.h"
+
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -10,26 +12,6 @@ namespace oriel {
 namespace {
 
 constexpr const char* kNothing = "-";
-
-double volume(const Box& box) {
-  if (box.is_empty()) return 0;
-  return (box.max.x - box.min.x) * (box.max.y - box.min.y) * (box.max.z - box.min.z);
-}
-
-Box grown(const Box& box, double by) {
-  if (box.is_empty()) return box;
-  return {box.min - Vec3{by, by, by}, box.max + Vec3{by, by, by}};
-}
-
-double iou(const Box& p, const Box& q) {
-  const Box common = {
-      {std::max(p.min.x, q.min.x), std::max(p.min.y, q.min.y), std::max(p.min.z, q.min.z)},
-      {std::min(p.max.x, q.max.x), std::min(p.max.y, q.max.y), std::min(p.max.z, q.max.z)}};
-  if (common.is_empty() || common.min.y > common.max.y || common.min.z > common.max.z) return 0;
-  const double shared = volume(common);
-  const double all = volume(p) + volume(q) - shared;
-  return all > 0 ? shared / all : 0;
-}
 
 double ratio(std::size_t part, std::size_t whole) {
   if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -75,8 +57,8 @@ class Matcher {
   void find_pairs() {
     for (const ExpectedObject* truth : truth_)
       for (const Prediction* prediction : predictions_) {
-        const double overlap =
-            iou(grown(truth->box, options_.grow_m), grown(prediction->box, options_.grow_m));
+        const double overlap = intersection_over_union(grown(truth->box, options_.grow_m),
+                                                       grown(prediction->box, options_.grow_m));
         if (overlap >= options_.min_iou) pairs_.push_back({overlap, truth, prediction});
       }
     std::ranges::stable_sort(pairs_, is_better);

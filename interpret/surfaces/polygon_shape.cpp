@@ -1,5 +1,7 @@
 #include "interpret/surfaces/polygon_shape.h"
 
+#include "kernel/model/area_vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,13 +17,8 @@ Vec3 vertex(const Building& building, int index) {
 }  // namespace
 
 Vec3 area_vector(const Building& building, const Polygon& polygon) {
-  Vec3 sum;
-  if (polygon.rings.empty() || polygon.rings[0].size() < 3) return sum;
-  const auto& ring = polygon.rings[0];
-  const Vec3 base = vertex(building, ring[0]);
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-    sum = sum + cross(vertex(building, ring[i]) - base, vertex(building, ring[i + 1]) - base);
-  return 0.5 * sum;
+  if (polygon.rings.empty()) return {};
+  return oriel::area_vector(building.vertices, polygon.rings[0]);
 }
 
 double inclination_deg(Vec3 direction) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/whole_point.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/vec3.h"
 
@@ -22,7 +23,7 @@ inline constexpr std::int64_t kMaxNormal = std::int64_t{1} << 28;
 inline constexpr std::int64_t kMaxCoordinate = std::int64_t{1} << 32;
 
 /// A point of the grid, in grid units.
-using GridPoint = std::array<std::int64_t, 3>;
+using GridPoint = WholePoint<struct GridUnits>;
 
 /// A rational point (x/w, y/w, z/w) in grid units, w > 0.
 struct Rational {

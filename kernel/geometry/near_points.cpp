@@ -12,14 +12,13 @@ namespace oriel::detail {
 
 namespace {
 
-using exact::GridPoint;
-
 /// Finds the points that may have another one within reach. Cut wherever the next point along an
 /// axis is out of reach, a list falls into pieces that cannot reach each other; cut along all three
 /// axes, in most buildings into single points.
+template <class Point>
 class Candidates {
  public:
-  Candidates(std::span<const GridPoint> points, double reach)
+  Candidates(std::span<const Point> points, double reach)
       : points_(points), reach_(static_cast<std::int64_t>(std::ceil(reach))) {}
 
   /// Of sorted points.
@@ -34,7 +33,7 @@ class Candidates {
  private:
   /// `piece` is sorted by the axis and not empty.
   void cut(std::span<int> piece, std::size_t axis) {
-    const GridPoint* const points = points_.data();
+    const Point* const points = points_.data();
     std::size_t start = 0;
     std::int64_t before = points[piece[0]][axis];
     for (std::size_t i = 1; i < piece.size(); ++i) {
@@ -60,7 +59,7 @@ class Candidates {
   }
 
   [[nodiscard]] bool is_sorted(std::span<const int> piece, std::size_t axis) const {
-    const GridPoint* const points = points_.data();
+    const Point* const points = points_.data();
     std::int64_t before = points[piece[0]][axis];
     for (const int i : piece) {
       if (points[i][axis] < before) return false;
@@ -69,8 +68,8 @@ class Candidates {
     return true;
   }
 
-  std::span<const GridPoint> points_;
-  std::int64_t reach_;  ///< a whole number is below this one if it is below the one told
+  std::span<const Point> points_;
+  std::int64_t reach_;  ///< a whole number is below this one if it is below `reach`
   Numbers found_;
 };
 
@@ -88,7 +87,8 @@ struct BucketHash {
   }
 };
 
-double distance2(const GridPoint& p, const GridPoint& q) {
+template <class Point>
+double distance2(const Point& p, const Point& q) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto d = static_cast<double>(p[i] - q[i]);
@@ -98,7 +98,8 @@ double distance2(const GridPoint& p, const GridPoint& q) {
 }
 
 /// Unites the pairs among `members` that are closer than `reach`.
-void unite_near(std::span<const GridPoint> points, std::span<const int> members, double reach,
+template <class Point>
+void unite_near(std::span<const Point> points, std::span<const int> members, double reach,
                 DisjointSets& groups) {
   const auto edge = static_cast<std::int64_t>(std::ceil(reach));
   const auto floor_div = [edge](std::int64_t c) {
@@ -119,9 +120,8 @@ void unite_near(std::span<const GridPoint> points, std::span<const int> members,
   }
 }
 
-}  // namespace
-
-Numbers group_near_points(std::span<const GridPoint> points, double reach) {
+template <class Point>
+Numbers group_near(std::span<const Point> points, double reach) {
   Numbers first(points.size());
   std::iota(first.begin(), first.end(), 0);
   const Numbers candidates = Candidates(points, reach).find();
@@ -130,6 +130,16 @@ Numbers group_near_points(std::span<const GridPoint> points, double reach) {
   unite_near(points, candidates, reach, groups);
   for (const int i : candidates) first[at(i)] = groups.find(i);
   return first;
+}
+
+}  // namespace
+
+Numbers group_near_points(std::span<const exact::GridPoint> points, double reach) {
+  return group_near(points, reach);
+}
+
+Numbers group_near_points(std::span<const MicrometrePoint> points, double reach) {
+  return group_near(points, reach);
 }
 
 }  // namespace oriel::detail

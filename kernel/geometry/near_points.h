@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/numbers.h"
+#include "kernel/base/whole_point.h"
 #include "kernel/geometry/exact.h"
 
 #include <span>
@@ -8,7 +9,8 @@
 namespace oriel::detail {
 
 /// For every point of a sorted list without doubles the first point of its group: pairs closer than
-/// `reach` (grid units) are in one group, and so are those that such pairs link.
+/// `reach` (in the unit of the points) are in one group, and so are those that such pairs link.
 Numbers group_near_points(std::span<const exact::GridPoint> points, double reach);
+Numbers group_near_points(std::span<const MicrometrePoint> points, double reach);
 
 }  // namespace oriel::detail

@@ -1,5 +1,7 @@
 #include "kernel/geometry/planar.h"
 
+#include "kernel/model/area_vector.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -136,10 +138,7 @@ double solid_angle(Vec3 p, Vec3 q, Vec3 r) {
 }  // namespace
 
 double signed_area(const Outline& outline, Vec3 normal) {
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-  return dot(sum, normal) / 2;
+  return dot(area_vector(outline), normal);
 }
 
 void start_at_least(Outline& outline) {

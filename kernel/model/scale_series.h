@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/whole_point.h"
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/vec3.h"
 
@@ -13,22 +14,19 @@
 
 namespace oriel {
 
-/// A vertex as it stands in a file: whole micrometres in the input's coordinates.
-using GridPoint = std::array<std::int64_t, 3>;
-
-/// The same in metres.
-inline Vec3 metres_of(const GridPoint& point) {
+/// A point in metres.
+inline Vec3 metres_of(const MicrometrePoint& point) {
   constexpr double kMicrometre_m = 1e-6;
   return kMicrometre_m * Vec3{static_cast<double>(point[0]), static_cast<double>(point[1]),
                               static_cast<double>(point[2])};
 }
 /// A closed ring that starts at its smallest point.
-using GridRing = std::vector<GridPoint>;
+using MicrometreRing = std::vector<MicrometrePoint>;
 
 /// A facet of a level and what it is.
 struct LevelFacet {
   /// Inner rings, sorted.
-  std::vector<GridRing> holes;
+  std::vector<MicrometreRing> holes;
   /// The semantic surface: its type and members. Facets with the same `oriel_id` are one.
   std::string type;
   Members members;
@@ -47,7 +45,7 @@ struct LevelFacet {
 struct LevelState {
   std::string building;
   /// By outer ring, of which no two are the same.
-  std::map<GridRing, LevelFacet> facets;
+  std::map<MicrometreRing, LevelFacet> facets;
   /// The attributes of installations, by id.
   std::map<std::string, Members> installations;
   /// The building's counts `oriel_removed_…`.
@@ -60,10 +58,10 @@ struct LevelState {
 struct Change {
   /// The holes that a facet loses and gains; its outer ring stays.
   struct Holes {
-    std::vector<GridRing> removed, added;
+    std::vector<MicrometreRing> removed, added;
   };
-  std::vector<std::pair<GridRing, LevelFacet>> removed, added;
-  std::map<GridRing, Holes> holes;
+  std::vector<std::pair<MicrometreRing, LevelFacet>> removed, added;
+  std::map<MicrometreRing, Holes> holes;
   /// What there is afterwards; nothing: it is gone.
   std::map<std::string, std::optional<Members>> installations;
   std::map<std::string, std::optional<MemberValue>> attributes;

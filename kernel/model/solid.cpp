@@ -1,5 +1,6 @@
 #include "kernel/model/solid.h"
 
+#include "kernel/model/area_vector.h"
 #include "kernel/model/description/counting_sort.h"
 
 #include <cstddef>
@@ -7,13 +8,10 @@
 namespace oriel {
 
 double signed_area_m2(std::span<const Vertex> vertices, const Loop& loop, Vec3 normal) {
-  if (loop.size() < 3) return 0;
-  const auto at = [&](std::size_t i) { return vertices[static_cast<std::size_t>(loop[i])].point; };
-  const Vec3 base = at(0);
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-    sum = sum + cross(at(i) - base, at(i + 1) - base);
-  return dot(sum, normal) / 2;
+  const auto point = [&](std::size_t i) {
+    return vertices[static_cast<std::size_t>(loop[i])].point;
+  };
+  return dot(area_vector(loop.size(), point), normal);
 }
 
 double area_m2(std::span<const Vertex> vertices, const Facet& facet, Vec3 normal) {

@@ -2,13 +2,206 @@
 
 #include "kernel/base/index.h"
 #include "kernel/solidify/planes/plane_clusters.h"
-#include "kernel/solidify/shells/open_mesh.h"
+#include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
+
+namespace oriel::detail {
+
+namespace {
+
+/// Polygons that go on in one plane: 1° is what surveyed walls show between neighbours.
+constexpr double kGoesOn_deg = 1;
+/// A patch looks away from the middle clearly if the mean cosine between its normals and the
+/// directions from there is at least this: of a closed box it is above 0.5.
+constexpr double kClearly = 0.3;
+
+class OpenMeshBuilder {
+ public:
+  explicit OpenMeshBuilder(Soup& soup) : soup_(soup) {}
+
+  ShellMesh run() {
+    link_rings();
+    measure();
+    group_edges();
+    orient();
+    pair();
+    tell_vertices();
+    return std::move(mesh_);
+  }
+
+ private:
+  /// A half-edge with the ends of its edge.
+  struct Entry {
+    int low, high, half_edge;
+    [[nodiscard]] std::pair<int, int> ends() const { return {low, high}; }
+  };
+  /// A neighbour over an edge of two; whether the two rings run against each other there.
+  struct Neighbour {
+    int polygon;
+    bool agrees;
+  };
+
+  [[nodiscard]] int from(int h) const { return soup_.corners[at(h)]; }
+  [[nodiscard]] int to(int h) const { return soup_.corners[at(mesh_.next[at(h)])]; }
+  [[nodiscard]] int polygon_of(int h) const { return mesh_.polygon_of[at(h)]; }
+
+  void link_rings() {
+    mesh_.next.resize(soup_.corners.size());
+    mesh_.polygon_of.resize(soup_.corners.size());
+    for (int p = 0; p < soup_.polygon_count(); ++p)
+      for (const int r : soup_.rings_of(p)) {
+        const int begin = soup_.first_corner[at(r)], end = soup_.first_corner[at(r) + 1];
+        for (int h = begin; h < end; ++h) {
+          mesh_.next[at(h)] = h + 1 < end ? h + 1 : begin;
+          mesh_.polygon_of[at(h)] = p;
+        }
+      }
+  }
+
+  /// Area vectors and middles of the polygons.
+  void measure() {
+    Box box;
+    for (const auto& p : soup_.points) box.grow(exact::to_metres(p, soup_.grid_m));
+    const Vec3 centre = 0.5 * (box.min + box.max);
+    for (int p = 0; p < soup_.polygon_count(); ++p) {
+      Vec3 area, sum;
+      const auto corners = soup_.corners_of(p);
+      for (const int r : soup_.rings_of(p)) {
+        const auto ring = soup_.ring(r);
+        const Vec3 base = point(ring[0]);
+        for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+          area = area + 0.5 * cross(point(ring[i]) - base, point(ring[i + 1]) - base);
+      }
+      for (const int v : corners) sum = sum + point(v);
+      area_.push_back(area);
+      outward_.push_back((1.0 / static_cast<double>(corners.size())) * sum - centre);
+    }
+  }
+  [[nodiscard]] Vec3 point(int v) const {
+    return exact::to_metres(soup_.points[at(v)], soup_.grid_m);
+  }
+
+  void group_edges() {
+    for (int h = 0; h < soup_.corner_count(); ++h)
+      edges_.push_back({std::min(from(h), to(h)), std::max(from(h), to(h)), h});
+    std::ranges::sort(edges_, {},
+                      [](const Entry& e) { return std::tuple(e.low, e.high, e.half_edge); });
+  }
+  /// Visits the half-edges of each edge, as [first, past) of `edges_`.
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    for (std::size_t first = 0, past = 0; first < edges_.size(); first = past) {
+      while (past < edges_.size() && edges_[past].ends() == edges_[first].ends()) ++past;
+      visit(first, past);
+    }
+  }
+
+  void orient() {
+    std::vector<std::vector<Neighbour>> neighbours(soup_.polygons.size());
+    for_each_edge([&](std::size_t first, std::size_t past) {
+      if (past - first != 2) return;
+      const int h = edges_[first].half_edge, g = edges_[first + 1].half_edge;
+      const int p = polygon_of(h), q = polygon_of(g);
+      const bool agrees = from(h) != from(g);
+      neighbours[at(p)].push_back({q, agrees});
+      neighbours[at(q)].push_back({p, agrees});
+    });
+    is_turned_.assign(soup_.polygons.size(), 0);
+    std::vector<char> is_seen(soup_.polygons.size(), 0);
+    for (int start = 0; start < soup_.polygon_count(); ++start) {
+      if (is_seen[at(start)]) continue;
+      is_seen[at(start)] = 1;
+      std::vector<int> patch{start};
+      for (std::size_t i = 0; i < patch.size(); ++i)
+        for (const Neighbour& n : neighbours[at(patch[i])]) {
+          if (std::exchange(is_seen[at(n.polygon)], 1)) continue;
+          is_turned_[at(n.polygon)] =
+              static_cast<char>(n.agrees ? is_turned_[at(patch[i])] : !is_turned_[at(patch[i])]);
+          patch.push_back(n.polygon);
+        }
+      if (looks_inward(patch))
+        for (const int p : patch) is_turned_[at(p)] = static_cast<char>(!is_turned_[at(p)]);
+    }
+    for (int p = 0; p < soup_.polygon_count(); ++p)
+      if (is_turned_[at(p)]) turn_round(p);
+  }
+
+  [[nodiscard]] bool looks_inward(const std::vector<int>& patch) const {
+    double away = 0, all = 0, as_it_was = 0;
+    for (const int p : patch) {
+      const double sign = is_turned_[at(p)] ? -1 : 1;
+      away += sign * dot(area_[at(p)], outward_[at(p)]);
+      all += length(area_[at(p)]) * length(outward_[at(p)]);
+      as_it_was += sign * length(area_[at(p)]);
+    }
+    return std::abs(away) >= kClearly * all ? away < 0 : as_it_was < 0;
+  }
+
+  /// Rings keep their first corners.
+  void turn_round(int polygon) {
+    for (const int r : soup_.rings_of(polygon)) {
+      const auto ring = soup_.ring(r);
+      std::reverse(ring.begin() + 1, ring.end());
+    }
+    area_[at(polygon)] = -area_[at(polygon)];
+  }
+
+  void pair() {
+    edges_.clear();  // half-edges have other ends now
+    group_edges();
+    mesh_.twin.assign(soup_.corners.size(), -1);
+    const double cosine = std::cos(kGoesOn_deg * std::numbers::pi / 180);
+    for_each_edge([&](std::size_t first, std::size_t past) {
+      std::vector<std::tuple<double, int, int>> pairs;  // the flattest first
+      for (std::size_t i = first; i < past; ++i)
+        for (std::size_t j = first; j < past; ++j) {
+          const int h = edges_[i].half_edge, g = edges_[j].half_edge;
+          if (from(h) != edges_[i].low || from(g) == edges_[j].low) continue;
+          const double flat =
+              dot(normalised(area_[at(polygon_of(h))]), normalised(area_[at(polygon_of(g))]));
+          if (past - first == 2 || flat >= cosine) pairs.emplace_back(-flat, h, g);
+        }
+      std::ranges::sort(pairs);
+      for (const auto& [flat, h, g] : pairs) {
+        if (mesh_.twin[at(h)] >= 0 || mesh_.twin[at(g)] >= 0) continue;
+        mesh_.twin[at(h)] = g;
+        mesh_.twin[at(g)] = h;
+      }
+    });
+  }
+
+  void tell_vertices() {
+    mesh_.vertex_of.assign(soup_.corners.begin(), soup_.corners.end());
+    mesh_.point_of.resize(soup_.points.size());
+    for (int v = 0; v < std::ssize(soup_.points); ++v) mesh_.point_of[at(v)] = v;
+  }
+
+  Soup& soup_;
+  ShellMesh mesh_;
+  std::vector<Entry> edges_;  ///< sorted
+  std::vector<Vec3> area_, outward_;
+  std::vector<char> is_turned_;
+};
+
+/// The half-edges of polygons that need not close: never fails, and leaves open (twin -1) what does
+/// not pair up. Every point is one vertex.
+///
+/// Polygons are turned round until neighbours agree; where they cannot, those between them stay
+/// open. Each connected patch then looks away from the middle of the building if most of it does
+/// so clearly, else as most of its polygons did. Where more than two polygons meet at an edge,
+/// those that go on in one plane are paired. The soup's rings are turned round along.
+ShellMesh build_open_mesh(Soup& soup) { return OpenMeshBuilder(soup).run(); }
+
+}  // namespace
+
+}  // namespace oriel::detail
 
 namespace oriel {
 

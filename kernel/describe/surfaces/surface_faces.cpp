@@ -1,6 +1,7 @@
 #include "kernel/describe/surfaces/surface_faces.h"
 
 #include "kernel/describe/features/shape.h"
+#include "kernel/model/area_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +14,6 @@ namespace {
 
 /// cos 85 degrees. A window sill that slopes is far from it, a wall that leans near to it.
 constexpr double kSteep = 0.0872;
-
-Vec3 area_vector(OutlineView outline) {
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    sum = sum + cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
-  return 0.5 * sum;
-}
 
 SurfaceFace face_of(std::span<const OutlineView> outlines) {
   SurfaceFace face;

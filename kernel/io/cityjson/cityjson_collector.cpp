@@ -155,7 +155,7 @@ void CityJsonCollector::drop_extent() {
 
 /// All files have their places in it, wherever their own grids begin.
 void CityJsonCollector::go_to_micrometres() {
-  const Triple origin = grid_point({0, 0, 0}, grid_.scale, grid_.translate);
+  const MicrometrePoint origin = grid_point({0, 0, 0}, grid_.scale, grid_.translate);
   origin_ = origin;
   for (Triple& vertex : vertices_) vertex = placed(vertex);
   constexpr double kMicrometre_m = 1e-6;
@@ -173,7 +173,7 @@ void CityJsonCollector::go_to_micrometres() {
 
 CityJsonCollector::Triple CityJsonCollector::placed(const Triple& vertex) const {
   if (!origin_) return vertex;
-  const GridPoint point = grid_point(vertex, grid_.scale, grid_.translate);
+  const MicrometrePoint point = grid_point(vertex, grid_.scale, grid_.translate);
   return {point[0] - (*origin_)[0], point[1] - (*origin_)[1], point[2] - (*origin_)[2]};
 }
 

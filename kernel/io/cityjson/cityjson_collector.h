@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/whole_point.h"
 #include "kernel/model/vec3.h"
 
 #include <array>
@@ -68,9 +69,9 @@ class CityJsonCollector {
   std::string objects_;
   std::unordered_set<std::string> ids_;
   std::vector<Triple> vertices_;
-  bool is_of_several_ = false;    ///< files
-  Grid grid_;                     ///< of the lines at hand
-  std::optional<Triple> origin_;  ///< of a grid of micrometres, in which it is
+  bool is_of_several_ = false;             ///< files
+  Grid grid_;                              ///< of the lines at hand
+  std::optional<MicrometrePoint> origin_;  ///< of a grid of micrometres, in which it is
   Parts materials_, textures_;
   std::vector<std::string> places_;  ///< "vertices-texture"
 };

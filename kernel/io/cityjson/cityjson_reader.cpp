@@ -279,7 +279,7 @@ std::optional<Fault> CityJsonReader::State::check_header(const std::string& text
 
 std::optional<Fault> CityJsonReader::State::check_feature(dom::object root,
                                                           const SequenceHeader& of) {
-  if (is_astray) return Fault{Code::E116, "stands behind a header that is not that of the stream"};
+  if (is_astray) return Fault{Code::E116, "stands after a header that is not that of the stream"};
   const auto version = member(root, "version");
   if (version && as_string(version) != of.version)
     return Fault{Code::E108, fmt::format("its 'version' is {}; the header says \"{}\"",

@@ -58,8 +58,8 @@ class LevelReader {
   }
 
  private:
-  [[nodiscard]] GridRing ring_of(const Json& numbers) const {
-    GridRing ring;
+  [[nodiscard]] MicrometreRing ring_of(const Json& numbers) const {
+    MicrometreRing ring;
     for (const Json& number : numbers)
       ring.push_back(
           grid_point(vertices_.at(number.get<std::size_t>()).get<std::array<std::int64_t, 3>>(),

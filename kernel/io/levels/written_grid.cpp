@@ -39,8 +39,8 @@ int decimals_of(std::int64_t number) {
   return decimals;
 }
 
-void note_decimals(const GridRing& ring, int& decimals) {
-  for (const GridPoint& p : ring)
+void note_decimals(const MicrometreRing& ring, int& decimals) {
+  for (const MicrometrePoint& p : ring)
     for (const std::int64_t number : p) decimals = std::max(decimals, decimals_of(number));
 }
 
@@ -68,7 +68,7 @@ WrittenGrid::WrittenGrid(const Document& document, const std::vector<LevelState>
   for (const LevelState& state : states)
     for (const auto& [outer, facet] : state.facets) {
       note_decimals(outer, decimals);
-      for (const GridRing& hole : facet.holes) note_decimals(hole, decimals);
+      for (const MicrometreRing& hole : facet.holes) note_decimals(hole, decimals);
     }
   const Vec3 s = grid.transform.scale;
   // Half a step more: a scale of 0.001 is not exactly that.
@@ -81,11 +81,11 @@ WrittenGrid::WrittenGrid(const Document& document, const std::vector<LevelState>
   translate_ = transform.translate;
 }
 
-GridPoint WrittenGrid::place(Vec3 local_m, const Frame& frame) const {
+MicrometrePoint WrittenGrid::place(Vec3 local_m, const Frame& frame) const {
   return grid_point(detail::rounded(local_m, frame, {scale_, translate_}), scale_, translate_);
 }
 
-GridPoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate) {
+MicrometrePoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate) {
   const auto whole = [](std::int64_t number, double one, double from) {
     return std::llround((from + one * static_cast<double>(number)) * kMicrometres);
   };

@@ -24,7 +24,7 @@ class WrittenGrid {
   [[nodiscard]] int finer_digits() const { return digits_; }
 
   /// Where a point of a building's frame is written.
-  [[nodiscard]] GridPoint place(Vec3 local_m, const Frame& frame) const;
+  [[nodiscard]] MicrometrePoint place(Vec3 local_m, const Frame& frame) const;
 
  private:
   Vec3 scale_, translate_;
@@ -32,6 +32,6 @@ class WrittenGrid {
 };
 
 /// The point of a file's vertex: translate + scale × integer, to the micrometre.
-GridPoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate);
+MicrometrePoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate);
 
 }  // namespace oriel

@@ -1,4 +1,5 @@
 #include "kernel/io/mesh/mesh_writer.h"
+#include "kernel/model/area_vector.h"
 
 #include <algorithm>
 #include <cctype>
@@ -66,15 +67,6 @@ std::vector<MeshFeature> features_of(const LabelledBuilding& labelled, std::size
   return features;
 }
 
-/// Twice the area vector of a ring (Newell), as a unit vector.
-Vec3 normal_of(const std::vector<Vec3>& points, const std::vector<int>& ring) {
-  const auto at = [&](std::size_t i) { return points[static_cast<std::size_t>(ring[i])]; };
-  Vec3 sum;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-    sum = sum + cross(at(i) - at(0), at(i + 1) - at(0));
-  return normalised(sum);
-}
-
 /// Gathers the faces of one building.
 class PolygonCollector {
  public:
@@ -117,7 +109,7 @@ void add_polygons(MeshSource& mesh, const Building& building, const LabelledBuil
   const std::vector<MeshFeature> features = features_of(labelled, static_cast<std::size_t>(count));
   for (const Polygon& polygon : building.polygons)
     if (!polygon.rings.empty())
-      polygons.add_face(polygon.rings, normal_of(building.vertices, polygon.rings[0]),
+      polygons.add_face(polygon.rings, normalised(area_vector(building.vertices, polygon.rings[0])),
                         features[static_cast<std::size_t>(polygon.source)],
                         class_of(labelled, static_cast<std::size_t>(polygon.source)));
 }

@@ -27,9 +27,9 @@ Json json_of(const Members& members) {
   return out;
 }
 
-Json json_of(const GridRing& ring) {
+Json json_of(const MicrometreRing& ring) {
   Json out = Json::array();
-  for (const GridPoint& p : ring) {
+  for (const MicrometrePoint& p : ring) {
     Json point = Json::array();
     for (const std::int64_t number : p) point.push_back(static_cast<double>(number) / kMicrometres);
     out.push_back(std::move(point));
@@ -37,18 +37,18 @@ Json json_of(const GridRing& ring) {
   return out;
 }
 
-Json json_of(const std::vector<GridRing>& rings) {
+Json json_of(const std::vector<MicrometreRing>& rings) {
   Json out = Json::array();
-  for (const GridRing& ring : rings) out.push_back(json_of(ring));
+  for (const MicrometreRing& ring : rings) out.push_back(json_of(ring));
   return out;
 }
 
-Json json_of(const std::vector<std::pair<GridRing, LevelFacet>>& facets) {
+Json json_of(const std::vector<std::pair<MicrometreRing, LevelFacet>>& facets) {
   Json out = Json::array();
   for (const auto& [outer, facet] : facets) {
     Json one;
     one["rings"] = Json::array({json_of(outer)});
-    for (const GridRing& hole : facet.holes) one["rings"].push_back(json_of(hole));
+    for (const MicrometreRing& hole : facet.holes) one["rings"].push_back(json_of(hole));
     one["type"] = facet.type;
     if (!facet.members.empty()) one["members"] = json_of(facet.members);
     if (!facet.installations.empty()) one["installations"] = facet.installations;
@@ -92,10 +92,10 @@ Members read_members(const Json& json) {
   return out;
 }
 
-GridRing ring_of(const Json& json) {
-  GridRing ring;
+MicrometreRing ring_of(const Json& json) {
+  MicrometreRing ring;
   for (const Json& point : json) {
-    GridPoint p{};
+    MicrometrePoint p{};
     for (std::size_t i = 0; i < p.size(); ++i)
       p[i] = std::llround(point.at(i).get<double>() * kMicrometres);
     ring.push_back(p);
@@ -104,19 +104,19 @@ GridRing ring_of(const Json& json) {
   return ring;
 }
 
-std::vector<GridRing> rings_of(const Json& json, const char* key) {
-  std::vector<GridRing> rings;
+std::vector<MicrometreRing> rings_of(const Json& json, const char* key) {
+  std::vector<MicrometreRing> rings;
   if (const auto found = json.find(key); found != json.end())
     for (const Json& ring : *found) rings.push_back(ring_of(ring));
   return rings;
 }
 
-std::vector<std::pair<GridRing, LevelFacet>> facets_of(const Json& json, const char* key) {
-  std::vector<std::pair<GridRing, LevelFacet>> facets;
+std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const Json& json, const char* key) {
+  std::vector<std::pair<MicrometreRing, LevelFacet>> facets;
   const auto found = json.find(key);
   if (found == json.end()) return facets;
   for (const Json& one : *found) {
-    std::vector<GridRing> rings = rings_of(one, "rings");
+    std::vector<MicrometreRing> rings = rings_of(one, "rings");
     if (rings.empty()) throw std::runtime_error("a facet has no rings");
     LevelFacet facet;
     facet.holes.assign(rings.begin() + 1, rings.end());

@@ -1,6 +1,6 @@
 #include "kernel/segment/complex/cell_complex.h"
 
-#include "kernel/segment/complex/conform.h"
+#include "kernel/geometry/boxes.h"
 #include "kernel/segment/complex/outlines.h"
 #include "kernel/segment/complex/owners.h"
 #include "kernel/segment/complex/sheet.h"
@@ -23,11 +23,6 @@ using detail::Chord;
 
 /// Points nearer than this part of weld_m are one.
 constexpr double kReach = 0.25;
-
-bool overlap(const Box& p, const Box& q, double gap) {
-  return p.min.x <= q.max.x + gap && q.min.x <= p.max.x + gap && p.min.y <= q.max.y + gap &&
-         q.min.y <= p.max.y + gap && p.min.z <= q.max.z + gap && q.min.z <= p.max.z + gap;
-}
 
 /// How far the box reaches to either side of the plane.
 bool box_passes(const Box& box, const Plane& plane) {

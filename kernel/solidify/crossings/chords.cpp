@@ -1,7 +1,8 @@
 #include "kernel/solidify/crossings/chords.h"
 
 #include "kernel/base/index.h"
-#include "kernel/solidify/crossings/box_tree.h"
+#include "kernel/geometry/box_tree.h"
+#include "kernel/geometry/boxes.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 
 #include <algorithm>
@@ -24,11 +25,6 @@ struct Stretch {
   double from = 0, to = 0;  ///< along the line
   int from_point = -1, to_point = -1;
 };
-
-bool is_near(const Box& a, const Box& b, double reach) {
-  return a.min.x <= b.max.x + reach && b.min.x <= a.max.x + reach && a.min.y <= b.max.y + reach &&
-         b.min.y <= a.max.y + reach && a.min.z <= b.max.z + reach && b.min.z <= a.max.z + reach;
-}
 
 class ChordFinder {
  public:
@@ -85,7 +81,7 @@ class ChordFinder {
         boxes[h].grow(points_.place(v));
     const BoxTree edges(std::move(boxes));
     for (int p = 0; p < soup_.polygon_count(); ++p)
-      edges.search([&](const Box& box) { return is_near(box, boxes_[at(p)], reach_); },
+      edges.search([&](const Box& box) { return overlap(box, boxes_[at(p)], reach_); },
                    [&](int h) {
                      const int q = mesh.polygon_of[at(h)];
                      if (q == p || !is_same_body(p, q)) return;
@@ -104,7 +100,7 @@ class ChordFinder {
   void add_crossings() {
     const BoxTree tree(boxes_);
     for (int p = 0; p < soup_.polygon_count(); ++p)
-      tree.search([&](const Box& box) { return is_near(box, boxes_[at(p)], reach_); },
+      tree.search([&](const Box& box) { return overlap(box, boxes_[at(p)], reach_); },
                   [&](int q) {
                     if (q > p && is_same_body(p, q)) add_pair(p, q);
                   });

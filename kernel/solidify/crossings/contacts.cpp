@@ -1,8 +1,8 @@
 #include "kernel/solidify/crossings/contacts.h"
 
 #include "kernel/base/index.h"
+#include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/solidify/crossings/box_tree.h"
 #include "kernel/solidify/crossings/faces.h"
 #include "kernel/solidify/shells/edge_groups.h"
 

@@ -1,7 +1,7 @@
 #include "kernel/solidify/crossings/faces.h"
 
 #include "kernel/base/index.h"
-#include "kernel/solidify/crossings/box_tree.h"
+#include "kernel/geometry/box_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "kernel/solidify/mend/caps.h"
 
 #include "kernel/base/index.h"
+#include "kernel/model/area_vector.h"
 #include "kernel/solidify/shells/edge_groups.h"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ class CapFinder {
     std::vector<int> points = ring;
     std::ranges::sort(points);
     if (ring.size() < 3 || std::ranges::adjacent_find(points) != points.end()) return;
-    const double area = dot(area_vector(ring), normal) / 2;
+    const double area = dot(area_of(ring), normal);
     if (area <= 0 || area > max_area_) return;
     for (std::size_t i = 0; i < ring.size(); ++i)
       if (is_covered_at(ring[i], ring[(i + 1) % ring.size()], normal)) return;
@@ -166,16 +167,16 @@ class CapFinder {
     double area = 0;
     while (!loop.empty()) {
       Ring piece = take_plane_piece(loop);
-      const Vec3 vector = area_vector(piece);
+      const Vec3 vector = area_of(piece);
       const Vec3 normal = normalised(vector);
-      area += length(vector) / 2;
+      area += length(vector);
       if (area > max_area_ || length(vector) == 0) return;
       for (std::size_t i = 0; i < piece.size(); ++i) {
         const int from = piece[i], to = piece[(i + 1) % piece.size()];
         if (polygons_at_.contains(std::minmax({from, to})) && is_covered_at(from, to, normal))
           return;
       }
-      pieces.push_back({std::move(piece), length(vector) / 2, polygon});
+      pieces.push_back({std::move(piece), length(vector), polygon});
     }
     caps_.insert(caps_.end(), pieces.begin(), pieces.end());
   }
@@ -206,16 +207,12 @@ class CapFinder {
     return length(place(piece.back()) - place(piece.front()));
   }
 
-  [[nodiscard]] Vec3 area_vector(const Ring& ring) const {
-    Vec3 sum;
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      sum = sum + cross(place(ring[i]) - place(ring[0]),
-                        place(ring[(i + 1) % ring.size()]) - place(ring[0]));
-    return sum;
+  [[nodiscard]] Vec3 area_of(const Ring& ring) const {
+    return area_vector(ring.size(), [&](std::size_t i) { return place(ring[i]); });
   }
 
   [[nodiscard]] bool is_plane(const Ring& ring) const {
-    const Vec3 normal = normalised(area_vector(ring));
+    const Vec3 normal = normalised(area_of(ring));
     return std::ranges::all_of(
         ring, [&](int v) { return std::abs(dot(normal, place(v) - place(ring[0]))) <= reach_; });
   }

@@ -1,7 +1,7 @@
 #include "kernel/solidify/mend/t_vertices.h"
 
 #include "kernel/base/index.h"
-#include "kernel/solidify/crossings/box_tree.h"
+#include "kernel/geometry/box_tree.h"
 #include "kernel/solidify/shells/edge_groups.h"
 #include "kernel/solidify/soup/soup_builder.h"
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kPerMetre = 1e6;
 
-std::optional<GridPoint> on_grid(Vec3 p) {
-  GridPoint point{};
+std::optional<MicrometrePoint> on_grid(Vec3 p) {
+  MicrometrePoint point{};
   const std::array coordinates{p.x, p.y, p.z};
   for (std::size_t i = 0; i < 3; ++i) {
     const double scaled = coordinates[i] * kPerMetre;
@@ -32,13 +32,13 @@ void repeat_in(std::vector<int>& ring, int vertex) {
 }  // namespace
 
 Vec3 SnappedBuilding::metres(int vertex) const {
-  const GridPoint& p = point(vertex);
+  const MicrometrePoint& p = point(vertex);
   return {static_cast<double>(p[0]) / kPerMetre, static_cast<double>(p[1]) / kPerMetre,
           static_cast<double>(p[2]) / kPerMetre};
 }
 
 std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) {
-  std::vector<GridPoint> grid;
+  std::vector<MicrometrePoint> grid;
   grid.reserve(building.vertices.size());
   for (const Vec3 vertex : building.vertices) {
     const auto point = on_grid(vertex);
@@ -54,7 +54,7 @@ std::optional<SnappedBuilding> snapped(const Building& building, double snap_m) 
   const Numbers first = group_near_points(out.points, std::max(snap_m * kPerMetre, 1.0));
   std::vector<int> number_of;
   number_of.reserve(grid.size());
-  for (const GridPoint& point : grid) {
+  for (const MicrometrePoint& point : grid) {
     const auto found = std::ranges::lower_bound(out.points, point) - out.points.begin();
     number_of.push_back(first[static_cast<std::size_t>(found)]);
   }

@@ -21,11 +21,11 @@ struct SnappedPolygon {
 /// A building with its vertices on whole micrometres, those closer than the tolerance made one.
 struct SnappedBuilding {
   /// Distinct points, sorted.
-  std::vector<GridPoint> points;
+  std::vector<MicrometrePoint> points;
   std::vector<SnappedPolygon> polygons;
   Vec3 origin_m;
 
-  [[nodiscard]] const GridPoint& point(int vertex) const {
+  [[nodiscard]] const MicrometrePoint& point(int vertex) const {
     return points[static_cast<std::size_t>(vertex)];
   }
   /// In metres of the building's frame.

@@ -1,5 +1,6 @@
 #include "kernel/validate/solids/closed_surface.h"
 
+#include "kernel/base/index.h"
 #include "kernel/validate/solids/nef_bodies.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 using exact::Int128;
 
 /// Six times the volume under a triangle as seen from `o`.
-Int128 volume_under(const GridTriangle& t, const GridPoint& o) {
+Int128 volume_under(const MicrometreTriangle& t, const MicrometrePoint& o) {
   std::array<std::array<Int128, 3>, 3> v{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) v[i][j] = t[i][j] - o[j];
@@ -23,16 +24,16 @@ Int128 volume_under(const GridTriangle& t, const GridPoint& o) {
          v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
 }
 
-std::vector<GridBox> boxes_of(const std::vector<GridTriangle>& triangles) {
-  std::vector<GridBox> boxes;
+std::vector<Box> boxes_of(const std::vector<MicrometreTriangle>& triangles) {
+  std::vector<Box> boxes;
   boxes.reserve(triangles.size());
-  for (const GridTriangle& triangle : triangles) boxes.push_back(box_of(triangle));
+  for (const MicrometreTriangle& triangle : triangles) boxes.push_back(box_of(triangle));
   return boxes;
 }
 
-std::vector<GridTriangle> triangles_of(const std::vector<GridPoint>& points,
-                                       const std::vector<std::array<int, 3>>& corners) {
-  std::vector<GridTriangle> triangles;
+std::vector<MicrometreTriangle> triangles_of(const std::vector<MicrometrePoint>& points,
+                                             const std::vector<std::array<int, 3>>& corners) {
+  std::vector<MicrometreTriangle> triangles;
   triangles.reserve(corners.size());
   const auto point = [&](int i) { return points[static_cast<std::size_t>(i)]; };
   for (const auto& [a, b, c] : corners) triangles.push_back({point(a), point(b), point(c)});
@@ -54,27 +55,27 @@ ClosedSurface::ClosedSurface(const SnappedBuilding& building, const JudgedShell&
       corners_.push_back(corners);
     }
   Int128 volume = 0;
-  for (const GridTriangle& triangle : triangles_of(points_, corners_))
+  for (const MicrometreTriangle& triangle : triangles_of(points_, corners_))
     volume += volume_under(triangle, points_[0]);
   orientation_ = volume > 0 ? 1 : -1;
   if (orientation_ < 0)
     for (auto& corners : corners_) std::swap(corners[1], corners[2]);
   triangles_ = triangles_of(points_, corners_);
   box_ = box_of(points_);
-  tree_ = GridBoxTree(boxes_of(triangles_));
+  tree_ = BoxTree(boxes_of(triangles_));
 }
 
-bool ClosedSurface::contains(const GridPoint& point) const {
-  if (!overlap(box_, {point, point})) return false;
+bool ClosedSurface::contains(const MicrometrePoint& point) const {
+  if (!overlap(box_, box_of(std::array{point}))) return false;
   // A ray to a point beyond the box; if it runs along a triangle or through an edge, the next one.
   for (std::int64_t attempt = 1;; ++attempt) {
-    const GridPoint far{box_.max[0] + 1 + 17 * attempt, point[1] + 1009 * attempt,
-                        point[2] + 919 * attempt * attempt};
-    const GridBox reach = box_of(std::array{point, far});
+    const MicrometrePoint far{static_cast<std::int64_t>(box_.max.x) + 1 + 17 * attempt,
+                              point[1] + 1009 * attempt, point[2] + 919 * attempt * attempt};
+    const Box reach = box_of(std::array{point, far});
     bool is_clear = true;
     int crossings = 0;
-    tree_.for_each_overlap(reach, [&](std::size_t i) {
-      const GridTriangle& t = triangles_[i];
+    tree_.for_each_overlap(reach, [&](int i) {
+      const MicrometreTriangle& t = triangles_[at(i)];
       if (!meets(point, far, t)) return;
       const bool is_inner =
           side_of(t[0], t[1], t[2], point) != 0 && side_of(point, far, t[0], t[1]) != 0 &&
@@ -89,12 +90,13 @@ bool ClosedSurface::contains(const GridPoint& point) const {
 Relation relate(const ClosedSurface& first, const ClosedSurface& second) {
   bool do_pierce = false;
   Relation out;
-  for (const GridTriangle& triangle : second.triangles()) {
+  for (const MicrometreTriangle& triangle : second.triangles()) {
     if (do_pierce) break;
-    first.tree().for_each_overlap(box_of(triangle), [&](std::size_t i) {
+    first.tree().for_each_overlap(box_of(triangle), [&](int i) {
       if (do_pierce) return;
-      out.do_touch = out.do_touch || meet(first.triangles()[i], triangle);
-      do_pierce = pierce(first.triangles()[i], triangle);
+      const MicrometreTriangle& other = first.triangles()[at(i)];
+      out.do_touch = out.do_touch || meet(other, triangle);
+      do_pierce = pierce(other, triangle);
     });
   }
   if (do_pierce) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernel/validate/solids/box_tree.h"
+#include "kernel/geometry/box_tree.h"
 #include "kernel/validate/solids/shell_checks.h"
 
 #include <array>
@@ -16,22 +16,22 @@ class ClosedSurface {
 
   /// +1 if the shell's own polygons are counter-clockwise seen from outside, -1 if clockwise.
   [[nodiscard]] int orientation() const { return orientation_; }
-  [[nodiscard]] const std::vector<GridTriangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<MicrometreTriangle>& triangles() const { return triangles_; }
   /// Distinct corners, and triangles that number them.
-  [[nodiscard]] const std::vector<GridPoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<MicrometrePoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<std::array<int, 3>>& corners() const { return corners_; }
-  [[nodiscard]] const GridBox& box() const { return box_; }
-  [[nodiscard]] const GridBoxTree& tree() const { return tree_; }
+  [[nodiscard]] const Box& box() const { return box_; }
+  [[nodiscard]] const BoxTree& tree() const { return tree_; }
 
   /// True if `point`, which is not on the surface, is inside.
-  [[nodiscard]] bool contains(const GridPoint& point) const;
+  [[nodiscard]] bool contains(const MicrometrePoint& point) const;
 
  private:
-  std::vector<GridPoint> points_;
+  std::vector<MicrometrePoint> points_;
   std::vector<std::array<int, 3>> corners_;
-  std::vector<GridTriangle> triangles_;
-  GridBox box_;
-  GridBoxTree tree_;
+  std::vector<MicrometreTriangle> triangles_;
+  Box box_;
+  BoxTree tree_;
   int orientation_ = 0;
 };
 

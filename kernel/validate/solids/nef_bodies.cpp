@@ -22,7 +22,7 @@ class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
   void operator()(Polyhedron::HalfedgeDS& structure) override {
     CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(structure, true);
     builder.begin_surface(surface_.points().size(), surface_.corners().size());
-    for (const GridPoint& p : surface_.points())
+    for (const MicrometrePoint& p : surface_.points())
       builder.add_vertex(Kernel::Point_3(CGAL::Exact_integer(static_cast<double>(p[0])),
                                          CGAL::Exact_integer(static_cast<double>(p[1])),
                                          CGAL::Exact_integer(static_cast<double>(p[2]))));

@@ -12,7 +12,7 @@ using exact::Int128;
 
 int sign(Int128 value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
-std::array<std::int64_t, 3> between(const GridPoint& a, const GridPoint& b) {
+std::array<std::int64_t, 3> between(const MicrometrePoint& a, const MicrometrePoint& b) {
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
 }
 
@@ -75,7 +75,8 @@ Meeting meeting(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c, cons
   return is_touch ? Meeting::touch : Meeting::none;
 }
 
-int side_of(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
+int side_of(const MicrometrePoint& a, const MicrometrePoint& b, const MicrometrePoint& c,
+            const MicrometrePoint& d) {
   const auto u = between(a, b);
   const auto v = between(a, c);
   const auto w = between(a, d);
@@ -87,17 +88,17 @@ int side_of(const GridPoint& a, const GridPoint& b, const GridPoint& c, const Gr
   return sign(n[0] * w[0] + n[1] * w[1] + n[2] * w[2]);
 }
 
-bool are_collinear(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+bool are_collinear(const MicrometrePoint& a, const MicrometrePoint& b, const MicrometrePoint& c) {
   return cross_product(between(a, b), between(a, c)) == exact::Vector128{};
 }
 
-std::size_t main_axis(const GridTriangle& triangle) {
+std::size_t main_axis(const MicrometreTriangle& triangle) {
   auto n = cross_product(between(triangle[0], triangle[1]), between(triangle[0], triangle[2]));
   for (Int128& x : n) x = x < 0 ? -x : x;
   return static_cast<std::size_t>(std::ranges::max_element(n) - n.begin());
 }
 
-FlatPoint flattened(const GridPoint& point, std::size_t axis, bool is_positive) {
+FlatPoint flattened(const MicrometrePoint& point, std::size_t axis, bool is_positive) {
   const std::int64_t x = point[(axis + 1) % 3];
   const std::int64_t y = point[(axis + 2) % 3];
   return is_positive ? FlatPoint{x, y} : FlatPoint{y, x};
@@ -106,9 +107,10 @@ FlatPoint flattened(const GridPoint& point, std::size_t axis, bool is_positive) 
 namespace {
 
 /// Of a segment in the triangle's plane.
-bool meets_in_plane(const GridPoint& p, const GridPoint& q, const GridTriangle& triangle) {
+bool meets_in_plane(const MicrometrePoint& p, const MicrometrePoint& q,
+                    const MicrometreTriangle& triangle) {
   const std::size_t axis = main_axis(triangle);
-  const auto flat = [axis](const GridPoint& point) { return flattened(point, axis, true); };
+  const auto flat = [axis](const MicrometrePoint& point) { return flattened(point, axis, true); };
   const std::array corners{flat(triangle[0]), flat(triangle[1]), flat(triangle[2])};
   const FlatPoint from = flat(p);
   bool is_left = true;
@@ -125,13 +127,14 @@ bool meets_in_plane(const GridPoint& p, const GridPoint& q, const GridTriangle& 
 
 /// Signs of the line p, q against the triangle's edges: it goes through the triangle if none is of
 /// the other sign.
-std::array<int, 3> winding(const GridPoint& p, const GridPoint& q, const GridTriangle& t) {
+std::array<int, 3> winding(const MicrometrePoint& p, const MicrometrePoint& q,
+                           const MicrometreTriangle& t) {
   return {side_of(p, q, t[0], t[1]), side_of(p, q, t[1], t[2]), side_of(p, q, t[2], t[0])};
 }
 
 }  // namespace
 
-bool meets(const GridPoint& p, const GridPoint& q, const GridTriangle& t) {
+bool meets(const MicrometrePoint& p, const MicrometrePoint& q, const MicrometreTriangle& t) {
   const int p_side = side_of(t[0], t[1], t[2], p);
   const int q_side = side_of(t[0], t[1], t[2], q);
   if (p_side * q_side > 0) return false;
@@ -141,7 +144,7 @@ bool meets(const GridPoint& p, const GridPoint& q, const GridTriangle& t) {
   return least >= 0 || most <= 0;
 }
 
-bool meet(const GridTriangle& a, const GridTriangle& b) {
+bool meet(const MicrometreTriangle& a, const MicrometreTriangle& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (meets(a[i], a[(i + 1) % 3], b)) return true;
     if (meets(b[i], b[(i + 1) % 3], a)) return true;
@@ -149,8 +152,9 @@ bool meet(const GridTriangle& a, const GridTriangle& b) {
   return false;
 }
 
-bool pierce(const GridTriangle& a, const GridTriangle& b) {
-  const auto goes_through = [](const GridPoint& p, const GridPoint& q, const GridTriangle& t) {
+bool pierce(const MicrometreTriangle& a, const MicrometreTriangle& b) {
+  const auto goes_through = [](const MicrometrePoint& p, const MicrometrePoint& q,
+                               const MicrometreTriangle& t) {
     if (side_of(t[0], t[1], t[2], p) * side_of(t[0], t[1], t[2], q) >= 0) return false;
     const auto signs = winding(p, q, t);
     const auto [least, most] = std::ranges::minmax(signs);

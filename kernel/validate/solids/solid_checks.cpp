@@ -77,9 +77,9 @@ bool lie_apart(const JudgedShell& p, const JudgedShell& q, const Relation& relat
 }
 
 /// The triangles of a surface, sorted: the same for surfaces given twice.
-std::vector<GridTriangle> sorted_triangles(const ClosedSurface& surface) {
-  std::vector<GridTriangle> triangles = surface.triangles();
-  for (GridTriangle& triangle : triangles)
+std::vector<MicrometreTriangle> sorted_triangles(const ClosedSurface& surface) {
+  std::vector<MicrometreTriangle> triangles = surface.triangles();
+  for (MicrometreTriangle& triangle : triangles)
     std::ranges::rotate(triangle, std::ranges::min_element(triangle));
   std::ranges::sort(triangles);
   return triangles;
@@ -89,7 +89,7 @@ std::vector<GridTriangle> sorted_triangles(const ClosedSurface& surface) {
 /// listed a thousand times over are found before any two are compared.
 template <class Tell>
 bool are_given_once(const std::deque<ClosedSurface>& surfaces, std::size_t from, const Tell& tell) {
-  std::map<std::vector<GridTriangle>, std::size_t> first_of;
+  std::map<std::vector<MicrometreTriangle>, std::size_t> first_of;
   bool are_once = true;
   for (std::size_t j = from; j < surfaces.size(); ++j) {
     const auto [first, is_new] = first_of.try_emplace(sorted_triangles(surfaces[j]), j);
