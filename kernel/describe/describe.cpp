@@ -1,7 +1,7 @@
 #include "kernel/describe/describe.h"
 
 #include "kernel/base/index.h"
-#include "kernel/describe/features/panes.h"
+#include "kernel/describe/features/parallel_polygons.h"
 #include "kernel/describe/features/relations.h"
 #include "kernel/describe/features/shape.h"
 #include "kernel/describe/features/site.h"
@@ -217,10 +217,10 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
 }
 
 void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
-                     const detail::Panes& panes) {
+                     const detail::ParallelPolygons& polygons) {
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
-  if (const auto level_m = panes.level_in(*s.feature, plane))
+  if (const auto level_m = polygons.level_in(*s.feature, plane))
     table.set(s.id, Attribute::recess, -*level_m);
 }
 
@@ -375,8 +375,8 @@ Description describe(const Building& building, const Segmentation& segmentation,
   Description out{FeatureTable(building.id, segmentation.features.size()), {}};
   const Asked asked(options);
   const detail::Site site(segmentation);
-  std::optional<detail::Panes> panes;
-  if (asked.recess) panes.emplace(building, segmentation.grid_m);
+  std::optional<detail::ParallelPolygons> polygons;
+  if (asked.recess) polygons.emplace(building, segmentation.grid_m);
   CellReaches reaches(segmentation);
   const std::vector<int> facades = detail::facades_of(segmentation);
   std::vector<Subject> subjects;
@@ -392,7 +392,7 @@ Description describe(const Building& building, const Segmentation& segmentation,
     describe_cut(out.table, s);
     describe_size(out.table, s);
     if (lod) out.table.set(s.id, Attribute::lod, *lod);
-    if (panes) describe_recess(out.table, s, segmentation, *panes);
+    if (polygons) describe_recess(out.table, s, segmentation, *polygons);
     if (asked.growth) describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
     if (asked.place_in_facet) describe_place_in_facet(out.table, s, segmentation);

@@ -309,7 +309,7 @@ class FacetMaker {
 
 std::optional<Solid> open_shell(const Building& building, const Tolerances& tolerances) {
   if (!has_room(building, tolerances)) return std::nullopt;
-  std::vector<Issue> of_solidify;  // it has told them
+  std::vector<Issue> of_solidify;  // solidify has reported them
   Soup soup = detail::weld(building, tolerances, of_solidify);
   if (soup.polygons.empty()) return std::nullopt;
   const ShellMesh mesh = detail::build_open_mesh(soup);

@@ -25,7 +25,7 @@ struct Solidified : Checked<Solid> {
 /// side only is kept. Facets of such faces alone list no polygons. The report says what was done,
 /// and so do E315 (polygons left out), E316 (holes closed), E317 (the rest).
 ///
-/// What is no solid then is set aside: no value, and an error that says why, with val3dity's
+/// What is no solid then is rejected: no value, and an error that says why, with val3dity's
 /// number:
 ///   E301 too few polygons (301), E302 shell not closed (302), E303 more than two facets at an edge
 ///   that do not pair up (303), E307 polygons that cannot be oriented alike (307), E310 a shell

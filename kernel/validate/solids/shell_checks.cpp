@@ -123,7 +123,7 @@ bool are_edges_manifold(const JudgedShell& shell, const ShellEdges& all, Finding
 }
 
 /// val3dity 307, of edges of at most two polygons: neighbours run along their edge in opposite
-/// directions. Told of the polygons that are fewer in their piece, or once if no turning helps.
+/// directions. Reported of the polygons that are fewer in their piece, or once if no turning helps.
 bool are_turned_alike(const JudgedShell& shell, const ShellEdges& all, FindingList& findings) {
   const auto runs_along = [&](const EdgeGroup& group) {
     return group.size() == 2 &&
@@ -225,7 +225,7 @@ bool is_one_piece(const JudgedShell& shell, const ShellEdges& all, FindingList& 
   return false;
 }
 
-/// val3dity 302: no edge is of one polygon only. Told once for each group of edges that hang
+/// val3dity 302: no edge is of one polygon only. Reported once for each group of edges that hang
 /// together.
 bool is_closed(const JudgedShell& shell, const ShellEdges& all, FindingList& findings) {
   std::vector<const ShellEdge*> open;
@@ -291,7 +291,8 @@ bool intersect(const SnappedBuilding& building, Corners a, Corners b) {
   return meets(one[1], one[2], other) || meets(other[1], other[2], one);
 }
 
-/// val3dity 306: polygons meet in their common vertices and edges only. Told once for each polygon.
+/// val3dity 306: polygons meet in their common vertices and edges only. Reported once for each
+/// polygon.
 bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
                           FindingList& findings) {
   std::vector<ShellTriangle> triangles;
