@@ -1,24 +1,21 @@
-/// Generalises the buildings of some files to a scale and, beside it, collapses the edges of their
-/// triangle meshes (CGAL, Garland and Heckbert 1997) to as many triangles. One row a method, as
-/// Markdown: docs/results.md. `bench_collapse SCALE INPUT…`; bench/collapse.sh runs it.
+/// Generalises the buildings of some files to a scale and, for comparison, collapses the edges of
+/// their triangle meshes (Garland and Heckbert 1997: CGAL, which places vertices anew, and
+/// OpenMesh, which keeps some) to as many triangles. One row a method, as Markdown:
+/// docs/results.md. `bench_collapse SCALE INPUT…`; bench/collapse.sh runs it.
+#include "kernel/mesh/collapse.h"
+
 #include "bench/timing.h"
 #include "generalise/generalise.h"
-#include "interpret/labelling/interpret.h"
 #include "interpret/plan/plan.h"
 #include "kernel/base/index.h"
-#include "kernel/mesh/hausdorff.h"
-#include "kernel/describe/describe.h"
-#include "kernel/mesh/triangulate.h"
 #include "kernel/io/reader.h"
-#include "kernel/segment/flush/imprints.h"
-#include "kernel/segment/segment.h"
-#include "kernel/solidify/solidify.h"
+#include "kernel/mesh/hausdorff.h"
+#include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
+#include "oriel/label.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,116 +32,74 @@ namespace {
 using namespace oriel;
 namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
 constexpr std::size_t kCalls = 3;
 /// Angles are right, and facets in one plane, to this.
 constexpr double kSameAngle_deg = 0.5;
 
-/// Triangles with shared vertices.
-struct Triangles {
-  std::vector<Vec3> points;
-  std::vector<std::array<int, 3>> corners;
-};
-
-Vec3 normal_of(const Triangles& mesh, const std::array<int, 3>& t) {
-  const Vec3 p = mesh.points[at(t[0])];
-  return normalised(cross(mesh.points[at(t[1])] - p, mesh.points[at(t[2])] - p));
-}
-
-Triangles triangles_of(const Solid& solid) {
-  Triangles mesh;
-  for (const Vertex& vertex : solid.vertices) mesh.points.push_back(vertex.point);
-  for (const Facet& facet : solid.facets)
-    for (const auto& t :
-         detail::triangulate(mesh.points, facet.loops, solid.planes[facet.plane.index()].normal))
-      mesh.corners.push_back(t);
-  return mesh;
-}
-
-Building building_of(const Triangles& mesh) {
+/// A triangle mesh as a building, to be judged.
+Building building_of(const Mesh& mesh) {
   Building building;
-  building.vertices = mesh.points;
-  for (const auto& t : mesh.corners)
-    building.polygons.push_back(
-        {{{t[0], t[1], t[2]}}, static_cast<int>(building.polygons.size()), 0, 0, {}});
+  for (int v = 0; v < mesh.originals(); ++v) building.vertices.push_back(mesh.point(v));
+  for (int f = 0; f < mesh.faces(); ++f) building.polygons.push_back({{mesh.ring(f)}, f, 0, 0, {}});
   return building;
 }
 
-/// For distances only.
-Solid solid_of(const Triangles& mesh) {
-  Solid solid;
-  for (const Vec3 p : mesh.points) solid.vertices.push_back({p, false});
-  for (const auto& t : mesh.corners) {
-    solid.facets.push_back(
-        {PlaneId{static_cast<int>(solid.planes.size())}, {{t[0], t[1], t[2]}}, {}});
-    Plane plane;
-    plane.normal = normal_of(mesh, t);
-    solid.planes.push_back(plane);
-  }
-  return solid;
-}
-
 /// How many edges that are no seams in a plane there are, and how many of them at a right angle.
-std::pair<int, int> right_angles(const Triangles& mesh) {
-  std::map<std::pair<int, int>, std::size_t> triangle_at;
-  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      triangle_at[{mesh.corners[i][k], mesh.corners[i][(k + 1) % 3]}] = i;
-  const double tolerance = std::sin(kSameAngle_deg * 3.14159265358979323846 / 180);
+std::pair<int, int> right_angles(const Mesh& mesh) {
   std::pair<int, int> counts{0, 0};
-  for (const auto& [edge, triangle] : triangle_at) {
-    const auto other = triangle_at.find({edge.second, edge.first});
-    if (edge.first > edge.second || other == triangle_at.end()) continue;
-    const Vec3 n = normal_of(mesh, mesh.corners[triangle]);
-    const Vec3 m = normal_of(mesh, mesh.corners[other->second]);
-    if (length(cross(n, m)) < tolerance && dot(n, m) > 0) continue;
+  for (const FeatureEdge& edge : feature_edges(mesh, kSameAngle_deg)) {
+    if (edge.is_open) continue;
     ++counts.first;
-    if (std::abs(dot(n, m)) < tolerance) ++counts.second;
+    if (std::abs(std::abs(edge.dihedral_deg) - 90) < kSameAngle_deg) ++counts.second;
   }
   return counts;
 }
 
-/// The mesh of a solid; empty if it is no manifold.
-Mesh manifold_of(const Triangles& triangles) {
-  Mesh mesh;
-  for (const Vec3 p : triangles.points) mesh.add_vertex({p.x, p.y, p.z});
-  for (const auto& t : triangles.corners) {
-    const auto v = [&](std::size_t i) {
-      return Mesh::Vertex_index(static_cast<std::uint32_t>(t[i]));
-    };
-    if (mesh.add_face(v(0), v(1), v(2)) == Mesh::null_face()) return {};
+/// The mesh for CGAL. Needs one without open edges.
+Surface surface_of(const Mesh& mesh) {
+  Surface surface;
+  for (int v = 0; v < mesh.vertices(); ++v) {
+    const Vec3 p = mesh.point(v);
+    surface.add_vertex({p.x, p.y, p.z});
   }
-  return mesh;
+  for (int f = 0; f < mesh.faces(); ++f) {
+    std::vector<Surface::Vertex_index> corners;
+    for (const int v : mesh.corners(f)) corners.emplace_back(static_cast<std::uint32_t>(v));
+    surface.add_face(corners);
+  }
+  return surface;
 }
 
-Mesh collapsed(Mesh mesh, std::size_t triangles) {
-  const sms::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
+Surface collapsed(Surface surface, std::size_t triangles) {
+  const sms::GarlandHeckbert_plane_policies<Surface, Kernel> policies(surface);
   // A closed mesh of T triangles has 3 T / 2 edges.
   const double ratio =
-      static_cast<double>(3 * triangles) / (2 * static_cast<double>(mesh.number_of_edges()));
-  const sms::Count_ratio_stop_predicate<Mesh> stop(std::min(ratio, 1.0));
+      static_cast<double>(3 * triangles) / (2 * static_cast<double>(surface.number_of_edges()));
+  const sms::Count_ratio_stop_predicate<Surface> stop(std::min(ratio, 1.0));
   sms::edge_collapse(
-      mesh, stop,
+      surface, stop,
       CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
-  mesh.collect_garbage();
-  return mesh;
+  surface.collect_garbage();
+  return surface;
 }
 
-Triangles triangles_of(const Mesh& mesh) {
-  Triangles out;
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    out.points.push_back({p.x(), p.y(), p.z()});
+Mesh mesh_of(const Surface& surface) {
+  MeshSource source;
+  for (const auto v : surface.vertices()) {
+    const auto& p = surface.point(v);
+    source.points.push_back({p.x(), p.y(), p.z()});
   }
-  for (const auto f : mesh.faces()) {
-    std::array<int, 3> t{};
-    std::size_t i = 0;
-    for (const auto v : vertices_around_face(mesh.halfedge(f), mesh))
-      t[i++] = static_cast<int>(v.idx());
-    out.corners.push_back(t);
+  for (const auto f : surface.faces()) {
+    std::vector<int> ring;
+    for (const auto v : vertices_around_face(surface.halfedge(f), surface))
+      ring.push_back(static_cast<int>(v.idx()));
+    const auto p = [&](std::size_t i) { return source.points[at(ring[i])]; };
+    const Vec3 normal = normalised(cross(p(1) - p(0), p(2) - p(0)));
+    source.polygons.push_back({{std::move(ring)}, normal});
   }
-  return out;
+  return Mesh(source);
 }
 
 /// Sums over the buildings.
@@ -154,16 +109,16 @@ struct Row {
   std::size_t triangles = 0;
   std::vector<double> hausdorff_m{}, ms{};
 
-  void add(const Solid& before, const Triangles& after, double time_ms) {
+  void add(const Mesh& before, const Mesh& after, double time_ms) {
     ++buildings;
-    triangles += after.corners.size();
+    triangles += at(after.faces());
     ValidateOptions options;
     options.primitive = ValidateOptions::Primitive::solid;
     valid += validate(building_of(after), options).empty() ? 1 : 0;
     const auto [all, right_ones] = right_angles(after);
     edges += all;
     right += right_ones;
-    hausdorff_m.push_back(oriel::hausdorff_m(before, solid_of(after)));
+    hausdorff_m.push_back(oriel::hausdorff_m(before, after));
     ms.push_back(time_ms);
   }
 
@@ -179,30 +134,36 @@ struct Row {
   }
 };
 
-void compare(const Building& building, const RuleBase& rules, double scale, Row& input, Row& ours,
-             Row& theirs) {
-  const auto solid = solidify(building);
-  if (!solid.value) return;
-  const Triangles before = triangles_of(*solid.value);
-  const Mesh mesh = manifold_of(before);
-  if (mesh.number_of_faces() == 0) return;
-  Segmentation segmentation = segment(building, *solid.value);
-  add_imprints(building, *solid.value, segmentation);
-  const Description description = describe(building, segmentation);
-  const Interpretation labels = interpret(rules, description.table, description.graph);
-  const Plan asked = plan(rules, description.table, description.graph, labels, scale);
+struct Rows {
+  Row input{"input"}, ours{"oriel"}, cgal{"edge collapse (CGAL)"},
+      openmesh{"edge collapse (OpenMesh)"};
+};
+
+void compare(const Building& building, const RuleBase& rules, double scale, Rows& rows) {
+  const PipelineResult labelled = label(building, rules);
+  if (!labelled.is_done() || labelled.is_open) return;
+  const Solid& solid = *labelled.solid;
+  const Mesh before = to_mesh(solid);
+  if (before.findings().non_manifold_edges > 0 || before.findings().doubled_vertices > 0) return;
+  const Surface surface = surface_of(before);
+  const auto& [table, graph] = labelled.description;
+  const Plan asked = plan(rules, table, graph, labelled.interpretation, scale);
   Checked<Generalised> made;
   const double ours_ms = bench::cpu_ms_of(kCalls, [&] {
-    made = generalise(*solid.value, segmentation, description.table, labels, asked);
+    made = generalise(solid, *labelled.segmentation, table, labelled.interpretation, asked);
   });
   if (!made.value) return;
-  const Triangles after = triangles_of(made.value->solid);
-  Mesh less;
-  const double theirs_ms =
-      bench::cpu_ms_of(kCalls, [&] { less = collapsed(mesh, after.corners.size()); });
-  input.add(*solid.value, before, 0);
-  ours.add(*solid.value, after, ours_ms);
-  theirs.add(*solid.value, triangles_of(less), theirs_ms);
+  const Mesh after = to_mesh(made.value->solid);
+  Surface less;
+  const double cgal_ms =
+      bench::cpu_ms_of(kCalls, [&] { less = collapsed(surface, at(after.faces())); });
+  Mesh decimated;
+  const double openmesh_ms =
+      bench::cpu_ms_of(kCalls, [&] { decimated = collapse_edges(before, after.faces()); });
+  rows.input.add(before, before, 0);
+  rows.ours.add(before, after, ours_ms);
+  rows.cgal.add(before, mesh_of(less), cgal_ms);
+  rows.openmesh.add(before, decimated, openmesh_ms);
 }
 
 }  // namespace
@@ -213,21 +174,21 @@ int main(int argc, char** argv) {
     return 2;
   }
   const auto rules = load_pack_file("residential");
-  Row input{"input"}, ours{"oriel"}, theirs{"edge collapse"};
+  Rows rows;
   for (int i = 2; i < argc; ++i) {
     Reader reader(argv[i]);
     while (auto record = reader.next()) {
       if (!record->value) continue;
       for (const Building& building : record->value->buildings)
-        compare(building, *rules.value, std::stod(argv[1]), input, ours, theirs);
+        compare(building, *rules.value, std::stod(argv[1]), rows);
     }
   }
-  if (input.buildings == 0) {
+  if (rows.input.buildings == 0) {
     fmt::print(stderr, "bench_collapse: no manifold solid\n");
     return 1;
   }
   fmt::print("| 1:{} | triangles | valid | edges at 90° | Hausdorff m, median | largest | ms |\n",
              argv[1]);
   fmt::print("|---|---|---|---|---|---|---|\n");
-  for (Row* row : {&input, &ours, &theirs}) row->print();
+  for (Row* row : {&rows.input, &rows.ours, &rows.cgal, &rows.openmesh}) row->print();
 }

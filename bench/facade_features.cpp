@@ -37,22 +37,24 @@ FacadeBuilding make_building(const std::vector<Line>& lines) {
   const auto at = [](const Line& line, std::size_t i) { return static_cast<int>(line[i]); };
   FacadeBuilding building{FeatureTable(std::to_string(at(lines[0], 1)), lines.size()), {}, {}};
   const int first = at(lines[0], 0), first_facade = at(lines[0], 2);
-  static constexpr std::array<std::pair<const char*, std::size_t>, 8> kColumns = {
-      {{"inclination", 6},
-       {"base_height", 7},
-       {"a", 8},
-       {"b", 9},
-       {"c", 10},
-       {"edge_gap", 11},
-       {"storey", 12},
-       {"volume", 13}}};
+  static constexpr std::array<std::pair<Attribute, std::size_t>, 8> kColumns = {
+      {{Attribute::inclination, 6},
+       {Attribute::base_height, 7},
+       {Attribute::a, 8},
+       {Attribute::b, 9},
+       {Attribute::c, 10},
+       {Attribute::edge_gap, 11},
+       {Attribute::storey, 12},
+       {Attribute::volume, 13}}};
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const FeatureId row{static_cast<int>(i)};
     const Line& line = lines[i];
     building.table.set_id(row, std::to_string(at(line, 0)));
-    building.table.set(row, "sense", std::string(at(line, 5) == 0 ? "hole" : "protrusion"));
-    building.table.set(row, "host_inclination", host_inclination(at(line, 4)));
-    for (const auto& [name, column] : kColumns) building.table.set(row, name, line[column]);
+    building.table.set(row, Attribute::sense,
+                       std::string(at(line, 5) == 0 ? "hole" : "protrusion"));
+    building.table.set(row, Attribute::host_inclination, host_inclination(at(line, 4)));
+    for (const auto& [attribute, column] : kColumns)
+      building.table.set(row, attribute, line[column]);
     building.facades.push_back(at(line, 2) - first_facade);
     building.hosts.push_back(at(line, 3) < 0 ? -1 : at(line, 3) - first);
   }

@@ -6,16 +6,8 @@
 #include "generalise/generalise.h"
 #include "generalise/series/scale_series.h"
 #include "generalise/series/series_levels.h"
-#include "generalise/to_lod.h"
-#include "interpret/labelling/interpret.h"
-#include "interpret/pack/rule_base.h"
 #include "interpret/plan/plan.h"
-#include "interpret/surfaces/annotate.h"
-#include "kernel/describe/describe.h"
-#include "kernel/describe/surfaces.h"
-#include "kernel/segment/flush/imprints.h"
-#include "kernel/segment/segment.h"
-#include "kernel/solidify/solidify.h"
+#include "oriel/label.h"
 
 #include <cmath>
 #include <utility>
@@ -35,31 +27,21 @@ const RuleBase& residential() {
 const std::vector<double> kScales{500, 1000, 1500, 2000, 2500, 3500, 5000, 10000};
 
 /// A generated house of about so many windows, labelled.
-struct Labelled {
+struct LabelledHouse {
   Building building;
-  Solid solid;
-  Segmentation segmentation;
-  Description description;
-  Interpretation labels;
-  LabelledBuilding annotated;
+  PipelineResult result;
 
-  explicit Labelled(const benchmark::State& state) {
+  explicit LabelledHouse(const benchmark::State& state) {
     generator::Options options;
     options.seed = 3;
     options.windows = static_cast<int>(state.range(0));
     building = std::move(bench::SampleFile(options).document().buildings.at(0));
-    solid = solidify(building).value.value();
-    segmentation = segment(building, solid);
-    add_imprints(building, solid, segmentation);
-    description = describe(building, segmentation);
-    const auto& [table, graph] = description;
-    labels = interpret(residential(), table, graph);
-    const SurfaceTable surfaces = describe_surfaces(building, {}, {&solid, &segmentation, &table});
-    annotated = annotate(building, segmentation, table, graph, surfaces, labels, residential());
+    result = label(building, residential());
   }
 
   [[nodiscard]] Plan plan_at(double scale) const {
-    return plan(residential(), description.table, description.graph, labels, scale);
+    return plan(residential(), result.description.table, result.description.graph,
+                result.interpretation, scale);
   }
 
   /// As the command asks for it without a profile.
@@ -70,14 +52,21 @@ struct Labelled {
   }
 
   [[nodiscard]] Redrawn at_scale(double scale) const {
-    auto made = generalise(solid, segmentation, description.table, labels, plan_at(scale), {},
-                           invariants_at(scale));
-    return redraw(building, annotated, segmentation, description.table, labels,
-                  std::move(made.value.value()));
+    auto made = generalise(*result.solid, *result.segmentation, result.description.table,
+                           result.interpretation, plan_at(scale), {}, invariants_at(scale));
+    return redraw(building, result.output, *result.segmentation, result.description.table,
+                  result.interpretation, std::move(made.value.value()));
   }
 
   [[nodiscard]] SeriesInput series_input() const {
-    return {building, annotated, solid, segmentation, description.table, labels, {}, invariants_at};
+    return {building,
+            result.output,
+            *result.solid,
+            *result.segmentation,
+            result.description.table,
+            result.interpretation,
+            {},
+            invariants_at};
   }
 };
 
@@ -91,18 +80,18 @@ double megabytes(std::size_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
 /// Peak memory above the labelled building, the result in it.
 void to_scale(benchmark::State& state) {
-  const Labelled house(state);
+  const LabelledHouse house(state);
   const auto scale = static_cast<double>(state.range(1));
   for (auto _ : state) benchmark::DoNotOptimize(house.at_scale(scale));
   Redrawn result;
   state.counters["peak_MB"] =
       megabytes(bench::peak_bytes_of([&] { result = house.at_scale(scale); }));
   state.counters["facets"] =
-      static_cast<double>(result.labelled.geometry.value_or(house.solid).facets.size());
+      static_cast<double>(result.labelled.geometry.value_or(*house.result.solid).facets.size());
 }
 
 void series_of_eight(benchmark::State& state) {
-  const Labelled house(state);
+  const LabelledHouse house(state);
   const SeriesInput input = house.series_input();
   const PlanAt plan_at = [&](double scale) { return house.plan_at(scale); };
   const bool with_log = state.range(1) != 0;

@@ -1,16 +1,10 @@
-/// The straight line on one core: read, solidify, segment, describe, interpret, write; each stage
-/// by itself, and reading beside a peer that only parses the same file. `bench/run.sh line` runs
-/// it.
+/// A building from file to file on one core: read, label, write, as the command does it; two of the
+/// stages by themselves, and reading beside a peer that only parses the same file. `bench/run.sh
+/// line` runs it.
 #include "bench/sample_file.h"
-#include "interpret/labelling/interpret.h"
-#include "interpret/pack/rule_base.h"
-#include "interpret/surfaces/annotate.h"
-#include "kernel/describe/describe.h"
-#include "kernel/describe/surfaces.h"
-#include "kernel/io/writer.h"
-#include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/segment.h"
 #include "kernel/solidify/solidify.h"
+#include "oriel/oriel.h"
 
 #include <fstream>
 #include <string>
@@ -42,19 +36,11 @@ void line(benchmark::State& state) {
   std::size_t bytes = 0, features = 0;
   for (auto _ : state) {
     const Document document = file.document();
-    const Building& building = document.buildings.at(0);
-    const auto solid = solidify(building);
-    Segmentation segmentation = segment(building, solid.value.value());
-    add_imprints(building, *solid.value, segmentation);
-    const Description description = describe(building, segmentation);
-    const Interpretation verdicts = interpret(residential(), description.table, description.graph);
-    const SurfaceTable surfaces =
-        describe_surfaces(building, {}, {&*solid.value, &segmentation, &description.table});
-    const std::string text =
-        write_cityjson(document, {annotate(building, segmentation, description.table,
-                                           description.graph, surfaces, verdicts, residential())});
-    bytes += text.size();
-    features = verdicts.verdicts.size();
+    OutputRecord output;
+    const PipelineResult result = label(document.buildings.at(0), residential());
+    add(result.output, output);
+    bytes += write(document, output).size();
+    features = result.interpretation.verdicts.size();
   }
   state.counters["features"] = static_cast<double>(features);
   benchmark::DoNotOptimize(bytes);

@@ -143,10 +143,10 @@ struct BareVerdict {
 };
 
 std::size_t label_barely(const rules::Pack& pack, std::span<const FeaturesOfBuilding> batch) {
-  rules::Facts facts(pack, batch);
-  rules::Labelling labelling(pack, facts);
+  rules::EvaluationContext context(pack, batch);
+  rules::Labelling labelling(pack, context);
   const auto choices = labelling.run();
-  const auto groups = rules::find_groups(pack, facts, batch);
+  const auto groups = rules::find_groups(pack, context, batch);
   std::vector<std::vector<BareVerdict>> verdicts(batch.size());
   std::size_t next = 0;
   for (std::size_t i = 0; i < batch.size(); ++i) {

@@ -82,16 +82,16 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const oriel::InputError& error) {
-    report.tell(error.issue());
+    report.add(error.issue());
     return exit_with(ExitCode::input);
   } catch (const oriel::OutputError& error) {
-    report.tell(error.issue());
+    report.add(error.issue());
     return exit_with(ExitCode::output);
   } catch (const std::exception& fault) {
     oriel::Issue issue;
     issue.code = oriel::Code::E901;
     issue.sentence = std::string("a fault of oriel's own: ") + fault.what();
-    report.tell(issue);
+    report.add(issue);
     return exit_with(ExitCode::internal);
   }
 }

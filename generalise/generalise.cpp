@@ -52,7 +52,7 @@ Pieces pieces_of(const Plan& plan, const FeatureTable& table,
       pieces.may_stay.push_back(step.feature);
   std::ranges::sort(pieces.may_stay);
   for (int i = 0; i < static_cast<int>(table.rows()); ++i)
-    pieces.c_m.push_back(table.number(FeatureId{i}, "c").value_or(Box::kInfinity));
+    pieces.c_m.push_back(table.number(FeatureId{i}, Attribute::c).value_or(Box::kInfinity));
   return pieces;
 }
 

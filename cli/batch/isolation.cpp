@@ -1,7 +1,6 @@
 #include "cli/batch/isolation.h"
 
-#include "cli/batch/outcome_json.h"
-#include "cli/batch/work_place.h"
+#include "cli/batch/batch_command.h"
 
 #include <algorithm>
 #include <array>
@@ -39,7 +38,7 @@ constexpr std::size_t kPipeChunk = 1 << 16;
 volatile std::size_t* building_at_hand = nullptr;
 /// What a worker may be at one building for, unless that is lost already.
 itimerval most_time{};
-const Arrival* arrival_at_hand = nullptr;
+const WorkItem* item_at_hand = nullptr;
 
 [[noreturn]] void give_up(const char* what) {
   throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(errno)));
@@ -53,22 +52,22 @@ struct Head {
   std::array<std::uint64_t, kParts> parts{};
 };
 
-std::string message_of(const Arrival& arrival) {
-  const Product& product = arrival.outcome.product;
-  const auto outcome = nlohmann::ordered_json::to_cbor(to_json(arrival.outcome));
+std::string message_of(const WorkItem& item) {
+  const Product& product = item.outcome.product;
+  const auto outcome = nlohmann::ordered_json::to_cbor(to_json(item.outcome));
   Head head;
   head.outcome = outcome.size();
   for (std::size_t i = 0; i < kParts; ++i) head.parts[i] = product.bytes[i].size();
   std::string message(sizeof head + sizeof(Timings), '\0');
   std::memcpy(message.data(), &head, sizeof head);
-  std::memcpy(message.data() + sizeof head, &arrival.timings, sizeof(Timings));
+  std::memcpy(message.data() + sizeof head, &item.timings, sizeof(Timings));
   message.append(outcome.begin(), outcome.end());
   for (const std::string& bytes : product.bytes) message += bytes;
   return message;
 }
 
-/// Takes a whole message from `bytes` at `at`, which goes behind it; false if it is not whole.
-bool take_message(const std::string& bytes, std::size_t& at, Arrival& arrival) {
+/// Takes a whole message from `bytes` at `at`, which moves past it; false if it is not whole.
+bool take_message(const std::string& bytes, std::size_t& at, WorkItem& item) {
   Head head;
   constexpr std::size_t kFixed = sizeof head + sizeof(Timings);
   if (bytes.size() - at < kFixed) return false;
@@ -76,12 +75,12 @@ bool take_message(const std::string& bytes, std::size_t& at, Arrival& arrival) {
   std::size_t whole = kFixed + head.outcome;
   for (const std::uint64_t part : head.parts) whole += part;
   if (bytes.size() - at < whole) return false;
-  std::memcpy(&arrival.timings, bytes.data() + at + sizeof head, sizeof(Timings));
+  std::memcpy(&item.timings, bytes.data() + at + sizeof head, sizeof(Timings));
   const char* piece = bytes.data() + at + kFixed;
-  arrival.outcome = outcome_of(nlohmann::ordered_json::from_cbor(piece, piece + head.outcome));
+  item.outcome = outcome_of(nlohmann::ordered_json::from_cbor(piece, piece + head.outcome));
   piece += head.outcome;
   for (std::size_t i = 0; i < kParts; ++i) {
-    arrival.outcome.product.bytes[i].assign(piece, head.parts[i]);
+    item.outcome.product.bytes[i].assign(piece, head.parts[i]);
     piece += head.parts[i];
   }
   at += whole;
@@ -103,13 +102,10 @@ itimerval once_after(double seconds) {
   return {{}, {whole, micros}};
 }
 
-bool is_work(const Arrival& arrival) {
-  return arrival.kind == Arrival::Kind::record && arrival.record.value && !arrival.was_done &&
-         !arrival.is_reused;
-}
-
-std::size_t bytes_of(const Arrival& arrival) {
-  return arrival.record.value ? source_line(*arrival.record.value).size() : 0;
+std::size_t bytes_of(const WorkItem& item) {
+  const Record* record = item.record();
+  return record != nullptr && record->document.value ? source_line(*record->document.value).size()
+                                                     : 0;
 }
 
 }  // namespace
@@ -118,7 +114,7 @@ void now_at_building(std::size_t building) {
   if (building_at_hand == nullptr) return;
   *building_at_hand = building;
   const itimerval none{};
-  const bool is_timed = building != kNoBuilding && !arrival_at_hand->lost.contains(building);
+  const bool is_timed = building != kNoBuilding && !item_at_hand->lost.contains(building);
   ::setitimer(ITIMER_REAL, is_timed ? &most_time : &none, nullptr);
 }
 
@@ -127,8 +123,8 @@ struct Isolation::Place {
 };
 
 struct Isolation::Batch {
-  std::vector<std::shared_ptr<Arrival>> arrivals;
-  std::size_t answered = 0;  ///< arrivals before this one are done
+  std::vector<std::unique_ptr<WorkItem>> items;
+  std::size_t answered = 0;  ///< items before this one are done
   std::size_t settled = 0;
   pid_t worker = 0;
   int pipe = -1;
@@ -136,9 +132,9 @@ struct Isolation::Batch {
   std::string received;
 
   void pass_over_workless() {
-    while (answered < arrivals.size() && !is_work(*arrivals[answered])) ++answered;
+    while (answered < items.size() && !items[answered]->needs_work()) ++answered;
   }
-  [[nodiscard]] bool is_answered() const { return answered == arrivals.size(); }
+  [[nodiscard]] bool is_answered() const { return answered == items.size(); }
   [[nodiscard]] bool is_running() const { return pipe >= 0; }
 };
 
@@ -177,15 +173,14 @@ bool Isolation::fill() {
   const auto most = kBatchesPerJob * static_cast<std::size_t>(jobs_);
   if (is_over_ || free_places_.empty() || batches_.size() >= most) return false;
   auto batch = std::make_unique<Batch>();
-  for (std::size_t bytes = 0;
-       batch->arrivals.size() < kMostBatchRecords && bytes < kMostBatchBytes;) {
-    auto arrival = steps_.next();
-    is_over_ = !arrival;
+  for (std::size_t bytes = 0; batch->items.size() < kMostBatchRecords && bytes < kMostBatchBytes;) {
+    auto item = steps_.next();
+    is_over_ = !item;
     if (is_over_) break;
-    bytes += bytes_of(*arrival);
-    batch->arrivals.push_back(std::move(arrival));
+    bytes += bytes_of(*item);
+    batch->items.push_back(std::move(item));
   }
-  if (batch->arrivals.empty()) return false;
+  if (batch->items.empty()) return false;
   batch->pass_over_workless();
   batches_.push_back(std::move(batch));
   if (!batches_.back()->is_answered()) start(*batches_.back());
@@ -217,12 +212,12 @@ void Isolation::be_worker(const Batch& batch, int pipe) const noexcept {
   for (const int signal : {SIGALRM, SIGPIPE, SIGXCPU, SIGXFSZ}) std::signal(signal, SIG_DFL);
   most_time = once_after(most_seconds_);
   building_at_hand = &batch.place->building;
-  for (std::size_t i = batch.answered; i < batch.arrivals.size(); ++i) {
-    Arrival& arrival = *batch.arrivals[i];
-    if (!is_work(arrival)) continue;
-    arrival_at_hand = &arrival;
-    steps_.work(arrival);
-    if (!send(pipe, message_of(arrival))) break;
+  for (std::size_t i = batch.answered; i < batch.items.size(); ++i) {
+    WorkItem& item = *batch.items[i];
+    if (!item.needs_work()) continue;
+    item_at_hand = &item;
+    steps_.work(item);
+    if (!send(pipe, message_of(item))) break;
     now_at_building(kNoBuilding);
   }
   ::_exit(0);
@@ -254,8 +249,7 @@ void Isolation::read_from(Batch& batch) {
   if (count < 0 && errno == EINTR) return;
   if (count < 0) give_up("a worker cannot be heard");
   std::size_t at = 0;
-  while (!batch.is_answered() &&
-         take_message(batch.received, at, *batch.arrivals[batch.answered])) {
+  while (!batch.is_answered() && take_message(batch.received, at, *batch.items[batch.answered])) {
     ++batch.answered;
     batch.pass_over_workless();
   }
@@ -287,29 +281,29 @@ std::string Isolation::cause_of(int status) const {
 }
 
 void Isolation::blame(Batch& batch, int status) {
-  Arrival& arrival = *batch.arrivals[batch.answered];
-  const std::vector<Building>& buildings = arrival.record.value->buildings;
+  WorkItem& item = *batch.items[batch.answered];
+  const std::vector<Building>& buildings = item.record()->document.value->buildings;
   const std::string how = cause_of(status);
   const std::size_t at = batch.place->building;
   std::size_t from = at, to = at + 1;
-  if (at >= buildings.size() || arrival.lost.contains(at)) from = 0, to = buildings.size();
+  if (at >= buildings.size() || item.lost.contains(at)) from = 0, to = buildings.size();
   bool is_new = false;
   for (std::size_t i = from; i < to; ++i)
-    is_new |= arrival.lost
+    is_new |= item.lost
                   .emplace(i, building_issue(Severity::error, Code::E123, buildings[i].id,
                                              "its worker was ended by " + how))
                   .second;
   if (!is_new)
     throw std::runtime_error(
-        fmt::format("{} ended a worker by {}", arrival.record.value->name, how));
+        fmt::format("{} ended a worker by {}", item.record()->document.value->name, how));
 }
 
 void Isolation::settle_front() {
   while (!batches_.empty()) {
     Batch& batch = *batches_.front();
     for (; batch.settled < batch.answered; ++batch.settled) {
-      steps_.settle(*batch.arrivals[batch.settled]);
-      batch.arrivals[batch.settled].reset();
+      steps_.settle(*batch.items[batch.settled]);
+      batch.items[batch.settled].reset();
     }
     if (!batch.is_answered() || batch.is_running()) return;
     batches_.erase(batches_.begin());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/batch/intake.h"
+#include "cli/batch/outcome.h"
 
 #include <functional>
 #include <memory>
@@ -11,18 +11,18 @@ namespace oriel::cli {
 
 /// Works on records in forked processes, so that a hard crash costs one building. A worker gets a
 /// batch of records, which it has in its memory from the start, and sends back what came of each.
-/// If a signal ends it, the building that it was at is lost (E123), and another worker goes on with
+/// If a signal ends it, the building that it was at is lost (E123), and another worker resumes with
 /// that record. This process has one thread only and works on nothing itself: it reads, and takes
 /// what comes in the order of the inputs.
 class Isolation {
  public:
   struct Steps {
-    /// The next arrival, or null after the last.
-    std::function<std::shared_ptr<Arrival>()> next;
-    /// Fills the outcome of an arrival; runs in a worker.
-    std::function<void(Arrival&)> work;
-    /// An arrival is done, in its order.
-    std::function<void(Arrival&)> settle;
+    /// The next item, or null after the last.
+    std::function<std::unique_ptr<WorkItem>()> next;
+    /// Fills the outcome of an item; runs in a worker.
+    std::function<void(WorkItem&)> work;
+    /// An item is done, in its order.
+    std::function<void(WorkItem&)> settle;
   };
 
   /// Up to `jobs` workers at the same time. A worker that is at one building for longer than
@@ -32,7 +32,7 @@ class Isolation {
   Isolation(const Isolation&) = delete;
   Isolation& operator=(const Isolation&) = delete;
 
-  /// All arrivals. Throws std::runtime_error if the system gives no process or pipe, or if a record
+  /// All items. Throws std::runtime_error if the system gives no process or pipe, or if a record
   /// ends its worker though all its buildings are lost already.
   void run();
 

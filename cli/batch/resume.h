@@ -1,15 +1,55 @@
 #pragma once
 
-#include "cli/batch/journal.h"
-#include "cli/commands/options.h"
+#include "cli/batch/run_options.h"
+#include "kernel/io/files/partial_files.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace oriel::cli {
 
-/// A run of a command that may be killed at any moment and goes on after its last whole record when
+/// How far a run has come, in a file next to its outputs: a line for outputs that are done,
+/// inputs that are read, and each state the run was in. A line that was cut off by the end of the
+/// program does not count.
+class Journal {
+ public:
+  explicit Journal(std::string path) : path_(std::move(path)) {}
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// The last state; nothing if there is no journal.
+  std::optional<nlohmann::ordered_json> load();
+  /// Outputs that are done so far.
+  [[nodiscard]] const FileMarks& done() const { return done_; }
+  /// Inputs that are read so far, with their SHA-256.
+  [[nodiscard]] const FileMarks& read() const { return read_; }
+
+  /// Notes that outputs are done and inputs read, and the state. Nothing is waited for: what was
+  /// written survives the end of the program, not that of the machine. Throws OutputError E601.
+  void write(const FileMarks& done, const FileMarks& read, const nlohmann::ordered_json& state);
+  /// The run is over: nothing is left of the journal.
+  void remove();
+
+ private:
+  void open(bool is_fresh);
+  void append(const std::string& text);
+  void compact(const std::string& state);
+
+  std::string path_;
+  int descriptor_ = -1;
+  std::size_t bytes_ = 0;
+  FileMarks done_, read_;
+};
+
+/// {"bytes","lines","sha256"} by path, there and back.
+nlohmann::ordered_json to_json(const FileMarks& marks);
+FileMarks marks_of(const nlohmann::ordered_json& json);
+
+/// A run of a command that may be killed at any moment and resumes after its last whole record when
 /// the same command is given again. What it needs to know stands in STEM.journal; outputs grow as
 /// PATH.partial and come to their place by rename.
 class Resume {
@@ -22,8 +62,8 @@ class Resume {
   };
 
   /// `rules_sha256` and the command line say whether it is the same run. Throws InputError E117 if
-  /// the journal is that of another command, or the outputs it tells of are not there.
-  Resume(const LineArguments& arguments, const std::string& rules_sha256);
+  /// the journal is that of another command, or the outputs that it names are not there.
+  Resume(const RunOptions& options, const std::string& rules_sha256);
 
   /// What went before: empty for a run that begins.
   [[nodiscard]] const std::optional<nlohmann::ordered_json>& state() const { return state_; }
@@ -43,7 +83,7 @@ class Resume {
   [[nodiscard]] const std::string& command_sha256() const { return command_sha256_; }
 
  private:
-  const LineArguments& arguments_;
+  const RunOptions& options_;
   Journal journal_;
   std::string command_sha256_;
   std::optional<nlohmann::ordered_json> state_;

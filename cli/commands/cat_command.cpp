@@ -1,4 +1,4 @@
-#include "cli/batch/run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/common_header.h"
@@ -13,38 +13,32 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string out = "-";
 };
 
 /// One stream of all inputs, under the header of the first.
-class Cat {
+class Cat final : public VisitingCommand {
  public:
-  Cat(const Arguments& arguments, Run& run)
+  Cat(const Arguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
-        run_(run),
+        runner_(runner),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { append(line); }},
                arguments.selection) {}
 
-  ExitCode go() {
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      lines_.begin();
-      input_ = input;
-      if (input == 0) has_header_ = false;
-      if (!out_ && run_.is_last_run()) out_ = std::make_unique<OutputFile>(arguments_.out);
-    };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-      run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
-    };
-    visitor.end = [&](std::size_t) { has_ended_ = true; };
-    visitor.commit = [&] {
-      if (out_ && has_ended_) out_->commit();
-    };
-    const ExitCode code = run_.go(visitor);
-    run_.tell_summary("passed on", {});
-    return code;
+  void begin(std::size_t input) override {
+    lines_.begin();
+    input_ = input;
+    if (input == 0) has_header_ = false;
+    if (!out_ && runner_.is_last_run()) out_ = std::make_unique<OutputFile>(arguments_.out);
+  }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    runner_.timings().measure(Stage::write, [&] { lines_.add(document, results); });
+  }
+  void end(std::size_t /*input*/) override { has_ended_ = true; }
+  void commit() override {
+    if (out_ && has_ended_) out_->commit();
   }
 
  private:
@@ -58,7 +52,7 @@ class Cat {
   }
 
   const Arguments& arguments_;
-  Run& run_;
+  BatchRunner& runner_;
   StreamLines lines_;
   CommonHeader header_;
   std::unique_ptr<OutputFile> out_;  ///< of the last run
@@ -69,8 +63,11 @@ class Cat {
 
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
-  Run run(arguments, nullptr, report);
-  return Cat(arguments, run).go();
+  BatchRunner runner(arguments, nullptr, report);
+  Cat command(arguments, runner);
+  const ExitCode code = runner.run(command);
+  runner.report_summary("passed on", {});
+  return code;
 }
 
 }  // namespace

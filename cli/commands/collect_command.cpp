@@ -1,4 +1,4 @@
-#include "cli/batch/run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/common_header.h"
@@ -15,37 +15,31 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string out = "-";
 };
 
 /// One CityJSON file of all inputs, under the header of the first.
-class Collect {
+class Collect final : public VisitingCommand {
  public:
-  Collect(const Arguments& arguments, Run& run)
+  Collect(const Arguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
-        run_(run),
+        runner_(runner),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { add_feature(line); }},
                arguments.selection) {}
 
-  ExitCode go() {
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      lines_.begin();
-      input_ = input;
-      if (input == 0) collector_ = {};
-    };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-      run_.timings().measure(Stage::write, [&] { lines_.add(document, lines); });
-    };
-    visitor.end = [&](std::size_t) { has_ended_ = true; };
-    visitor.commit = [&] {
-      if (has_ended_) write_file(arguments_.out, collector_.text());
-    };
-    const ExitCode code = run_.go(visitor);
-    run_.tell_summary("collected", {});
-    return code;
+  void begin(std::size_t input) override {
+    lines_.begin();
+    input_ = input;
+    if (input == 0) collector_ = {};
+  }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    runner_.timings().measure(Stage::write, [&] { lines_.add(document, results); });
+  }
+  void end(std::size_t /*input*/) override { has_ended_ = true; }
+  void commit() override {
+    if (has_ended_) write_file(arguments_.out, collector_.text());
   }
 
  private:
@@ -56,13 +50,14 @@ class Collect {
   void add_feature(const std::string& line) {
     const auto twin = collector_.add(line);
     if (!twin) return;
-    run_.set_aside(building_issue(Severity::error, Code::E207, *twin,
-                                  "an earlier feature has a CityObject with this id; that one is "
-                                  "collected"));
+    runner_.set_aside(
+        building_issue(Severity::error, Code::E207, *twin,
+                       "an earlier feature has a CityObject with this id; that one is "
+                       "collected"));
   }
 
   const Arguments& arguments_;
-  Run& run_;
+  BatchRunner& runner_;
   StreamLines lines_;
   CommonHeader header_;
   CityJsonCollector collector_;
@@ -72,8 +67,11 @@ class Collect {
 
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
-  Run run(arguments, nullptr, report);
-  return Collect(arguments, run).go();
+  BatchRunner runner(arguments, nullptr, report);
+  Collect command(arguments, runner);
+  const ExitCode code = runner.run(command);
+  runner.report_summary("collected", {});
+  return code;
 }
 
 }  // namespace

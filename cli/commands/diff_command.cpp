@@ -33,7 +33,7 @@ std::vector<NamedFeature> read_run(const std::string& path, Report& report, Exit
                         std::move(record.id),
                         {std::move(record.label), std::move(record.rule)}});
   });
-  report.tell(issues);
+  report.add(issues);
   if (has_errors(issues))
     code = graver(code, features.empty() ? ExitCode::input : ExitCode::set_aside);
   return features;

@@ -1,9 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/labelling.h"
-#include "cli/output/polygon_at.h"
-#include "interpret/explain/explain.h"
-#include "interpret/surfaces/surfaces.h"
-#include "kernel/model/polygon_owners.h"
+#include "oriel/explain.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -15,7 +12,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string feature;
   std::string rules = "residential";
   int surface = -1;
@@ -23,48 +20,16 @@ struct Arguments : LineArguments {
   bool is_json = false;
 };
 
-/// The features whose id is `wanted` or begins with it.
-std::vector<FeatureId> matches(const FeatureTable& table, const std::string& wanted) {
-  if (const FeatureId exact = table.find(wanted); exact.is_valid()) return {exact};
-  std::vector<FeatureId> found;
-  for (int i = 0; i < static_cast<int>(table.rows()); ++i)
-    if (table.id(FeatureId{i}).starts_with(wanted)) found.push_back(FeatureId{i});
-  return found;
-}
-
-/// "house: polygon 7 is WallSurface by …", its attributes and conditions.
-std::string surface_text(const RuleBase& rules, const Building& building, const OnLine& line,
-                         std::size_t polygon) {
-  const SurfaceTable table =
-      with_parts(line.surfaces, building, line.segmentation.value_or(Segmentation{}),
-                 line.interpretation, rules);
-  return fmt::format("{}: polygon {} is ", building.id, building.polygons[polygon].source) +
-         explain_surface(rules, table, polygon);
-}
-
-/// The smallest feature with a label that the polygon lies in, else the smallest; invalid: none.
-FeatureId feature_of(const Building& building, const OnLine& line, std::size_t polygon) {
-  if (!line.is_done()) return {};
-  const auto owners = polygon_owners(*line.segmentation, building);
-  const auto& features = owners[static_cast<std::size_t>(building.polygons[polygon].source)];
-  if (features.empty()) return {};
-  const auto labelled = std::ranges::find_if(features, [&](int feature) {
-    return !line.interpretation.verdicts[static_cast<std::size_t>(feature)].label.empty();
-  });
-  return FeatureId{labelled == features.end() ? features.front() : *labelled};
-}
-
 /// What lies at a place: the feature there, or the surface where there is none.
 ExitCode explain_place(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   const Vec3 point{arguments.at[0], arguments.at[1], arguments.at[2]};
   std::optional<double> nearest_m;
   std::string text;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = polygon_at(building, point);
@@ -73,15 +38,14 @@ ExitCode explain_place(const Arguments& arguments) {
       nearest_m = found->distance_m;
       const FeatureId feature = feature_of(building, lines[i], found->polygon);
       if (!feature.is_valid()) {
-        text = surface_text(*rules, building, lines[i], found->polygon);
+        text = explain_surface(building, lines[i], *rules, found->polygon);
         continue;
       }
-      const auto& [table, graph] = lines[i].description;
-      const auto explanation = explain(*rules, table, graph, lines[i].interpretation, feature);
+      const auto explanation = explain(lines[i], *rules, feature);
       text = arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation);
     }
-  };
-  const ExitCode code = run.go(visitor);
+  });
+  const ExitCode code = runner.run(visitor);
   if (text.empty() && code != ExitCode::input)
     throw CLI::ValidationError("--at", "no polygon lies there");
   std::fputs(text.c_str(), stdout);
@@ -93,19 +57,18 @@ ExitCode explain_surfaces(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   std::string text;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
       if (!lines[i].has_surfaces() || found == building.polygons.end()) continue;
-      text += surface_text(*rules, building, lines[i],
-                           static_cast<std::size_t>(found - building.polygons.begin()));
+      text += explain_surface(building, lines[i], *rules,
+                              static_cast<std::size_t>(found - building.polygons.begin()));
     }
-  };
-  const ExitCode code = run.go(visitor);
+  });
+  const ExitCode code = runner.run(visitor);
   if (text.empty() && code != ExitCode::input)
     throw CLI::ValidationError("--surface",
                                fmt::format("there is no polygon {}", arguments.surface));
@@ -120,26 +83,25 @@ ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   std::vector<Explanation> explanations;
   std::vector<std::string> ids;
-  Run::Visitor visitor;
-  visitor.begin = [&](std::size_t) {
+  const auto clear = [&] {
     explanations.clear();
     ids.clear();
   };
-  visitor.record = [&](const Document&, std::vector<OnLine>& lines) {
-    for (const OnLine& line : lines) {
+  const auto look_up = [&](const Document&, std::vector<PipelineResult>& lines) {
+    for (const PipelineResult& line : lines) {
       if (!line.is_done()) continue;
-      const auto& [table, graph] = line.description;
+      const FeatureTable& table = line.description.table;
       for (std::size_t i = 0; i < table.rows(); ++i)
         ids.push_back(table.id(FeatureId{static_cast<int>(i)}));
-      for (const FeatureId id : matches(table, arguments.feature)) {
-        explanations.push_back(explain(*rules, table, graph, line.interpretation, id));
-      }
+      for (const FeatureId id : find_features(line, arguments.feature))
+        explanations.push_back(explain(line, *rules, id));
     }
   };
-  const ExitCode code = run.go(visitor);
+  RecordVisitor visitor(look_up, clear);
+  const ExitCode code = runner.run(visitor);
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
   if (explanations.size() != 1 && !has_said_why) {
     std::string which = explanations.empty() ? "there are" : "it may be";
@@ -150,8 +112,10 @@ ExitCode work(const Arguments& arguments) {
       which += " " + (explanations.empty() ? ids[i] : explanations[i].feature);
     if (shown < (explanations.empty() ? ids.size() : explanations.size())) which += " ...";
     throw CLI::ValidationError(
-        "feature",
-        fmt::format("'{}' names {} features; {}", arguments.feature, explanations.size(), which));
+        "feature", explanations.empty()
+                       ? fmt::format("no feature starts with '{}'; {}", arguments.feature, which)
+                       : fmt::format("{} features start with '{}'; {}", explanations.size(),
+                                     arguments.feature, which));
   }
   for (const Explanation& explanation : explanations)
     std::fputs((arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation)).c_str(),
@@ -170,13 +134,15 @@ void add_explain(CLI::App& app, Action& action) {
                                       "Id of a feature, or the beginning of one");
   auto* surface =
       command
-          ->add_option("--surface", arguments->surface,
-                       "Instead: the number of a polygon, to say what surface it is and why")
+          ->add_option(
+              "--surface", arguments->surface,
+              "Instead of a feature: the number of a polygon, to say what surface it is and why")
           ->check(CLI::NonNegativeNumber)
           ->excludes(feature);
   command
       ->add_option("--at", arguments->at,
-                   "Instead: a place in the input's coordinates, to say what lies there and why")
+                   "Instead of a feature: a place in the input's coordinates, to say what lies "
+                   "there and why")
       ->delimiter(',')
       ->expected(3)
       ->type_name("X,Y,Z")

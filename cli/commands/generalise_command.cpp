@@ -1,11 +1,10 @@
-#include "cli/batch/work_place.h"
+#include "cli/batch/batch_command.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/labelling.h"
 #include "cli/commands/targets.h"
-#include "cli/output/accounts.h"
-#include "cli/series/building_drawer.h"
+#include "cli/output/change_report.h"
 #include "cli/series/series.h"
-#include "generalise/generalise.h"
+#include "oriel/generalise.h"
 
 #include <algorithm>
 #include <map>
@@ -29,128 +28,117 @@ struct Arguments : LabelArguments {
   std::string metrics;
 };
 
-class Generaliser {
+class Generaliser final : public ProducingCommand {
  public:
-  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules, Run& run)
+  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules,
+              BatchRunner& runner)
       : arguments_(arguments),
         targets_(targets),
-        run_(run),
+        rules_(rules),
+        runner_(runner),
         outputs_(arguments, rules),
-        accounts_(arguments.explain, arguments.metrics),
-        drawer_(arguments, targets, rules, outputs_, accounts_) {}
+        changes_(arguments.explain, arguments.metrics) {}
 
-  ExitCode go() {
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      if (input == 0 && arguments_.repeat > 1) removed_.clear();
-      accounts_.begin(!run_.is_last_run());
-      outputs_.begin(input, !run_.is_last_run());
-    };
-    visitor.make = [&](std::size_t input, const Document& document,
-                       const std::vector<OnLine>& lines,
-                       Timings& timings) { return redraw_record(input, document, lines, timings); };
-    visitor.take = [&](const Document& document, const Product& product) {
-      outputs_.take(document, product);
-      accounts_.take(product);
-    };
-    visitor.places = [&] {
-      PartPlaces places = outputs_.places();
-      accounts_.add_places(places);
-      return places;
-    };
-    const bool is_json = arguments_.explain.ends_with(".jsonl");
-    visitor.recipe = fmt::format("generalise {} explain={} json={} metrics={} {}",
-                                 targets_.recipe(), !arguments_.explain.empty(), is_json,
-                                 accounts_.has_metrics(), outputs_.recipe());
-    visitor.end = [&](std::size_t) {
-      run_.timings().measure(Stage::write, [&] { outputs_.end(); });
-    };
-    visitor.reopen = [&] {
-      accounts_.begin(false);
-      outputs_.reopen();
-    };
-    visitor.commit = [&] {
-      outputs_.commit();
-      accounts_.commit();
-    };
-    visitor.is_streaming = outputs_.is_streaming();
-    visitor.counts = &removed_;
-    const ExitCode code = run_.go(visitor);
-    if (!run_.was_done())
-      run_.tell_summary("generalised to " + targets_.text(), removed_, " left out");
-    return code;
+  void begin(std::size_t input) override {
+    if (input == 0 && arguments_.repeat > 1) removed_.clear();
+    changes_.begin(!runner_.is_last_run());
+    outputs_.begin(input, !runner_.is_last_run());
   }
+  Product make(std::size_t input, const Document& document,
+               const std::vector<PipelineResult>& results, Timings& timings) const override {
+    return redraw_record(input, document, results, timings);
+  }
+  void take(const Document& document, Product product) override {
+    outputs_.take(document, product);
+    changes_.take(product);
+  }
+  void end(std::size_t /*input*/) override {
+    runner_.timings().measure(Stage::write, [&] { outputs_.end(); });
+  }
+  void commit() override {
+    outputs_.commit();
+    changes_.commit();
+  }
+  void reopen() override {
+    changes_.begin(false);
+    outputs_.reopen();
+  }
+
+  [[nodiscard]] PartPlaces places() const override {
+    PartPlaces places = outputs_.places();
+    changes_.add_places(places);
+    return places;
+  }
+  [[nodiscard]] std::string recipe() const override {
+    return fmt::format("generalise {} explain={} json={} metrics={} {}", targets_.recipe(),
+                       !arguments_.explain.empty(), arguments_.explain.ends_with(".jsonl"),
+                       changes_.has_metrics(), outputs_.recipe());
+  }
+  [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
+  std::map<std::string, int>* counts() override { return &removed_; }
+
+  /// Features that are gone, by label.
+  [[nodiscard]] const std::map<std::string, int>& removed() const { return removed_; }
 
  private:
   Product redraw_record(std::size_t input, const Document& document,
-                        const std::vector<OnLine>& lines, Timings& timings) const {
+                        const std::vector<PipelineResult>& lines, Timings& timings) const {
+    const GeneraliseOptions options = options_of(timings);
     Product product;
-    std::vector<LabelledBuilding> labelled;
-    WriteOptions options;
-    std::vector<DrawnBuilding> drawn;
+    OutputRecord output;
+    std::vector<GeneralisedBuilding> drawn;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       now_at_building(i);
-      if (!lines[i].is_done()) continue;
-      if (lines[i].is_open) {
-        product.issues.push_back(building_issue(Severity::error, Code::G404,
-                                                document.buildings[i].id,
-                                                "is open: there is no solid to redraw"));
-        continue;
-      }
       drawn.push_back(
-          timings.measure(Stage::generalise, [&] { return drawer_.draw(document, i, lines[i]); }));
+          generalise(document, document.buildings[i], lines[i], rules_, targets_, options));
+      if (lines[i].is_open) report(drawn[i], product);
     }
-    for (DrawnBuilding& one : drawn) {
-      now_at_building(one.building);
-      const OnLine& line = lines[one.building];
-      timings.measure(Stage::write, [&] { drawer_.keep_valid(document, line, one); });
-      std::optional<OnLine> mended;
-      if (one.is_excused() || one.is_given_up())
-        mended = drawer_.mend(document, line, one, timings);
-      outputs_.make_features(document.buildings[one.building], mended ? *mended : line, product);
-      tell(std::move(one.told), product);
-      add(std::move(one.all), labelled, options, product);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!lines[i].is_done() || lines[i].is_open) continue;
+      now_at_building(i);
+      outputs_.make_features(document.buildings[i],
+                             drawn[i].repaired ? *drawn[i].repaired : lines[i], product);
+      report(drawn[i], product);
+      count(drawn[i], product);
+      add(std::move(drawn[i]), output);
     }
     now_at_building(kNoBuilding);
     timings.measure(Stage::write, [&] {
-      outputs_.make_buildings(input, document, std::move(labelled), options, product);
+      outputs_.make_buildings(input, document, std::move(output.buildings), output.options,
+                              product);
     });
     return product;
   }
 
-  static void tell(Product told, Product& product) {
-    for (std::size_t part = 0; part < told.bytes.size(); ++part)
-      product.bytes[part] += told.bytes[part];
-    product.issues.insert(product.issues.end(), told.issues.begin(), told.issues.end());
+  [[nodiscard]] GeneraliseOptions options_of(Timings& timings) const {
+    GeneraliseOptions options;
+    static_cast<LabelOptions&>(options) = arguments_.label_options(timings.observer());
+    options.reports_changes = !arguments_.explain.empty();
+    options.reports_figures = changes_.has_metrics();
+    return options;
   }
 
-  /// Of several levels of detail the first says what is gone from the building; an installation
-  /// leaves the file if no level has it.
-  void add(std::vector<Redrawn> all, std::vector<LabelledBuilding>& labelled, WriteOptions& options,
-           Product& product) const {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Redrawn& redrawn = all[i];
-      for (const std::string& id : redrawn.removed_ids)
-        if (std::ranges::none_of(all, [&](const Redrawn& other) { return has(other, id); }))
-          options.removed.push_back(id);
-      if (i == 0)
-        for (const auto& [label, count] : redrawn.removed) product.counts[label] += count;
-      else
-        redrawn.labelled.attributes.clear();
+  void report(const GeneralisedBuilding& drawn, Product& product) const {
+    product.issues.insert(product.issues.end(), drawn.issues.begin(), drawn.issues.end());
+    for (const TargetReport& report : drawn.reports) {
+      product[Part::changes] += changes_.text(drawn.building, report.target, report.changes);
+      if (report.figures)
+        product[Part::metrics] += changes_.text(drawn.building, report.target, *report.figures);
     }
-    for (Redrawn& redrawn : all) labelled.push_back(std::move(redrawn.labelled));
   }
-  static bool has(const Redrawn& redrawn, const std::string& id) {
-    const auto& list = redrawn.labelled.installations;
-    return std::ranges::find(list, id, &Installation::id) != list.end();
+
+  /// Of several levels of detail the first says what is gone from the building.
+  static void count(const GeneralisedBuilding& drawn, Product& product) {
+    if (drawn.levels.empty()) return;
+    for (const auto& [label, count] : drawn.levels[0].removed) product.counts[label] += count;
   }
 
   const Arguments& arguments_;
   const Targets& targets_;
-  Run& run_;
+  const RuleBase& rules_;
+  BatchRunner& runner_;
   LabelOutputs outputs_;
-  Accounts accounts_;
-  BuildingDrawer drawer_;
+  ChangeReport changes_;
   std::map<std::string, int> removed_;  ///< features that are gone, by label
 };
 
@@ -171,15 +159,15 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
   if (arguments.series.empty()) return std::nullopt;
   if (!arguments.explain.empty() || !arguments.metrics.empty())
     refuse_usage("--series", Code::G414,
-                 "goes without --explain and --metrics, which are of one scale");
+                 "does not work with --explain and --metrics, which are of one scale");
   const std::vector<double> scales = scales_of(arguments.series);
   if (arguments.target.profile.empty())
-    return write_series(arguments, scales, nullptr, rules, report);
+    return write_series(arguments, scales, std::nullopt, rules, report);
   const auto profile = load_profile_file(arguments.target.profile);
-  report.tell(profile.issues);
+  report.add(profile.issues);
   if (!profile.value) return ExitCode::rules;
-  report.tell(check_profile(*profile.value, rules));
-  return write_series(arguments, scales, &*profile.value, rules, report);
+  report.add(check_profile(*profile.value, rules));
+  return write_series(arguments, scales, profile.value, rules, report);
 }
 
 /// With --at the option --from names a series, else the format of the inputs.
@@ -215,9 +203,12 @@ ExitCode work(Arguments& arguments) {
   if (!targets) return ExitCode::rules;
   if (std::ranges::any_of(targets->profiles, &Profile::names_classes))
     arguments.stl_solids = StlSolids::by_class;
-  Run run(arguments, &*rules, report);
-  Generaliser generaliser(arguments, *targets, *rules, run);
-  return generaliser.go();
+  BatchRunner runner(arguments, &*rules, report);
+  Generaliser command(arguments, *targets, *rules, runner);
+  const ExitCode code = runner.run(command);
+  if (!runner.was_done())
+    runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
+  return code;
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ void print(const std::string& text) {
 
 ExitCode work(const Arguments& arguments) {
   if (arguments.is_watching && !arguments.out.empty())
-    throw CLI::ValidationError("--watch", "writes no file: it goes without -o");
+    throw CLI::ValidationError("--watch", "writes no file: leave out -o");
   Report report(arguments.is_verbose);
   if (arguments.is_watching) {
     const StoredFeatures features(arguments.records, report);

@@ -1,13 +1,11 @@
 #pragma once
 
-#include "cli/batch/earlier_run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/batch/outcome.h"
-#include "cli/batch/run.h"
 #include "cli/commands/options.h"
-#include "cli/output/destination.h"
+#include "cli/output/output_sink.h"
 #include "interpret/pack/rule_base.h"
-#include "interpret/surfaces/annotate.h"
-#include "kernel/io/records/feature_records.h"
+#include "oriel/write.h"
 
 #include <memory>
 #include <optional>
@@ -17,7 +15,7 @@
 namespace oriel::cli {
 
 /// Arguments of the commands that label buildings and write them.
-struct LabelArguments : LineArguments {
+struct LabelArguments : RunOptions {
   std::string rules = "residential";
   std::string out;
   std::string to;
@@ -27,17 +25,15 @@ struct LabelArguments : LineArguments {
   bool has_reasons = false;
   /// What the solids of an STL are called by.
   StlSolids stl_solids = StlSolids::by_label;
+
+  /// With what is written, too.
+  [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
 };
 
 void add_label_arguments(CLI::App& command, LabelArguments& arguments);
 
-/// The pack, with its findings told; nothing if it cannot be used.
+/// The pack, with its findings reported; nothing if it cannot be used.
 std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
-
-/// What is to be written of a building that has surfaces; without features if it did not come to
-/// the end of the line.
-LabelledBuilding annotated(const Building& building, const OnLine& line, const RuleBase& rules,
-                           const AnnotateOptions& options = {});
 
 /// What those commands write: the buildings (-o) and the records of features (--features), each if
 /// asked for.
@@ -46,14 +42,15 @@ class LabelOutputs {
   /// Throws CLI::ValidationError if the arguments make no sense together.
   LabelOutputs(const LabelArguments& arguments, const RuleBase& rules);
 
-  [[nodiscard]] bool has_buildings() const { return destination_.has_value(); }
+  [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
 
   /// What was added is written by the next flush: nothing waits for the end of the input.
   [[nodiscard]] bool is_streaming() const;
 
-  /// The same with the options of the command.
-  [[nodiscard]] LabelledBuilding annotated(const Building& building, const OnLine& line) const;
+  /// What is to be written of a building that has surfaces; without features if it was rejected.
+  [[nodiscard]] LabelledBuilding annotated(const Building& building,
+                                           const PipelineResult& line) const;
 
   /// `is_rehearsal`: what follows is not to be kept.
   void begin(std::size_t input, bool is_rehearsal);
@@ -61,7 +58,7 @@ class LabelOutputs {
   void reopen();
   /// The outputs and what is in them so far.
   [[nodiscard]] PartPlaces places() const;
-  /// What a product depends on beside source, configuration and rules; empty if products are no
+  /// What a product depends on besides source, configuration and rules; empty if products are no
   /// stretches of the outputs' bytes.
   [[nodiscard]] std::string recipe() const;
   /// Adds to `product` what the labelled buildings of a record, and the features of a building,
@@ -69,7 +66,7 @@ class LabelOutputs {
   void make_buildings(std::size_t input, const Document& document,
                       std::vector<LabelledBuilding> labelled, const WriteOptions& options,
                       Product& product) const;
-  void make_features(const Building& building, const OnLine& line, Product& product) const;
+  void make_features(const Building& building, const PipelineResult& line, Product& product) const;
   /// Puts a product into the outputs.
   void take(const Document& document, const Product& product);
   /// An input is done: its file is put in its place.
@@ -83,8 +80,8 @@ class LabelOutputs {
   const LabelArguments& arguments_;
   const RuleBase& rules_;
   /// Of the arguments as they are when the outputs are made.
-  std::string config_sha256_;
-  std::optional<Destination> destination_;
+  LabelOptions options_;
+  std::optional<OutputSink> sink_;
   std::unique_ptr<FeatureRecordWriter> features_;
   bool has_ended_ = false;  ///< an input did
 };

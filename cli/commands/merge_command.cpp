@@ -56,7 +56,7 @@ class Merger {
 
  private:
   void tell(const Issue& issue) {
-    report_.tell(issue);
+    report_.add(issue);
     has_errors_ = true;
   }
 
@@ -116,8 +116,9 @@ void add_merge(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "merge", "Put what was made of the shards of `split` together, in their order");
   command
-      ->add_option("shards", arguments->files,
-                   "What was made of every shard, in any order, with NAME.status.json beside it")
+      ->add_option(
+          "shards", arguments->files,
+          "What was made of every shard, in any order, each with its NAME.status.json next to it")
       ->required();
   command->add_option("--split", arguments->list, "The split.json of the shards")->required();
   command

@@ -1,7 +1,6 @@
 #include "cli/commands/options.h"
 
 #include "kernel/io/records/feature_records.h"
-#include "kernel/solidify/noise.h"
 
 #include <algorithm>
 #include <string>
@@ -11,57 +10,6 @@
 #include <fmt/format.h>
 
 namespace oriel::cli {
-
-ReadOptions LineArguments::read_options() const {
-  ReadOptions options;
-  if (!lod.empty()) options.lod = lod;
-  if (!from.empty()) options.format = parse_format(from);
-  return options;
-}
-
-ReadOptions LineArguments::read_options(const std::string& input) const {
-  ReadOptions options = read_options();
-  if (!options.format && input == "-") options.format = kFormatOfStdin;
-  return options;
-}
-
-bool LineArguments::is_piped_stream() const {
-  return inputs.size() == 1 && inputs[0] == "-" && read_options("-").format == Format::cityjson_seq;
-}
-
-Tolerances LineArguments::tolerances_for(const Building& building) const {
-  if (is_plane_offset_given) return tolerances;
-  return fitted_to_noise(tolerances, noise_of(building));
-}
-
-SegmentOptions LineArguments::segment_options(const Tolerances& fitted) const {
-  SegmentOptions options;
-  options.order = order == "paper" ? Order::paper : Order::natural;
-  options.tolerances = fitted;
-  options.budget = budget;
-  return options;
-}
-
-RepairOptions LineArguments::repair_options() const {
-  return {*parse_closing(close), cap_area_m2,
-          crossings == "cut" ? Crossings::cut : Crossings::leave};
-}
-
-std::string LineArguments::configuration() const {
-  return fmt::format(
-             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={} "
-             "close={} close_area_m2={} crossings={}",
-             lod, order, tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
-             tolerances.value_rel, budget, close, cap_area_m2, crossings) +
-         (is_plane_offset_given ? "" : " fitted_to_noise") +
-         (ignores_semantics ? " ignore_semantics" : "");
-}
-
-bool LineArguments::allows(int set_aside, int buildings) const {
-  const double number = std::stod(allowed_bad);
-  if (allowed_bad.ends_with('%')) return set_aside * 100.0 <= number * buildings;
-  return set_aside <= number;
-}
 
 namespace {
 
@@ -80,7 +28,7 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   command.add_option("--seed", selection.seed, "Which ones --random draws")->capture_default_str();
   command.add_flag("--exclude", selection.is_exclusion,
-                   "All buildings but those that --id, --bbox, --cotype and --random name");
+                   "All buildings except those that --id, --bbox, --cotype and --random name");
 }
 
 }  // namespace
@@ -90,11 +38,11 @@ void refuse_usage(const std::string& option, Code code, const std::string& sente
 }
 
 CLI::Validator input_formats() {
-  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off"});
+  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply"});
 }
 
-void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
-  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ or OFF; - is stdin, a CityJSONSeq";
+void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
+  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ, OFF or PLY; - is stdin, a CityJSONSeq";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
   } else {
@@ -111,7 +59,7 @@ void add_input_arguments(CLI::App& command, LineArguments& a, bool has_many) {
   if (has_many) add_selection_arguments(command, a.selection);
 }
 
-void add_solid_arguments(CLI::App& command, LineArguments& a) {
+void add_solid_arguments(CLI::App& command, RunOptions& a) {
   command
       .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
                   "Polygons share a plane if tilted by no more than this")
@@ -158,10 +106,10 @@ void add_jobs_argument(CLI::App& command, int& jobs) {
       ->capture_default_str();
 }
 
-void add_run_arguments(CLI::App& command, LineArguments& a) {
+void add_run_arguments(CLI::App& command, RunOptions& a) {
   command.add_option("--timings", a.timings_file,
                      "Write the milliseconds of each stage to this file, as JSON");
-  command.add_option("--repeat", a.repeat, "Run this often; --timings has the medians")
+  command.add_option("--repeat", a.repeat, "Run this many times; --timings has the medians")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_jobs_argument(command, a.jobs);
@@ -173,11 +121,11 @@ void add_run_arguments(CLI::App& command, LineArguments& a) {
       ->check(CLI::IsMember({"bar", "json", "none"}));
   command.add_option("--status", a.status_stem,
                      "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
-                     "record with something set aside, and why)");
+                     "record of which something was rejected, and why)");
   command
-      .add_option(
-          "--allow-bad", a.allowed_bad,
-          "Up to so many buildings (N), or of a hundred (P%), may be set aside: exit code 0")
+      .add_option("--allow-bad", a.allowed_bad,
+                  "Up to this many buildings (N), or per cent of them (P%), may be rejected with "
+                  "exit code 0")
       ->check([](const std::string& text) {
         const bool is_share = text.ends_with('%');
         const std::string digits = text.substr(0, text.size() - (is_share ? 1 : 0));
@@ -192,16 +140,16 @@ void add_run_arguments(CLI::App& command, LineArguments& a) {
   command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
 }
 
-void add_resume_argument(CLI::App& command, LineArguments& a) {
+void add_resume_argument(CLI::App& command, RunOptions& a) {
   command
       .add_flag(
           "--resume", a.is_resumable,
-          "Go on after the last whole record when the same command was killed; needs --status")
+          "Resume after the last whole record when the same command was killed; needs --status")
       ->needs(command.get_option("--status"))
       ->excludes(command.get_option("--repeat"));
 }
 
-void add_reuse_argument(CLI::App& command, LineArguments& a) {
+void add_reuse_argument(CLI::App& command, RunOptions& a) {
   command
       .add_option(
           "--reuse", a.reuse,
@@ -211,20 +159,20 @@ void add_reuse_argument(CLI::App& command, LineArguments& a) {
       ->excludes(command.get_option("--repeat"));
 }
 
-void add_isolate_argument(CLI::App& command, LineArguments& a) {
+void add_isolate_argument(CLI::App& command, RunOptions& a) {
   command.add_flag("--isolate", a.is_isolated,
                    "Work in forked processes: a hard crash (a signal) costs one building, which is "
-                   "set aside");
+                   "rejected");
   command
       .add_option(
           "--most-seconds", a.most_seconds,
-          "Set a building aside that takes longer, by the clock, so that another run may do "
-          "otherwise; needs --isolate")
+          "Reject a building that takes longer by the clock, so results may differ from run "
+          "to run; needs --isolate")
       ->check(CLI::Range(0.001, 1e6))
       ->needs(command.get_option("--isolate"));
 }
 
-void add_line_arguments(CLI::App& command, LineArguments& a, bool has_many) {
+void add_line_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   add_input_arguments(command, a, has_many);
   command
       .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")

@@ -16,6 +16,15 @@ namespace oriel::cli {
 
 namespace {
 
+/// "PATH: pack NAME VERSION, 23 rules for 10 labels".
+std::string counts_of(const std::string& path, const RuleBase& pack) {
+  const auto counted = [](std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  return fmt::format("{}: pack {} {}, {} for {}\n", path, pack.name(), pack.version(),
+                     counted(pack.rule_count(), "rule"), counted(pack.labels().size(), "label"));
+}
+
 struct Arguments {
   std::vector<std::string> packs;
   bool is_json = false;
@@ -37,15 +46,11 @@ ExitCode work(const Arguments& arguments) {
     if (arguments.is_json)
       for (const Issue& issue : pack.issues) findings.push_back(as_json(issue));
     else
-      report.tell(pack.issues);
+      report.add(pack.issues);
     if (!pack.value)
       code = ExitCode::rules;
     else if (!arguments.is_json)
-      std::fputs(
-          fmt::format("{}: pack {} {}, {} rules for {} labels\n", path, pack.value->name(),
-                      pack.value->version(), pack.value->rule_count(), pack.value->labels().size())
-              .c_str(),
-          stdout);
+      std::fputs(counts_of(path, *pack.value).c_str(), stdout);
   }
   if (arguments.is_json) std::fputs((findings.dump() + "\n").c_str(), stdout);
   return code;

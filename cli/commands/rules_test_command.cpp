@@ -1,10 +1,10 @@
 #include "cli/commands/rules_commands.h"
-#include "cli/pipeline/line.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "interpret/testing/rule_tests.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/reader.h"
+#include "oriel/read.h"
+#include "oriel/segment.h"
 
 #include <cstdio>
 #include <memory>
@@ -35,10 +35,12 @@ std::string tests_of(const std::string& file) {
   return name + ".test.yaml";
 }
 
-void describe(const Document& document, Timings& timings,
-              Checked<std::vector<DescribedBuilding>>& found) {
+/// Tests say what features measure with the tolerances as they are.
+void describe(const Document& document, Checked<std::vector<DescribedBuilding>>& found) {
+  PipelineOptions options;
+  options.fits_noise = false;
   for (const Building& building : document.buildings) {
-    OnLine line = run_line(building, {}, {}, nullptr, timings);
+    PipelineResult line = segment(building, options);
     found.issues.insert(found.issues.end(), line.issues.begin(), line.issues.end());
     if (line.is_done())
       found.value->push_back(
@@ -49,13 +51,12 @@ void describe(const Document& document, Timings& timings,
 Checked<std::vector<DescribedBuilding>> read_buildings(const std::string& path) {
   Checked<std::vector<DescribedBuilding>> found;
   found.value.emplace();
-  Timings timings;
   try {
     Reader reader(path, {});
     while (const auto record = reader.next()) {
       found.issues.insert(found.issues.end(), record->issues.begin(), record->issues.end());
       if (record->value)
-        describe(*record->value, timings, found);
+        describe(*record->value, found);
       else if (reader.format() != Format::cityjson_seq)
         break;
     }
@@ -76,7 +77,7 @@ ExitCode work(const Arguments& arguments) {
   std::vector<RuleTestReport> reports;
   for (const std::string& file : arguments.files) {
     auto tested = run_rule_tests(tests_of(file), read_buildings);
-    report.tell(tested.issues);
+    report.add(tested.issues);
     if (!tested.value) {
       code = ExitCode::rules;
       continue;
@@ -99,7 +100,7 @@ void add_rules_test(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* test = rules.add_subcommand("test", "Run the tests of rule packs");
   test->add_option("file", arguments->files,
-                   "Packs, with their tests in NAME.test.yaml beside NAME.yaml, or those tests")
+                   "Packs, with their tests in NAME.test.yaml next to NAME.yaml, or those tests")
       ->required();
   test->add_option("--junit", arguments->junit, "Write the results to this file, as JUnit XML");
   test->add_option("--min-coverage", arguments->min_coverage,

@@ -40,7 +40,7 @@ ExitCode format(const Arguments& arguments) {
       throw CLI::ValidationError("--write", "'" + pack + "' is built in and has no file");
     const auto formatted = format_pack_file(pack);
     if (!formatted.value) {
-      report.tell(formatted.issues);
+      report.add(formatted.issues);
       code = graver(code, ExitCode::rules);
     } else if (arguments.is_check) {
       if (*formatted.value == text_of(pack)) continue;
@@ -59,7 +59,7 @@ ExitCode show(const Arguments& arguments) {
   Report report(true);
   const std::string& pack = arguments.packs.front();
   const auto merged = merge_pack_file(pack);
-  report.tell(merged.issues);
+  report.add(merged.issues);
   if (!merged.value) return ExitCode::rules;
   std::fputs((arguments.is_merged ? *merged.value : text_of(pack)).c_str(), stdout);
   return ExitCode::clean;

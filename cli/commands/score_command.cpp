@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   bool is_of_surfaces = false;
   std::string rules = "residential";
   std::vector<std::string> truth;
@@ -98,14 +98,14 @@ Compared read(const Arguments& arguments, Report& report, ExitCode& code) {
   Compared all;
   for (const std::string& path : arguments.inputs) {
     auto records = read_feature_records(path);
-    report.tell(records.issues);
+    report.add(records.issues);
     if (has_errors(records.issues))
       code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
     if (records.value) append(all, std::move(*records.value));
   }
   for (const std::string& path : truth_files(arguments.truth)) {
     const auto truths = read_truths(path);
-    report.tell(truths.issues);
+    report.add(truths.issues);
     if (has_errors(truths.issues)) code = graver(code, ExitCode::input);
     if (truths.value)
       for (const Truth& truth : *truths.value) append(all, truth);
@@ -116,25 +116,24 @@ Compared read(const Arguments& arguments, Report& report, ExitCode& code) {
 /// Areas come from the models that were labelled: neither records nor truth know them.
 AreaScore compare_models(const Arguments& arguments, Compared& all, Report& report,
                          ExitCode& code) {
-  LineArguments models = arguments;
+  RunOptions models = arguments;
   models.inputs = arguments.models;
   models.ends_at_reading = true;
-  Run run(models, nullptr, report);
+  BatchRunner runner(models, nullptr, report);
   AreaScore score;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>&) {
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>&) {
     for (const Building& building : document.buildings) {
       const auto faces = all.faces.find(building.id);
       if (faces == all.faces.end()) continue;
       compare_areas(building, faces->second, ScoreOptions{}.not_scored, score);
       all.faces.erase(faces);
     }
-  };
-  code = graver(code, run.go(visitor));
+  });
+  code = graver(code, runner.run(visitor));
   for (const auto& [building, faces] : all.faces)
     if (!faces.truth.empty())
-      report.tell(building_issue(Severity::warning, Code::E129, building,
-                                 "is in none of the models: its areas are not compared"));
+      report.add(building_issue(Severity::warning, Code::E129, building,
+                                "is in none of the models: its areas are not compared"));
   return score;
 }
 
@@ -176,16 +175,17 @@ ExitCode score_surfaces(const Arguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
-  Run run(arguments, &*rules, report);
+  BatchRunner runner(arguments, &*rules, report);
   SurfaceScore score;
-  Run::Visitor visitor;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (lines[i].has_surfaces())
-        compare_surfaces(document.buildings[i], annotated(document.buildings[i], lines[i], *rules),
-                         lines[i].surfaces, OpeningPolicy::as_host, score);
-  };
-  const ExitCode code = run.go(visitor);
+        compare_surfaces(
+            document.buildings[i],
+            annotate(document.buildings[i], lines[i], *rules, arguments.label_options()),
+            lines[i].surfaces, OpeningPolicy::as_host, score);
+  });
+  const ExitCode code = runner.run(visitor);
   std::fputs((arguments.is_json ? to_json(score) + "\n" : to_text(score)).c_str(), stdout);
   return code;
 }

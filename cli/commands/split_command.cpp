@@ -1,4 +1,4 @@
-#include "cli/batch/run.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/common_header.h"
@@ -25,7 +25,7 @@ namespace {
 /// What shards hold in memory together before they are written.
 constexpr std::size_t kMostInMemory = 64U << 20U;
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string folder;
   std::uint64_t count = 0, bytes = 0;  ///< 0: not asked for
   double grid_m = 0;
@@ -33,31 +33,28 @@ struct Arguments : LineArguments {
 
 /// Features go to shards as they come. With --count and --bytes a shard is a stretch of the stream,
 /// with --grid it is what lies in a cell; cells are numbered as they first occur.
-class Splitter {
+class Splitter final : public VisitingCommand {
  public:
-  Splitter(const Arguments& arguments, Run& run)
+  explicit Splitter(const Arguments& arguments)
       : arguments_(arguments),
-        run_(run),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { add_feature(line); }},
                arguments.selection) {}
 
-  ExitCode go() {
-    std::error_code error;
-    std::filesystem::create_directories(arguments_.folder, error);  // shows when a shard is opened
-    Run::Visitor visitor;
-    visitor.begin = [&](std::size_t input) {
-      lines_.begin();
-      input_ = input;
-    };
-    visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-      lines_.add(document, lines);
-    };
-    visitor.commit = [&] { commit(); };
-    const ExitCode code = run_.go(visitor);
-    run_.tell_summary(fmt::format("split into {} shards", list_.shards.size()), {});
-    return code;
+  void begin(std::size_t input) override {
+    lines_.begin();
+    input_ = input;
   }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    lines_.add(document, results);
+  }
+  void commit() override {
+    for (ShardFile& file : open_) list_.shards.push_back(file.commit());
+    if (!header_.empty())
+      write_file((std::filesystem::path(arguments_.folder) / kShardList).string(), list_.json());
+  }
+
+  [[nodiscard]] std::size_t shards() const { return list_.shards.size(); }
 
  private:
   using Cell = std::pair<std::int64_t, std::int64_t>;
@@ -112,14 +109,7 @@ class Splitter {
     open_.back().append(header_);
   }
 
-  void commit() {
-    for (ShardFile& file : open_) list_.shards.push_back(file.commit());
-    if (!header_.empty())
-      write_file((std::filesystem::path(arguments_.folder) / kShardList).string(), list_.json());
-  }
-
   const Arguments& arguments_;
-  Run& run_;
   StreamLines lines_;
   CommonHeader headers_;
   std::string header_;
@@ -133,8 +123,13 @@ class Splitter {
 
 ExitCode work(const Arguments& arguments) {
   Report report(arguments.is_verbose);
-  Run run(arguments, nullptr, report);
-  return Splitter(arguments, run).go();
+  BatchRunner runner(arguments, nullptr, report);
+  std::error_code error;
+  std::filesystem::create_directories(arguments.folder, error);  // shows when a shard is opened
+  Splitter command(arguments);
+  const ExitCode code = runner.run(command);
+  runner.report_summary(fmt::format("split into {} shards", command.shards()), {});
+  return code;
 }
 
 }  // namespace

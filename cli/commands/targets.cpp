@@ -1,8 +1,11 @@
 #include "cli/commands/targets.h"
 
-#include "cli/series/series.h"
+#include "cli/commands/options.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,19 +44,17 @@ std::vector<std::string> profile_names(const TargetArguments& arguments) {
 
 }  // namespace
 
-std::string Targets::recipe() const {
-  std::string text = fmt::format("scale={}", scale.value_or(0));
-  for (const Profile& profile : profiles)
-    text += fmt::format(" {}={} edge={}", profile.level, profile.sha256,
-                        profile.edge_min_m.value_or(0));
-  return text;
-}
-
-std::string Targets::text() const {
-  if (scale) return fmt::format("1:{}", *scale);
-  std::string text;
-  for (const Profile& profile : profiles) text += (text.empty() ? "LoD " : ", ") + profile.level;
-  return text;
+double denominator_of(const std::string& text, const std::string& option) {
+  std::string number;
+  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
+  if (number.starts_with("1:")) number.erase(0, 2);
+  double value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
+      !std::isfinite(value))
+    refuse_usage(option, Code::E125,
+                 fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
+  return value;
 }
 
 std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBase& rules,
@@ -62,42 +63,18 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
   if (arguments.has_scale) targets.scale = denominator_of(arguments.scale, "--scale");
   const std::vector<std::string> names = profile_names(arguments);
   if (names.empty() && arguments.edge_min_m > 0)
-    throw CLI::ValidationError("--edge-min", "goes with --profile or --to-lod");
+    throw CLI::ValidationError("--edge-min", "works only with --profile or --to-lod");
   for (const std::string& name : names) {
     auto loaded = load_profile_file(name);
-    report.tell(loaded.issues);
+    report.add(loaded.issues);
     if (!loaded.value) return std::nullopt;
-    report.tell(check_profile(*loaded.value, rules));
+    report.add(check_profile(*loaded.value, rules));
     if (arguments.edge_min_m > 0)
       loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
     if (targets.has_lods()) check_lod("--profile", loaded.value->level);
     targets.profiles.push_back(std::move(*loaded.value));
   }
   return targets;
-}
-
-double least_edge_m(const Profile* profile, std::optional<double> scale) {
-  if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;
-  const auto sizes = profile != nullptr ? profile->thresholds(scale) : std::nullopt;
-  return sizes ? sizes->c_m : kGapOnMap_m * scale.value_or(0);
-}
-
-Invariants invariants_of(const Profile* profile, const RuleBase& rules,
-                         std::optional<double> scale) {
-  Invariants invariants;
-  invariants.limits = rules.limits();
-  if (profile != nullptr) invariants.limits = stricter(invariants.limits, profile->limits);
-  // Blocks have edges of their own, and what asks for edges everywhere takes their owners off.
-  if (profile == nullptr || (profile->form == Profile::Form::as_is && !profile->edge_min_m))
-    invariants.least_edge_m = least_edge_m(profile, scale);
-  return invariants;
-}
-
-Invariants beside_others(Invariants invariants, const Document& document, const Building& building,
-                         const Solid& solid) {
-  if (invariants.limits.party_walls_pct)
-    invariants.party_walls = party_walls(building, solid, document.buildings);
-  return invariants;
 }
 
 }  // namespace oriel::cli

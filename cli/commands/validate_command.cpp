@@ -3,8 +3,8 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/report.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/reader.h"
-#include "kernel/validate/validate.h"
+#include "oriel/read.h"
+#include "oriel/validate.h"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   bool is_json = false;
   bool shows_problems_only = false;
   std::string primitive = "stated";
@@ -106,7 +106,7 @@ class Validation {
       throw CLI::ValidationError("input", "stdin can be read only once");
     for (const std::string& input : arguments_.inputs) read(input);
     out_.commit();
-    tell_summary();
+    report_summary();
     return code_;
   }
 
@@ -123,13 +123,13 @@ class Validation {
           judge(*record);
           continue;
         }
-        report_.tell(record->issues);
+        report_.add(record->issues);
         const bool is_line = reader.format() == Format::cityjson_seq && !is_first;
         raise(is_line ? ExitCode::set_aside : ExitCode::input);
         unread_records_ += is_line ? 1 : 0;
       }
     } catch (const InputError& error) {
-      report_.tell(error.issue());
+      report_.add(error.issue());
       raise(ExitCode::input);
     }
   }
@@ -148,7 +148,7 @@ class Validation {
              "",
              {finding_of(issue)}});
       else if (issue.code != Code::E311 && issue.code != Code::E312)  // judged with their places
-        report_.tell(issue);
+        report_.add(issue);
     }
     for (const Building& building : record.value->buildings)
       if (arguments_.selection.takes(building, record.value->feature_type))
@@ -159,7 +159,7 @@ class Validation {
     using Primitive = ValidateOptions::Primitive;
     ValidateOptions options = arguments_.options;
     // A mesh file does not state what it holds.
-    const bool is_mesh = format == Format::obj || format == Format::off;
+    const bool is_mesh = oriel::is_mesh(format);
     const bool is_solid = arguments_.primitive == "solid" ||
                           (arguments_.primitive == "stated" && (building.is_solid || is_mesh));
     options.primitive = is_solid && arguments_.primitive != "stated" ? Primitive::solid
@@ -185,9 +185,9 @@ class Validation {
     out_.append(arguments_.is_json ? json_line(judgement) : text_of(judgement));
   }
 
-  void tell_summary() const {
-    std::string text =
-        fmt::format("{} of {} buildings are valid", buildings_ - invalid_, buildings_);
+  void report_summary() const {
+    std::string text = fmt::format("{} of {} building{} valid", buildings_ - invalid_, buildings_,
+                                   buildings_ == 1 ? " is" : "s are");
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
       text += fmt::format("{}{} {}", separator, count, to_string(code.first));
@@ -214,7 +214,7 @@ class Validation {
 void add_validate(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "validate", "Judge the geometry of buildings as it was read, as val3dity does");
+      "validate", "Check the geometry of buildings as it was read, as val3dity does");
   add_input_arguments(*command, *arguments, true);
   command->add_flag("--json", arguments->is_json,
                     "One JSON object per building and line instead of text");
@@ -222,7 +222,7 @@ void add_validate(CLI::App& app, Action& action) {
                     "Leave out buildings that are valid");
   command
       ->add_option("--as", arguments->primitive,
-                   "Judge as what the file states (OBJ and OFF: a solid), as a solid, or as loose "
+                   "Check as what the file states (OBJ and OFF: a solid), as a solid, or as loose "
                    "surfaces")
       ->check(CLI::IsMember({"stated", "solid", "surfaces"}))
       ->capture_default_str();

@@ -16,7 +16,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LineArguments {
+struct Arguments : RunOptions {
   std::string rules = "residential";
   std::string out;
   std::string after;
@@ -32,14 +32,13 @@ struct Arguments : LineArguments {
 
 /// The buildings of a run as a further model of the page, their ids appended to `ids`. With
 /// `is_after` those that carry labels of oriel have these.
-ExitCode add_model(const LineArguments& arguments, const RuleBase& rules, Report& report,
+ExitCode add_model(const RunOptions& arguments, const RuleBase& rules, Report& report,
                    PageData& page, std::vector<std::string>& ids, bool is_after) {
   page.begin_model(fmt::format("{}", fmt::join(arguments.inputs, ", ")));
-  Run run(arguments, &rules, report);
-  Run::Visitor visitor;
+  BatchRunner runner(arguments, &rules, report);
   std::map<std::string, int> counts;
-  visitor.record = [&](const Document& document, std::vector<OnLine>& lines) {
-    if (!run.is_last_run()) return;
+  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
+    if (!runner.is_last_run()) return;
     const CarriedLabelReader reader(document);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (lines[i].is_passed_over) continue;
@@ -53,16 +52,16 @@ ExitCode add_model(const LineArguments& arguments, const RuleBase& rules, Report
       }
       ids.push_back(document.buildings[i].id);
     }
-  };
-  const ExitCode code = run.go(visitor);
-  run.tell_summary("shown", counts);
+  });
+  const ExitCode code = runner.run(visitor);
+  runner.report_summary("shown", counts);
   return code;
 }
 
 /// The same buildings out of the generalised file, with what was read and written for the first run
 /// left as it is.
-LineArguments arguments_after(const Arguments& arguments, std::vector<std::string> ids) {
-  LineArguments after = arguments;
+RunOptions arguments_after(const Arguments& arguments, std::vector<std::string> ids) {
+  RunOptions after = arguments;
   after.inputs = {arguments.after};
   after.selection = {};
   after.selection.ids = std::move(ids);

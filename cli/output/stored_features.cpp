@@ -25,7 +25,7 @@ class Verdicts {
   Verdicts(const std::vector<DescribedBuilding>& buildings, const std::vector<Interpretation>& run)
       : buildings_(buildings), run_(run) {}
 
-  /// Puts into a record the verdict of its feature, behind those that were found so far; false if
+  /// Puts into a record the verdict of its feature, after those that were found so far; false if
   /// there is none.
   bool set(FeatureRecord& record) {
     const auto row = find(record);
@@ -68,7 +68,7 @@ StoredFeatures::StoredFeatures(std::vector<std::string> files, Report& report)
     : files_(std::move(files)), report_(report) {
   for (const std::string& file : files_) {
     auto tables = read_feature_tables(file);
-    report_.tell(tables.issues);
+    report_.add(tables.issues);
     if (has_errors(tables.issues))
       code_ = graver(code_, tables.value ? ExitCode::set_aside : ExitCode::input);
     if (tables.value)
@@ -94,7 +94,7 @@ std::vector<Interpretation> StoredFeatures::interpret(const RuleBase& rules, int
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, (features.size() + kShare - 1) / kShare, interpret_share);
   });
-  for (const Interpretation& interpretation : run) report_.tell(interpretation.issues);
+  for (const Interpretation& interpretation : run) report_.add(interpretation.issues);
   return run;
 }
 
@@ -131,9 +131,9 @@ void StoredFeatures::write(const std::string& path, const std::vector<Interpreta
       if (!verdicts.set(record)) return;
       writer.append({std::move(record)});
     });
-    // What the tables could be read without was not told yet: boxes, polygons.
+    // Boxes and polygons, without which the tables could be read, are not reported yet.
     if (has_errors(issues) && code_ == ExitCode::clean) {
-      report_.tell(issues);
+      report_.add(issues);
       code_ = ExitCode::set_aside;
     }
   }

@@ -16,7 +16,8 @@ namespace oriel::cli {
 /// as the rules change.
 class StoredFeatures {
  public:
-  /// Reads the files; tells what is wrong with them. Throws InputError as read_feature_tables does.
+  /// Reads the files; reports what is wrong with them. Throws InputError as read_feature_tables
+  /// does.
   StoredFeatures(std::vector<std::string> files, Report& report);
 
   /// What reading them came to.

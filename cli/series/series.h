@@ -5,18 +5,16 @@
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace oriel::cli {
 
-/// N of "1:N", "1 : N" or "N", at least 1; else `option` is refused with E125 (refuse_usage).
-double denominator_of(const std::string& text, const std::string& option);
-
 /// `generalise --series`: NAME.1-N.city.json, of streams NAME.1-N.city.jsonl, for each scale, which
-/// ascend, and NAME.oplog.jsonl, for all inputs (SeriesFiles). `profile` may be null.
+/// ascend, and NAME.oplog.jsonl, for all inputs (SeriesFiles).
 ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
-                      const Profile* profile, const RuleBase& rules, Report& report);
+                      std::optional<Profile> profile, const RuleBase& rules, Report& report);
 
 /// `generalise --at 1:N --from NAME`: the level at a scale, from the stored level that is nearest
 /// and the log. E101 (InputError) if there is no log or no level; G409 and exit code 5 if they do

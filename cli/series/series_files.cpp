@@ -22,7 +22,7 @@ void check_outputs(const LabelArguments& arguments) {
                  "the levels of a series are CityJSON, those of streams streams");
   if (arguments.is_isolated || !arguments.reuse.empty() || arguments.is_resumable)
     refuse_usage("--series", Code::G414,
-                 "goes without --isolate, --reuse and --resume, which are of one scale");
+                 "does not work with --isolate, --reuse and --resume, which are of one scale");
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void SeriesFiles::begin(std::size_t input, bool is_rehearsal) {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     levels_[i] = {};
     if (kind_ == Kind::one_file) {
-      levels_[i].destination = std::make_unique<Destination>(
+      levels_[i].destination = std::make_unique<OutputSink>(
           path_of(scales_[i]), "cityjson", arguments_.inputs, arguments_.read_options().format);
       levels_[i].destination->begin(input, is_rehearsal);
     } else {
@@ -112,18 +112,17 @@ void SeriesFiles::add_text(Level& level, const std::string& text, bool is_header
 }
 
 std::optional<std::string> SeriesFiles::add(const Document& document,
-                                            const std::vector<Drawn>& drawn,
+                                            const std::vector<OutputRecord>& levels,
                                             const std::string& lines) {
   const bool is_header = std::exchange(is_first_, false);
   std::vector<std::string> texts;
   if (kind_ != Kind::one_file)
-    for (const auto& [labelled, options] : drawn)
-      texts.push_back(write_cityjson(document, labelled, options));
+    for (const OutputRecord& level : levels) texts.push_back(write(document, level));
   if (is_header && !texts.empty()) check_header(texts[0], document);
   if (auto id = twin(document, texts)) return id;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (kind_ == Kind::one_file)
-      levels_[i].destination->add(document, drawn[i].labelled, drawn[i].options);
+      levels_[i].destination->add(document, levels[i].buildings, levels[i].options);
     else
       add_text(levels_[i], texts[i], is_header);
   }

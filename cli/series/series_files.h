@@ -1,11 +1,11 @@
 #pragma once
 
 #include "cli/commands/labelling.h"
-#include "cli/output/destination.h"
+#include "cli/output/output_sink.h"
 #include "cli/streams/common_header.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/writer.h"
+#include "oriel/write.h"
 
 #include <cstddef>
 #include <memory>
@@ -29,15 +29,10 @@ class SeriesFiles {
 
   /// Before the first record of an input; with `is_rehearsal` nothing is kept.
   void begin(std::size_t input, bool is_rehearsal);
-  /// A record at one scale.
-  struct Drawn {
-    std::vector<LabelledBuilding> labelled;
-    WriteOptions options;
-  };
   /// A record at all scales, and its lines of the log (operation_line). Adds nothing if it has the
   /// id of a CityObject that an earlier input had, and returns that. Throws InputError E116 if its
   /// input does not go with the first.
-  std::optional<std::string> add(const Document& document, const std::vector<Drawn>& drawn,
+  std::optional<std::string> add(const Document& document, const std::vector<OutputRecord>& levels,
                                  const std::string& lines);
   void end();
   void commit();
@@ -45,7 +40,7 @@ class SeriesFiles {
  private:
   enum class Kind { one_file, several_files, streams };
   struct Level {
-    std::unique_ptr<Destination> destination;  ///< of one file
+    std::unique_ptr<OutputSink> destination;  ///< of one file
     std::unique_ptr<OutputFile> file;
     CityJsonCollector collector;
   };

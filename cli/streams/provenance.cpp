@@ -1,6 +1,6 @@
 #include "cli/streams/provenance.h"
 
-#include "cli/batch/journal.h"
+#include "cli/batch/resume.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Step {
   std::uint64_t left_out = 0;       ///< records
 };
 
-/// The steps that a status file tells of, by the hash of their output; none if it cannot be read.
+/// The steps that a status file names, by the hash of their output; none if it cannot be read.
 std::multimap<std::string, Step> steps_of(const fs::path& path) {
   std::multimap<std::string, Step> steps;
   std::ifstream file(path, std::ios::binary);
@@ -44,10 +44,10 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
                                       const FileMark& mark,
                                       const std::vector<std::string>& through) {
   const std::string status = shard.name + ".status.json";
-  const fs::path beside = fs::path(file).parent_path() / status;
+  const fs::path status_file = fs::path(file).parent_path() / status;
   std::uint64_t expected = shard.features + 1;
-  if (fs::exists(beside) || !through.empty()) {
-    std::multimap<std::string, Step> steps = steps_of(beside);
+  if (fs::exists(status_file) || !through.empty()) {
+    std::multimap<std::string, Step> steps = steps_of(status_file);
     for (const std::string& folder : through) steps.merge(steps_of(fs::path(folder) / status));
     std::string sha256 = mark.sha256;
     bool has_step = false;
@@ -55,7 +55,7 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
       const auto step = steps.find(sha256);
       if (step == steps.end())
         return shard_issue(file, !has_step
-                                     ? fmt::format("is not the output that {} tells of", status)
+                                     ? fmt::format("is not the output that {} lists", status)
                                      : fmt::format("was not made of shard {}: {} has another input",
                                                    shard.name, status));
       if (step->second.inputs.size() != 1)

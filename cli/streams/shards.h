@@ -19,7 +19,7 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// The shards of a stream in their order, as split.json has them beside their files.
+/// The shards of a stream in their order, as split.json lists them next to their files.
 struct ShardList {
   std::vector<Shard> shards;
 

@@ -10,7 +10,8 @@
 namespace oriel::cli {
 
 /// The first record is a whole file, or a header, which may have buildings, too.
-void StreamLines::take_apart(const Document& document, const std::vector<OnLine>& lines) const {
+void StreamLines::take_apart(const Document& document,
+                             const std::vector<PipelineResult>& lines) const {
   std::unordered_set<std::string> selected, buildings;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     buildings.insert(document.buildings[i].id);
@@ -29,7 +30,7 @@ void StreamLines::take_apart(const Document& document, const std::vector<OnLine>
   }
 }
 
-void StreamLines::add(const Document& document, const std::vector<OnLine>& lines) {
+void StreamLines::add(const Document& document, const std::vector<PipelineResult>& lines) {
   if (std::exchange(is_first_, false)) return take_apart(document, lines);
   if (const std::string_view line = source_line(document); !line.empty())
     return visitor_.feature(std::string(line) + '\n');

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/batch/selection.h"
-#include "cli/pipeline/line.h"
 #include "kernel/io/document.h"
+#include "oriel/result.h"
 
 #include <functional>
 #include <string>
@@ -26,10 +26,10 @@ class StreamLines {
 
   void begin() { is_first_ = true; }
   /// `lines` belong to the document's buildings.
-  void add(const Document& document, const std::vector<OnLine>& lines);
+  void add(const Document& document, const std::vector<PipelineResult>& lines);
 
  private:
-  void take_apart(const Document& document, const std::vector<OnLine>& lines) const;
+  void take_apart(const Document& document, const std::vector<PipelineResult>& lines) const;
 
   LineVisitor visitor_;
   const Selection& selection_;

@@ -29,7 +29,7 @@ std::uint64_t size_of(const std::vector<std::string>& inputs) {
   return bytes;
 }
 
-/// stdout is a pipe: the command behind it may have a bar of its own.
+/// stdout is a pipe: the command after it may have a bar of its own.
 bool is_piped_on() {
   struct stat found {};
   return ::fstat(STDOUT_FILENO, &found) == 0 && S_ISFIFO(found.st_mode);
@@ -91,7 +91,7 @@ std::string Progress::bar() const {
     text += fmt::format("[{}{}] {} %, ", std::string(filled, '#'),
                         std::string(kWidth - filled, '.'), done * 100 / all_bytes_);
   }
-  text += fmt::format("{} buildings, {} set aside, {:.0f}/s, {:.1f} MB/s", counts_.buildings,
+  text += fmt::format("{} buildings, {} rejected, {:.0f}/s, {:.1f} MB/s", counts_.buildings,
                       counts_.set_aside, buildings_per_s(), mb_per_s());
   if (left) text += ", " + time_text(*left) + " left";
   return text;

@@ -36,11 +36,11 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
-void Report::tell(const std::vector<Issue>& issues) {
-  for (const Issue& issue : issues) tell(issue);
+void Report::add(const std::vector<Issue>& issues) {
+  for (const Issue& issue : issues) add(issue);
 }
 
-void Report::tell(const Issue& issue) {
+void Report::add(const Issue& issue) {
   if (issue.severity == Severity::error) ++errors_[to_string(issue.code)];
   LogLevel level = is_verbose_ ? LogLevel::info : LogLevel::debug;
   if (issue.severity == Severity::warning) level = LogLevel::warning;

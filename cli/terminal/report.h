@@ -15,10 +15,10 @@ class Report {
  public:
   explicit Report(bool is_verbose) : is_verbose_(is_verbose) {}
 
-  void tell(const std::vector<Issue>& issues);
-  void tell(const Issue& issue);
+  void add(const std::vector<Issue>& issues);
+  void add(const Issue& issue);
 
-  /// What an earlier part of the run has told.
+  /// What an earlier part of the run has reported.
   void restore(std::map<std::string, int> errors) { errors_ = std::move(errors); }
 
   /// Errors so far, by code.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oriel/options.h"
+
 #include <array>
 #include <chrono>
 #include <string>
@@ -7,7 +9,7 @@
 
 namespace oriel::cli {
 
-enum class Stage { read, solidify, segment, describe, interpret, generalise, write };
+/// By Stage.
 inline constexpr std::array kStageNames{"read",      "solidify",   "segment", "describe",
                                         "interpret", "generalise", "write"};
 
@@ -22,6 +24,12 @@ class Timings {
   }
 
   void add(const Timings& more);
+  void add(Stage stage, double ms) { ms_[static_cast<std::size_t>(stage)] += ms; }
+
+  /// Adds what the library reports; this must outlive it.
+  [[nodiscard]] StageObserver observer() {
+    return [this](Stage stage, double ms) { add(stage, ms); };
+  }
 
   [[nodiscard]] double ms(Stage stage) const { return ms_[static_cast<std::size_t>(stage)]; }
 

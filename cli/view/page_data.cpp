@@ -69,12 +69,12 @@ struct PageData::State {
 
   int row_number(const ExplanationRow& row);
   Json vertices(const Building& building);
-  Json polygons(const Building& building, const OnLine& line);
+  Json polygons(const Building& building, const PipelineResult& line);
   Json feature(const Explanation& explanation);
-  Json features(const OnLine& line);
+  Json features(const PipelineResult& line);
   Json polygons(const Building& building, const CarriedLabels& carried);
   Json features(const std::string& building, const CarriedLabels& carried);
-  void add(const Building& building, const OnLine& line, Json features, Json polygons);
+  void add(const Building& building, const PipelineResult& line, Json features, Json polygons);
 
   const RuleBase* rules;
   /// Of all models together, so that they lie in the same place.
@@ -107,7 +107,7 @@ Json PageData::State::vertices(const Building& building) {
   return list;
 }
 
-Json PageData::State::polygons(const Building& building, const OnLine& line) {
+Json PageData::State::polygons(const Building& building, const PipelineResult& line) {
   static const Segmentation none;
   const Segmentation& segmentation = line.segmentation ? *line.segmentation : none;
   const auto owners =
@@ -152,7 +152,7 @@ Json PageData::State::feature(const Explanation& explanation) {
           {"rounds", rounds},          {"rules", std::move(rules_of_it)}};
 }
 
-Json PageData::State::features(const OnLine& line) {
+Json PageData::State::features(const PipelineResult& line) {
   Json list = Json::array();
   if (!line.is_done()) return list;
   const auto& [table, graph] = line.description;
@@ -212,7 +212,7 @@ void PageData::begin_model(const std::string& name) {
   state_->models.push_back({{"name", name}, {"buildings", Json::array()}});
 }
 
-void PageData::State::add(const Building& building, const OnLine& line, Json features,
+void PageData::State::add(const Building& building, const PipelineResult& line, Json features,
                           Json polygons) {
   Json issues = Json::array();
   for (const Issue& issue : line.issues)
@@ -224,7 +224,7 @@ void PageData::State::add(const Building& building, const OnLine& line, Json fea
   models.back()["buildings"].push_back(std::move(entry));
 }
 
-void PageData::add(const Building& building, const OnLine& line) {
+void PageData::add(const Building& building, const PipelineResult& line) {
   Json features = state_->features(line);
   if (state_->models.size() == 1)
     for (const Json& feature : features)
@@ -234,7 +234,8 @@ void PageData::add(const Building& building, const OnLine& line) {
   state_->add(building, line, std::move(features), std::move(polygons));
 }
 
-void PageData::add(const Building& building, const OnLine& line, const CarriedLabels& carried) {
+void PageData::add(const Building& building, const PipelineResult& line,
+                   const CarriedLabels& carried) {
   Json features = state_->features(building.id, carried);
   Json polygons = state_->polygons(building, carried);
   state_->add(building, line, std::move(features), std::move(polygons));

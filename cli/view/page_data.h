@@ -1,9 +1,9 @@
 #pragma once
 
-#include "cli/pipeline/line.h"
 #include "interpret/pack/rule_base.h"
 #include "kernel/io/cityjson/carried_labels.h"
 #include "kernel/model/building.h"
+#include "oriel/result.h"
 
 #include <memory>
 #include <string>
@@ -24,10 +24,10 @@ class PageData {
   void begin_model(const std::string& name);
   /// Adds a building to the model at hand, also one that did not come to the end of the line: it
   /// has its polygons and what was told of it, but no features.
-  void add(const Building& building, const OnLine& line);
+  void add(const Building& building, const PipelineResult& line);
   /// Adds a building with the labels that its file has. A feature with the id and the rule of one
   /// of the first model's has the reasons that are given there; `line` tells what was found wrong.
-  void add(const Building& building, const OnLine& line, const CarriedLabels& carried);
+  void add(const Building& building, const PipelineResult& line, const CarriedLabels& carried);
 
   /// How many buildings the model at hand has.
   [[nodiscard]] std::size_t buildings() const;

@@ -295,7 +295,8 @@ bool add_fine_owners(const Generalised& generalised, const Segmentation& segment
       const Feature& feature = segmentation.features[id.index()];
       id = feature.parent.is_valid() ? feature.parent : feature.host;
     }
-    if (id.is_valid() && table.number(id, "b").value_or(most_b_m) < most_b_m) owners.insert(id);
+    if (id.is_valid() && table.number(id, Attribute::b).value_or(most_b_m) < most_b_m)
+      owners.insert(id);
   }
   for (const FeatureId id : owners) plan.steps.push_back({id, "omit", rule});
   std::ranges::stable_sort(plan.steps, {}, &Step::feature);

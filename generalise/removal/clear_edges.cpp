@@ -45,7 +45,7 @@ class EdgeClearer {
     for (const FacetId facet : facets_at(edge)) {
       std::string why_not = drop(facet);
       if (why_not.empty()) return true;
-      if (reason.empty()) reason = "a facet at it cannot go: " + std::move(why_not);
+      if (reason.empty()) reason = "cannot remove the narrow facet: " + std::move(why_not);
     }
     return false;
   }

@@ -236,13 +236,14 @@ int Checker::word_number(const std::string& word) {
   return static_cast<int>(words.size()) - 1;
 }
 
-const std::vector<Attribute>& Checker::schema() const {
+const std::vector<AttributeInfo>& Checker::schema() const {
   return is_of_surfaces_ ? surface_schema() : feature_schema();
 }
 
-std::vector<std::string> Checker::words_for(const std::string& attribute) const {
-  if (is_of_surfaces_ && attribute == "part") return names_of(pack_->classes);
-  return words_of(attribute);
+std::vector<std::string> Checker::words_for(std::size_t column) const {
+  if (is_of_surfaces_ && column == column_of(SurfaceAttribute::part))
+    return names_of(pack_->classes);
+  return schema()[column].words;
 }
 
 ExprId Checker::check_parameter(const Syntax& syntax) {
@@ -340,15 +341,18 @@ ExprId Checker::check_macro(const Syntax& syntax, Macro& macro) {
 /// Of the middles of their lower edges in the facade: sqrt((self.along - other.along)^2 +
 /// (self.base_height - other.base_height)^2).
 ExprId Checker::check_distance(const Syntax& syntax) {
-  const auto attribute = [&](const char* name, Syntax::Scope scope) {
-    Syntax named{.span = syntax.span, .name_span = syntax.name_span, .name = name, .scope = scope};
-    return check_attribute(named, index_of(schema(), name));
+  const auto value_of = [&](Attribute attribute, Syntax::Scope scope) {
+    const Syntax named{.span = syntax.span,
+                       .name_span = syntax.name_span,
+                       .name = info_of(attribute).name,
+                       .scope = scope};
+    return check_attribute(named, static_cast<int>(column_of(attribute)));
   };
   Expr sum{.op = Op::add, .dimension = {2, 0}, .span = syntax.span};
-  for (const char* name : {"along", "base_height"}) {
+  for (const Attribute attribute : {Attribute::along, Attribute::base_height}) {
     Expr difference{.op = Op::subtract, .dimension = {1, 0}, .span = syntax.span};
     for (const auto scope : {Syntax::Scope::self, Syntax::Scope::other}) {
-      difference.args.push_back(attribute(name, scope));
+      difference.args.push_back(value_of(attribute, scope));
       if (difference.args.back() == kNoExpr) return kNoExpr;
     }
     const ExprId id = add(std::move(difference));
@@ -373,7 +377,7 @@ ExprId Checker::check_group_gap(const Syntax& syntax) {
   if (!level) return kNoExpr;
   Expr expr{.op = Op::attribute,
             .dimension = {1, 0},
-            .index = static_cast<int>(feature_schema().size()),
+            .index = static_cast<int>(kAttributes.size()),
             .level = *level,
             .span = syntax.span};
   expr.levels = 1U << static_cast<unsigned>(*level);
@@ -705,13 +709,13 @@ ExprId Checker::check_word(const Syntax& syntax, ExprId text) {
         Code::R232, syntax.span,
         fmt::format("'{}' is {}; a word is needed here", text_of(syntax), describe(at(id))));
   }
-  const Attribute& attribute = schema()[static_cast<std::size_t>(at(text).index)];
-  const auto words = words_for(attribute.name);
+  const auto column = static_cast<std::size_t>(at(text).index);
+  const auto words = words_for(column);
   if (!words.empty() && std::ranges::find(words, syntax.name) == words.end()) {
     std::string advice = did_you_mean(syntax.name, words);
     if (advice.empty()) advice = fmt::format(" (it is one of {})", join(words));
     return fail(Code::R234, syntax.span,
-                fmt::format("'{}' is never '{}'{}", attribute.name, syntax.name, advice));
+                fmt::format("'{}' is never '{}'{}", schema()[column].name, syntax.name, advice));
   }
   Expr expr{.op = Op::constant, .type = Type::text, .span = syntax.span};
   expr.number = word_number(syntax.name);

@@ -54,8 +54,8 @@ class Checker {
   ExprId check_by_kind(const Syntax& syntax);
   bool is_too_much(Span where);
 
-  [[nodiscard]] const std::vector<Attribute>& schema() const;
-  [[nodiscard]] std::vector<std::string> words_for(const std::string& attribute) const;
+  [[nodiscard]] const std::vector<AttributeInfo>& schema() const;
+  [[nodiscard]] std::vector<std::string> words_for(std::size_t column) const;
 
   // Names.
   ExprId check_number(const Syntax& syntax);

@@ -1,6 +1,6 @@
 #include "interpret/compile/reach.h"
 
-#include "interpret/explain/demands.h"
+#include "interpret/explain/constraints.h"
 
 #include <algorithm>
 #include <string>
@@ -17,7 +17,7 @@ std::size_t index(int id) { return static_cast<std::size_t>(id); }
 class Reach {
  public:
   Reach(const Pack& pack, Findings& findings) : pack_(&pack), findings_(&findings) {
-    for (const Rule& rule : pack.rules) demands_.emplace_back(pack, rule.require);
+    for (const Rule& rule : pack.rules) constraints_.emplace_back(pack, rule.require);
     for (std::size_t step = 0; step < pack.steps.size(); ++step) {
       for (const int rule : pack.steps[step].rules) step_of_[index(rule)] = step;
     }
@@ -38,7 +38,7 @@ class Reach {
 
   bool report_never(std::size_t i) {
     const Rule& rule = pack_->rules[i];
-    if (const auto pair = demands_[i].contradiction()) {
+    if (const auto pair = constraints_[i].contradiction()) {
       const bool is_one = pair->first == pair->second;
       const std::string what = is_one ? fmt::format("'{}' never holds", text_of(pair->first))
                                       : fmt::format("'{}' and '{}' exclude each other",
@@ -48,7 +48,7 @@ class Reach {
       return true;
     }
     for (const ExprId veto : rule.unless) {
-      if (!demands_[i].imply(veto)) continue;
+      if (!constraints_[i].imply(veto)) continue;
       warn_in(rule, at(veto).span,
               fmt::format("the rule '{}' can never hold: '{}' follows from what it requires and "
                           "always vetoes",
@@ -100,7 +100,7 @@ class Reach {
     const Rule& other = pack_->rules[j];
     const Rule& rule = pack_->rules[i];
     const bool is_required = std::ranges::all_of(
-        other.require, [&](ExprId condition) { return demands_[i].imply(condition); });
+        other.require, [&](ExprId condition) { return constraints_[i].imply(condition); });
     return is_required && std::ranges::all_of(other.unless, [&](ExprId veto) {
              return std::ranges::any_of(rule.unless,
                                         [&](ExprId mine) { return is_same(*pack_, veto, mine); });
@@ -109,7 +109,7 @@ class Reach {
 
   const Pack* pack_;
   Findings* findings_;
-  std::vector<Demands> demands_;
+  std::vector<Constraints> constraints_;
   std::vector<std::size_t> step_of_ = std::vector<std::size_t>(pack_->rules.size(), 0);
 };
 

@@ -27,7 +27,7 @@ Reads find_reads(const Pack& pack) {
       (expr.type == Type::text ? reads.texts : reads.numbers).push_back(at(expr.index));
   }
   // What is behind the schema is of groups, which are known after labelling.
-  std::erase_if(reads.numbers, [](std::size_t c) { return c >= feature_schema().size(); });
+  std::erase_if(reads.numbers, [](std::size_t c) { return c >= kAttributes.size(); });
   keep_each_once(reads.texts);
   keep_each_once(reads.numbers);
   for (const GroupKind& kind : pack.groups) reads.relations[at(kind.by)] = true;

@@ -17,13 +17,13 @@ using Column = std::span<const double>;
 
 /// What a key says of every feature: a column of the table as it stands, or evaluated into
 /// `evaluated`.
-Column numbers_of(const Pack& pack, const Facts& facts, Evaluator& evaluator, ExprId id,
-                  std::vector<double>& evaluated) {
+Column numbers_of(const Pack& pack, const EvaluationContext& context, Evaluator& evaluator,
+                  ExprId id, std::vector<double>& evaluated) {
   const Expr& key = pack.code[at(id)];
-  if (key.op == Op::attribute) return facts.columns[at(key.index)];
-  evaluated.resize(facts.rows);
-  for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
-    const Frame frame = block_of(facts, begin);
+  if (key.op == Op::attribute) return context.columns[at(key.index)];
+  evaluated.resize(context.rows);
+  for (std::size_t begin = 0; begin < context.rows; begin += kBlock) {
+    const Frame frame = block_of(context, begin);
     evaluator.numbers(id, frame, std::span(evaluated).subspan(begin, frame.size));
   }
   return evaluated;
@@ -102,31 +102,32 @@ void narrow(Evaluator& evaluator, const std::vector<ExprId>& conditions, const F
   }
 }
 
-std::vector<Truth> answers_of(const Facts& facts, Evaluator& evaluator,
+std::vector<Truth> answers_of(const EvaluationContext& context, Evaluator& evaluator,
                               const std::vector<ExprId>& conditions, int level) {
-  std::vector<Truth> all(facts.rows, Truth::yes);
-  for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
-    const Frame frame = block_of(facts, begin, level);
+  std::vector<Truth> all(context.rows, Truth::yes);
+  for (std::size_t begin = 0; begin < context.rows; begin += kBlock) {
+    const Frame frame = block_of(context, begin, level);
     narrow(evaluator, conditions, frame, std::span(all).subspan(begin, frame.size));
   }
   return all;
 }
 
-std::optional<Narrowed> refined_classes(const Pack& pack, const Facts& facts, Evaluator& evaluator,
-                                        const Links& from, const std::vector<ExprId>& conditions,
+std::optional<Narrowed> refined_classes(const Pack& pack, const EvaluationContext& context,
+                                        Evaluator& evaluator, const Links& from,
+                                        const std::vector<ExprId>& conditions,
                                         const std::vector<ExprId>& keys) {
-  std::vector<Truth> fits = answers_of(facts, evaluator, conditions, 0);
+  std::vector<Truth> fits = answers_of(context, evaluator, conditions, 0);
   if (!from.certain_rows.empty())
-    for (std::size_t row = 0; row < facts.rows; ++row)
+    for (std::size_t row = 0; row < context.rows; ++row)
       fits[row] = std::min(fits[row], from.certain_rows[row]);
   std::vector<std::vector<double>> evaluated(keys.size());
   std::vector<Column> columns;
   for (std::size_t i = 0; i < keys.size(); ++i)
-    columns.push_back(numbers_of(pack, facts, evaluator, keys[i], evaluated[i]));
+    columns.push_back(numbers_of(pack, context, evaluator, keys[i], evaluated[i]));
   for (const Column& values : columns)
     if (is_missing_in(values, from.lists->others, fits)) return std::nullopt;
   Narrowed result;
-  if (columns.empty()) result.lists = parted(*from.lists, fits, std::vector<double>(facts.rows));
+  if (columns.empty()) result.lists = parted(*from.lists, fits, std::vector<double>(context.rows));
   for (const Column& values : columns)
     result.lists = parted(&values == columns.data() ? *from.lists : result.lists, fits, values);
   if (has_unknown(fits)) result.links.certain_rows = std::move(fits);

@@ -37,7 +37,7 @@ double aggregate_of(Op op, std::vector<double>& numbers) {
 
 void Evaluator::aggregate(ExprId id, const Frame& frame, std::span<double> out) {
   const Expr& expr = at(id);
-  const Links& links = facts_->relations[static_cast<std::size_t>(expr.index)];
+  const Links& links = context_->relations[static_cast<std::size_t>(expr.index)];
   const Truth* filter =
       expr.filter == kNoExpr ? nullptr : column(expr.filter, expr.level + 1).answers.data();
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];

@@ -15,7 +15,7 @@ namespace oriel::rules {
 class Evaluator::AskedOthers {
  public:
   AskedOthers(Evaluator& evaluator, const Expr& quantifier)
-      : links_(evaluator.facts_->relations[oriel::at(quantifier.index)]) {
+      : links_(evaluator.context_->relations[oriel::at(quantifier.index)]) {
     may_be_unknown_ = !links_.are_all_certain();
     if (quantifier.filter != kNoExpr) {
       filter_ = look_up(evaluator, quantifier.filter, quantifier.level + 1);

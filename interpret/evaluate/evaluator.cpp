@@ -38,7 +38,7 @@ HostKind kind_of_facet(const Hosts& hosts, double inclination_deg) {
 
 double Evaluator::constant(const Expr& expr, ExprId id) const {
   if (expr.op == Op::constant) return expr.number;
-  return fold(*pack_, id, facts_->scale).value_or(kUnknown);
+  return fold(*pack_, id, context_->scale).value_or(kUnknown);
 }
 
 void Evaluator::numbers(ExprId id, const Frame& frame, std::span<double> out) {
@@ -60,7 +60,7 @@ std::span<const double> Evaluator::operand(ExprId id, const Frame& frame, Number
   const Expr& expr = at(id);
   if (expr.op == Op::attribute && frame.is_run) {
     const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
-    const auto column = facts_->columns[static_cast<std::size_t>(expr.index)];
+    const auto column = context_->columns[static_cast<std::size_t>(expr.index)];
     return column.subspan(static_cast<std::size_t>(rows[0]), frame.size);
   }
   const auto out = std::span(block).first(frame.size);
@@ -75,8 +75,8 @@ bool Evaluator::distance(const Expr& expr, const Frame& frame, std::span<double>
   const Expr& x = at(at(expr.args[0]).args[0]);
   const Expr& y = at(at(expr.args[0]).args[1]);
   if (x.op != Op::attribute || y.op != Op::attribute) return false;
-  const double* of_x = facts_->columns[static_cast<std::size_t>(x.index)].data();
-  const double* of_y = facts_->columns[static_cast<std::size_t>(y.index)].data();
+  const double* of_x = context_->columns[static_cast<std::size_t>(x.index)].data();
+  const double* of_y = context_->columns[static_cast<std::size_t>(y.index)].data();
   const int* rows_of_x = frame.rows[static_cast<std::size_t>(x.level)];
   const int* rows_of_y = frame.rows[static_cast<std::size_t>(y.level)];
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -85,7 +85,7 @@ bool Evaluator::distance(const Expr& expr, const Frame& frame, std::span<double>
 }
 
 void Evaluator::gather(const Expr& expr, const Frame& frame, std::span<double> out) const {
-  const auto column = facts_->columns[static_cast<std::size_t>(expr.index)];
+  const auto column = context_->columns[static_cast<std::size_t>(expr.index)];
   const int* rows = frame.rows[static_cast<std::size_t>(expr.level)];
   if (frame.is_run) {
     std::ranges::copy(column.subspan(static_cast<std::size_t>(rows[0]), out.size()), out.begin());
@@ -211,9 +211,9 @@ void Evaluator::combine(const Expr& expr, const Frame& frame, std::span<Truth> o
 /// The answers of a test that is known of all features; null for other expressions.
 const std::vector<Truth>* Evaluator::known_column(const Expr& expr) const {
   const auto index = static_cast<std::size_t>(expr.index);
-  if (expr.op == Op::facet_is) return &facts_->hosts[index];
+  if (expr.op == Op::facet_is) return &context_->hosts[index];
   if (expr.op != Op::is_class) return nullptr;
-  return &(expr.is_previous ? facts_->previous : facts_->membership)[index];
+  return &(expr.is_previous ? context_->previous : context_->membership)[index];
 }
 
 void Evaluator::narrow(ExprId id, const Frame& frame, std::span<Truth> all) {

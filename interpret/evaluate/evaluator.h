@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/evaluate/facts.h"
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/pack/pack.h"
 
 #include <algorithm>
@@ -30,10 +30,10 @@ struct Frame {
 };
 
 /// The features from `begin` on, so many as a block takes, on the given level.
-inline Frame block_of(const Facts& facts, std::size_t begin, int level = 0) {
+inline Frame block_of(const EvaluationContext& context, std::size_t begin, int level = 0) {
   Frame frame;
-  frame.size = std::min(kBlock, facts.rows - begin);
-  frame.rows[static_cast<std::size_t>(level)] = facts.row_numbers.data() + begin;
+  frame.size = std::min(kBlock, context.rows - begin);
+  frame.rows[static_cast<std::size_t>(level)] = context.row_numbers.data() + begin;
   frame.is_run = true;
   return frame;
 }
@@ -48,7 +48,8 @@ HostRange range_of(const Hosts& hosts, HostKind kind);
 /// NaN.
 class Evaluator {
  public:
-  Evaluator(const Pack& pack, const Facts& facts) : pack_(&pack), facts_(&facts) {}
+  Evaluator(const Pack& pack, const EvaluationContext& context)
+      : pack_(&pack), context_(&context) {}
 
   /// To be called when memberships have changed: forgets what was evaluated for all features.
   void forget() { kept_.clear(); }
@@ -134,7 +135,7 @@ class Evaluator {
   void flush(const Expr& expr, Pairs& pairs, Values& values);
 
   const Pack* pack_;
-  const Facts* facts_;
+  const EvaluationContext* context_;
   std::vector<Kept> kept_;
   /// By column, NaN until it is asked for.
   mutable std::vector<double> most_in_;

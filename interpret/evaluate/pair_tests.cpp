@@ -139,7 +139,7 @@ std::optional<Evaluator::PairTests::Measure> Evaluator::PairTests::difference_of
     const Expr& expr) const {
   const auto of_other = [&](const Expr& e) -> const double* {
     if (e.op != Op::attribute || e.level != level_ + 1) return nullptr;
-    return evaluator_.facts_->columns[oriel::at(e.index)].data();
+    return evaluator_.context_->columns[oriel::at(e.index)].data();
   };
   if (const double* numbers = of_other(expr)) return Measure{.numbers = numbers};
   if (expr.op != Op::subtract) return std::nullopt;

@@ -55,9 +55,9 @@ std::size_t first_share(Evaluator::Enough enough) {
 const Evaluator::Kept& Evaluator::column(ExprId id, int level) {
   const auto kept = std::ranges::find(kept_, id, &Kept::of);
   if (kept != kept_.end()) return *kept;
-  std::vector<Truth> computed(facts_->rows);
-  for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
-    const Frame frame = block_of(*facts_, begin, level);
+  std::vector<Truth> computed(context_->rows);
+  for (std::size_t begin = 0; begin < context_->rows; begin += kBlock) {
+    const Frame frame = block_of(*context_, begin, level);
     truths(id, frame, std::span(computed).subspan(begin, frame.size));
   }
   const bool is_any_unknown = has_unknown(computed);

@@ -2,7 +2,7 @@
 
 #include "interpret/compile/refined_classes.h"
 #include "interpret/evaluate/evaluator.h"
-#include "interpret/explain/demands.h"
+#include "interpret/explain/constraints.h"
 
 #include <algorithm>
 #include <array>
@@ -47,13 +47,13 @@ std::optional<std::vector<ExprId>> compared_in(const Pack& pack, const RelationS
 /// at.
 class Narrowing {
  public:
-  Narrowing(const Facts& facts, Evaluator& evaluator, const RelationSides& sides)
-      : facts_(facts), evaluator_(evaluator), sides_(sides) {}
+  Narrowing(const EvaluationContext& context, Evaluator& evaluator, const RelationSides& sides)
+      : context_(context), evaluator_(evaluator), sides_(sides) {}
 
   Narrowed run(const Links& from) {
-    const auto selves = answers_of(facts_, evaluator_, sides_.of_self, 0);
-    const auto others = answers_of(facts_, evaluator_, sides_.of_other, 1);
-    for (const int row : facts_.row_numbers) {
+    const auto selves = answers_of(context_, evaluator_, sides_.of_self, 0);
+    const auto others = answers_of(context_, evaluator_, sides_.of_other, 1);
+    for (const int row : context_.row_numbers) {
       const Truth self = selves[static_cast<std::size_t>(row)];
       if (self == Truth::no) continue;
       const auto [begin, end] = from.range_of(row);
@@ -66,10 +66,10 @@ class Narrowing {
     }
     flush();
     Narrowed result;
-    result.lists.list_of = facts_.row_numbers;
-    result.lists.starts.assign(facts_.rows + 1, 0);
+    result.lists.list_of = context_.row_numbers;
+    result.lists.starts.assign(context_.rows + 1, 0);
     for (const int self : kept_selves_) ++result.lists.starts[static_cast<std::size_t>(self) + 1];
-    for (std::size_t row = 0; row < facts_.rows; ++row)
+    for (std::size_t row = 0; row < context_.rows; ++row)
       result.lists.starts[row + 1] += result.lists.starts[row];
     result.lists.others = std::move(kept_others_);
     if (has_unknown_) result.links.certain = std::move(kept_truths_);
@@ -102,7 +102,7 @@ class Narrowing {
     size_ = 0;
   }
 
-  const Facts& facts_;
+  const EvaluationContext& context_;
   Evaluator& evaluator_;
   const RelationSides& sides_;
   std::vector<int> kept_selves_, kept_others_;
@@ -131,15 +131,15 @@ RelationSides sides_of(const Pack& pack, const Relation& relation) {
   return sides;
 }
 
-Narrowed narrowed(const Pack& pack, const Facts& facts, const Relation& relation) {
-  const Links& from = facts.relations[static_cast<std::size_t>(relation.within)];
+Narrowed narrowed(const Pack& pack, const EvaluationContext& context, const Relation& relation) {
+  const Links& from = context.relations[static_cast<std::size_t>(relation.within)];
   const RelationSides& sides = relation.sides;
-  Evaluator evaluator(pack, facts);
+  Evaluator evaluator(pack, context);
   if (sides.keys && from.lists->are_classes) {
-    auto refined = refined_classes(pack, facts, evaluator, from, sides.of_self, *sides.keys);
+    auto refined = refined_classes(pack, context, evaluator, from, sides.of_self, *sides.keys);
     if (refined) return std::move(*refined);
   }
-  return Narrowing(facts, evaluator, sides).run(from);
+  return Narrowing(context, evaluator, sides).run(from);
 }
 
 }  // namespace oriel::rules

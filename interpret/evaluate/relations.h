@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/evaluate/facts.h"
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/pack/pack.h"
 
 namespace oriel::rules {
@@ -13,9 +13,9 @@ struct Narrowed {
   Links links;
 };
 
-/// The pairs of the relation it narrows, which must be linked in `facts`, for which its condition
+/// The pairs of the relation it narrows, which must be linked in `context`, for which its condition
 /// holds or is unknown. Where that one relates all of a class, and the condition asks both of them
 /// for the same and for equal values, classes are parted and no pair is looked at.
-Narrowed narrowed(const Pack& pack, const Facts& facts, const Relation& relation);
+Narrowed narrowed(const Pack& pack, const EvaluationContext& context, const Relation& relation);
 
 }  // namespace oriel::rules

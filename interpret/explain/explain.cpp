@@ -82,9 +82,9 @@ struct Explainer::State {
         table(&features),
         graph(&features_graph),
         interpretation(&said),
-        facts(base->pack(), features, features_graph),
-        labelling(base->pack(), facts),
-        evaluator(base->pack(), facts) {
+        context(base->pack(), features, features_graph),
+        labelling(base->pack(), context),
+        evaluator(base->pack(), context) {
     labelling.run();
   }
 
@@ -94,7 +94,7 @@ struct Explainer::State {
   const FeatureTable* table;
   const FeatureGraph* graph;
   const Interpretation* interpretation;
-  rules::Facts facts;
+  rules::EvaluationContext context;
   rules::Labelling labelling;
   Evaluator evaluator;
 };
@@ -113,7 +113,7 @@ Explanation Explainer::explain(FeatureId feature) const {
 
 Explanation Explainer::explain_fully(FeatureId feature) const {
   Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
-  prover.look_for_nearest(state_->facts);
+  prover.look_for_nearest(state_->context);
   Explanation explanation = state_->explain(prover, feature);
   explanation.flip = find_flip(feature);
   return explanation;

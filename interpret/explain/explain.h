@@ -22,8 +22,8 @@ struct ConditionReport {
   std::string text;
   Place place;
   Outcome outcome = Outcome::unknown;
-  /// What was found, what was asked for and by how much it is missed: "base_height = 0.61 m",
-  /// "<= 0.60 m", "misses by 0.01 m"; empty where that makes no sense.
+  /// What was found, what was asked for and by how much it is missed: "base_height is 0.61 m",
+  /// "must be at most 0.60 m", "misses by 0.01 m"; empty where that makes no sense.
   std::string value;
   std::string bound;
   std::string miss;

@@ -10,7 +10,7 @@ namespace oriel {
 namespace {
 
 /// Cells wider than this do not push the others aside.
-constexpr std::size_t kWidestCell = 48;
+constexpr std::size_t kWidestCell = 56;
 
 const char* mark_of(Outcome outcome) {
   if (outcome == Outcome::unknown) return "unknown";
@@ -31,7 +31,8 @@ void add_missing(std::string& text, const std::vector<std::string>& missing) {
   for (const std::string& attribute : missing) add(text, attribute + " is missing");
 }
 
-/// "nearest miss f12: a = 1.40 m ~ 2.10 m by 10 %, differs 33.3 %; sense = hole = imprint".
+/// "nearest miss f12: a is 1.40 m, must be within 10 % of 2.10 m, differs by 33.3 %; sense is hole,
+/// must be imprint".
 void add_nearest(std::string& text, const std::string& nearest,
                  const std::vector<ConditionReport>& misses) {
   if (nearest.empty()) return;
@@ -39,7 +40,7 @@ void add_nearest(std::string& text, const std::string& nearest,
   for (const ConditionReport& miss : misses) {
     if (!all.empty()) all += "; ";
     all += miss.value.empty() ? miss.text : miss.value;
-    if (!miss.bound.empty()) all += " " + miss.bound;
+    add(all, miss.bound);
     add(all, miss.miss);
     add_missing(all, miss.missing);
   }
@@ -62,6 +63,14 @@ std::string to_string(const RoundReport& round) {
   if (round.label.empty()) return "unknown";
   return fmt::format("{} {:.2f} by {}, margin {:.2f}", round.label, round.score, round.rule,
                      round.margin);
+}
+
+/// "no veto: lod is 2, must be 3"; of what holds without the mark.
+std::string one_line(const ExplanationRow& row) {
+  std::string found;
+  for (std::size_t cell = 1; cell < row.cells.size(); ++cell) add(found, row.cells[cell]);
+  if (row.cells[0] == mark_of(Outcome::holds)) return found;
+  return found.empty() ? row.cells[0] : row.cells[0] + ": " + found;
 }
 
 void pad(std::string& text, std::size_t column) {
@@ -118,15 +127,12 @@ std::string reason(const Explanation& explanation) {
   const auto rule = std::ranges::find(explanation.rules, verdict.rule.text(), &RuleReport::id);
   if (rule == explanation.rules.end()) return text;
   const auto rows = rows_of(*rule);
-  const char* separator = ": ";
+  bool is_first = true;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i].indent > rows[1].indent) continue;
-    for (const std::string& cell : rows[i].cells) {
-      if (cell.empty() || cell == mark_of(Outcome::holds)) continue;
-      text += separator + cell;
-      separator = " ";
-    }
-    separator = "; ";
+    text += is_first ? ": " : "; ";
+    is_first = false;
+    text += one_line(rows[i]);
   }
   return text;
 }

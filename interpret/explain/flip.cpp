@@ -177,7 +177,7 @@ class FlipFinder {
   }
 
   void search_others(const std::vector<Piece>& pieces) {
-    const std::size_t most = kMostRelabelled / std::max<std::size_t>(1, what_if_.facts().rows);
+    const std::size_t most = kMostRelabelled / std::max<std::size_t>(1, what_if_.context().rows);
     std::size_t tries = 0;
     for (const Piece& piece : pieces) {
       if (piece.is_own) continue;

@@ -72,15 +72,15 @@ double Prover::gap(ExprId id) {
   }
 }
 
-std::vector<ExprId> Prover::demands_of(const Expr& quantifier) const {
-  std::vector<ExprId> demands;
+std::vector<ExprId> Prover::constraints_of(const Expr& quantifier) const {
+  std::vector<ExprId> constraints;
   const auto built_in = static_cast<int>(relation_schema().size());
   if (quantifier.index >= built_in)
-    demands.push_back(
+    constraints.push_back(
         pack_->relations[static_cast<std::size_t>(quantifier.index - built_in)].where);
   for (const ExprId id : {quantifier.filter, quantifier.join})
-    if (id != kNoExpr) demands.push_back(id);
-  return demands;
+    if (id != kNoExpr) constraints.push_back(id);
+  return constraints;
 }
 
 std::vector<int> Prover::others_of(const Expr& quantifier) const {
@@ -88,19 +88,19 @@ std::vector<int> Prover::others_of(const Expr& quantifier) const {
   int relation = quantifier.index;
   if (relation >= built_in)
     relation = pack_->relations[static_cast<std::size_t>(relation - built_in)].within;
-  return facts_->relations[static_cast<std::size_t>(relation)].others_of(rows_[0]);
+  return context_->relations[static_cast<std::size_t>(relation)].others_of(rows_[0]);
 }
 
 template <class Report>
 void Prover::add_nearest(const Expr& quantifier, Report& report) {
-  if (facts_ == nullptr || quantifier.level != 0) return;
-  const std::vector<ExprId> demands = demands_of(quantifier);
+  if (context_ == nullptr || quantifier.level != 0) return;
+  const std::vector<ExprId> constraints = constraints_of(quantifier);
   std::optional<std::tuple<double, std::string, int>> nearest;
   for (const int other : others_of(quantifier)) {
     Prover pair(*pack_, *table_, *evaluator_, rows_[0]);
     pair.rows_[1] = other;
     double gap = 0;
-    for (const ExprId demand : demands) gap += pair.gap(demand);
+    for (const ExprId constraint : constraints) gap += pair.gap(constraint);
     std::tuple found(gap, table_->id(FeatureId{other}), other);
     if (gap > 0 && (!nearest || found < *nearest)) nearest = std::move(found);
   }
@@ -108,17 +108,17 @@ void Prover::add_nearest(const Expr& quantifier, Report& report) {
   Prover pair(*pack_, *table_, *evaluator_, rows_[0]);
   pair.rows_[1] = std::get<int>(*nearest);
   report.nearest = std::get<std::string>(*nearest);
-  for (const ExprId demand : demands)
-    for (ConditionReport& condition : pair.conditions(demand))
+  for (const ExprId constraint : constraints)
+    for (ConditionReport& condition : pair.conditions(constraint))
       if (condition.outcome != Outcome::holds)
         report.nearest_misses.push_back(std::move(condition));
 }
 
 std::string Prover::in_the_way(const Expr& quantifier, Truth answer) {
-  if (facts_ == nullptr || quantifier.level != 0) return {};
+  if (context_ == nullptr || quantifier.level != 0) return {};
   std::set<std::string> names;
   for (const int other :
-       facts_->relations[static_cast<std::size_t>(quantifier.index)].others_of(rows_[0])) {
+       context_->relations[static_cast<std::size_t>(quantifier.index)].others_of(rows_[0])) {
     Prover pair(*pack_, *table_, *evaluator_, rows_[0]);
     pair.rows_[1] = other;
     Truth found = Truth::yes;
@@ -145,7 +145,7 @@ void Prover::judge_others(const Expr& quantifier, ConditionReport& report) {
 
 /// A comparison with count(…).
 void Prover::judge_tally(const Expr& comparison, ConditionReport& report) {
-  if (facts_ == nullptr || comparison.args.size() < 2) return;
+  if (context_ == nullptr || comparison.args.size() < 2) return;
   const Expr& tally = at(comparison.args[0]);
   if (tally.op != Op::count) return;
   const double count = number(comparison.args[0]);
@@ -160,7 +160,7 @@ void Prover::judge_tally(const Expr& comparison, ConditionReport& report) {
 
 /// A term that rises with count(…).
 void Prover::judge_tally(const ScoreTerm& term, TermReport& report) {
-  if (facts_ == nullptr || at(term.value).op != Op::count || !term.rise) return;
+  if (context_ == nullptr || at(term.value).op != Op::count || !term.rise) return;
   const double count = number(term.value);
   if (count < fold(*pack_, term.rise->to).value_or(kUnknown)) add_nearest(at(term.value), report);
 }

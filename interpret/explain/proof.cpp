@@ -20,31 +20,39 @@ Outcome outcome_of(Truth truth) {
   return truth == Truth::yes ? Outcome::holds : Outcome::fails;
 }
 
-const char* symbol_of(Op op) {
+/// "at most" before a bound; nothing for "equal".
+const char* words_of(Op op) {
   switch (op) {
     case Op::less:
-      return "<";
+      return "below ";
     case Op::less_equal:
-      return "<=";
+      return "at most ";
     case Op::greater:
-      return ">";
+      return "above ";
     case Op::greater_equal:
-      return ">=";
+      return "at least ";
     case Op::equal:
-      return "=";
+      return "";
     default:
-      return "!=";
+      return "not ";
   }
 }
 
-/// The comparison seen from its right side.
+/// What a condition that fails asks for: "must be below 3 m", "must not be hole".
+std::string asked_for(const std::string& bound) {
+  if (bound.starts_with("not ")) return "must not be " + bound.substr(4);
+  return "must be " + bound;
+}
+
 const char* yes_or_no(Truth truth) {
   if (truth == Truth::unknown) return "?";
   return truth == Truth::yes ? "yes" : "no";
 }
 
+/// Nothing for what is rounding only.
 std::string misses_by(double distance, Dimension dimension) {
-  return "misses by " + write(distance, dimension, 0);
+  constexpr double kRounding = 1e-6;
+  return distance < kRounding ? "" : "misses by " + write(distance, dimension, 0);
 }
 
 }  // namespace
@@ -79,30 +87,31 @@ std::string Prover::show(ExprId id, double other) {
   const double value = number(id);
   if (std::isnan(value)) return "?";
   if (expr.type == Type::text)
-    return table_->texts(static_cast<std::size_t>(expr.index))[feature_of(expr).index()];
+    return table_->texts(
+        kAttributes[static_cast<std::size_t>(expr.index)])[feature_of(expr).index()];
   return write(value, expr.dimension, std::isnan(other) ? value : other);
 }
 
 std::string Prover::show_named(ExprId id, double other) {
   if (at(id).op == Op::count) return show_tally(id);
   if (is_aggregate(at(id).op)) return show_aggregate(id, other);
-  return text_of(id) + " = " + show(id, other);
+  return text_of(id) + " is " + show(id, other);
 }
 
-/// "exists(contains where is opening) = 1 of 3".
+/// "exists(contains where is opening) is 1 of 3".
 std::string Prover::show_tally(ExprId id) {
   Evaluator::Tally tally;
   evaluator_->tally(id, frame(), std::span(&tally, 1));
-  std::string text = fmt::format("{} = {} of {}", text_of(id), tally.yes, tally.total());
+  std::string text = fmt::format("{} is {} of {}", text_of(id), tally.yes, tally.total());
   if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
   return text;
 }
 
-/// "mean(base_height of in_row) = 2.31 m of 4".
+/// "mean(base_height of in_row) is 2.31 m of 4".
 std::string Prover::show_aggregate(ExprId id, double other) {
   Evaluator::Tally tally;
   evaluator_->tally(id, frame(), std::span(&tally, 1));
-  std::string text = fmt::format("{} = {} of {}", text_of(id), show(id, other), tally.yes);
+  std::string text = fmt::format("{} is {} of {}", text_of(id), show(id, other), tally.yes);
   if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
   return text;
 }
@@ -124,15 +133,15 @@ void Prover::find_missing(ExprId id, std::vector<std::string>& missing) const {
   for (const ExprId arg : expr.args) find_missing(arg, missing);
   const bool is_attribute = expr.op == Op::attribute || expr.op == Op::flag;
   if (!is_known(expr.level) || (!is_attribute && expr.op != Op::facet_is)) return;
-  const Attribute& attribute = expr.op == Op::facet_is
-                                   ? feature_schema()[column_of("host_inclination").value()]
-                                   : feature_schema()[static_cast<std::size_t>(expr.index)];
+  const Attribute attribute = expr.op == Op::facet_is
+                                  ? Attribute::host_inclination
+                                  : kAttributes[static_cast<std::size_t>(expr.index)];
+  const AttributeInfo& info = info_of(attribute);
   const FeatureId feature = feature_of(expr);
-  const bool has_value = attribute.unit == Unit::text
-                             ? !table_->text(feature, attribute.name).empty()
-                             : table_->number(feature, attribute.name).has_value();
-  if (!has_value && std::ranges::find(missing, attribute.name) == missing.end())
-    missing.push_back(attribute.name);
+  const bool has_value = info.unit == Unit::text ? !table_->text(feature, attribute).empty()
+                                                 : table_->number(feature, attribute).has_value();
+  if (!has_value && std::ranges::find(missing, info.name) == missing.end())
+    missing.push_back(info.name);
 }
 
 std::vector<ConditionReport> Prover::conditions(ExprId id) {
@@ -144,6 +153,17 @@ std::vector<ConditionReport> Prover::conditions(ExprId id) {
 }
 
 ConditionReport Prover::condition(ExprId id) {
+  ConditionReport report = bare_condition(id);
+  const Op op = at(id).op;
+  const bool is_tally = op == Op::exists || op == Op::none || op == Op::all;
+  if (report.outcome == Outcome::fails && !report.bound.empty() && !is_tally)
+    report.bound = asked_for(report.bound);
+  if (report.outcome == Outcome::holds && op == Op::equal && is_constant(at(at(id).args[1])))
+    report.bound.clear();  // the value says it
+  return report;
+}
+
+ConditionReport Prover::bare_condition(ExprId id) {
   const Expr& expr = at(id);
   ConditionReport report;
   report.text = text_of(id);
@@ -163,7 +183,7 @@ ConditionReport Prover::condition(ExprId id) {
       break;
     case Op::flag:
     case Op::is_class:
-      report.value = report.text + " = " + yes_or_no(judged);
+      report.value = report.text + ": " + yes_or_no(judged);
       break;
     case Op::facet_is:
       facet(expr, report);
@@ -198,7 +218,7 @@ void Prover::compare(const Expr& expr, ConditionReport& report) {
   const double value = number(left);
   const double bound = number(right);
   report.value = show_named(left, bound);
-  report.bound = fmt::format("{} {}", symbol_of(op), show(right, value));
+  report.bound = words_of(op) + show(right, value);
   if (at(right).op != Op::constant) report.bound += " (" + text_of(right) + ")";
   const double distance = std::abs(value - bound);
   if (at(left).type == Type::number && distance > 0)
@@ -211,7 +231,7 @@ void Prover::range(ExprId value, double low, double high, ConditionReport& repor
   const double nearest = found < low ? low : high;
   report.value = show_named(value, nearest);
   report.bound =
-      fmt::format("in {} .. {}", write(low, dimension, found), write(high, dimension, found));
+      fmt::format("within {} .. {}", write(low, dimension, found), write(high, dimension, found));
   report.miss = misses_by(std::abs(found - nearest), dimension);
 }
 
@@ -220,7 +240,7 @@ void Prover::list(const Expr& expr, ConditionReport& report) {
   std::string members;
   for (std::size_t i = 1; i < expr.args.size(); ++i)
     members += (i > 1 ? ", " : "") + show(expr.args[i], kUnknown);
-  report.bound = "in [" + members + "]";
+  report.bound = "one of [" + members + "]";
 }
 
 void Prover::similarity(const Expr& expr, ConditionReport& report) {
@@ -228,19 +248,19 @@ void Prover::similarity(const Expr& expr, ConditionReport& report) {
   const double right = number(expr.args[1]);
   const double tolerance = number(expr.args[2]);
   report.value = show_named(expr.args[0], right);
-  report.bound = fmt::format("~ {} by {:.3g} %", show(expr.args[1], left), tolerance * 100);
+  report.bound = fmt::format("within {:.3g} % of {}", tolerance * 100, show(expr.args[1], left));
   const double larger = std::max(std::abs(left), std::abs(right));
-  report.miss = fmt::format("differs {:.3g} %", std::abs(left - right) / larger * 100);
+  report.miss = fmt::format("differs by {:.3g} %", std::abs(left - right) / larger * 100);
 }
 
 void Prover::facet(const Expr& expr, ConditionReport& report) {
   const auto kind = static_cast<HostKind>(expr.index);
   const HostRange range = range_of(pack_->hosts, kind);
-  const auto found = table_->number(feature_of(expr), "host_inclination");
+  const auto found = table_->number(feature_of(expr), Attribute::host_inclination);
   constexpr Dimension kAngle{0, 1};
-  report.value = "host_inclination = " + (found ? write(*found, kAngle) : "?");
+  report.value = "host_inclination is " + (found ? write(*found, kAngle) : "?");
   report.bound =
-      fmt::format("in {} .. {}", write(range.low_deg, kAngle), write(range.high_deg, kAngle));
+      fmt::format("within {} .. {}", write(range.low_deg, kAngle), write(range.high_deg, kAngle));
   if (!found) return;
   const double distance = std::max(range.low_deg - *found, *found - range.high_deg);
   if (distance > 0) report.miss = misses_by(distance, kAngle);
@@ -248,7 +268,7 @@ void Prover::facet(const Expr& expr, ConditionReport& report) {
 
 /// "not natural": what stands below is shown, turned round.
 void Prover::negation(const Expr& expr, ConditionReport& report) {
-  ConditionReport inner = condition(expr.args[0]);
+  ConditionReport inner = bare_condition(expr.args[0]);
   if (!inner.parts.empty()) {
     report.parts.push_back(std::move(inner));
     return;

@@ -17,11 +17,13 @@ class Prover {
       : pack_(&pack), table_(&table), evaluator_(&evaluator), rows_{row, -1} {}
 
   /// From now on conditions on others say which of them misses least.
-  void look_for_nearest(const Facts& facts) { facts_ = &facts; }
+  void look_for_nearest(const EvaluationContext& context) { context_ = &context; }
 
   /// A condition; what `and` joins at its top becomes several.
   std::vector<ConditionReport> conditions(ExprId id);
   ConditionReport condition(ExprId id);
+  /// Without "must be" before the bound of one that fails.
+  ConditionReport bare_condition(ExprId id);
   TermReport term(const ScoreTerm& term);
   /// The frame of the feature.
   [[nodiscard]] Frame frame() const;
@@ -38,7 +40,7 @@ class Prover {
   /// How far it is from holding, in shares of the numbers compared: 0 where it holds.
   double gap(ExprId id);
   /// The conditions that the other feature has to fulfil, of the relation and after `where`.
-  [[nodiscard]] std::vector<ExprId> demands_of(const Expr& quantifier) const;
+  [[nodiscard]] std::vector<ExprId> constraints_of(const Expr& quantifier) const;
   /// Others that the relation leads to, with those it would if its own condition held.
   [[nodiscard]] std::vector<int> others_of(const Expr& quantifier) const;
   template <class Report>
@@ -74,7 +76,7 @@ class Prover {
   const FeatureTable* table_;
   Evaluator* evaluator_;
   /// Null: nearest misses are not looked for.
-  const Facts* facts_ = nullptr;
+  const EvaluationContext* context_ = nullptr;
   /// The feature, and for conditions of a pair the other one.
   std::array<int, 2> rows_;
 };

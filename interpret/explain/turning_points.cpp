@@ -131,7 +131,7 @@ class TurnFinder {
   /// The inclination of the host's facet and the ends of walls, roofs and grounds: walls go first.
   void visit_facet(const Expr& expr) {
     Expr inclination{.op = Op::attribute,
-                     .index = static_cast<int>(column_of("host_inclination").value()),
+                     .index = static_cast<int>(column_of(Attribute::host_inclination)),
                      .level = expr.level,
                      .levels = expr.levels};
     pack_.code.push_back(inclination);
@@ -154,7 +154,7 @@ struct Slots {
   std::vector<bool> is_own;
 };
 
-Slots slots_of(const Pack& pack, const Turn& turn, const Facts& facts, int row) {
+Slots slots_of(const Pack& pack, const Turn& turn, const EvaluationContext& context, int row) {
   const unsigned levels = pack.code[static_cast<std::size_t>(turn.left)].levels |
                           pack.code[static_cast<std::size_t>(turn.right)].levels;
   Slots slots;
@@ -162,12 +162,12 @@ Slots slots_of(const Pack& pack, const Turn& turn, const Facts& facts, int row) 
   if (levels == 0) return slots;
   const auto level = static_cast<std::size_t>(std::countr_zero(levels));
   if (std::has_single_bit(levels)) {
-    slots.rows[level] = facts.row_numbers;
-    for (const int self : facts.row_numbers) slots.is_own.push_back(level == 0 && self == row);
+    slots.rows[level] = context.row_numbers;
+    for (const int self : context.row_numbers) slots.is_own.push_back(level == 0 && self == row);
     return slots;
   }
-  const Links& links = facts.relations[static_cast<std::size_t>(turn.relations[level])];
-  for (const int self : facts.row_numbers)
+  const Links& links = context.relations[static_cast<std::size_t>(turn.relations[level])];
+  for (const int self : context.row_numbers)
     for (const int other : links.others_of(self)) {
       slots.rows[level].push_back(self);
       slots.rows[level + 1].push_back(other);
@@ -180,7 +180,7 @@ Slots slots_of(const Pack& pack, const Turn& turn, const Facts& facts, int row) 
 class Differences {
  public:
   Differences(WhatIf& what_if, std::size_t param)
-      : pack_(what_if.pack()), param_(param), evaluator_(pack_, what_if.facts()) {}
+      : pack_(what_if.pack()), param_(param), evaluator_(pack_, what_if.context()) {}
 
   void add_to(TurningPoints& points, const Turn& turn, const Slots& slots) {
     const Param& param = pack_.params[param_];
@@ -288,7 +288,7 @@ TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row) {
   points.is_gradual = finder.is_gradual();
   Differences differences(what_if, param);
   for (const Turn& turn : turns)
-    differences.add_to(points, turn, slots_of(what_if.pack(), turn, what_if.facts(), row));
+    differences.add_to(points, turn, slots_of(what_if.pack(), turn, what_if.context(), row));
   tidy(points.own, *what_if.pack().params[param].range);
   tidy(points.others, *what_if.pack().params[param].range);
   return points;

@@ -39,14 +39,14 @@ bool depends_on(const Pack& pack, ExprId id, std::size_t param, bool is_thorough
 
 WhatIf::WhatIf(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph)
     : pack_(pack), table_(&table), graph_(&graph) {
-  facts_.emplace(pack_, table, graph);
-  run(*facts_);
+  context_.emplace(pack_, table, graph);
+  run(*context_);
 }
 
-std::vector<Choice> WhatIf::run(Facts& facts) const {
-  for (auto& members : facts.membership) std::ranges::fill(members, Truth::no);
-  facts.previous.clear();
-  return Labelling(pack_, facts).run();
+std::vector<Choice> WhatIf::run(EvaluationContext& context) const {
+  for (auto& members : context.membership) std::ranges::fill(members, Truth::no);
+  context.previous.clear();
+  return Labelling(pack_, context).run();
 }
 
 /// False if the pack would be refused with that value.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpret/evaluate/facts.h"
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/pack.h"
 
@@ -23,19 +23,19 @@ class WhatIf {
   /// The pack as it says, which may be changed for a while, and the building as it was labelled
   /// with it.
   [[nodiscard]] Pack& pack() { return pack_; }
-  [[nodiscard]] const Facts& facts() const { return *facts_; }
+  [[nodiscard]] const EvaluationContext& context() const { return *context_; }
 
  private:
   [[nodiscard]] bool set(std::size_t param, double value);
   [[nodiscard]] bool is_sound() const;
   [[nodiscard]] bool is_sound(const Ramp& ramp) const;
-  std::vector<Choice> run(Facts& facts) const;
+  std::vector<Choice> run(EvaluationContext& context) const;
 
   Pack pack_;
   const FeatureTable* table_;
   const FeatureGraph* graph_;
   /// As the pack says, and the one that is labelled anew with another value.
-  std::optional<Facts> facts_, changed_;
+  std::optional<EvaluationContext> context_, changed_;
   /// `changed_` has relations or kinds of host facets of another value.
   bool is_laid_out_anew_ = false;
 };

@@ -27,11 +27,11 @@ bool Evaluator::is_always_known(ExprId id) const {
     case Op::flag:
       return most_in(static_cast<std::size_t>(expr.index)) < kHuge;
     case Op::facet_is:
-      return most_in(facts_->host_inclination) < kHuge;
+      return most_in(column_of(Attribute::host_inclination)) < kHuge;
     case Op::is_class:
       return !has_unknown((expr.is_previous
-                               ? facts_->previous
-                               : facts_->membership)[static_cast<std::size_t>(expr.index)]);
+                               ? context_->previous
+                               : context_->membership)[static_cast<std::size_t>(expr.index)]);
     case Op::exists:
     case Op::none:
     case Op::all:
@@ -45,7 +45,7 @@ bool Evaluator::is_always_known(ExprId id) const {
 double Evaluator::most(ExprId id) const {
   const Expr& expr = at(id);
   if (is_constant(expr)) {
-    const double value = std::abs(fold(*pack_, id, facts_->scale).value_or(kUnknown));
+    const double value = std::abs(fold(*pack_, id, context_->scale).value_or(kUnknown));
     return std::isnan(value) ? kInfinity : value;
   }
   double sum = 0, product = 1;
@@ -71,10 +71,10 @@ double Evaluator::most(ExprId id) const {
 /// What is measured of buildings is far below it; what is not counts as infinite.
 double Evaluator::most_in(std::size_t column) const {
   constexpr double kMost = 1e9;
-  if (most_in_.empty()) most_in_.resize(facts_->columns.size(), kUnknown);
+  if (most_in_.empty()) most_in_.resize(context_->columns.size(), kUnknown);
   double& most = most_in_[column];
   if (!std::isnan(most)) return most;
-  return most = are_all_within(facts_->columns[column], kMost) ? kMost : kInfinity;
+  return most = are_all_within(context_->columns[column], kMost) ? kMost : kInfinity;
 }
 
 }  // namespace oriel::rules

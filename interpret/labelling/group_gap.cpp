@@ -16,9 +16,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 class Rectangles {
  public:
   explicit Rectangles(const FeatureTable& table) {
-    constexpr std::array<const char*, 4> kNames{"along", "width", "base_height", "top"};
-    for (std::size_t i = 0; i < kNames.size(); ++i)
-      columns_[i] = table.numbers(column_of(kNames[i]).value());
+    using enum Attribute;
+    columns_ = {table.numbers(along), table.numbers(width), table.numbers(base_height),
+                table.numbers(top)};
   }
 
   /// NaN where something is missing.
@@ -31,12 +31,12 @@ class Rectangles {
   }
 
  private:
-  enum Column { kAlong, kWidth, kHeight, kTop };
+  enum Column { kAlong, kWidth, kBase, kTop };
   [[nodiscard]] double at(Column column, FeatureId id) const {
     return columns_[column][id.index()];
   }
-  [[nodiscard]] double middle(FeatureId id) const { return (at(kHeight, id) + at(kTop, id)) / 2; }
-  [[nodiscard]] double size(FeatureId id) const { return at(kTop, id) - at(kHeight, id); }
+  [[nodiscard]] double middle(FeatureId id) const { return (at(kBase, id) + at(kTop, id)) / 2; }
+  [[nodiscard]] double size(FeatureId id) const { return at(kTop, id) - at(kBase, id); }
 
   std::array<std::span<const double>, 4> columns_;
 };

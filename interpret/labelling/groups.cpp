@@ -116,18 +116,18 @@ Clusters clusters_of_classes(const Links& links, std::size_t least, auto is_memb
 }
 
 /// Members that pairs of members lead to hang together, if they are so many.
-Clusters clusters_of_pairs(const Facts& facts, const Links& links, std::size_t least,
+Clusters clusters_of_pairs(const EvaluationContext& context, const Links& links, std::size_t least,
                            auto is_member, std::span<const FeaturesOfBuilding> buildings) {
-  oriel::detail::DisjointSets sets(facts.rows);
-  for (const int row : facts.row_numbers) {
+  oriel::detail::DisjointSets sets(context.rows);
+  for (const int row : context.row_numbers) {
     if (!is_member(row)) continue;
     const auto [begin, end] = links.range_of(row);
     for (std::size_t link = begin; link < end; ++link)
       if (links.is_other(row, link) == Truth::yes && is_member(links.other(link)))
         sets.unite(row, links.other(link));
   }
-  std::vector<std::vector<FeatureId>> members_of(facts.rows);  // by root
-  for (const int row : facts.row_numbers)
+  std::vector<std::vector<FeatureId>> members_of(context.rows);  // by root
+  for (const int row : context.row_numbers)
     if (is_member(row)) members_of[at(sets.find(row))].push_back(FeatureId{row});
   Clusters clusters(buildings);
   for (const auto& members : members_of) {
@@ -139,14 +139,14 @@ Clusters clusters_of_pairs(const Facts& facts, const Links& links, std::size_t l
   return clusters;
 }
 
-Clusters clusters_of(const GroupKind& kind, const Facts& facts,
+Clusters clusters_of(const GroupKind& kind, const EvaluationContext& context,
                      std::span<const FeaturesOfBuilding> buildings) {
-  const auto& members = facts.membership[at(kind.of)];
-  const Links& links = facts.relations[at(kind.by)];
+  const auto& members = context.membership[at(kind.of)];
+  const Links& links = context.relations[at(kind.by)];
   const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
   const auto least = std::max<std::size_t>(1, at(kind.at_least));
   if (links.lists->are_classes) return clusters_of_classes(links, least, is_member, buildings);
-  return clusters_of_pairs(facts, links, least, is_member, buildings);
+  return clusters_of_pairs(context, links, least, is_member, buildings);
 }
 
 /// Of one building and one kind, sorted by what names them.
@@ -163,12 +163,12 @@ void add_groups(const GroupKind& kind, const Clusters& all, std::span<Cluster> c
 
 }  // namespace
 
-std::vector<std::vector<Group>> find_groups(const Pack& pack, const Facts& facts,
+std::vector<std::vector<Group>> find_groups(const Pack& pack, const EvaluationContext& context,
                                             std::span<const FeaturesOfBuilding> buildings) {
   std::vector<std::vector<Group>> groups(buildings.size());
-  if (facts.rows == 0) return groups;
+  if (context.rows == 0) return groups;
   for (const GroupKind& kind : pack.groups) {
-    Clusters all = clusters_of(kind, facts, buildings);
+    Clusters all = clusters_of(kind, context, buildings);
     for (auto begin = all.list.begin(); begin != all.list.end();) {
       const std::size_t building = begin->building;
       const auto end = std::find_if(begin, all.list.end(),

@@ -64,13 +64,13 @@ Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const Fea
   return building_issue(Severity::warning, Code::R261, table.building(), std::move(sentence));
 }
 
-/// The buildings of `facts`.
-void interpret_all(const rules::Pack& pack, rules::Facts& facts,
+/// The buildings of `context`.
+void interpret_all(const rules::Pack& pack, rules::EvaluationContext& context,
                    std::span<const FeaturesOfBuilding> buildings,
                    std::span<Interpretation> results) {
-  rules::Labelling labelling(pack, facts);
+  rules::Labelling labelling(pack, context);
   const auto all_choices = labelling.run();
-  auto groups = rules::find_groups(pack, facts, buildings);
+  auto groups = rules::find_groups(pack, context, buildings);
   std::size_t first = 0;
   for (std::size_t i = 0; i < buildings.size(); ++i) {
     const FeatureTable& table = *buildings[i].table;
@@ -99,9 +99,9 @@ std::size_t size_of_batch(const rules::Pack& pack, std::span<const FeaturesOfBui
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph) {
   const FeaturesOfBuilding building{&table, &graph};
-  rules::Facts facts(base.pack(), table, graph);
+  rules::EvaluationContext context(base.pack(), table, graph);
   Interpretation result;
-  interpret_all(base.pack(), facts, std::span(&building, 1), std::span(&result, 1));
+  interpret_all(base.pack(), context, std::span(&building, 1), std::span(&result, 1));
   return result;
 }
 
@@ -114,8 +114,8 @@ std::vector<Interpretation> interpret(const RuleBase& base,
     if (size == 1) {
       results[begin] = interpret(base, *batch[0].table, *batch[0].graph);
     } else {
-      rules::Facts facts(base.pack(), batch);
-      interpret_all(base.pack(), facts, batch, std::span(results).subspan(begin, size));
+      rules::EvaluationContext context(base.pack(), batch);
+      interpret_all(base.pack(), context, batch, std::span(results).subspan(begin, size));
     }
     begin += size;
   }

@@ -23,17 +23,17 @@ bool raise_all(std::vector<Truth>& members, const std::vector<Truth>& truths) {
 
 }  // namespace
 
-Labelling::Labelling(const Pack& pack, Facts& facts)
+Labelling::Labelling(const Pack& pack, EvaluationContext& context)
     : pack_(&pack),
-      facts_(&facts),
-      evaluator_(pack, facts),
-      choices_(facts.rows),
-      first_candidate_(facts.rows, -1),
-      rows_at_hand_(facts.rows + 1),
+      context_(&context),
+      evaluator_(pack, context),
+      choices_(context.rows),
+      first_candidate_(context.rows, -1),
+      rows_at_hand_(context.rows + 1),
       unknown_rows_(pack.classes.size()),
-      decided_(facts.rows, kNoClass),
-      label_now_(facts.rows, kNoClass),
-      open_rows_(facts.rows),
+      decided_(context.rows, kNoClass),
+      label_now_(context.rows, kNoClass),
+      open_rows_(context.rows),
       is_class_open_(pack.classes.size() + 1) {}
 
 std::vector<Choice> Labelling::run() {
@@ -41,27 +41,27 @@ std::vector<Choice> Labelling::run() {
     run_round();
     return std::move(choices_);
   }
-  const auto nothing = facts_->membership;
-  facts_->previous.assign(nothing.size(), std::vector<Truth>(facts_->rows, Truth::unknown));
+  const auto nothing = context_->membership;
+  context_->previous.assign(nothing.size(), std::vector<Truth>(context_->rows, Truth::unknown));
   while (true) {
-    choices_.assign(facts_->rows, {});
-    decided_.assign(facts_->rows, kNoClass);
+    choices_.assign(context_->rows, {});
+    decided_.assign(context_->rows, kNoClass);
     is_any_decided_ = false;
     run_round();
     rounds_.push_back(choices_);
     const bool is_last = static_cast<int>(rounds_.size()) == pack_->rounds;
-    if (is_last || facts_->membership == facts_->previous) return std::move(choices_);
-    facts_->previous = std::exchange(facts_->membership, nothing);
+    if (is_last || context_->membership == context_->previous) return std::move(choices_);
+    context_->previous = std::exchange(context_->membership, nothing);
   }
 }
 
 std::vector<int> Labelling::unsettled() const {
   std::vector<int> rows;
-  if (facts_->previous.empty()) return rows;
-  for (const int row : facts_->row_numbers) {
+  if (context_->previous.empty()) return rows;
+  for (const int row : context_->row_numbers) {
     const auto r = static_cast<std::size_t>(row);
-    for (std::size_t id = 0; id < facts_->membership.size(); ++id) {
-      if (facts_->membership[id][r] == facts_->previous[id][r]) continue;
+    for (std::size_t id = 0; id < context_->membership.size(); ++id) {
+      if (context_->membership[id][r] == context_->previous[id][r]) continue;
       rows.push_back(row);
       break;
     }
@@ -92,22 +92,22 @@ void Labelling::run_predicates(const Step& step) {
 bool Labelling::apply_predicate(const Rule& rule) {
   evaluator_.forget();
   bool has_changed = false;
-  std::vector<Truth> truths(facts_->rows);
-  for (std::size_t begin = 0; begin < facts_->rows; begin += kBlock) {
-    const Frame frame = block_of(*facts_, begin);
+  std::vector<Truth> truths(context_->rows);
+  for (std::size_t begin = 0; begin < context_->rows; begin += kBlock) {
+    const Frame frame = block_of(*context_, begin);
     Conjunction held(frame, std::span(truths).subspan(begin, frame.size));
     judge(*pack_, rule, evaluator_, held, {});
     held.finish();
   }
   for (const ClassId at : pack_->classes[index(rule.label)].raised)
-    has_changed = raise_all(facts_->membership[index(at)], truths) || has_changed;
+    has_changed = raise_all(context_->membership[index(at)], truths) || has_changed;
   return has_changed;
 }
 
 /// Also raises what `id` is a kind of, where that is the union of its subclasses.
 void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
   for (const ClassId at : pack_->classes[index(id)].raised) {
-    Truth& member = facts_->membership[index(at)][row];
+    Truth& member = context_->membership[index(at)][row];
     member = std::max(member, truth);
   }
 }
@@ -141,7 +141,7 @@ bool Labelling::is_open(ClassId decided, ClassId label) const {
 
 /// Those that a rule for the label may still decide.
 std::span<const int> Labelling::open_rows(ClassId label) {
-  if (!is_any_decided_) return facts_->row_numbers;
+  if (!is_any_decided_) return context_->row_numbers;
   for (std::size_t i = 0; i < is_class_open_.size(); ++i)
     is_class_open_[i] = is_open(static_cast<ClassId>(i) - 1, label) ? 1 : 0;
   std::size_t size = 0;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "interpret/evaluate/conjunction.h"
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
-#include "interpret/evaluate/facts.h"
 #include "interpret/pack/pack.h"
 
 #include <span>
@@ -44,15 +44,15 @@ struct Choice {
   bool is_ambiguous = false;
 };
 
-/// Runs the rules of a pack over one building, stratum by stratum. Afterwards `facts.membership`
+/// Runs the rules of a pack over one building, stratum by stratum. Afterwards `context.membership`
 /// says of every feature and class whether it is one.
 ///
 /// A pack with `iterate:` is run round by round, until a round changes no membership or there were
-/// as many as it allows. Scores read the memberships of the round before, `facts.previous`; in the
-/// first round all are unknown.
+/// as many as it allows. Scores read the memberships of the round before, `context.previous`; in
+/// the first round all are unknown.
 class Labelling {
  public:
-  Labelling(const Pack& pack, Facts& facts);
+  Labelling(const Pack& pack, EvaluationContext& context);
 
   /// What was decided; of several rounds in the last.
   std::vector<Choice> run();
@@ -96,7 +96,7 @@ class Labelling {
   }
 
   const Pack* pack_;
-  Facts* facts_;
+  EvaluationContext* context_;
   Evaluator evaluator_;
   std::vector<Choice> choices_;
   std::vector<std::vector<Choice>> rounds_;

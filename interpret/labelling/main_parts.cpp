@@ -15,8 +15,9 @@ MainParts::MainParts(const Segmentation& segmentation, const FeatureTable& table
 
 bool MainParts::has(FeatureId id) const {
   if (building_m3_ <= sizes_.area_m2 * sizes_.c_m) return true;
-  const auto height = table_.number(id, "height");
-  const auto a = table_.number(id, "a"), b = table_.number(id, "b"), c = table_.number(id, "c");
+  const auto height = table_.number(id, Attribute::height);
+  const auto a = table_.number(id, Attribute::a), b = table_.number(id, Attribute::b),
+             c = table_.number(id, Attribute::c);
   if (!height || !a || !b || !c || *height <= 0) return false;
   const Feature& feature = segmentation_.features[id.index()];
   const bool is_storey = *height >= part_.height_m && feature.volume_m3 >= part_.area_m2 * *height;

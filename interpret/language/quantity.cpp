@@ -88,6 +88,7 @@ std::string write(double value, Dimension dimension, double other) {
     return fmt::format("{:.{}f}", value, decimals) == fmt::format("{:.{}f}", other, decimals);
   };
   while (value != other && decimals < kMostDecimals && looks_equal()) ++decimals;
+  if (looks_equal()) decimals = kLeastDecimals;  // they differ by rounding only
   return with_unit(fmt::format("{:.{}f}", value, decimals), dimension);
 }
 

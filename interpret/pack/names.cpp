@@ -1,7 +1,5 @@
 #include "interpret/pack/names.h"
 
-#include "kernel/model/segmentation.h"
-
 #include <algorithm>
 
 namespace oriel::rules {
@@ -12,18 +10,6 @@ bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 bool is_name_character(char c) { return is_lower(c) || (c >= '0' && c <= '9') || c == '_'; }
 
 }  // namespace
-
-const std::vector<std::string>& words_of(std::string_view attribute) {
-  static const std::vector<std::string> senses = {to_string(Sense::protrusion),
-                                                  to_string(Sense::hole), to_string(Sense::cavity),
-                                                  to_string(Sense::imprint)};
-  static const std::vector<std::string> ground_sources = {"facet", "wall", "body"};
-  static const std::vector<std::string> facings = {"solid", "input", "position"};
-  static const std::vector<std::string> any;
-  if (attribute == "sense") return senses;
-  if (attribute == "facing") return facings;
-  return attribute == "ground_source" ? ground_sources : any;
-}
 
 int relation_number(const Pack& pack, std::string_view name) {
   const int declared = index_of(pack.relations, name);

@@ -56,9 +56,6 @@ std::vector<std::string> names_of(const std::vector<Named>& list) {
   return names;
 }
 
-/// The words a text attribute can have; empty if it may have any.
-const std::vector<std::string>& words_of(std::string_view attribute);
-
 /// A lower-case identifier: a letter, then letters, digits and _.
 bool is_identifier(std::string_view text);
 

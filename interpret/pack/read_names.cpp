@@ -169,7 +169,7 @@ void read_macros(const YamlNode& node, Loader& loader) {
   if (!expect_map(node, "'macros'", loader.findings)) return;
   for (const YamlEntry& entry : node.entries) {
     const bool is_named = expect_name(entry.key, "a macro", loader.findings);
-    if (is_named && column_of(entry.key.text))
+    if (is_named && find_attribute(entry.key.text))
       loader.findings.error(
           Code::R216, entry.key.span,
           "a macro cannot be called '" + entry.key.text + "': there is an attribute of this name");

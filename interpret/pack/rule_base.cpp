@@ -115,7 +115,7 @@ std::vector<std::string> RuleBase::codelists() const {
 }
 
 std::vector<bool> RuleBase::attributes_read() const {
-  std::vector<bool> is_read(feature_schema().size(), false);
+  std::vector<bool> is_read(kAttributes.size(), false);
   for (const auto* columns : {&pack_->reads.numbers, &pack_->reads.texts})
     for (const std::size_t column : *columns) is_read[column] = true;
   return is_read;

@@ -42,13 +42,13 @@ std::vector<ClassId> labels_of(const rules::Pack& pack, const Interpretation& in
 
 /// Predicates are found again by their rules; a decided class is what the interpretation says.
 void set_membership(const rules::Pack& pack, const std::vector<ClassId>& labels,
-                    rules::Facts& facts) {
-  rules::Labelling(pack, facts).run();
+                    rules::EvaluationContext& context) {
+  rules::Labelling(pack, context).run();
   for (ClassId id = 0; id < static_cast<ClassId>(pack.classes.size()); ++id) {
     const rules::Class& c = pack.classes[static_cast<std::size_t>(id)];
     if (c.is_abstract && c.has_rules) continue;
-    auto& members = facts.membership[static_cast<std::size_t>(id)];
-    for (std::size_t row = 0; row < facts.rows; ++row)
+    auto& members = context.membership[static_cast<std::size_t>(id)];
+    for (std::size_t row = 0; row < context.rows; ++row)
       members[row] = rules::truth_of(rules::is_within(pack.classes, labels[row], id));
   }
 }
@@ -80,14 +80,14 @@ void mark_targets(const rules::Pack& pack, const Entry& entry, const std::vector
 }
 
 /// Takes back the marks of features whose `when` is not true.
-void judge_condition(ExprId when, const rules::Facts& facts, rules::Evaluator& evaluator,
-                     std::vector<Truth>& fits) {
+void judge_condition(ExprId when, const rules::EvaluationContext& context,
+                     rules::Evaluator& evaluator, std::vector<Truth>& fits) {
   if (when == rules::kNoExpr) return;
   std::array<Truth, kBlock> answers;
-  for (std::size_t begin = 0; begin < facts.rows; begin += kBlock) {
+  for (std::size_t begin = 0; begin < context.rows; begin += kBlock) {
     rules::Frame frame;
-    frame.size = std::min(kBlock, facts.rows - begin);
-    frame.rows[0] = facts.row_numbers.data() + begin;
+    frame.size = std::min(kBlock, context.rows - begin);
+    frame.rows[0] = context.row_numbers.data() + begin;
     frame.needed = fits.data() + begin;
     evaluator.truths(when, frame, std::span(answers).first(frame.size));
     for (std::size_t i = 0; i < frame.size; ++i)
@@ -136,26 +136,26 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
     throw bad_scale(scale_denominator);
   const rules::Pack& pack = base.pack();
   const std::vector<ClassId> labels = labels_of(pack, interpretation, table.rows());
-  rules::Facts facts(pack, table, graph);
-  facts.scale = scale_denominator;
+  rules::EvaluationContext context(pack, table, graph);
+  context.scale = scale_denominator;
   const bool needs_classes = std::ranges::any_of(
       pack.entries, [&](const Entry& e) { return is_asking_for_class(pack.code, e.when); });
-  if (needs_classes) set_membership(pack, labels, facts);
+  if (needs_classes) set_membership(pack, labels, context);
 
-  std::vector<const Entry*> chosen(facts.rows, nullptr);
-  std::vector<Truth> fits(facts.rows);
+  std::vector<const Entry*> chosen(context.rows, nullptr);
+  std::vector<Truth> fits(context.rows);
   // gap(members) stands behind the columns of the schema.
   std::vector<double> gaps;
-  facts.columns.emplace_back();
-  rules::Evaluator evaluator(pack, facts);
+  context.columns.emplace_back();
+  rules::Evaluator evaluator(pack, context);
   for (const Entry& entry : pack.entries) {
     if (scale_denominator < entry.scale_from || scale_denominator > entry.scale_to) continue;
     mark_targets(pack, entry, labels, interpretation, fits);
     if (entry.group >= 0) {
       const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
-      facts.columns.back() = gaps = rules::group_gaps(kind, table, graph, interpretation);
+      context.columns.back() = gaps = rules::group_gaps(kind, table, graph, interpretation);
     }
-    judge_condition(entry.when, facts, evaluator, fits);
+    judge_condition(entry.when, context, evaluator, fits);
     if (entry.group >= 0)
       keep_whole_groups(pack.groups[static_cast<std::size_t>(entry.group)].name, interpretation,
                         fits);

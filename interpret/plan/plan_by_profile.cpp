@@ -80,7 +80,8 @@ class ProfilePlanner {
       if (is_unknown && profile_.omits_imprints) why = "imprint";
       return;
     }
-    const auto a = table_.number(id, "a"), b = table_.number(id, "b"), c = table_.number(id, "c");
+    const auto a = table_.number(id, Attribute::a), b = table_.number(id, Attribute::b),
+               c = table_.number(id, Attribute::c);
     if (!thresholds_ || !a || !b || !c) return;
     const Significance verdict = significance(*a, *b, *c, *thresholds_);
     if (verdict == Significance::keep || (main_parts_ && main_parts_->has(id))) return hold(id);
@@ -96,8 +97,9 @@ class ProfilePlanner {
     const SheetPlace place = sheet_place(table_, id, thresholds_->c_m);
     const auto found = profile_.sheets.find(place);
     if (found == profile_.sheets.end()) return {};
-    const bool is_done = found->second == "enlarge" && has_label(id) &&
-                         table_.number(id, "c").value_or(0) >= thresholds_->c_m - kGrownEnough_m;
+    const bool is_done =
+        found->second == "enlarge" && has_label(id) &&
+        table_.number(id, Attribute::c).value_or(0) >= thresholds_->c_m - kGrownEnough_m;
     return is_done ? std::string() : to_string(place);
   }
 
@@ -125,7 +127,7 @@ class ProfilePlanner {
 
   [[nodiscard]] bool reaches_ground(FeatureId id) const {
     const Sense sense = segmentation_.features[id.index()].sense;
-    const auto base_m = table_.number(id, "base_height");
+    const auto base_m = table_.number(id, Attribute::base_height);
     return (sense == Sense::protrusion || sense == Sense::hole) && base_m && *base_m <= kOnGround_m;
   }
 
@@ -134,7 +136,7 @@ class ProfilePlanner {
   [[nodiscard]] bool is_of_ground_plan(FeatureId id) const {
     const Feature& feature = segmentation_.features[id.index()];
     if (feature.sense != Sense::hole) return false;
-    const auto depth = table_.number(id, "depth");
+    const auto depth = table_.number(id, Attribute::depth);
     return (depth && *depth > kWallDepth_m) || has_plane(id, is_roof);
   }
 

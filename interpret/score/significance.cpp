@@ -39,14 +39,16 @@ Significance significance(double a_m, double b_m, double c_m, const Thresholds& 
 }
 
 SheetPlace sheet_place(const FeatureTable& table, FeatureId id, double c_m) {
-  const auto depth_m = table.number(id, "depth"), inclination_deg = table.number(id, "inclination");
+  const auto depth_m = table.number(id, Attribute::depth),
+             inclination_deg = table.number(id, Attribute::inclination);
   if (!depth_m || !inclination_deg) return SheetPlace::enclosed;
-  const auto growth_m = [&](const char* name) { return table.number(id, name).value_or(0); };
-  double beside_m = growth_m("growth_side");
+  const auto growth_m = [&](Attribute growth) { return table.number(id, growth).value_or(0); };
+  double beside_m = growth_m(Attribute::growth_side);
   if (std::abs(std::cos(*inclination_deg * std::numbers::pi / 180)) <= kWallLean)
-    beside_m = std::max({beside_m, growth_m("growth_up"), growth_m("growth_down")});
+    beside_m =
+        std::max({beside_m, growth_m(Attribute::growth_up), growth_m(Attribute::growth_down)});
   if (*depth_m <= c_m) return beside_m > c_m ? SheetPlace::cap : SheetPlace::lamina;
-  const bool sticks_out = std::max(growth_m("growth_out"), beside_m) > c_m;
+  const bool sticks_out = std::max(growth_m(Attribute::growth_out), beside_m) > c_m;
   return sticks_out ? SheetPlace::fin : SheetPlace::enclosed;
 }
 

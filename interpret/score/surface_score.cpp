@@ -33,7 +33,7 @@ void compare_surfaces(const Building& building, const LabelledBuilding& labelled
                       const SurfaceTable& surfaces, OpeningPolicy policy, SurfaceScore& score) {
   for (std::size_t row = 0; row < building.polygons.size(); ++row) {
     const Polygon& polygon = building.polygons[row];
-    const double area_m2 = surfaces.number(row, "area").value_or(0);
+    const double area_m2 = surfaces.number(row, SurfaceAttribute::area).value_or(0);
     ++score.polygons;
     if (polygon.hint.empty()) {
       score.unnamed_m2 += area_m2;

@@ -9,8 +9,8 @@ SurfaceDecider::SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable&
                                const MoreAttributes* more)
     : surfaces_(surfaces),
       more_(more),
-      facts_(surfaces.pack, table),
-      evaluator_(surfaces.pack, facts_),
+      context_(surfaces.pack, table),
+      evaluator_(surfaces.pack, context_),
       conjuncts_(surfaces.rules.size()) {
   for (std::size_t r = 0; r < conjuncts_.size(); ++r)
     for (const ExprId id : surfaces.rules[r].when) add_conjuncts(id, conjuncts_[r]);
@@ -26,7 +26,7 @@ bool SurfaceDecider::reads_pending(ExprId id) const {
   if (more_ == nullptr) return false;
   const Expr& expr = surfaces_.pack.code[static_cast<std::size_t>(id)];
   if (expr.op == Op::attribute || expr.op == Op::flag)
-    return more_->is_pending(static_cast<std::size_t>(expr.index));
+    return more_->is_pending(kSurfaceAttributes[static_cast<std::size_t>(expr.index)]);
   return std::ranges::any_of(expr.args, [&](ExprId arg) { return reads_pending(arg); });
 }
 

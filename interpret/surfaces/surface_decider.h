@@ -1,7 +1,7 @@
 #pragma once
 
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
-#include "interpret/evaluate/facts.h"
 #include "interpret/surfaces/surface_rules.h"
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/model/description/surface_table.h"
@@ -42,7 +42,7 @@ class SurfaceDecider {
 
   const SurfaceRules& surfaces_;
   const MoreAttributes* more_;
-  Facts facts_;
+  EvaluationContext context_;
   Evaluator evaluator_;
   /// By rule.
   std::vector<std::vector<SurfaceConjunct>> conjuncts_;

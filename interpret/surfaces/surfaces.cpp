@@ -1,7 +1,7 @@
 #include "interpret/surfaces/surfaces.h"
 
+#include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
-#include "interpret/evaluate/facts.h"
 #include "interpret/pack/names.h"
 #include "interpret/surfaces/surface_decider.h"
 #include "interpret/surfaces/surface_rules.h"
@@ -34,20 +34,22 @@ const std::string* top_of(const Pack& pack, const std::string& label) {
 }
 
 std::string top_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
-  if (const std::string* top = top_of(pack, table.text(row, "part"))) return *top;
-  const auto host = table.number(row, "host_inclination");
+  if (const std::string* top = top_of(pack, table.text(row, SurfaceAttribute::part))) return *top;
+  const auto host = table.number(row, SurfaceAttribute::host_inclination);
   const bool is_in_wall = host && rules::kind_of_facet(pack.hosts, *host) == HostKind::wall;
-  return is_in_wall && table.text(row, "sense") == "hole" ? "OuterFloorSurface" : "RoofSurface";
+  return is_in_wall && table.text(row, SurfaceAttribute::sense) == "hole" ? "OuterFloorSurface"
+                                                                          : "RoofSurface";
 }
 
 std::string type_by_default(const Pack& pack, const SurfaceTable& table, std::size_t row) {
-  const auto inclination = table.number(row, "inclination");
+  const auto inclination = table.number(row, SurfaceAttribute::inclination);
   if (!inclination) return "WallSurface";
   switch (rules::kind_of_facet(pack.hosts, *inclination)) {
     case HostKind::roof:
       return top_by_default(pack, table, row);
     case HostKind::ground:
-      return table.number(row, "base_height").value_or(0) <= pack.hosts.ground_reach_m
+      return table.number(row, SurfaceAttribute::base_height).value_or(0) <=
+                     pack.hosts.ground_reach_m
                  ? "GroundSurface"
                  : "OuterCeilingSurface";
     default:
@@ -80,7 +82,7 @@ std::vector<int> decide_with_more(const SurfaceRules& surfaces, const SurfaceTab
   return deciding;
 }
 
-std::string shown(const Attribute& attribute, double value) {
+std::string shown(const AttributeInfo& attribute, double value) {
   if (attribute.unit == Unit::yes_no) return value != 0 ? "yes" : "no";
   const std::string_view suffix = suffix_of(attribute.unit);
   return fmt::format("{:.2f}{}{}", value, suffix.empty() ? "" : " ", suffix);
@@ -88,14 +90,15 @@ std::string shown(const Attribute& attribute, double value) {
 
 std::string attribute_lines(const SurfaceTable& table, std::size_t row) {
   std::string text;
-  for (const Attribute& attribute : surface_schema()) {
+  for (const SurfaceAttribute attribute : kSurfaceAttributes) {
+    const AttributeInfo& info = info_of(attribute);
     std::string value = "?";
-    if (attribute.unit == Unit::text) {
-      if (const auto& word = table.text(row, attribute.name); !word.empty()) value = word;
-    } else if (const auto number = table.number(row, attribute.name)) {
-      value = shown(attribute, *number);
+    if (info.unit == Unit::text) {
+      if (const auto& word = table.text(row, attribute); !word.empty()) value = word;
+    } else if (const auto number = table.number(row, attribute)) {
+      value = shown(info, *number);
     }
-    text += fmt::format("  {:<17} {:>12}   {}\n", attribute.name, value, attribute.meaning);
+    text += fmt::format("  {:<17} {:>12}   {}\n", info.name, value, info.meaning);
   }
   return text;
 }
@@ -108,8 +111,8 @@ std::string place_of(const Pack& pack, rules::Span span) {
 
 std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, std::size_t row,
                        int last) {
-  const rules::Facts facts(surfaces.pack, table);
-  rules::Evaluator evaluator(surfaces.pack, facts);
+  const rules::EvaluationContext context(surfaces.pack, table);
+  rules::Evaluator evaluator(surfaces.pack, context);
   const int number = static_cast<int>(row);
   Frame frame;
   frame.size = 1;
@@ -168,7 +171,7 @@ std::string explanation_of(const Pack& pack, const SurfaceTable& table, std::siz
 std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t row,
                       const SurfaceVerdict& verdict, const SurfaceRule* rule) {
   if (rule == nullptr) {
-    const auto inclination = table.number(row, "inclination");
+    const auto inclination = table.number(row, SurfaceAttribute::inclination);
     return fmt::format("{} by hosts: inclination = {}", verdict.type,
                        inclination ? fmt::format("{:.2f} deg", *inclination) : "?");
   }
@@ -196,7 +199,6 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building,
 SurfaceTable with_parts(SurfaceTable table, const Building& building, const PolygonOwners& owners,
                         const Interpretation& interpretation, const RuleBase& base,
                         std::span<const int> rows) {
-  static const std::size_t part_column = surface_column_of("part").value();
   if (interpretation.verdicts.empty()) return table;
   std::vector<bool> is_emitted;
   for (const Verdict& verdict : interpretation.verdicts)
@@ -210,7 +212,7 @@ SurfaceTable with_parts(SurfaceTable table, const Building& building, const Poly
       if (!label.empty() && (part == nullptr || is_written)) part = &label;
       if (is_written) break;
     }
-    if (part != nullptr) table.set(row, part_column, *part);
+    if (part != nullptr) table.set(row, SurfaceAttribute::part, *part);
   }
   return table;
 }

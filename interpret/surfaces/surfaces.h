@@ -51,9 +51,9 @@ std::vector<int> rows_to_name(const Building& building, const PolygonOwners& own
 class MoreAttributes {
  public:
   virtual ~MoreAttributes() = default;
-  /// Whether a column of surface_schema() is still to be measured.
-  [[nodiscard]] virtual bool is_pending(std::size_t column) const = 0;
-  /// Fills one pending column or more in those rows of the table.
+  /// Whether an attribute is still to be measured.
+  [[nodiscard]] virtual bool is_pending(SurfaceAttribute attribute) const = 0;
+  /// Sets one pending attribute or more in those rows of the table.
   virtual void measure(std::span<const int> rows) = 0;
 };
 

@@ -30,7 +30,7 @@ const std::vector<std::string>& own_keys() {
 
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys = own_keys();
-  for (const Attribute& attribute : feature_schema()) keys.push_back(attribute.name);
+  for (const AttributeInfo& attribute : feature_schema()) keys.push_back(attribute.name);
   for (const RelationKind& relation : relation_schema()) keys.push_back(relation.name);
   return keys;
 }
@@ -39,26 +39,27 @@ void read_host(const YamlNode& node, FixtureFeature& feature, Loader& loader) {
   const auto host = read_text(node, "'host'", loader.findings);
   if (!host) return;
   if (const auto inclination = inclination_of(*host))
-    feature.numbers["host_inclination"] = *inclination;
+    feature.numbers[Attribute::host_inclination] = *inclination;
   else
     feature.host = *host;
 }
 
-void read_attribute(const YamlNode& node, const Attribute& attribute, FixtureFeature& feature,
+void read_attribute(const YamlNode& node, Attribute attribute, FixtureFeature& feature,
                     Loader& loader) {
+  const AttributeInfo& info = info_of(attribute);
   if (node.kind == YamlNode::Kind::scalar && node.text == "missing") {
-    feature.numbers.erase(attribute.name);
-    feature.texts.erase(attribute.name);
+    feature.numbers.erase(attribute);
+    feature.texts.erase(attribute);
     return;
   }
-  if (attribute.unit == Unit::text) {
-    const auto text = read_text(node, "'" + attribute.name + "'", loader.findings);
-    if (text) feature.texts[attribute.name] = *text;
-  } else if (attribute.unit == Unit::yes_no) {
-    const auto flag = read_flag(node, "'" + attribute.name + "'", loader.findings);
-    if (flag) feature.numbers[attribute.name] = *flag ? 1 : 0;
-  } else if (const auto value = read_quantity(node, dimension_of(attribute.unit), loader)) {
-    feature.numbers[attribute.name] = value->value;
+  if (info.unit == Unit::text) {
+    const auto text = read_text(node, "'" + info.name + "'", loader.findings);
+    if (text) feature.texts[attribute] = *text;
+  } else if (info.unit == Unit::yes_no) {
+    const auto flag = read_flag(node, "'" + info.name + "'", loader.findings);
+    if (flag) feature.numbers[attribute] = *flag ? 1 : 0;
+  } else if (const auto value = read_quantity(node, dimension_of(info.unit), loader)) {
+    feature.numbers[attribute] = value->value;
   }
 }
 
@@ -82,8 +83,8 @@ void set_value(const YamlNode& key, std::string_view name, const YamlNode& value
     read_host(value, feature, loader);
   } else if (name == "x") {
     if (const auto x = read_quantity(value, Dimension{1, 0}, loader)) feature.x = x->value;
-  } else if (const auto column = column_of(name)) {
-    read_attribute(value, feature_schema()[*column], feature, loader);
+  } else if (const auto attribute = find_attribute(name)) {
+    read_attribute(value, *attribute, feature, loader);
   } else if (index_of(relation_schema(), name) >= 0) {
     read_related(std::string(name), value, feature, loader);
   } else {
@@ -125,9 +126,9 @@ void repeat(const YamlNode& node, const FixtureFeature& feature, Fixture& fixtur
     const int row = i / columns;
     copy.name = fmt::format("{}.{}", feature.name, i + 1);
     copy.x = feature.x.value_or(0) + dx * (i % columns);
-    for (const char* name : {"base_height", "top"})
-      if (const auto z = copy.numbers.find(name); z != copy.numbers.end()) z->second += dz * row;
-    copy.numbers["storey"] += row;
+    for (const Attribute level : {Attribute::base_height, Attribute::top})
+      if (const auto z = copy.numbers.find(level); z != copy.numbers.end()) z->second += dz * row;
+    copy.numbers[Attribute::storey] += row;
     fixture.push_back(std::move(copy));
   }
 }
@@ -150,8 +151,8 @@ class Relating {
 
  private:
   [[nodiscard]] const FixtureFeature& at(std::size_t i) const { return (*fixture_)[i]; }
-  [[nodiscard]] std::optional<double> number(std::size_t i, const char* name) const {
-    const auto found = at(i).numbers.find(name);
+  [[nodiscard]] std::optional<double> number(std::size_t i, Attribute attribute) const {
+    const auto found = at(i).numbers.find(attribute);
     return found == at(i).numbers.end() ? std::nullopt : std::optional(found->second);
   }
   void add(const std::string& relation, std::size_t self, std::size_t other) {
@@ -199,24 +200,26 @@ class Relating {
   void relate_placed(std::size_t i, std::size_t j) {
     if (at(i).facade.empty() || at(i).facade != at(j).facade) return;
     add_both("same_facade", i, j);
-    if (number(i, "storey") && number(i, "storey") == number(j, "storey"))
+    if (number(i, Attribute::storey) &&
+        number(i, Attribute::storey) == number(j, Attribute::storey))
       add_both("same_storey", i, j);
-    const auto wide = gap(i, j, "width");
-    const auto high = gap(i, j, "height");
+    const auto wide = gap(i, j, Attribute::width);
+    const auto high = gap(i, j, Attribute::height);
     if (wide && high && *high < 0 && *wide <= 1) add_both("beside", i, j);
     if (wide && high && *wide < 0 && *high >= 0 && *high <= 1) {
-      const bool is_higher = *number(i, "base_height") > *number(j, "base_height");
+      const bool is_higher =
+          *number(i, Attribute::base_height) > *number(j, Attribute::base_height);
       is_higher ? add("above", j, i) : add("above", i, j);
     }
     if (is_alike(i, j)) add_both("alike", i, j);
   }
 
   /// The gap between their extents along the facade or upwards; below 0 where these overlap.
-  [[nodiscard]] std::optional<double> gap(std::size_t i, std::size_t j, const char* size) const {
+  [[nodiscard]] std::optional<double> gap(std::size_t i, std::size_t j, Attribute size) const {
     const auto middle = [&](std::size_t k) -> std::optional<double> {
       const auto extent = number(k, size);
-      const auto bottom = number(k, "base_height");
-      if (std::string_view(size) == "width") return at(k).x;
+      const auto bottom = number(k, Attribute::base_height);
+      if (size == Attribute::width) return at(k).x;
       return extent && bottom ? std::optional(*bottom + *extent / 2) : std::nullopt;
     };
     const auto p = number(i, size), q = number(j, size);
@@ -226,17 +229,19 @@ class Relating {
   }
 
   [[nodiscard]] bool is_alike(std::size_t i, std::size_t j) const {
-    const auto sense = [&](std::size_t k) { return at(k).texts.find("sense"); };
+    const auto sense = [&](std::size_t k) { return at(k).texts.find(Attribute::sense); };
     if (sense(i) == at(i).texts.end() || sense(j) == at(j).texts.end()) return false;
-    const auto is_near = [&](const char* name) {
-      const auto p = number(i, name), q = number(j, name);
+    const auto is_near = [&](Attribute size) {
+      const auto p = number(i, size), q = number(j, size);
       return p && q && std::abs(*p - *q) <= 0.1 * std::max(*p, *q);
     };
-    if (sense(i)->second != sense(j)->second || !is_near("a") || !is_near("b")) return false;
-    if (!at(i).x || !at(j).x || !number(i, "base_height") || !number(j, "base_height"))
+    if (sense(i)->second != sense(j)->second || !is_near(Attribute::a) || !is_near(Attribute::b))
       return false;
-    return std::hypot(*at(i).x - *at(j).x, *number(i, "base_height") - *number(j, "base_height")) <=
-           6;
+    if (!at(i).x || !at(j).x || !number(i, Attribute::base_height) ||
+        !number(j, Attribute::base_height))
+      return false;
+    return std::hypot(*at(i).x - *at(j).x,
+                      *number(i, Attribute::base_height) - *number(j, Attribute::base_height)) <= 6;
   }
 
   const Fixture* fixture_;
@@ -314,12 +319,13 @@ DescribedBuilding make_building(const std::string& name, const Fixture& fixture)
     table.set_id(id, feature.name);
     for (const auto& [attribute, value] : feature.numbers) table.set(id, attribute, value);
     for (const auto& [attribute, value] : feature.texts) table.set(id, attribute, value);
-    if (feature.x && !feature.numbers.contains("along")) table.set(id, "along", *feature.x);
-    const auto base = feature.numbers.find("base_height");
-    const auto extent = feature.numbers.find("height");
+    if (feature.x && !feature.numbers.contains(Attribute::along))
+      table.set(id, Attribute::along, *feature.x);
+    const auto base = feature.numbers.find(Attribute::base_height);
+    const auto extent = feature.numbers.find(Attribute::height);
     const bool is_known = base != feature.numbers.end() && extent != feature.numbers.end();
-    if (is_known && !feature.numbers.contains("top"))
-      table.set(id, "top", base->second + extent->second);
+    if (is_known && !feature.numbers.contains(Attribute::top))
+      table.set(id, Attribute::top, base->second + extent->second);
   }
   return {std::move(table), Relating(fixture).run()};
 }

@@ -15,8 +15,8 @@ namespace oriel::rules {
 /// A feature of a test, made by hand.
 struct FixtureFeature {
   std::string name;
-  std::map<std::string, double> numbers;
-  std::map<std::string, std::string> texts;
+  std::map<Attribute, double> numbers;
+  std::map<Attribute, std::string> texts;
   /// Features with the same one are on the same facade; empty: none.
   std::string facade;
   /// The feature that hosts it, or empty.

@@ -36,14 +36,14 @@ class CoverageCounter {
   }
 
   void count(const DescribedBuilding& building) {
-    rules::Facts facts(*pack_, building.table, building.graph);
-    if (facts.rows == 0) return;
-    rules::Labelling(*pack_, facts).run();
-    rules::Evaluator evaluator(*pack_, facts);
-    for (std::size_t begin = 0; begin < facts.rows; begin += rules::kBlock) {
+    rules::EvaluationContext context(*pack_, building.table, building.graph);
+    if (context.rows == 0) return;
+    rules::Labelling(*pack_, context).run();
+    rules::Evaluator evaluator(*pack_, context);
+    for (std::size_t begin = 0; begin < context.rows; begin += rules::kBlock) {
       rules::Frame frame;
-      frame.size = std::min(rules::kBlock, facts.rows - begin);
-      frame.rows[0] = facts.row_numbers.data() + begin;
+      frame.size = std::min(rules::kBlock, context.rows - begin);
+      frame.rows[0] = context.row_numbers.data() + begin;
       for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, frame);
     }
   }

@@ -187,9 +187,9 @@ class TestReader {
   }
 
   void read_amount(const YamlEntry& entry, Perturbation& perturbation) {
-    const auto column = column_of(entry.key.text);
-    const bool is_number = column && feature_schema()[*column].unit != Unit::text &&
-                           feature_schema()[*column].unit != Unit::yes_no;
+    const auto attribute = find_attribute(entry.key.text);
+    const bool is_number = attribute && info_of(*attribute).unit != Unit::text &&
+                           info_of(*attribute).unit != Unit::yes_no;
     if (!is_number) {
       findings().error(Code::R204, entry.key.span,
                        "'" + entry.key.text + "' is no attribute that is a number" +
@@ -197,10 +197,9 @@ class TestReader {
       return;
     }
     const bool is_relative = entry.value.text.ends_with('%');
-    const Dimension own = dimension_of(feature_schema()[*column].unit);
+    const Dimension own = dimension_of(info_of(*attribute).unit);
     const auto amount = read_quantity(entry.value, is_relative ? Dimension{} : own, *loader_);
-    if (amount)
-      perturbation.amounts.push_back({entry.key.text, std::abs(amount->value), is_relative});
+    if (amount) perturbation.amounts.push_back({*attribute, std::abs(amount->value), is_relative});
   }
 
   const Pack* pack_;

@@ -31,7 +31,7 @@ struct Reason {
 /// `property: {perturb: {base_height: 2 mm, a: 1 %}, times: 20}`.
 struct Perturbation {
   struct Amount {
-    std::string attribute;
+    Attribute attribute{};
     double amount = 0;
     /// A share of the value, not a distance.
     bool is_relative = false;

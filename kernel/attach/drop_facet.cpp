@@ -30,8 +30,8 @@ class FacetDropper {
       return refused(fmt::format("it has {} corners", corners_.size()));
     if (!find_sides()) return refused("more than three planes meet in one of its corners");
     if (std::string reason = meet(); !reason.empty()) return refused(std::move(reason));
-    if (leaves_less_than_triangle()) return refused("a facet beside it would vanish");
-    if (turns_edge()) return refused("an edge beside it would vanish");
+    if (leaves_less_than_triangle()) return refused("a neighbouring facet would vanish");
+    if (turns_edge()) return refused("a neighbouring edge would vanish");
     if (detail::is_in_the_way(solid_, dropped_, moves_))
       return refused("something lies in its way");
     return {without_facet(), {}};
@@ -89,10 +89,10 @@ class FacetDropper {
       return solid_.planes[solid_.facets[sides_[sides.at(i)].index()].plane.index()];
     };
     const auto met = exact::meet(plane(0), plane(1), plane(2));
-    if (!met) return "those beside it do not meet";
+    if (!met) return "its neighbours do not meet";
     const Vec3 to = exact::to_metres(*met, solid_.grid_m);
     for (const std::size_t i : corners) {
-      if (length(to - point(corners_[i])) > reach_m_) return "those beside it meet too far away";
+      if (length(to - point(corners_[i])) > reach_m_) return "its neighbours meet too far away";
       moves_[corners_[i]] = to;
       becomes_[corners_[i]] = corners_[corners[0]];
     }

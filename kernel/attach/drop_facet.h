@@ -23,7 +23,7 @@ struct DroppedFacet {
 /// the solid, so there is no new normal. It is refused with a reason
 ///  - if the facet has holes, or another number of corners;
 ///  - if more than three planes meet in one of its corners;
-///  - if those beside it do not meet, or meet more than `reach_m` from a corner that goes there;
+///  - if its neighbours do not meet, or meet more than `reach_m` from a corner that goes there;
 ///  - if one beside it would have less than three corners left, or an edge would vanish or turn
 ///    round;
 ///  - if anything else lies in the box, in the facet's own axes, that its corners and the new ones

@@ -96,50 +96,6 @@ namespace oriel {
 
 namespace {
 
-/// Where the attributes stand, found once.
-struct FeatureColumns {
-  std::size_t sense = column_of("sense").value();
-  std::size_t natural = column_of("natural").value();
-  std::size_t value = column_of("value").value();
-  std::size_t quality = column_of("quality").value();
-  std::size_t new_area = column_of("new_area").value();
-  std::size_t old_area = column_of("old_area").value();
-  std::size_t volume = column_of("volume").value();
-  std::size_t surface = column_of("surface").value();
-  std::size_t split_order = column_of("split_order").value();
-  std::size_t a = column_of("a").value();
-  std::size_t b = column_of("b").value();
-  std::size_t c = column_of("c").value();
-  std::size_t silhouette = column_of("silhouette").value();
-  std::size_t width = column_of("width").value();
-  std::size_t height = column_of("height").value();
-  std::size_t depth = column_of("depth").value();
-  std::size_t inclination = column_of("inclination").value();
-  std::size_t azimuth = column_of("azimuth").value();
-  std::size_t growth_up = column_of("growth_up").value();
-  std::size_t growth_down = column_of("growth_down").value();
-  std::size_t growth_out = column_of("growth_out").value();
-  std::size_t growth_side = column_of("growth_side").value();
-  std::size_t recess = column_of("recess").value();
-  std::size_t base_height = column_of("base_height").value();
-  std::size_t top = column_of("top").value();
-  std::size_t ground_source = column_of("ground_source").value();
-  std::size_t below_ridge = column_of("below_ridge").value();
-  std::size_t host_inclination = column_of("host_inclination").value();
-  std::size_t above_eaves = column_of("above_eaves").value();
-  std::size_t edge_gap = column_of("edge_gap").value();
-  std::size_t along = column_of("along").value();
-  std::size_t storey = column_of("storey").value();
-  std::size_t per_facade = column_of("per_facade").value();
-  std::size_t per_storey = column_of("per_storey").value();
-  std::size_t lod = column_of("lod").value();
-};
-
-const FeatureColumns& columns() {
-  static const FeatureColumns columns;
-  return columns;
-}
-
 using detail::Extent;
 using detail::InFacade;
 
@@ -176,16 +132,16 @@ Subject subject_of(const Segmentation& segmentation, FeatureId id) {
 
 void describe_cut(FeatureTable& table, const Subject& s) {
   const Feature& f = *s.feature;
-  table.set(s.id, columns().sense, to_string(f.sense));
-  table.set(s.id, columns().natural, f.is_natural ? 1.0 : 0.0);
-  if (f.value) table.set(s.id, columns().value, *f.value);
-  if (f.quality) table.set(s.id, columns().quality, *f.quality);
-  table.set(s.id, columns().new_area, f.new_area_m2);
+  table.set(s.id, Attribute::sense, to_string(f.sense));
+  table.set(s.id, Attribute::natural, f.is_natural ? 1.0 : 0.0);
+  if (f.value) table.set(s.id, Attribute::value, *f.value);
+  if (f.quality) table.set(s.id, Attribute::quality, *f.quality);
+  table.set(s.id, Attribute::new_area, f.new_area_m2);
   const bool has_cut = f.sense != Sense::imprint && !f.is_uncut;
-  if (has_cut) table.set(s.id, columns().old_area, f.old_area_m2);
-  if (!f.is_uncut || f.sense == Sense::imprint) table.set(s.id, columns().volume, f.volume_m3);
-  table.set(s.id, columns().surface, f.surface_m2);
-  table.set(s.id, columns().split_order, has_cut ? static_cast<double>(f.planes.size()) : 0);
+  if (has_cut) table.set(s.id, Attribute::old_area, f.old_area_m2);
+  if (!f.is_uncut || f.sense == Sense::imprint) table.set(s.id, Attribute::volume, f.volume_m3);
+  table.set(s.id, Attribute::surface, f.surface_m2);
+  table.set(s.id, Attribute::split_order, has_cut ? static_cast<double>(f.planes.size()) : 0);
 }
 
 /// What points of one plane are apart in doubles is nothing: an imprint has no depth.
@@ -202,19 +158,19 @@ bool is_level(double inclination_deg) {
 
 void describe_size(FeatureTable& table, const Subject& s) {
   const auto [a, b, c] = s.box.edges();
-  table.set(s.id, columns().a, a);
-  table.set(s.id, columns().b, b);
-  table.set(s.id, columns().c, without_dust(c));
-  table.set(s.id, columns().silhouette, a * b);
-  table.set(s.id, columns().width, s.width.size());
-  table.set(s.id, columns().height, s.box.height);
+  table.set(s.id, Attribute::a, a);
+  table.set(s.id, Attribute::b, b);
+  table.set(s.id, Attribute::c, without_dust(c));
+  table.set(s.id, Attribute::silhouette, a * b);
+  table.set(s.id, Attribute::width, s.width.size());
+  table.set(s.id, Attribute::height, s.box.height);
   if (!s.normal) return;
-  table.set(s.id, columns().depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
+  table.set(s.id, Attribute::depth, without_dust(detail::extent_along(s.points, *s.normal).size()));
   const double inclination = detail::inclination_deg(*s.normal);
-  table.set(s.id, columns().inclination, inclination);
+  table.set(s.id, Attribute::inclination, inclination);
   if (is_level(inclination)) return;
   const double azimuth = std::atan2(s.normal->x, s.normal->y) * 180 / std::numbers::pi;
-  table.set(s.id, columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
+  table.set(s.id, Attribute::azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
 /// How far cells reach, each direction of a cell measured once.
@@ -250,14 +206,14 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
     return std::max(
         0.0, detail::extent_along(s.points, direction).high - reaches.reach(host, direction));
   };
-  table.set(s.id, columns().growth_up, beyond({0, 0, 1}));
-  table.set(s.id, columns().growth_down, beyond({0, 0, -1}));
-  table.set(s.id, columns().growth_out, beyond(*s.normal));
+  table.set(s.id, Attribute::growth_up, beyond({0, 0, 1}));
+  table.set(s.id, Attribute::growth_down, beyond({0, 0, -1}));
+  table.set(s.id, Attribute::growth_out, beyond(*s.normal));
   double side = std::max(beyond(s.across), beyond(-s.across));
   // Along a wall's other direction, up and down, the two columns above say it.
   const Vec3 slope = cross(*s.normal, s.across);
   if (std::abs(s.normal->z) > kWallLean) side = std::max({side, beyond(slope), beyond(-slope)});
-  table.set(s.id, columns().growth_side, side);
+  table.set(s.id, Attribute::growth_side, side);
 }
 
 void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
@@ -265,7 +221,7 @@ void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& 
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
   if (const auto level_m = polygons.level_in(*s.feature, plane))
-    table.set(s.id, columns().recess, -*level_m);
+    table.set(s.id, Attribute::recess, -*level_m);
 }
 
 /// How far a feature reaches along a direction.
@@ -315,17 +271,17 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
   const Box& box = s.feature->box;
   const auto& facet = s.feature->host_facet;
   const detail::Foot foot = ground_of(s, segmentation, site);
-  table.set(s.id, columns().base_height, box.min.z - foot.ground_m);
-  table.set(s.id, columns().top, box.max.z - foot.ground_m);
-  table.set(s.id, columns().ground_source, foot.source);
-  table.set(s.id, columns().below_ridge, site.ridge_m() - box.max.z);
+  table.set(s.id, Attribute::base_height, box.min.z - foot.ground_m);
+  table.set(s.id, Attribute::top, box.max.z - foot.ground_m);
+  table.set(s.id, Attribute::ground_source, foot.source);
+  table.set(s.id, Attribute::below_ridge, site.ridge_m() - box.max.z);
   if (!facet) return;
   const Cell& cell = segmentation.cells[facet->cell.index()];
   const Vec3 normal = segmentation.planes[cell.facets[at(facet->facet)].plane.index()].normal;
   // The facets of a void look away from it, into the building.
-  table.set(s.id, columns().host_inclination, detail::inclination_deg(cell.sign * normal));
+  table.set(s.id, Attribute::host_inclination, detail::inclination_deg(cell.sign * normal));
   if (const auto eaves = site.eaves_m(facet->cell))
-    table.set(s.id, columns().above_eaves, box.min.z - *eaves);
+    table.set(s.id, Attribute::above_eaves, box.min.z - *eaves);
 }
 
 /// The smallest distance of the cap's corners to the outline of the host's facet.
@@ -340,7 +296,7 @@ void describe_edge_gap(FeatureTable& table, const Subject& s, const Plane& plane
       gap = std::min(gap,
                      detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
   }
-  if (gap < Box::kInfinity) table.set(s.id, columns().edge_gap, gap);
+  if (gap < Box::kInfinity) table.set(s.id, Attribute::edge_gap, gap);
 }
 
 /// Where it lies within the outline of the host's facet.
@@ -352,11 +308,11 @@ void describe_place_in_facet(FeatureTable& table, const Subject& s,
   describe_edge_gap(table, s, plane, outline);
   if (is_level(detail::inclination_deg(*s.normal))) return;
   const double left = detail::extent_along(outline, s.across).low;
-  table.set(s.id, columns().along, s.width.middle() - left);
+  table.set(s.id, Attribute::along, s.width.middle() - left);
 }
 
 void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
-                      const std::vector<int>& group_of, const char* name) {
+                      const std::vector<int>& group_of, Attribute attribute) {
   std::map<std::pair<int, Sense>, int> counts;
   const auto kind = [&](std::size_t i) {
     return std::pair(group_of[i], detail::kind_of(subjects[i].feature->sense));
@@ -364,7 +320,7 @@ void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
   for (std::size_t i = 0; i < subjects.size(); ++i)
     if (group_of[i] >= 0) ++counts[kind(i)];
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (group_of[i] >= 0) table.set(subjects[i].id, name, counts[kind(i)]);
+    if (group_of[i] >= 0) table.set(subjects[i].id, attribute, counts[kind(i)]);
 }
 
 InFacade in_facade(const Subject& s, int facade) {
@@ -392,15 +348,14 @@ std::optional<double> level_of_detail(const Building& building) {
 /// What takes its time and is left out if nobody asks for it.
 struct Asked {
   explicit Asked(const DescribeOptions& options) {
-    const auto is_asked = [&](std::size_t column) {
-      return options.attributes.empty() || options.attributes.at(column);
+    const auto is_asked = [&](Attribute attribute) {
+      return options.attributes.empty() || options.attributes.at(column_of(attribute));
     };
-    const FeatureColumns& c = columns();
-    recess = is_asked(c.recess);
-    growth = is_asked(c.growth_up) || is_asked(c.growth_down) || is_asked(c.growth_out) ||
-             is_asked(c.growth_side);
-    place_in_facet = is_asked(c.edge_gap) || is_asked(c.along);
-    companions = is_asked(c.per_facade) || is_asked(c.per_storey);
+    recess = is_asked(Attribute::recess);
+    growth = is_asked(Attribute::growth_up) || is_asked(Attribute::growth_down) ||
+             is_asked(Attribute::growth_out) || is_asked(Attribute::growth_side);
+    place_in_facet = is_asked(Attribute::edge_gap) || is_asked(Attribute::along);
+    companions = is_asked(Attribute::per_facade) || is_asked(Attribute::per_storey);
     const auto leads = [&](const char* relation) {
       const auto found = std::ranges::find(relation_schema(), relation, &RelationKind::name);
       return options.relations.empty() ||
@@ -436,7 +391,7 @@ Description describe(const Building& building, const Segmentation& segmentation,
     const Subject& s = subjects.back();
     describe_cut(out.table, s);
     describe_size(out.table, s);
-    if (lod) out.table.set(s.id, columns().lod, *lod);
+    if (lod) out.table.set(s.id, Attribute::lod, *lod);
     if (polygons) describe_recess(out.table, s, segmentation, *polygons);
     if (asked.growth) describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
@@ -446,10 +401,10 @@ Description describe(const Building& building, const Segmentation& segmentation,
   }
   const std::vector<int> storeys = detail::storeys_of(placed, openings);
   for (std::size_t i = 0; i < subjects.size(); ++i)
-    if (storeys[i] >= 0) out.table.set(subjects[i].id, columns().storey, storeys[i]);
+    if (storeys[i] >= 0) out.table.set(subjects[i].id, Attribute::storey, storeys[i]);
   if (asked.companions) {
-    count_companions(out.table, subjects, facades, "per_facade");
-    count_companions(out.table, subjects, storeys, "per_storey");
+    count_companions(out.table, subjects, facades, Attribute::per_facade);
+    count_companions(out.table, subjects, storeys, Attribute::per_storey);
   }
   detail::name_features(out.table, building, segmentation);
   out.graph = detail::relate(segmentation, placed, storeys, asked.neighbours);

@@ -48,31 +48,6 @@ constexpr double kMajority = 0.75;
 /// Where on an edge is looked, as shares of it.
 constexpr std::array<double, 3> kProbes = {1.0 / 6, 0.5, 5.0 / 6};
 
-/// Where the attributes stand, found once.
-struct SurfaceColumns {
-  std::size_t inclination = surface_column_of("inclination").value();
-  std::size_t azimuth = surface_column_of("azimuth").value();
-  std::size_t facing = surface_column_of("facing").value();
-  std::size_t area = surface_column_of("area").value();
-  std::size_t a = surface_column_of("a").value();
-  std::size_t b = surface_column_of("b").value();
-  std::size_t base_height = surface_column_of("base_height").value();
-  std::size_t top = surface_column_of("top").value();
-  std::size_t below_ridge = surface_column_of("below_ridge").value();
-  std::size_t gap_above = surface_column_of("gap_above").value();
-  std::size_t gap_below = surface_column_of("gap_below").value();
-  std::size_t wall_up = surface_column_of("wall_up").value();
-  std::size_t wall_down = surface_column_of("wall_down").value();
-  std::size_t synthetic = surface_column_of("synthetic").value();
-  std::size_t sense = surface_column_of("sense").value();
-  std::size_t host_inclination = surface_column_of("host_inclination").value();
-};
-
-const SurfaceColumns& surface_columns() {
-  static const SurfaceColumns columns;
-  return columns;
-}
-
 }  // namespace
 
 struct SurfaceSurvey::State {
@@ -162,27 +137,27 @@ void SurfaceSurvey::State::judge_facing(const std::vector<bool>& is_known) {
 
 void SurfaceSurvey::State::describe(std::size_t row) {
   const SurfaceFace& face = faces[row];
-  table.set(row, surface_columns().area, face.area_m2);
-  table.set(row, surface_columns().facing, std::string(facings[row].source));
+  table.set(row, SurfaceAttribute::area, face.area_m2);
+  table.set(row, SurfaceAttribute::facing, std::string(facings[row].source));
   if (!face.box.is_empty()) {
-    table.set(row, surface_columns().base_height, face.box.min.z - faces.low_m());
-    table.set(row, surface_columns().top, face.box.max.z - faces.low_m());
-    table.set(row, surface_columns().below_ridge, faces.high_m() - face.box.max.z);
+    table.set(row, SurfaceAttribute::base_height, face.box.min.z - faces.low_m());
+    table.set(row, SurfaceAttribute::top, face.box.max.z - faces.low_m());
+    table.set(row, SurfaceAttribute::below_ridge, faces.high_m() - face.box.max.z);
   }
   if (face.normal == Vec3{}) return;
   const Vec3 normal = outward(row);
   const double inclination = detail::inclination_deg(normal);
-  table.set(row, surface_columns().inclination, inclination);
+  table.set(row, SurfaceAttribute::inclination, inclination);
   if (std::min(inclination, 180 - inclination) <= kLevel_deg) return;
   const double azimuth = std::atan2(normal.x, normal.y) * 180 / std::numbers::pi;
-  table.set(row, surface_columns().azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
+  table.set(row, SurfaceAttribute::azimuth, azimuth < 0 ? azimuth + 360 : azimuth);
 }
 
 void SurfaceSurvey::State::measure_sides(std::size_t row) {
   if (faces[row].normal == Vec3{}) return;
   const detail::Sides sides = detail::sides_of(faces[row]);
-  table.set(row, surface_columns().a, sides.a_m);
-  table.set(row, surface_columns().b, sides.b_m);
+  table.set(row, SurfaceAttribute::a, sides.a_m);
+  table.set(row, SurfaceAttribute::b, sides.b_m);
 }
 
 void SurfaceSurvey::State::measure_gaps(std::size_t row) {
@@ -190,10 +165,10 @@ void SurfaceSurvey::State::measure_gaps(std::size_t row) {
   const Vec3 middle = faces[row].middle();
   const double weld_m = tolerances.weld_m;
   if (const auto above = lines().next_above(middle, middle.z + weld_m))
-    table.set(row, surface_columns().gap_above, above->z - middle.z);
+    table.set(row, SurfaceAttribute::gap_above, above->z - middle.z);
   if (const auto below =
           lines().next_below(middle, std::nextafter(middle.z - weld_m, faces.low_m())))
-    table.set(row, surface_columns().gap_below, middle.z - below->z);
+    table.set(row, SurfaceAttribute::gap_below, middle.z - below->z);
 }
 
 /// Whether there is material at a point, of whose vertical line `above` is the next crossing: if
@@ -230,8 +205,8 @@ void SurfaceSurvey::State::measure_surroundings(std::size_t row) {
     }
   }
   if (!(all_m > 0)) return;
-  table.set(row, surface_columns().wall_up, up_m / all_m);
-  table.set(row, surface_columns().wall_down, down_m / all_m);
+  table.set(row, SurfaceAttribute::wall_up, up_m / all_m);
+  table.set(row, SurfaceAttribute::wall_down, down_m / all_m);
 }
 
 namespace {
@@ -267,15 +242,14 @@ std::vector<bool> take_facing(const Solid& solid, const std::vector<int>& rows,
 /// The smallest feature that lists each polygon.
 void add_features(const SurfaceContext& context, const PolygonOwners& owners,
                   const Building& building, std::span<const int> rows, SurfaceTable& table) {
-  static const std::size_t host_inclination = column_of("host_inclination").value();
   for (const int row : rows) {
     const int source = building.polygons[at(row)].source;
     if (source < 0 || owners[at(source)].empty()) continue;
     const FeatureId innermost{owners[at(source)].front()};
-    table.set(at(row), surface_columns().sense,
+    table.set(at(row), SurfaceAttribute::sense,
               to_string(context.segmentation->features[innermost.index()].sense));
-    if (const auto host = context.features->number(innermost, host_inclination))
-      table.set(at(row), surface_columns().host_inclination, *host);
+    if (const auto host = context.features->number(innermost, Attribute::host_inclination))
+      table.set(at(row), SurfaceAttribute::host_inclination, *host);
   }
 }
 
@@ -293,11 +267,11 @@ SurfaceTable fully_measured(SurfaceSurvey survey) {
 
 }  // namespace
 
-std::optional<SurfaceMeasure> measure_of(std::size_t column) {
-  const SurfaceColumns& c = surface_columns();
-  if (column == c.a || column == c.b) return SurfaceMeasure::sides;
-  if (column == c.gap_above || column == c.gap_below) return SurfaceMeasure::gaps;
-  if (column == c.wall_up || column == c.wall_down) return SurfaceMeasure::surroundings;
+std::optional<SurfaceMeasure> measure_of(SurfaceAttribute attribute) {
+  using enum SurfaceAttribute;
+  if (attribute == a || attribute == b) return SurfaceMeasure::sides;
+  if (attribute == gap_above || attribute == gap_below) return SurfaceMeasure::gaps;
+  if (attribute == wall_up || attribute == wall_down) return SurfaceMeasure::surroundings;
   return std::nullopt;
 }
 
@@ -314,7 +288,7 @@ SurfaceSurvey::SurfaceSurvey(const Building& building, const Tolerances& toleran
   state_->judge_facing(is_known);
   for (const int row : rows) {
     state_->describe(at(row));
-    state_->table.set(at(row), surface_columns().synthetic, 0.0);
+    state_->table.set(at(row), SurfaceAttribute::synthetic, 0.0);
   }
   if (context.segmentation == nullptr || context.features == nullptr) return;
   SurfaceTable& table = state_->table;
@@ -330,7 +304,7 @@ SurfaceSurvey::SurfaceSurvey(const Solid& solid, const Tolerances& tolerances)
   SurfaceTable& table = state_->table;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     state_->describe(row);
-    table.set(row, surface_columns().synthetic, solid.facets[row].polygons.empty() ? 1.0 : 0.0);
+    table.set(row, SurfaceAttribute::synthetic, solid.facets[row].polygons.empty() ? 1.0 : 0.0);
   }
 }
 

@@ -35,15 +35,15 @@ enum class SurfaceMeasure {
 inline constexpr std::array kSurfaceMeasures = {SurfaceMeasure::sides, SurfaceMeasure::gaps,
                                                 SurfaceMeasure::surroundings};
 
-/// What fills a column of surface_schema(); nothing for those that cost little.
-std::optional<SurfaceMeasure> measure_of(std::size_t column);
+/// What sets an attribute; nothing for those that cost little.
+std::optional<SurfaceMeasure> measure_of(SurfaceAttribute attribute);
 
 /// Describes the surfaces of one building as far as it is asked to. What is measured of a surface
 /// does not depend on what else is. Refers to the building, and to the solid (the context's, too),
 /// which must outlive it.
 class SurfaceSurvey {
  public:
-  /// Fills every attribute of surface_schema() that can be told without rules (all but `part`) and
+  /// Fills every SurfaceAttribute that can be told without rules (all but `part`) and
   /// is no SurfaceMeasure, for every polygon of the building, whether it is closed or not: row =
   /// position in Building::polygons.
   ///

@@ -14,7 +14,7 @@ namespace detail {
 struct CityJsonSource;
 }
 
-/// One record of a file: a whole CityJSON, OBJ or OFF file, one line of a CityJSONSeq, or one
+/// One record of a file: a whole CityJSON, OBJ, OFF or PLY file, one line of a CityJSONSeq, or one
 /// Building of a CityGML file. It keeps the text it was read from, so that writing leaves every
 /// byte alone that it need not change.
 struct Document {
@@ -26,7 +26,8 @@ struct Document {
   /// and that of CityGML, is a record without buildings.
   std::vector<Building> buildings;
   /// The CityJSON text and where the buildings stand in it. Of CityGML, the lines of the
-  /// CityJSONSeq that it becomes; null for a Building that could not be read. Null for OBJ and OFF.
+  /// CityJSONSeq that it becomes; null for a Building that could not be read. Null for
+  /// meshes.
   std::shared_ptr<const detail::CityJsonSource> source;
   /// Of a line of a CityJSONSeq: its "id", and the type of the CityObject with that id.
   std::string feature_id{};

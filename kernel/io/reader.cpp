@@ -2,6 +2,7 @@
 
 #include "kernel/io/citygml/citygml_reader.h"
 #include "kernel/io/cityjson/cityjson_reader.h"
+#include "kernel/io/cityjson/cityjson_source.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/mesh/mesh_reader.h"
 
@@ -19,8 +20,8 @@ Format format_to_read(const std::string& path, const ReadOptions& options) {
   if (!format)
     throw InputError(detail::error_in(
         name, {Code::E106,
-               "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj "
-               "or .off, or --from cityjson, cityjsonseq, citygml, obj or off"}));
+               "the format is unknown; expected a name in .city.json, .city.jsonl, .gml, .obj, "
+               ".off or .ply, or --from cityjson, cityjsonseq, citygml, obj, off or ply"}));
   if (*format == Format::stl)
     throw InputError(
         detail::error_in(name, {Code::E106, "STL is written only: it has no polygons to read"}));
@@ -94,6 +95,7 @@ Checked<Document> Reader::State::read_file() {
     return {std::nullopt, {detail::error_in(name, {Code::E102, "the file is empty"})}};
   if (format == Format::obj) return detail::read_obj(text, name);
   if (format == Format::off) return detail::read_off(text, name);
+  if (format == Format::ply) return detail::read_ply(text, name);
   return cityjson.read(std::move(text), name, std::nullopt);
 }
 
@@ -118,6 +120,11 @@ std::optional<Checked<Document>> Reader::State::read_line() {
     if (!header) is_done = true;
     return record;
   }
+}
+
+std::string_view source_line(const Document& document) {
+  if (document.format != Format::cityjson_seq || !document.source) return {};
+  return document.source->text;
 }
 
 }  // namespace oriel

@@ -51,7 +51,7 @@ struct WriteOptions {
 ///   same id is replaced. Attributes of the building are added; one with the same name is replaced.
 /// - CityGML becomes the lines of a CityJSONSeq (see CityJsonCollector for one file): its header,
 ///   then a line for each Building; nothing for a Building that could not be read.
-/// - A document that was read from OBJ or OFF becomes a CityJSON 2.0 file: lod "3" where the
+/// - A document that was read from OBJ, OFF or PLY becomes a CityJSON 2.0 file: lod "3" where the
 ///   building has none, scale 0.001, or 1e-6 if the coordinates are no multiples of that.
 ///
 /// Writing what was read back with the same labels gives the same bytes. Throws std::logic_error if

@@ -53,7 +53,7 @@ class FeatureRemover {
   Remainder run(const std::vector<FeatureId>& asked) {
     wanted_.assign(segmentation_.features.size(), 0);
     for (const FeatureId id : asked) wanted_[id.index()] = 1;
-    lodgers_.resize(segmentation_.features.size());
+    hosted_.resize(segmentation_.features.size());
     for (int i = 0; i < std::ssize(segmentation_.features); ++i) enter(FeatureId{i});
     const std::vector<Boundary> untouched = bodies_;
     while (!try_all()) bodies_ = untouched;
@@ -71,7 +71,7 @@ class FeatureRemover {
   /// Where others are looked for by it.
   void enter(FeatureId id) {
     const Feature& f = feature(id);
-    if (f.host.is_valid()) lodgers_[f.host.index()].push_back(id);
+    if (f.host.is_valid()) hosted_[f.host.index()].push_back(id);
     if (f.sense == Sense::cavity) cavities_.push_back(id);
     if (f.source_polygons.empty()) return;
     const std::size_t first = at(f.source_polygons.front());
@@ -130,7 +130,7 @@ class FeatureRemover {
     if (f.sense == Sense::cavity) return fill_cavity(f);
     if (f.sense == Sense::imprint) {
       // There is nothing to cut: its facet is that of its host. What it owns went before it.
-      if (has_lodger_that_stays(id)) return "what lies in it cannot go";
+      if (has_hosted_that_stays(id)) return "what lies in it cannot be removed";
       return std::nullopt;
     }
     if (f.is_uncut) return "no cut frees it: only its ring is known";
@@ -148,9 +148,9 @@ class FeatureRemover {
   }
 
   /// A feature that sits on this one, or on what does, is refused.
-  [[nodiscard]] bool has_lodger_that_stays(FeatureId id) const {
-    return std::ranges::any_of(lodgers_[id.index()], [&](FeatureId lodger) {
-      return !go_[lodger.index()] || has_lodger_that_stays(lodger);
+  [[nodiscard]] bool has_hosted_that_stays(FeatureId id) const {
+    return std::ranges::any_of(hosted_[id.index()], [&](FeatureId hosted) {
+      return !go_[hosted.index()] || has_hosted_that_stays(hosted);
     });
   }
 
@@ -355,7 +355,7 @@ class FeatureRemover {
   std::optional<Boundary> trial_;
   std::vector<char> wanted_;                         ///< by feature: asked for and not refused
   std::vector<char> go_;                             ///< by feature: wanted, or sits on what is
-  std::vector<std::vector<FeatureId>> lodgers_;      ///< by feature: what it is the host of
+  std::vector<std::vector<FeatureId>> hosted_;       ///< by feature: what it is the host of
   std::vector<std::vector<FeatureId>> starting_at_;  ///< by their first polygon
   std::vector<FeatureId> cavities_;
   Remainder out_;

@@ -1,7 +1,6 @@
 #include "kernel/segment/segment.h"
 
 #include "kernel/base/index.h"
-#include "kernel/segment/boundary/body_state.h"
 #include "kernel/segment/boundary/parting.h"
 #include "kernel/segment/cuts/carry_out.h"
 #include "kernel/segment/cuts/choice.h"

@@ -36,7 +36,7 @@ void check_set_aside(const std::string& bytes, const std::string& message) {
   CAPTURE(outcome.err);
   CHECK(outcome.exit == 3);
   CHECK(outcome.says(message));
-  CHECK(outcome.says("labelled 2 of 3 buildings; 1 set aside"));
+  CHECK(outcome.says("2 of 3 buildings labelled; 1 rejected"));
   CHECK(folder.names() == Names{"in.city.json", "out.city.json"});
   const auto city = nlohmann::json::parse(bytes_of(folder / "out.city.json"));
   CHECK(city["CityObjects"]["a"]["attributes"].contains("oriel_pack"));
@@ -129,14 +129,14 @@ TEST_SUITE("cli") {
     const Outcome labelled = run({"label", input, "-o", folder / "out.city.json"});
     CHECK(labelled.exit == 0);
     CHECK(labelled.says("warning: b: E302 not closed: 4 open edges"));
-    CHECK(labelled.says("labelled 3 of 3 buildings; 1 open"));
+    CHECK(labelled.says("3 of 3 buildings labelled; 1 open"));
     const auto out = nlohmann::json::parse(bytes_of(folder / "out.city.json"));
     CHECK(out["CityObjects"]["b"]["attributes"].contains("oriel_pack"));
     const Outcome redrawn =
         run({"generalise", input, "--scale", "1:1000", "-o", folder / "small.city.json"});
     CHECK(redrawn.exit == 3);
     CHECK(redrawn.says("error: b: G404 "));
-    CHECK(redrawn.says("generalised to 1:1000 2 of 3 buildings"));
+    CHECK(redrawn.says("2 of 3 buildings generalised to 1:1000"));
     const auto small = nlohmann::json::parse(bytes_of(folder / "small.city.json"));
     CHECK(small["CityObjects"]["b"] == nlohmann::json::parse(city.dump())["CityObjects"]["b"]);
   }
@@ -151,7 +151,7 @@ TEST_SUITE("cli") {
     CAPTURE(outcome.err);
     CHECK(outcome.exit == 3);
     CHECK(outcome.says("error: " + input + ":3:"));
-    CHECK(outcome.says("1 set aside"));
+    CHECK(outcome.says("1 rejected"));
     const std::string out = bytes_of(folder / "out.city.jsonl");
     CHECK(std::ranges::count(out, '\n') == 3);
     CHECK(out.find("\"id\":\"a\"") != std::string::npos);
@@ -180,7 +180,7 @@ TEST_SUITE("cli") {
       const Outcome outcome = run(arguments);
       CHECK(outcome.exit == 5);
       CHECK(outcome.says(bad + ":1:2: E105"));
-      CHECK(outcome.says("labelled 1 of 1 buildings"));
+      CHECK(outcome.says("1 of 1 building labelled"));
       CHECK(bytes_of(folder / "out/good.city.json").find("oriel_pack") != std::string::npos);
       CHECK(!std::filesystem::exists(folder / "out/bad.city.json"));
       CHECK(std::filesystem::exists(folder / "parts.jsonl"));

@@ -127,7 +127,7 @@ TEST_SUITE("cli") {
       const Outcome outcome = run({"label", folder.write("a.gml", text), "-o", folder / name});
       CHECK(outcome.exit == 3);
       CHECK(outcome.says("house_0: E210"));
-      CHECK(outcome.says("labelled 1 of 2 buildings"));
+      CHECK(outcome.says("1 of 2 buildings labelled"));
       const std::string out = bytes_of(folder / name);
       CHECK(out.find("\"house_1\"") != std::string::npos);
       CHECK(out.find("\"house_0\"") == std::string::npos);

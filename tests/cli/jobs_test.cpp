@@ -107,8 +107,8 @@ TEST_SUITE("cli") {
       outcome = run({"label", input, "-o", out, "--status", folder / "s", "--isolate"},
                     {.worker_signal = SIGSEGV});
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("labelled 23 of 24 buildings"));
-    CHECK(outcome.says("1 set aside (E123 1)"));
+    CHECK(outcome.says("23 of 24 buildings labelled"));
+    CHECK(outcome.says("1 rejected (E123 1)"));
     CHECK(outcome.says("signal 11 (SIGSEGV)"));
     const auto bad = lines_of(bytes_of(folder / "s.quarantine.jsonl"));
     REQUIRE(bad.size() == 1);
@@ -135,8 +135,8 @@ TEST_SUITE("cli") {
     // No house is done in a millisecond.
     const Outcome outcome = label("0.001");
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("labelled 0 of 6 buildings"));
-    CHECK(outcome.says("6 set aside (E123 6)"));
+    CHECK(outcome.says("0 of 6 buildings labelled"));
+    CHECK(outcome.says("6 rejected (E123 6)"));
     CHECK(outcome.says("the clock: it took more than 0.001 s (--most-seconds)"));
     CHECK(lines_of(bytes_of(folder / "s.quarantine.jsonl")).size() == 6);
     CHECK(run({"label", input, "-o", out, "--most-seconds", "10"}).exit == 2);

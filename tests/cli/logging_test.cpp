@@ -32,7 +32,7 @@ TEST_SUITE("cli") {
     CHECK(quiet.out == info.out);
     CHECK_FALSE(quiet.says("stage"));
     CHECK(info.says("[info] oriel: stage segment: buildings=1 set_aside=0 ms="));
-    CHECK(info.says("labelled 1 of 1 buildings"));
+    CHECK(info.says("1 of 1 building labelled"));
   }
 
   TEST_CASE("with level off stderr is empty and the exit code says what happened") {
@@ -59,7 +59,7 @@ TEST_SUITE("cli") {
     CHECK(lines[0]["code"] == "E101");
     CHECK(lines[0]["file"] == "no-such-file.city.json");
     CHECK(lines[1]["logger"] == "run");
-    CHECK(lines[1]["message"] == "labelled 0 of 0 buildings");
+    CHECK(lines[1]["message"] == "0 of 0 buildings labelled");
   }
 
   TEST_CASE("progress as JSON goes through the same log") {

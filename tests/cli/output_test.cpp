@@ -152,6 +152,7 @@ TEST_SUITE("cli") {
     };
     CHECK(written({"--to", "obj", "-o", "-"}).find("\ng window_") != std::string::npos);
     CHECK(written({"--to", "off", "-o", "-"}).starts_with("OFF\n"));
+    CHECK(written({"--to", "ply", "-o", "-"}).starts_with("ply\nformat ascii 1.0\n"));
     CHECK(written({"--to", "stl", "-o", "-"}).find("solid window\n") != std::string::npos);
     written({"-o", folder / "a.obj"});
     CHECK(bytes_of(folder / "a.obj") == written({"--to", "obj", "-o", "-"}));
@@ -159,9 +160,9 @@ TEST_SUITE("cli") {
     CHECK(std::filesystem::exists(folder / "folder/hip.stripped.stl"));
   }
 
-  TEST_CASE("OBJ and OFF come out as CityJSON with labels") {
+  TEST_CASE("OBJ and OFF and PLY come out as CityJSON with labels") {
     const Folder folder;
-    for (const std::string format : {"obj", "off"}) {
+    for (const std::string format : {"obj", "off", "ply"}) {
       const std::string mesh = folder / ("house." + format);
       REQUIRE(run({"label", sample("house"), "-o", mesh}).exit == 0);
       const Outcome outcome = run({"label", mesh, "-o", folder / "back.city.json"});

@@ -113,7 +113,7 @@ TEST_SUITE("cli") {
     const Outcome outcome = run({"label", "-"}, {.in = lines});
     CHECK(outcome.exit == 3);
     CHECK(outcome.says("a: E207 an earlier line of the stream has this id"));
-    CHECK(outcome.says("labelled 2 of 3 buildings"));
+    CHECK(outcome.says("2 of 3 buildings labelled"));
     CHECK(lines_of(outcome.out).size() == 3);
   }
 

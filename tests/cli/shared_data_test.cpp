@@ -44,7 +44,7 @@ TEST_SUITE("cli") {
       CHECK(json::accept(outcome.out));
       // One building a file: set aside or not.
       CHECK(errors_in(outcome.err) == (outcome.exit == 3 ? 1 : 0));
-      CHECK(outcome.says(outcome.exit == 3 ? "; 1 set aside" : "labelled 1 of 1 buildings"));
+      CHECK(outcome.says(outcome.exit == 3 ? "; 1 rejected" : "1 of 1 building labelled"));
     }
   }
 
@@ -55,7 +55,7 @@ TEST_SUITE("cli") {
       CAPTURE(name);
       const Outcome outcome = run({"label", shared / "data/faults" / name});
       CHECK((outcome.exit == 0 || outcome.exit == 3));
-      CHECK(outcome.says(" of 1 buildings"));
+      CHECK(outcome.says(" of 1 building"));
     }
   }
 
@@ -68,7 +68,7 @@ TEST_SUITE("cli") {
     REQUIRE(arguments.size() == 3 + 76);
     const Outcome outcome = run(arguments);
     CHECK(outcome.exit == 0);
-    CHECK(outcome.says("labelled 76 of 76 buildings"));
+    CHECK(outcome.says("76 of 76 buildings labelled"));
     const Outcome scored = run({"score", folder / "parts.jsonl", "--truth", data, "--json"});
     REQUIRE(scored.exit == 0);
     const json classes = json::parse(scored.out)["classes"];
@@ -87,7 +87,7 @@ TEST_SUITE("cli") {
     REQUIRE(arguments.size() == 3 + 19);
     const Outcome outcome = run(arguments);
     CHECK(outcome.exit == 0);
-    CHECK(outcome.says("labelled 19 of 19 buildings"));
+    CHECK(outcome.says("19 of 19 buildings labelled"));
     const Outcome scored = run({"score", folder / "parts.jsonl", "--truth", data, "--json"});
     REQUIRE(scored.exit == 0);
     const json classes = json::parse(scored.out)["classes"];
@@ -102,8 +102,8 @@ TEST_SUITE("cli") {
     const std::string tile = shared / "data/3dbag/tile_5910.city.jsonl";
     const Outcome outcome = run({"label", tile, "--lod", "2.2", "-o", folder / "out.city.jsonl"});
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("labelled 211 of 212 buildings"));
-    CHECK(outcome.says("; 1 set aside ("));
+    CHECK(outcome.says("211 of 212 buildings labelled"));
+    CHECK(outcome.says("; 1 rejected ("));
     CHECK(errors_in(outcome.err) == 1);
     const std::string out = bytes_of(folder / "out.city.jsonl"), in = bytes_of(tile);
     CHECK(std::ranges::count(out, '\n') == std::ranges::count(in, '\n'));

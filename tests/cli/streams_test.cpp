@@ -28,7 +28,7 @@ TEST_SUITE("cli") {
     CHECK(run({"label", sample("house"), "-o", folder / "out.city.json"}).exit == 0);
     CHECK(piped.out == bytes_of(folder / "out.city.json"));
     CHECK(json::accept(piped.out));
-    CHECK(piped.err.starts_with("labelled 1 of 1 buildings: "));
+    CHECK(piped.err.starts_with("1 of 1 building labelled: "));
   }
 
   TEST_CASE("a stream goes from stdin to stdout line by line") {
@@ -78,16 +78,16 @@ TEST_SUITE("cli") {
     const Surroundings piped{.in = cube_lines({"a", "b", "c"})},
         terminal{.in = piped.in, .has_terminal = true};
     const Names label{"label", "-", "-o", "-"};
-    CHECK(run(label, piped).err == "labelled 3 of 3 buildings\n");
+    CHECK(run(label, piped).err == "3 of 3 buildings labelled\n");
     const Outcome shown = run(label, terminal);
     CHECK(shown.out == run(label, piped).out);
     CHECK(shown.says("buildings      3"));
-    CHECK(shown.says("set aside      0"));
+    CHECK(shown.says("rejected       0"));
     CHECK(shown.says("buildings/s"));
     CHECK(shown.says("MB/s"));
     Names none = label;
     none.insert(none.end(), {"--progress", "none"});
-    CHECK(run(none, terminal).says("labelled 3 of 3 buildings"));
+    CHECK(run(none, terminal).says("3 of 3 buildings labelled"));
     CHECK(!run(none, terminal).says("MB/s"));
   }
 

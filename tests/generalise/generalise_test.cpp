@@ -48,7 +48,7 @@ struct Plinth {
   explicit Plinth(Building block) : line(line_of(std::move(block))) {
     for (Verdict& verdict : line.interpretation.verdicts) verdict.label.clear();
     for (int i = 0; i < static_cast<int>(line.table().rows()); ++i)
-      if (line.table().number(FeatureId{i}, "a") < 5.0)
+      if (line.table().number(FeatureId{i}, Attribute::a) < 5.0)
         plan.steps.push_back({FeatureId{i}, "omit", "small.omit"});
     REQUIRE_FALSE(plan.steps.empty());
   }

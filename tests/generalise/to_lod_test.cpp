@@ -222,7 +222,7 @@ TEST_SUITE("generalise") {
     REQUIRE_FALSE(plan.steps.empty());
     for (const Step& step : plan.steps) {
       CHECK(step.rule == "r");
-      CHECK(*line.table().number(step.feature, "b") < 1.5);
+      CHECK(*line.table().number(step.feature, Attribute::b) < 1.5);
     }
     for (const ShortEdge& edge : short_edges(left.solid, line.segmentation, left.removed, 0.3))
       CHECK(edge.from.x > 7);

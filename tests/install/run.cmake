@@ -1,4 +1,4 @@
-# Installs the build tree into a folder of its own, checks what is there, and builds and runs the consumer with it.
+# Installs the build tree into a folder of its own, checks what is there, and builds and runs examples/library with it.
 # cmake -DBUILD=… -DSOURCE=… -DWORK=… -DGENERATOR=… -DCXX=… -DTYPE=… -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -12,7 +12,7 @@ file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
-foreach(file bin/oriel share/oriel/rules/residential.yaml include/oriel/kernel/io/reader.h
+foreach(file bin/oriel share/oriel/rules/residential.yaml include/oriel/oriel/oriel.h
         include/oriel/kernel/model/version.h)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "not installed: ${file}")
@@ -21,7 +21,7 @@ endforeach()
 # Nothing private, and nothing that is of this machine.
 file(GLOB_RECURSE headers ${prefix}/include/*)
 foreach(header ${headers})
-  if(header MATCHES "/detail/" OR NOT header MATCHES "[.]h$")
+  if(header MATCHES "/(detail|pipeline)/" OR NOT header MATCHES "[.]h$")
     message(FATAL_ERROR "installed, but private: ${header}")
   endif()
 endforeach()
@@ -39,10 +39,13 @@ run(${prefix}/bin/oriel rules check ${prefix}/share/oriel/rules/residential.yaml
 run(${prefix}/bin/oriel generalise ${sample} --scale 1:20000 -o ${WORK}/out.city.json)
 
 # Away from the source tree, so that only installed headers are found.
-file(COPY ${SOURCE}/tests/install/main.cpp ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${WORK}/consumer)
+file(COPY ${SOURCE}/examples/library/main.cpp ${SOURCE}/examples/library/CMakeLists.txt DESTINATION ${WORK}/consumer)
 run(${CMAKE_COMMAND} -S ${WORK}/consumer -B ${WORK}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=${TYPE} -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer ${sample})
+run(${WORK}/build/library ${sample} ${WORK}/labelled.city.json ${WORK}/coarse.city.json)
 message("${output}")
+# What the library writes is what the command writes.
+run(${prefix}/bin/oriel label ${sample} -o ${WORK}/command.city.json)
+run(${CMAKE_COMMAND} -E compare_files ${WORK}/labelled.city.json ${WORK}/command.city.json)
 file(REMOVE_RECURSE ${WORK})

@@ -77,9 +77,9 @@ class Scene {
  private:
   static void set(FeatureTable& table, FeatureId id, const std::string& name, const Value& value) {
     if (const double* number = std::get_if<double>(&value))
-      table.set(id, name, *number);
+      table.set(id, find_attribute(name).value(), *number);
     else
-      table.set(id, name, std::string(std::get<const char*>(value)));
+      table.set(id, find_attribute(name).value(), std::string(std::get<const char*>(value)));
   }
 
   std::vector<Values> features_;

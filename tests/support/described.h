@@ -24,13 +24,13 @@ struct Described {
   }
   /// A number; the test ends if it is missing.
   [[nodiscard]] double number(FeatureId id, const std::string& name) const {
-    const auto value = table().number(id, name);
+    const auto value = table().number(id, find_attribute(name).value());
     CAPTURE(name);
     REQUIRE(value.has_value());
     return *value;
   }
   [[nodiscard]] bool has(FeatureId id, const std::string& name) const {
-    return table().number(id, name).has_value();
+    return table().number(id, find_attribute(name).value()).has_value();
   }
 };
 
@@ -51,7 +51,7 @@ inline void check_numbers(const Described& d, FeatureId id,
                           const std::map<std::string, double>& expected) {
   for (const auto& [name, value] : expected) {
     CAPTURE(name);
-    const auto found = d.table().number(id, name);
+    const auto found = d.table().number(id, find_attribute(name).value());
     REQUIRE(found.has_value());
     CHECK(std::abs(*found - value) < 1e-4);
   }

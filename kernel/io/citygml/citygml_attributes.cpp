@@ -17,7 +17,7 @@ namespace {
 
 enum class ValueKind { text, number, whole, numbers };
 
-struct Attribute {
+struct CityGmlAttribute {
   std::string name;
   /// As JSON.
   std::vector<std::string> values;
@@ -81,7 +81,7 @@ class Attributes {
   }
 
   void append_to(std::string& out, const std::vector<std::string_view>& reserved) const {
-    for (const Attribute& attribute : attributes_) {
+    for (const CityGmlAttribute& attribute : attributes_) {
       const bool is_reserved = std::ranges::find(reserved, attribute.name) != reserved.end();
       std::string key(is_reserved ? "_" : "");
       append_json_key(out, key.append(attribute.name));
@@ -146,7 +146,7 @@ class Attributes {
     attributes_[found->second].values.push_back(std::move(value));
   }
 
-  std::vector<Attribute> attributes_;
+  std::vector<CityGmlAttribute> attributes_;
   std::unordered_map<std::string, std::size_t> number_of_;
 };
 

@@ -2,7 +2,6 @@
 
 #include "kernel/io/cityjson/cityjson_geometry.h"
 #include "kernel/io/cityjson/cityjson_objects.h"
-#include "kernel/io/cityjson/id_set.h"
 #include "kernel/io/cityjson/stream_header.h"
 #include "kernel/io/json/dom.h"
 #include "kernel/io/json/json_check.h"
@@ -18,6 +17,60 @@
 namespace oriel::detail {
 
 namespace {
+
+constexpr std::size_t kFirstSlots = 1024;  // a power of two
+
+/// splitmix64's finaliser.
+std::uint64_t mixed(std::uint64_t hash) {
+  hash = (hash ^ (hash >> 30U)) * 0xbf58476d1ce4e5b9U;
+  hash = (hash ^ (hash >> 27U)) * 0x94d049bb133111ebU;
+  return hash ^ (hash >> 31U);
+}
+
+/// Which ids a stream had so far: 16 bytes for each, at a load of at most one half. Ids are known
+/// by a hash of 128 bits: among 10^9 of them two share one with a probability of 10^-21.
+class IdSet {
+ public:
+  /// False if the id was there.
+  bool insert(std::string_view id);
+
+ private:
+  using Key = std::array<std::uint64_t, 2>;  ///< {0, 0}: a free slot
+  [[nodiscard]] std::size_t slot_of(const Key& key) const;
+  void grow();
+
+  std::vector<Key> slots_;
+  std::size_t count_ = 0;
+};
+
+std::size_t IdSet::slot_of(const Key& key) const {
+  std::size_t slot = key[0] & (slots_.size() - 1);
+  while (slots_[slot] != Key{} && slots_[slot] != key) slot = (slot + 1) & (slots_.size() - 1);
+  return slot;
+}
+
+void IdSet::grow() {
+  const std::vector<Key> old =
+      std::exchange(slots_, std::vector<Key>(slots_.empty() ? kFirstSlots : 2 * slots_.size()));
+  for (const Key& key : old)
+    if (key != Key{}) slots_[slot_of(key)] = key;
+}
+
+bool IdSet::insert(std::string_view id) {
+  if (2 * (count_ + 1) > slots_.size()) grow();
+  // FNV-1a twice, from two starts and with two odd factors.
+  Key key{0xcbf29ce484222325U, 0x9e3779b97f4a7c15U};
+  for (const char byte : id) {
+    key[0] = (key[0] ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+    key[1] = mixed(key[1] + static_cast<unsigned char>(byte));
+  }
+  key = {mixed(key[0]), key[1] | 1U};  // never a free slot
+  Key& slot = slots_[slot_of(key)];
+  if (slot == key) return false;
+  slot = key;
+  ++count_;
+  return true;
+}
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -226,7 +279,7 @@ std::optional<Fault> CityJsonReader::State::check_header(const std::string& text
 
 std::optional<Fault> CityJsonReader::State::check_feature(dom::object root,
                                                           const SequenceHeader& of) {
-  if (is_astray) return Fault{Code::E116, "stands behind a header that is not that of the stream"};
+  if (is_astray) return Fault{Code::E116, "stands after a header that is not that of the stream"};
   const auto version = member(root, "version");
   if (version && as_string(version) != of.version)
     return Fault{Code::E108, fmt::format("its 'version' is {}; the header says \"{}\"",

@@ -8,7 +8,7 @@ namespace oriel {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Format>, 8> kExtensions{{
+constexpr std::array<std::pair<std::string_view, Format>, 9> kExtensions{{
     {".json", Format::cityjson},
     {".jsonl", Format::cityjson_seq},
     {".gml", Format::citygml},
@@ -16,15 +16,17 @@ constexpr std::array<std::pair<std::string_view, Format>, 8> kExtensions{{
     {".xml", Format::citygml},
     {".obj", Format::obj},
     {".off", Format::off},
+    {".ply", Format::ply},
     {".stl", Format::stl},
 }};
 
-constexpr std::array<std::pair<std::string_view, Format>, 6> kNames{{
+constexpr std::array<std::pair<std::string_view, Format>, 7> kNames{{
     {"cityjson", Format::cityjson},
     {"cityjsonseq", Format::cityjson_seq},
     {"citygml", Format::citygml},
     {"obj", Format::obj},
     {"off", Format::off},
+    {"ply", Format::ply},
     {"stl", Format::stl},
 }};
 

@@ -2,7 +2,6 @@
 
 #include "kernel/base/issue.h"
 #include "kernel/io/files/partial_files.h"
-#include "kernel/io/files/resolved_path.h"
 #include "kernel/io/json/text.h"
 
 #include <algorithm>

@@ -1,7 +1,5 @@
 #include "kernel/io/files/partial_files.h"
 
-#include "kernel/io/files/resolved_path.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +7,18 @@
 #include <vector>
 
 namespace oriel {
+
+namespace detail {
+
+std::string resolved(const std::string& path) {
+  std::error_code error;
+  const auto full = std::filesystem::absolute(path, error);
+  if (error) return path;
+  const auto target = std::filesystem::weakly_canonical(full, error);
+  return error ? path : target.string();
+}
+
+}  // namespace detail
 
 namespace {
 

@@ -8,6 +8,11 @@
 
 namespace oriel {
 
+namespace detail {
+/// `path` in full with links resolved, the same whether the file is there yet or not.
+std::string resolved(const std::string& path);
+}  // namespace detail
+
 /// What is known of an output file up to some place.
 struct FileMark {
   std::uint64_t bytes = 0;

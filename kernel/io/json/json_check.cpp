@@ -1,5 +1,6 @@
 #include "kernel/io/json/json_check.h"
 
+#include "kernel/io/json/raw_json.h"
 #include "kernel/io/json/slow_json.h"
 
 #include <algorithm>
@@ -164,6 +165,14 @@ std::optional<nlohmann::json> parse_slowly(const TextName& name, std::string_vie
   if (!issue) return nlohmann::json::parse(text);
   issues.push_back(std::move(*issue));
   return std::nullopt;
+}
+
+std::string decoded(std::string_view raw) {
+  if (raw.size() < 2) return std::string(raw);
+  const std::string_view inside = raw.substr(1, raw.size() - 2);
+  if (inside.find('\\') == std::string_view::npos) return std::string(inside);
+  const nlohmann::json value = nlohmann::json::parse(raw, nullptr, false);
+  return value.is_string() ? value.get<std::string>() : std::string(inside);
 }
 
 }  // namespace oriel::detail

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 namespace oriel::detail {
 
 namespace {
@@ -14,14 +12,6 @@ namespace {
 bool is_closing(char c) { return c == '}' || c == ']'; }
 
 }  // namespace
-
-std::string decoded(std::string_view raw) {
-  if (raw.size() < 2) return std::string(raw);
-  const std::string_view inside = raw.substr(1, raw.size() - 2);
-  if (inside.find('\\') == std::string_view::npos) return std::string(inside);
-  const nlohmann::json value = nlohmann::json::parse(raw, nullptr, false);
-  return value.is_string() ? value.get<std::string>() : std::string(inside);
-}
 
 RawNode::RawNode(std::string_view text, std::span<const std::string_view> known)
     : close_(text.front() == '{' ? '}' : ']') {

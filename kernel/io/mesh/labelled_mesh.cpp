@@ -28,13 +28,13 @@ std::string label_of_type(std::string type) {
   return type;
 }
 
-MeshGroup group_of(const std::string& building, const SemanticSurface& surface) {
+MeshFeature feature_of(const std::string& building, const SemanticSurface& surface) {
   const std::string label = text_of(surface.members, "oriel_label");
   return {building, label.empty() ? label_of_type(surface.type) : label,
           text_of(surface.members, "oriel_id")};
 }
 
-MeshGroup group_of(const std::string& building, const Installation& installation) {
+MeshFeature feature_of(const std::string& building, const Installation& installation) {
   const std::string label = text_of(installation.attributes, "oriel_label");
   return {building, label.empty() ? "installation" : label, installation.id};
 }
@@ -51,81 +51,82 @@ std::string class_of(const LabelledBuilding& labelled, std::size_t polygon) {
   return surface == nullptr ? std::string() : surface->type;
 }
 
-/// The group of each of `count` polygons.
-std::vector<MeshGroup> groups_of(const LabelledBuilding& labelled, std::size_t count) {
-  std::vector<MeshGroup> groups(count, {labelled.building, "unlabelled", ""});
+/// The feature of each of `count` polygons.
+std::vector<MeshFeature> features_of(const LabelledBuilding& labelled, std::size_t count) {
+  std::vector<MeshFeature> features(count, {labelled.building, "unlabelled", ""});
   const auto surface = [&](std::size_t polygon) { return surface_of(labelled, polygon); };
   for (std::size_t i = 0; i < count; ++i)
-    if (surface(i) != nullptr) groups[i] = group_of(labelled.building, *surface(i));
+    if (surface(i) != nullptr) features[i] = feature_of(labelled.building, *surface(i));
   for (const Installation& installation : labelled.installations)
     for (const int polygon : installation.polygons) {
       const auto i = static_cast<std::size_t>(polygon);
       const bool is_opening =
           surface(i) != nullptr && (surface(i)->type == "Window" || surface(i)->type == "Door");
-      if (!is_opening) groups.at(i) = group_of(labelled.building, installation);
+      if (!is_opening) features.at(i) = feature_of(labelled.building, installation);
     }
-  return groups;
+  return features;
 }
 
 /// Gathers the faces of one building.
-class MeshBuilder {
+class PolygonCollector {
  public:
-  MeshBuilder(LabelledMesh& mesh, Vec3 origin_m)
-      : mesh_(mesh), origin_m_(origin_m), first_(static_cast<int>(mesh.vertices.size())) {}
+  PolygonCollector(MeshSource& mesh, Vec3 origin_m)
+      : mesh_(mesh), origin_m_(origin_m), first_(static_cast<int>(mesh.points.size())) {}
 
-  void add_vertex(Vec3 local) { mesh_.vertices.push_back(local + origin_m_); }
+  void add_vertex(Vec3 local) { mesh_.points.push_back(local + origin_m_); }
 
-  void add_face(std::vector<std::vector<int>> rings, Vec3 normal, const MeshGroup& group,
-                std::string surface_class) {
+  void add_face(std::vector<std::vector<int>> rings, Vec3 normal, const MeshFeature& feature,
+                std::string surface, FacetId facet = {}) {
     std::erase_if(rings, [](const std::vector<int>& ring) {
       return std::set<int>(ring.begin(), ring.end()).size() < 3;
     });
     if (rings.empty()) return;
     for (auto& ring : rings)
       for (int& v : ring) v += first_;
-    mesh_.faces.push_back({std::move(rings), normal, number_of(group), std::move(surface_class)});
+    mesh_.polygons.push_back(
+        {std::move(rings), normal, number_of(feature), std::move(surface), facet});
   }
 
  private:
-  int number_of(const MeshGroup& group) {
+  int number_of(const MeshFeature& feature) {
     const auto [found, is_new] =
-        numbers_.try_emplace({group.label, group.id}, static_cast<int>(mesh_.groups.size()));
-    if (is_new) mesh_.groups.push_back(group);
+        numbers_.try_emplace({feature.label, feature.id}, static_cast<int>(mesh_.features.size()));
+    if (is_new) mesh_.features.push_back(feature);
     return found->second;
   }
 
-  LabelledMesh& mesh_;
+  MeshSource& mesh_;
   Vec3 origin_m_;
   int first_;
   std::map<std::pair<std::string, std::string>, int> numbers_;
 };
 
-void add_polygons(LabelledMesh& mesh, const Building& building, const LabelledBuilding& labelled) {
-  MeshBuilder builder(mesh, building.frame.origin_m);
-  for (const Vec3 p : building.vertices) builder.add_vertex(p);
+void add_polygons(MeshSource& mesh, const Building& building, const LabelledBuilding& labelled) {
+  PolygonCollector polygons(mesh, building.frame.origin_m);
+  for (const Vec3 p : building.vertices) polygons.add_vertex(p);
   int count = 0;
   for (const Polygon& polygon : building.polygons) count = std::max(count, polygon.source + 1);
-  const std::vector<MeshGroup> groups = groups_of(labelled, static_cast<std::size_t>(count));
+  const std::vector<MeshFeature> features = features_of(labelled, static_cast<std::size_t>(count));
   for (const Polygon& polygon : building.polygons)
     if (!polygon.rings.empty())
-      builder.add_face(polygon.rings, normalised(area_vector(building.vertices, polygon.rings[0])),
-                       groups[static_cast<std::size_t>(polygon.source)],
-                       class_of(labelled, static_cast<std::size_t>(polygon.source)));
+      polygons.add_face(polygon.rings, normalised(area_vector(building.vertices, polygon.rings[0])),
+                        features[static_cast<std::size_t>(polygon.source)],
+                        class_of(labelled, static_cast<std::size_t>(polygon.source)));
 }
 
-void add_solid(LabelledMesh& mesh, const Solid& solid, Vec3 origin_m,
+void add_solid(MeshSource& mesh, const Solid& solid, Vec3 origin_m,
                const LabelledBuilding& labelled) {
-  MeshBuilder builder(mesh, origin_m);
-  for (const Vertex& vertex : solid.vertices) builder.add_vertex(vertex.point);
-  const std::vector<MeshGroup> groups = groups_of(labelled, solid.facets.size());
+  PolygonCollector polygons(mesh, origin_m);
+  for (const Vertex& vertex : solid.vertices) polygons.add_vertex(vertex.point);
+  const std::vector<MeshFeature> features = features_of(labelled, solid.facets.size());
   for (std::size_t f = 0; f < solid.facets.size(); ++f)
-    builder.add_face(solid.facets[f].loops, solid.planes[solid.facets[f].plane.index()].normal,
-                     groups[f], class_of(labelled, f));
+    polygons.add_face(solid.facets[f].loops, solid.planes[solid.facets[f].plane.index()].normal,
+                      features[f], class_of(labelled, f), FacetId{static_cast<int>(f)});
 }
 
 }  // namespace
 
-void append_mesh(LabelledMesh& mesh, const Document& document,
+void append_mesh(MeshSource& mesh, const Document& document,
                  const std::vector<LabelledBuilding>& labelled) {
   std::map<std::string_view, const LabelledBuilding*> labels_of;
   for (const LabelledBuilding& one : labelled) labels_of.try_emplace(one.building, &one);

@@ -1,72 +1,22 @@
 #include "kernel/io/json/rings.h"
 #include "kernel/io/mesh/mesh_reader.h"
+#include "kernel/mesh/mesh.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace oriel::detail {
 
 namespace {
 
-/// For each point the first one at the same place.
-std::vector<int> welded(const std::vector<Vec3>& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) {
-    const Vec3 p = points[static_cast<std::size_t>(i)];
-    return std::tuple(p.x, p.y, p.z);
-  };
-  std::ranges::sort(order,
-                    [&](int a, int b) { return std::pair(key(a), a) < std::pair(key(b), b); });
-  std::vector<int> first(points.size());
-  int leader = -1;
-  for (const int i : order) {
-    if (leader < 0 || key(leader) != key(i)) leader = i;
-    first[static_cast<std::size_t>(i)] = leader;
-  }
-  return first;
-}
-
 /// True if every edge is met by exactly one opposite edge and the faces hang together by edges.
-bool is_one_closed_shell(const std::vector<Vec3>& points,
-                         const std::vector<std::vector<int>>& faces) {
-  const std::vector<int> first = welded(points);
-  std::map<std::pair<int, int>, std::size_t> face_of_edge;
-  std::vector<std::size_t> root(faces.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto root_of = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  const auto for_each_edge = [&](std::size_t f, const auto& visit) {
-    for (std::size_t i = 0; i < faces[f].size(); ++i) {
-      const auto from = static_cast<std::size_t>(faces[f][i]);
-      const auto to = static_cast<std::size_t>(faces[f][(i + 1) % faces[f].size()]);
-      if (first[from] != first[to] && !visit(first[from], first[to])) return false;
-    }
-    return true;
-  };
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if (!for_each_edge(f, [&](int a, int b) { return face_of_edge.try_emplace({a, b}, f).second; }))
-      return false;
-  std::size_t shells = faces.size();
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const bool is_closed = for_each_edge(f, [&](int a, int b) {
-      const auto opposite = face_of_edge.find({b, a});
-      if (opposite == face_of_edge.end()) return false;
-      const std::size_t one = root_of(f);
-      const std::size_t other = root_of(opposite->second);
-      if (one != other) --shells;
-      root[std::max(one, other)] = std::min(one, other);
-      return true;
-    });
-    if (!is_closed) return false;
-  }
-  return shells == 1;
+bool is_one_closed_shell(const RawMesh& raw) {
+  MeshSource source;
+  source.points = raw.points;
+  for (const std::vector<int>& face : raw.faces) source.polygons.push_back({{face}, {}});
+  const MeshFindings found = Mesh(source).findings();
+  return found.shells == 1 && found.open_edges == 0 && found.non_manifold_edges == 0 &&
+         found.empty_polygons == 0;
 }
 
 /// Keeps the points that faces use, in the order of their first use.
@@ -88,7 +38,7 @@ void drop_unused(RawMesh& mesh) {
 Building building_of(RawMesh mesh, std::string id) {
   Building building;
   building.id = std::move(id);
-  building.is_solid = is_one_closed_shell(mesh.points, mesh.faces);
+  building.is_solid = is_one_closed_shell(mesh);
   building.frame = frame_of(mesh.points, "");
   for (const Vec3 p : mesh.points) building.vertices.push_back(p - building.frame.origin_m);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)

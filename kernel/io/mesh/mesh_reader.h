@@ -31,6 +31,13 @@ Checked<Document> read_obj(std::string_view text, const TextName& name);
 /// something follows; E203, E311 and E506 as for OBJ. Reading stops at the first finding.
 Checked<Document> read_off(std::string_view text, const TextName& name);
 
+/// Reads an ASCII PLY file: elements `vertex` with x, y, z and `face` with the list vertex_indices
+/// (or vertex_index); further properties and elements are passed over. A face's hint is what a
+/// comment of the header calls its `feature`, as write_ply writes it. E110 for a header or a line
+/// that is anything else and for binary files; E203, E311 and E506 as for OBJ. Reading stops at the
+/// first finding.
+Checked<Document> read_ply(std::string_view text, const TextName& name);
+
 /// The document of a mesh: one building named by the file's stem. It is a solid if its faces form
 /// one closed connected shell (points at the same place count as one). E313 without faces; E501 and
 /// E506 leave the building out, E311 is a warning.

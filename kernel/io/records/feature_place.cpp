@@ -13,7 +13,7 @@ namespace {
 
 using detail::RawNode;
 
-/// Zero for what is no number: Reader has told of it.
+/// Zero for what is no number: Reader has reported it.
 std::array<double, 3> three_of(std::string_view array) {
   std::array<double, 3> numbers{};
   std::size_t count = 0;

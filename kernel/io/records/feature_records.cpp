@@ -22,12 +22,12 @@ std::string id_of(const FeatureTable& table, FeatureId feature) {
 
 std::vector<RecordValue> attributes_of(const FeatureTable& table, FeatureId row) {
   std::vector<RecordValue> values;
-  for (std::size_t c = 0; c < feature_schema().size(); ++c) {
+  for (const Attribute attribute : kAttributes) {
     values.emplace_back();
-    if (feature_schema()[c].unit == Unit::text) {
-      const std::string& text = table.texts(c)[row.index()];
+    if (info_of(attribute).unit == Unit::text) {
+      const std::string& text = table.text(row, attribute);
       if (!text.empty()) values.back() = text;
-    } else if (const auto number = table.number(row, c)) {
+    } else if (const auto number = table.number(row, attribute)) {
       values.back() = *number;
     }
   }
@@ -80,7 +80,7 @@ std::optional<std::string> set_polygons(FeatureRecord& record, std::string_view 
   return std::nullopt;
 }
 
-std::optional<std::string> add_attribute(FeatureRecord& record, const Attribute& attribute,
+std::optional<std::string> add_attribute(FeatureRecord& record, const AttributeInfo& attribute,
                                          std::string_view cell) {
   RecordValue& value = record.attributes.emplace_back();
   if (cell.empty()) return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells
   if (auto fault = set_box(record, cells[field::aabb_m])) return fault;
   if (auto fault = set_polygons(record, cells[field::source_polygons])) return fault;
   std::size_t at = field::first_attribute;
-  for (const Attribute& attribute : feature_schema())
+  for (const AttributeInfo& attribute : feature_schema())
     if (auto fault = add_attribute(record, attribute, cells[at++])) return fault;
   for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
     record.relations.push_back(split(cells[at++]));
@@ -123,7 +123,7 @@ const std::vector<std::string>& record_fields() {
     std::vector<std::string> names{"building", "id",     "label",          "score",
                                    "margin",   "rule",   "runner_up",      "parent",
                                    "host",     "aabb_m", "source_polygons"};
-    for (const Attribute& attribute : feature_schema()) names.push_back(record_name(attribute));
+    for (const AttributeInfo& attribute : feature_schema()) names.push_back(record_name(attribute));
     for (const RelationKind& relation : detail::recorded_relations())
       names.push_back("rel_" + relation.name);
     names.emplace_back("groups");

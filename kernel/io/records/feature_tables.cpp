@@ -82,7 +82,7 @@ std::optional<std::string> TableBuilder::add(const detail::RecordCells& cells) {
 
 std::optional<std::string> TableBuilder::add_attributes(const detail::RecordCells& cells) {
   std::size_t at = field::first_attribute;
-  for (const Attribute& attribute : feature_schema()) {
+  for (const AttributeInfo& attribute : feature_schema()) {
     const std::string_view cell = cells[at++];
     if (attribute.unit == Unit::text) {
       texts_.emplace_back(cell);
@@ -103,11 +103,11 @@ FeatureTable TableBuilder::make_table() const {
   for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
     const FeatureId row{i};
     table.set_id(row, *text++);
-    for (std::size_t column = 0; column < feature_schema().size(); ++column) {
-      if (feature_schema()[column].unit == Unit::text)
-        table.set(row, column, *text++);
+    for (const Attribute attribute : kAttributes) {
+      if (info_of(attribute).unit == Unit::text)
+        table.set(row, attribute, *text++);
       else if (const double value = *number++; !std::isnan(value))
-        table.set(row, column, value);
+        table.set(row, attribute, value);
     }
   }
   return table;

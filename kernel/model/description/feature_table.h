@@ -1,8 +1,11 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/base/ids.h"
+#include "kernel/model/description/attributes.h"
 #include "kernel/model/description/word_column.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,42 +16,8 @@
 
 namespace oriel {
 
-/// The unit of an attribute, and so its type in a rule.
-enum class Unit { text, yes_no, count, ratio, metre, square_metre, cubic_metre, degree };
-
-/// "m", "m2", "m3", "deg"; empty for the others.
-std::string_view suffix_of(Unit unit);
-
-/// One attribute of features. The schema is the contract between describe (which fills the values),
-/// interpret (which checks rules against it before any building is read) and the records that are
-/// written.
-struct Attribute {
-  std::string name;
-  Unit unit = Unit::ratio;
-  std::string meaning;
-  /// The section of the paper, or "rules.md", that asks for it.
-  std::string source;
-};
-
-/// All attributes, in the order of their columns.
-const std::vector<Attribute>& feature_schema();
-
-/// The column of the attribute `name`, or nothing.
-std::optional<std::size_t> column_of(std::string_view name);
-
-/// The name that records carry: the attribute's name with its unit (`height_m`, `quality`).
-std::string record_name(const Attribute& attribute);
-
-/// The names of the relations that describe makes (FeatureGraph), with their meaning: self ->
-/// other.
-struct RelationKind {
-  std::string name;
-  std::string meaning;
-};
-const std::vector<RelationKind>& relation_schema();
-
-/// Attributes of the features of one building: row = FeatureId, column = position in
-/// feature_schema(). A missing value is missing, not 0: NaN in a column of numbers, empty in a
+/// Attributes of the features of one building: row = FeatureId, column = Attribute.
+/// A missing value is missing, not 0: NaN in a column of numbers, empty in a
 /// column of texts. Yes/no stands as 1 and 0 among the numbers.
 class FeatureTable {
  public:
@@ -65,38 +34,41 @@ class FeatureTable {
   /// The feature with that id, or an invalid one.
   [[nodiscard]] FeatureId find(std::string_view id) const;
 
-  /// The whole column, NaN where missing. Needs a column of numbers. Valid until a value is set.
-  [[nodiscard]] std::span<const double> numbers(std::size_t column) const {
-    return std::span(numbers_).subspan(place_of_[column] * rows(), rows());
+  /// The whole column, NaN where missing. Needs a number. Valid until a value is set.
+  [[nodiscard]] std::span<const double> numbers(Attribute attribute) const {
+    return std::span(numbers_).subspan(place_of(attribute) * rows(), rows());
   }
-  /// The whole column, "" where missing. Needs a column of texts.
-  [[nodiscard]] const WordColumn& texts(std::size_t column) const {
-    return texts_[place_of_[column]];
+  /// The whole column, "" where missing. Needs a text.
+  [[nodiscard]] const WordColumn& texts(Attribute attribute) const {
+    return texts_[place_of(attribute)];
   }
-  [[nodiscard]] std::optional<double> number(FeatureId row, std::size_t column) const;
-  [[nodiscard]] std::optional<double> number(FeatureId row, std::string_view name) const;
-  [[nodiscard]] const std::string& text(FeatureId row, std::string_view name) const;
+  [[nodiscard]] std::optional<double> number(FeatureId row, Attribute attribute) const;
+  [[nodiscard]] const std::string& text(FeatureId row, Attribute attribute) const {
+    return texts(attribute)[row.index()];
+  }
 
-  /// Sets a value. `name` must stand in the schema with a fitting type.
-  void set(FeatureId row, std::string_view name, double value);
-  void set(FeatureId row, std::string_view name, std::string value);
-  /// The same by the column's position, whose type must fit.
-  void set(FeatureId row, std::size_t column, double value) {
-    if (place_of_[column] == 0) add_numbers(column);
-    numbers_[place_of_[column] * rows() + row.index()] = value;
+  /// Sets a value; the type of the attribute must fit.
+  void set(FeatureId row, Attribute attribute, double value) {
+    ORIEL_ASSERT(info_of(attribute).unit != Unit::text);
+    if (place_of(attribute) == 0) add_numbers(attribute);
+    numbers_[place_of(attribute) * rows() + row.index()] = value;
   }
-  void set(FeatureId row, std::size_t column, std::string value) {
-    texts_[place_of_[column]].set(row.index(), std::move(value));
+  void set(FeatureId row, Attribute attribute, std::string value) {
+    ORIEL_ASSERT(info_of(attribute).unit == Unit::text);
+    texts_[place_of(attribute)].set(row.index(), std::move(value));
   }
 
  private:
+  /// Which of the columns it is that stand in `numbers_` or in `texts_`.
+  [[nodiscard]] std::size_t place_of(Attribute attribute) const {
+    return place_of_[column_of(attribute)];
+  }
   /// Makes place for a column of numbers, all missing.
-  void add_numbers(std::size_t column);
+  void add_numbers(Attribute attribute);
 
   std::string building_;
   std::vector<std::string> ids_;
-  /// By column: which of the columns it is that stand in `numbers_` or in `texts_`.
-  std::vector<std::uint32_t> place_of_;
+  std::array<std::uint8_t, kAttributes.size()> place_of_{};
   /// Columns of numbers one behind the other, so that a building is one piece of memory. The first
   /// is that of all in which nothing was set.
   std::vector<double> numbers_;

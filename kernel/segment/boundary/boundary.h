@@ -2,7 +2,6 @@
 
 #include "kernel/base/ids.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/segment/boundary/few.h"
 #include "kernel/segment/boundary/scratch.h"
 #include "kernel/segment/planes/planes.h"
 #include "kernel/segment/planes/points.h"
@@ -13,6 +12,8 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
@@ -49,7 +50,7 @@ class Boundary {
   };
   static constexpr signed char kUnknown = -1;
   /// Facets of the solid that a facet is made of, sorted.
-  using Sources = Few<int, 2>;
+  using Sources = boost::container::small_vector<int, 2>;
   struct LoopRecord {
     int first = -1;
     int facet = -1;        ///< -1: dead
@@ -58,7 +59,7 @@ class Boundary {
   };
   struct FacetRecord {
     Side side = -1;  ///< -1: dead
-    Few<int, 2> loops;
+    boost::container::small_vector<int, 2> loops;
     Sources sources;
     std::vector<CapMark> marks;
     int on_side = -1;     ///< where on_side_ counts it
@@ -182,7 +183,7 @@ class Boundary {
   /// What lies on one side of a plane.
   struct OnSide {
     double area = 0;
-    Few<int, 2> facets = {};  ///< ascending, with dead ones among them
+    boost::container::small_vector<int, 2> facets = {};  ///< ascending, with dead ones among them
     int living = 0;
   };
   /// Where a side stands, or would stand, in number_of_side_.

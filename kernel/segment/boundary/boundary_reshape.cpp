@@ -10,10 +10,10 @@
 namespace oriel::detail {
 
 void Boundary::retrace(int f, std::span<const int> extra) {
-  const Few<int, 2> old = facet(f).loops;
+  const boost::container::small_vector<int, 2> old = facet(f).loops;
   for (const int l : old) detach(l);
   const int first_new = static_cast<int>(loops_.size());
-  Few<int, 4> fresh;
+  boost::container::small_vector<int, 4> fresh;
   for (const int e : extra)
     if (edge(e).loop < first_new) fresh.push_back(trace(e));
   for (const int l : old)
@@ -26,14 +26,14 @@ void Boundary::retrace(int f, std::span<const int> extra) {
 /// the holes inside it.
 void Boundary::part(int f) {
   if (facet(f).outer_loops <= 1) return;
-  Few<int, 4> outer, holes;
+  boost::container::small_vector<int, 4> outer, holes;
   for (const int l : facet(f).loops) (loop(l).is_hole ? holes : outer).push_back(l);
   part(f, {outer.data(), outer.size()}, {holes.data(), holes.size()});
 }
 
 void Boundary::part(int f, std::span<const int> outer, std::span<const int> holes) {
   const Vec3 normal = world_->planes.normal(facet(f).side);
-  Few<int, 4> pieces{f};
+  boost::container::small_vector<int, 4> pieces{f};
   std::vector<Outline> shapes;  // asked by holes only
   if (!holes.empty()) shapes.reserve(outer.size());
   for (std::size_t i = 0; !holes.empty() && i < outer.size(); ++i)
@@ -80,7 +80,7 @@ void Boundary::distribute_marks(std::span<const int> pieces, const std::vector<C
 
 /// Moves all of facet f to `target`, which lies on the same plane.
 void Boundary::merge(int target, int f) {
-  const Few<int, 2> loops = facet(f).loops;
+  const boost::container::small_vector<int, 2> loops = facet(f).loops;
   const Sources sources = facet(f).sources;
   std::vector<CapMark> marks = std::move(facets_[index(f)].marks);
   kill_facet(f);

@@ -8,17 +8,17 @@
 namespace oriel::detail {
 
 /// A convex body that is told to be a leaf before it is made: all that its cell is written from.
-struct Leaf {
-  struct Face {
+struct PocketLeaf {
+  struct LeafFace {
     Side side;
     Loop loop;
   };
-  std::vector<Face> faces;
+  std::vector<LeafFace> faces;
   /// Facets of the solid that faces are made of, face by face.
-  struct Source {
+  struct LeafSource {
     int source, face;
   };
-  std::vector<Source> sources;
+  std::vector<LeafSource> sources;
   double volume = 0;
 };
 

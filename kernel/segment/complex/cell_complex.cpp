@@ -1,7 +1,6 @@
 #include "kernel/segment/complex/cell_complex.h"
 
 #include "kernel/geometry/boxes.h"
-#include "kernel/segment/complex/conform.h"
 #include "kernel/segment/complex/outlines.h"
 #include "kernel/segment/complex/owners.h"
 #include "kernel/segment/complex/sheet.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/model/cell_complex.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/complex/vertex_pool.h"
 
@@ -13,12 +14,16 @@ std::vector<PlaneId> sheets_of(const std::vector<Plane>& planes);
 
 /// The facets of closed bodies, as cells are, with all vertices that lie on their edges.
 ///
-/// Loops leave out vertices on straight edges, and vertices by decree are on an edge
+/// Loops leave out vertices on straight edges, and rounded vertices are on an edge
 /// whatever their coordinates. So incidence says which ones are: a vertex lies on the edge between
 /// two facets if some bodies have it in facets of both planes, and it shortens the edge on both
 /// sides. Vertices are those of the pool.
 std::vector<std::vector<Facet>> whole_outlines(std::vector<std::vector<Facet>> bodies,
                                                const std::vector<PlaneId>& sheets,
                                                const VertexPool& pool);
+
+/// Gives loops the vertices of other loops that lie on their edges, within `near_m`, so that faces
+/// in different planes meet along whole edges.
+void conform(std::vector<Face>& faces, const std::vector<Vertex>& vertices, double near_m);
 
 }  // namespace oriel::detail

@@ -8,7 +8,7 @@ Owners::Owners(const Segmentation& segmentation)
     : position_of_cell_(segmentation.cells.size(), -1) {
   struct Waiting {
     NodeId node;
-    Place place;
+    TreePlace place;
   };
   std::vector<Waiting> waiting;
   if (segmentation.root.is_valid()) waiting.push_back({segmentation.root, {}});
@@ -43,14 +43,14 @@ CellId Owners::decide(const std::vector<int>& cells) const {
   while (true) {
     const auto [position, gathered] = *waiting.begin();
     waiting.erase(waiting.begin());
-    const Place& place = places_[static_cast<std::size_t>(position)];
-    Verdict verdict = gathered.rest;
+    const TreePlace& place = places_[static_cast<std::size_t>(position)];
+    OwnerVerdict verdict = gathered.rest;
     // In a difference the parts decide of the rest's body, innermost first.
     if (verdict.is_in_body && gathered.part.owner.is_valid())
       verdict = {!gathered.part.is_in_body, gathered.part.owner};
     if (place.parent < 0) return verdict.owner;
     Gathered& above = waiting[place.parent];
-    Verdict& known = place.is_part_of_difference ? above.part : above.rest;
+    OwnerVerdict& known = place.is_part_of_difference ? above.part : above.rest;
     // Later children come first; an earlier one overrules them, unless one of those alone has the
     // point in its body.
     if (verdict.is_in_body || (!known.is_in_body && verdict.owner.is_valid())) known = verdict;

@@ -19,23 +19,23 @@ class Owners {
 
  private:
   /// What the subtree of a node says of the point.
-  struct Verdict {
+  struct OwnerVerdict {
     bool is_in_body = false;
     CellId owner;
   };
-  struct Place {
+  struct TreePlace {
     int parent = -1;  ///< position of the node above
     bool is_part_of_difference = false;
   };
   /// The verdicts of the children of a node so far, those of the parts of a difference apart.
   struct Gathered {
-    Verdict rest;
-    Verdict part;
+    OwnerVerdict rest;
+    OwnerVerdict part;
   };
   [[nodiscard]] CellId decide(const std::vector<int>& cells) const;
 
   /// Nodes by position: the tree in preorder, the rest before the parts.
-  std::vector<Place> places_;
+  std::vector<TreePlace> places_;
   std::vector<int> position_of_cell_;
   std::map<std::vector<int>, CellId> known_;
 };

@@ -11,7 +11,7 @@ namespace oriel::detail {
 namespace {
 
 /// On which side of the corner that the planes of a cut make something lies.
-enum class Corner {
+enum class CornerKind {
   convex_outside,  ///< outside of it: a chimney on a ridge; the rest is inside
   convex_inside,   ///< inside of it: a hole in an edge
   concave          ///< in front of all planes: a post in an inner corner
@@ -23,7 +23,7 @@ bool are_opposite(int p, int q) { return ((p > 0) & (q < 0)) | ((p < 0) & (q > 0
 /// Caps for one component, or nothing.
 class Capper {
  public:
-  Capper(const Boundary& body, const Component& component, Corner corner)
+  Capper(const Boundary& body, const Component& component, CornerKind corner)
       : body_(body), world_(body.world()), component_(component), corner_(corner) {
     labels_.reserve(component.rim.size());
     for (const int e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
@@ -43,31 +43,31 @@ class Capper {
 
  private:
   /// A half-edge of the rim by its place there.
-  using Place = std::size_t;
+  using RimPlace = std::size_t;
   /// The edges of a loop are mostly no more.
   static constexpr std::size_t kMostly = 8;
 
   /// Where the rim changes from one plane to another.
-  struct Switch {
+  struct RimSwitch {
     int point;
     Side from, to;
-    Place rim;  ///< the first half-edge behind it
+    RimPlace rim;  ///< the first half-edge behind it
   };
 
   /// The rim half-edge that follows each on its closed curve.
   bool order_rim() {
     StampMap& places = world_.scratch.place_in_rim;
     places.start(body_.half_edge_count());
-    for (Place i = 0; i < component_.rim.size(); ++i)
+    for (RimPlace i = 0; i < component_.rim.size(); ++i)
       places.set(component_.rim[i], static_cast<int>(i));
     followers_.reserve(component_.rim.size());
-    for (Place i = 0; i < component_.rim.size(); ++i) {
+    for (RimPlace i = 0; i < component_.rim.size(); ++i) {
       int follower = body_.next(component_.rim[i]);
       for (int steps = 0; places.find(follower) < 0; ++steps) {
         if (steps > body_.half_edge_count()) return false;
         follower = body_.next(body_.twin(follower));
       }
-      const auto place = static_cast<Place>(places.find(follower));
+      const auto place = static_cast<RimPlace>(places.find(follower));
       followers_.push_back(place);
       if (labels_[i] != labels_[place])
         switches_.push_back({body_.origin(follower), labels_[i], labels_[place], place});
@@ -81,12 +81,12 @@ class Capper {
       cap.side = side ^ 1;
       cap.is_taken = true;
     }
-    Few<char, 32> is_done(labels_.size(), 0);
-    for (Place start = 0; start < labels_.size(); ++start) {
+    boost::container::small_vector<char, 32> is_done(labels_.size(), 0);
+    for (RimPlace start = 0; start < labels_.size(); ++start) {
       if (labels_[start] != side || is_done[start] != 0) continue;
       CapLoop loop;
       loop.edges.reserve(kMostly);
-      Place i = start;
+      RimPlace i = start;
       do {
         is_done[i] = 1;
         const int e = component_.rim[i];
@@ -106,7 +106,7 @@ class Capper {
   /// From `point`, where the rim leaves the plane of `side` for that of `other`, along the edges of
   /// the corner to where the rim comes back to `side`: adds the free edges, returns the rim
   /// half-edge there.
-  std::optional<Place> walk_in_the_open(Side side, Side other, int point, CapLoop& loop) {
+  std::optional<RimPlace> walk_in_the_open(Side side, Side other, int point, CapLoop& loop) {
     for (int steps = 0; steps <= 4; ++steps) {
       const auto stop = next_stop(side, other, point);
       if (!stop) return std::nullopt;
@@ -118,27 +118,27 @@ class Capper {
     return std::nullopt;
   }
 
-  struct Stop {
+  struct WalkStop {
     int point;
-    std::optional<Place> rim;  ///< where the rim takes over
-    Side other;                ///< the plane to walk along next, if it does not
+    std::optional<RimPlace> rim;  ///< where the rim takes over
+    Side other;                   ///< the plane to walk along next, if it does not
   };
 
   /// From the caps `side` and `other` towards the inside of the corner's edge between them.
   [[nodiscard]] Vec3 ahead(Side side, Side other) const {
     const Vec3 line = cross(world_.planes.normal(side), world_.planes.normal(other));
     const bool is_at_ground = side == component_.ground || other == component_.ground;
-    return corner_ == Corner::concave && !is_at_ground ? -line : line;
+    return corner_ == CornerKind::concave && !is_at_ground ? -line : line;
   }
 
   /// The nearest point ahead on the line in which two planes meet: where the rim comes from `other`
   /// to `side`, or where a third plane of the corner meets them.
-  std::optional<Stop> next_stop(Side side, Side other, int point) {
+  std::optional<WalkStop> next_stop(Side side, Side other, int point) {
     const Vec3 direction = ahead(side, other);
     const double here = dot(direction, world_.points.at(point));
-    std::optional<Stop> nearest;
+    std::optional<WalkStop> nearest;
     double least = std::numeric_limits<double>::infinity();
-    const auto offer = [&](const Stop& stop) {
+    const auto offer = [&](const WalkStop& stop) {
       const double distance = dot(direction, world_.points.at(stop.point)) - here;
       if (stop.point == point || distance <= 0 || distance > least) return;
       // Where several planes meet, the walk goes on along the one that bounds the corner.
@@ -151,36 +151,37 @@ class Capper {
       const auto meeting = world_.points.meet(side >> 1, other >> 1, third >> 1);
       if (meeting && is_on_corner(*meeting)) offer({*meeting, std::nullopt, third});
     }
-    for (const Switch& s : switches_)
+    for (const RimSwitch& s : switches_)
       if (s.from == other && s.to == side) offer({s.point, s.rim, other});
     return nearest;
   }
 
   /// The edge between `side` and the stop's plane leads from the stop along the corner, not out of
   /// it.
-  [[nodiscard]] bool bounds_corner(Side side, const Stop& stop) {
+  [[nodiscard]] bool bounds_corner(Side side, const WalkStop& stop) {
     const Vec3 direction = ahead(side, stop.other);
     return std::ranges::all_of(component_.sides, [&](Side s) {
       if (s == side || s == stop.other || world_.points.side(stop.point, s >> 1) != 0) return true;
       const double out = dot(world_.planes.normal(s), direction);
-      return corner_ == Corner::concave && s != component_.ground ? out >= 0 : out <= 0;
+      return corner_ == CornerKind::concave && s != component_.ground ? out >= 0 : out <= 0;
     });
   }
 
   [[nodiscard]] bool is_on_corner(int point) {
     return std::ranges::all_of(component_.sides, [&](Side side) {
       const int level = world_.points.level(point, side);
-      return corner_ == Corner::concave && side != component_.ground ? level >= 0 : level <= 0;
+      return corner_ == CornerKind::concave && side != component_.ground ? level >= 0 : level <= 0;
     });
   }
 
   const Boundary& body_;
   World& world_;
   const Component& component_;
-  Corner corner_;
-  Few<Side, 16> labels_;      ///< by place in the rim: the plane of the cap there
-  Few<Place, 16> followers_;  ///< likewise
-  Few<Switch, 8> switches_;
+  CornerKind corner_;
+  boost::container::small_vector<Side, 16>
+      labels_;  ///< by place in the rim: the plane of the cap there
+  boost::container::small_vector<RimPlace, 16> followers_;  ///< likewise
+  boost::container::small_vector<RimSwitch, 8> switches_;
 };
 
 /// Tells whether a component and its caps make a patch, and measures it.
@@ -205,7 +206,7 @@ class Judge {
 
  private:
   /// A side as all points are asked about it.
-  struct Limit {
+  struct SideLimit {
     std::span<const int> ranks;
     int rank, direction;
     /// As PointTable::level.
@@ -216,8 +217,9 @@ class Judge {
   };
 
   /// Those of a component, without the ground.
-  [[nodiscard]] Few<Limit, 4> limits_of(const Component& component) const {
-    Few<Limit, 4> limits;
+  [[nodiscard]] boost::container::small_vector<SideLimit, 4> limits_of(
+      const Component& component) const {
+    boost::container::small_vector<SideLimit, 4> limits;
     for (const Side side : component.sides)
       if (side != component.ground)
         limits.push_back({world_.points.ranks(world_.planes.class_of(side >> 1)),
@@ -225,7 +227,7 @@ class Judge {
     return limits;
   }
 
-  [[nodiscard]] std::optional<Corner> corner_of(const Component& component) const {
+  [[nodiscard]] std::optional<CornerKind> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
     const auto limits = limits_of(component);
     StampSet& met = world_.scratch.met_points;
@@ -235,7 +237,7 @@ class Judge {
         work_ += std::ssize(component.sides);
         if (!met.insert(body_.origin(e))) return;
         int most = -1, least = 1;
-        for (const Limit& limit : limits) {
+        for (const SideLimit& limit : limits) {
           const int level = limit.level(body_.origin(e));
           most = std::max(most, level);
           least = std::min(least, level);
@@ -246,8 +248,8 @@ class Judge {
       });
       if (!is_behind_all && !is_before_all && !is_before_one) return std::nullopt;
     }
-    if (is_behind_all) return Corner::convex_inside;
-    return is_before_all ? Corner::concave : Corner::convex_outside;
+    if (is_behind_all) return CornerKind::convex_inside;
+    return is_before_all ? CornerKind::concave : CornerKind::convex_outside;
   }
 
   /// No facet outside the patch stands in the way of a free edge.
@@ -368,7 +370,11 @@ Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e) {
 
 std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
                                    std::int64_t& work) {
-  return Judge(body, is_hole, work).run(component);
+  PointTable& points = body.body().world().points;
+  const PointTable::PointMark before = points.mark();
+  auto patch = Judge(body, is_hole, work).run(component);
+  if (!patch) points.forget_since(before);
+  return patch;
 }
 
 }  // namespace oriel::detail

@@ -99,7 +99,7 @@ struct Snapshot {
   std::optional<Boundary> body;  ///< none of a cut along edges: it fails before it changes the body
   NodeId node;
   std::size_t nodes, features, waiting;
-  PointTable::Mark points;
+  PointTable::PointMark points;
 };
 
 Snapshot snapshot_of(const GrowingTree& tree, const WaitingBody& from, const Choice& choice) {
@@ -158,7 +158,7 @@ class Cut {
   [[nodiscard]] CutResult take_result() { return std::move(result_); }
 
  private:
-  struct Measures {
+  struct PartMeasures {
     double new_area;
     double value;
   };
@@ -191,7 +191,7 @@ class Cut {
     return take_off_part(std::move(caps), {lump.new_area, lump.value}, std::move(touched));
   }
 
-  bool take_off_part(std::vector<Cap> caps, Measures measures, std::vector<int> touched) {
+  bool take_off_part(std::vector<Cap> caps, PartMeasures measures, std::vector<int> touched) {
     const bool is_natural = choice_.is_natural && touched.empty();
     auto carved =
         take_off(from_.body, caps, choice_.is_hole, tree_.next_feature(), std::move(touched));
@@ -224,7 +224,7 @@ class Cut {
     const Cap cap = pockets.cap_of(lump.pocket);
     const std::vector<int> facets = pockets.facets_of(lump.pocket);
     std::optional<Congruence> how;
-    std::optional<Leaf> leaf;
+    std::optional<PocketLeaf> leaf;
     if (model != nullptr)
       how = pockets.congruence(model->pocket, lump.pocket);
     else
@@ -246,7 +246,7 @@ class Cut {
   }
 
   /// Says of a part what its cut tells: sense, value, areas and planes. `caps`: the largest first.
-  void describe_cut(Feature& feature, std::span<const Cap> caps, Measures measures) {
+  void describe_cut(Feature& feature, std::span<const Cap> caps, PartMeasures measures) {
     // A hole in a void is material: the sense is that of the building.
     const bool is_material = choice_.is_hole == (from_.sign < 0);
     feature.sense = is_material ? Sense::protrusion : Sense::hole;

@@ -20,7 +20,7 @@ std::optional<Vec3> point_inside(std::span<const Outline> cap, Side side,
   const Vec3 normal = planes.normal(side);
   const auto inside = interior_point(cap, normal);
   if (!inside) return std::nullopt;
-  // The first vertex of the outline may lie on its plane by decree only.
+  // The first vertex of the outline may be rounded and lie beside its plane.
   const double off = dot(normal, *inside) - planes.offset_m(side);
   return *inside - off * normal;
 }
@@ -122,14 +122,14 @@ class Remover {
   [[nodiscard]] int twin_of(int rim) const { return body_.world().scratch.twin_of_rim.find(rim); }
 
   /// A free edge that waits for its other side.
-  struct Open {
+  struct OpenEdge {
     int from, to, edge;
   };
 
   /// Half-edges of a cap, linked loop by loop into a facet. Free edges wait in `free` for their
   /// other side; those of the rim are added to `of_rim`.
   static int add_cap(Boundary& boundary, const Cap& cap, Side side, bool is_backward,
-                     std::vector<Open>& free, NumberMap& of_rim) {
+                     std::vector<OpenEdge>& free, NumberMap& of_rim) {
     const int f = boundary.add_facet(side);
     for (const CapLoop& loop : cap.loops) {
       int first = -1, last = -1;
@@ -152,9 +152,9 @@ class Remover {
     return f;
   }
 
-  static void pair_free(Boundary& boundary, const Open& open, std::vector<Open>& free) {
+  static void pair_free(Boundary& boundary, const OpenEdge& open, std::vector<OpenEdge>& free) {
     const auto other = std::ranges::find_if(
-        free, [&](const Open& o) { return o.from == open.to && o.to == open.from; });
+        free, [&](const OpenEdge& o) { return o.from == open.to && o.to == open.from; });
     if (other != free.end())
       boundary.pair(open.edge, other->edge);
     else
@@ -165,7 +165,7 @@ class Remover {
   /// closed.
   void close_lump() {
     Boundary& lump = copier_.boundary();
-    std::vector<Open> free;
+    std::vector<OpenEdge> free;
     NumberMap of_rim;
     of_rim.reserve(rim_size_);
     for (const Cap& cap : caps_) {
@@ -185,7 +185,7 @@ class Remover {
   }
 
   void close_rest(FeatureId mark) {
-    std::vector<Open> free;
+    std::vector<OpenEdge> free;
     NumberMap of_rim;
     of_rim.reserve(rim_size_);
     std::vector<int> facets;

@@ -142,7 +142,7 @@ bool Chooser::is_better(const Choice& p, const Choice& q) const {
 
 /// The lump in front of a candidate. What only floods can tell is flooded, of pockets of one kind
 /// the first; a lump that is alone is none of a kind.
-Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
+Lump Chooser::lump_at(const RegionCandidate& candidate, bool is_alone) {
   const Section& section = *candidate.section;
   const int pocket = pockets_.find(section, candidate.region, is_alone);
   if (pocket >= 0 && !is_alone) {
@@ -163,7 +163,7 @@ Lump Chooser::lump_at(const Candidate& candidate, bool is_alone) {
   return lump;
 }
 
-Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
+Lump Chooser::lump_of(int pocket, const RegionCandidate& candidate) {
   const Section& section = *candidate.section;
   const Region& region = section.regions[at(candidate.region)];
   const auto flooded = pockets_.flooded(pocket, section, region);
@@ -176,7 +176,7 @@ Lump Chooser::lump_of(int pocket, const Candidate& candidate) {
   return lump;
 }
 
-Lump Chooser::flood(const Candidate& candidate) {
+Lump Chooser::flood(const RegionCandidate& candidate) {
   if (candidate.section != flooded_) finder_.emplace(body_, *candidate.section);
   flooded_ = candidate.section;
   return finder_->find(candidate.region);
@@ -198,7 +198,7 @@ std::optional<double> Chooser::key_of(Pass pass, const Region& region, double ne
 
 /// Gives a candidate its lump, and the key of that as a whole. False if it is no feature, or none
 /// of the pass.
-bool Chooser::check(Candidate& candidate, Pass pass, bool is_alone) {
+bool Chooser::check(RegionCandidate& candidate, Pass pass, bool is_alone) {
   const Section& section = *candidate.section;
   const Region& region = section.regions[at(candidate.region)];
   Lump found = lump_at(candidate, is_alone);
@@ -236,7 +236,7 @@ double Chooser::least_key(std::size_t number, Pass pass) {
   auto& leasts = leasts_[static_cast<std::size_t>(pass)];
   if (leasts.empty()) leasts.resize(candidates_.size());
   Least& least = leasts[number];
-  const CutCandidates::Candidate& side = candidates_[number];
+  const CutCandidate& side = candidates_[number];
   if (least.version == side.version && banned_->empty()) return least.key;
   least = {banned_->empty() ? side.version : -1, std::numeric_limits<double>::infinity()};
   for_each_candidate(*side.section, pass,
@@ -246,7 +246,7 @@ double Chooser::least_key(std::size_t number, Pass pass) {
 
 /// Adds the candidates with no larger key; a section that has others waits on with the least of
 /// them.
-void Chooser::take_candidates(std::vector<Candidate>& candidates, Pass pass, double most) {
+void Chooser::take_candidates(std::vector<RegionCandidate>& candidates, Pass pass, double most) {
   const auto before = std::ssize(candidates);
   while (!waiting_.empty() && waiting_.front().first <= most) {
     const auto [least, number] = waiting_.front();
@@ -266,7 +266,7 @@ void Chooser::take_candidates(std::vector<Candidate>& candidates, Pass pass, dou
       waiting_.pop_back();
     }
   }
-  const auto place = [](const Candidate& c) { return std::pair(c.number, c.region); };
+  const auto place = [](const RegionCandidate& c) { return std::pair(c.number, c.region); };
   const auto added = candidates.begin() + before;
   std::ranges::sort(added, candidates.end(), {}, place);
   std::ranges::inplace_merge(candidates.begin(), added, candidates.end(), {}, place);
@@ -274,21 +274,23 @@ void Chooser::take_candidates(std::vector<Candidate>& candidates, Pass pass, dou
 
 /// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
 /// features are dropped.
-void Chooser::check_leaders(std::vector<Candidate>& candidates, Pass pass) {
+void Chooser::check_leaders(std::vector<RegionCandidate>& candidates, Pass pass) {
   const double group = 1 + std::max(kSame, options_.tolerances.value_rel);
   while (!candidates.empty() || !waiting_.empty()) {
     double least = waiting_.empty() ? candidates[0].key : waiting_.front().first;
-    for (const Candidate& c : candidates) least = std::min(least, c.key);
+    for (const RegionCandidate& c : candidates) least = std::min(least, c.key);
     take_candidates(candidates, pass, least * group);
-    const auto leads = [&](const Candidate& c) { return c.lump < 0 && c.key <= least * group; };
+    const auto leads = [&](const RegionCandidate& c) {
+      return c.lump < 0 && c.key <= least * group;
+    };
     std::vector<double> keys;
-    for (const Candidate& c : candidates)
+    for (const RegionCandidate& c : candidates)
       if (leads(c)) keys.push_back(c.key);
     if (keys.empty()) return;
     std::ranges::sort(keys);
     // Candidates of one section stand together, so one finder at a time does.
     flooded_ = nullptr;
-    std::erase_if(candidates, [&](Candidate& c) {
+    std::erase_if(candidates, [&](RegionCandidate& c) {
       return leads(c) && !check(c, pass, is_alone_in(keys, c.key));
     });
   }
@@ -306,15 +308,16 @@ void Chooser::wait_for_sections(Pass pass) {
 }
 
 std::optional<Choice> Chooser::best_section_cut(Pass pass) {
-  std::vector<Candidate> candidates;
+  std::vector<RegionCandidate> candidates;
   lumps_.clear();
   lump_of_kind_.assign(at(pockets_.kind_count()), -1);
   wait_for_sections(pass);
   check_leaders(candidates, pass);
   std::optional<Choice> best;
-  Few<std::pair<std::size_t, bool>, 8> done;  // sections, and which kind of their regions
+  boost::container::small_vector<std::pair<std::size_t, bool>, 8>
+      done;  // sections, and which kind of their regions
   double least = std::numeric_limits<double>::infinity();
-  for (const Candidate& c : candidates) least = std::min(least, c.key);
+  for (const RegionCandidate& c : candidates) least = std::min(least, c.key);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool is_material = candidates[i].section->regions[at(candidates[i].region)].is_material;
     const std::pair kind(candidates[i].number, is_material);
@@ -328,8 +331,9 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass) {
 }
 
 /// The leader with all lumps of the same plane and kind whose value is the same within value_rel.
-Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const {
-  const Candidate& first = candidates[leader];
+Choice Chooser::choice_of(const std::vector<RegionCandidate>& candidates,
+                          std::size_t leader) const {
+  const RegionCandidate& first = candidates[leader];
   const Section& section = *first.section;
   const Region& region = section.regions[at(first.region)];
   Choice choice;
@@ -341,7 +345,7 @@ Choice Chooser::choice_of(const std::vector<Candidate>& candidates, std::size_t 
   choice.sides = {section.split_side(region)};
   choice.section = &section;
   choice.pockets = &pockets_;
-  for (const Candidate& c : candidates) {
+  for (const RegionCandidate& c : candidates) {
     if (c.section != first.section || c.lump < 0 ||
         c.key > first.key * (1 + std::max(kSame, options_.tolerances.value_rel)))
       continue;

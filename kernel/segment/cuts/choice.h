@@ -72,14 +72,14 @@ class Chooser {
     double key = 0;
   };
   /// A region as a candidate of the pass at hand.
-  struct Candidate {
+  struct RegionCandidate {
     std::size_t number = 0;  ///< of its section in candidates_
     const Section* section = nullptr;
     int region = -1;
     int lump = -1;  ///< in lumps_ once the flood has found it
     double key = 0;
   };
-  [[nodiscard]] const Lump& lump_of(const Candidate& candidate) const {
+  [[nodiscard]] const Lump& lump_of(const RegionCandidate& candidate) const {
     return lumps_[static_cast<std::size_t>(candidate.lump)];
   }
   std::optional<Choice> natural_next();
@@ -89,17 +89,17 @@ class Chooser {
                                              double old_area) const;
   [[nodiscard]] double least_key(std::size_t number, Pass pass);
   void wait_for_sections(Pass pass);
-  void take_candidates(std::vector<Candidate>& candidates, Pass pass, double most);
+  void take_candidates(std::vector<RegionCandidate>& candidates, Pass pass, double most);
   template <class Visit>
   void for_each_candidate(const Section& section, Pass pass, Visit visit) const;
-  void check_leaders(std::vector<Candidate>& candidates, Pass pass);
-  bool check(Candidate& candidate, Pass pass, bool is_alone);
-  Lump lump_at(const Candidate& candidate, bool is_alone);
-  Lump lump_of(int pocket, const Candidate& candidate);
-  Lump flood(const Candidate& candidate);
+  void check_leaders(std::vector<RegionCandidate>& candidates, Pass pass);
+  bool check(RegionCandidate& candidate, Pass pass, bool is_alone);
+  Lump lump_at(const RegionCandidate& candidate, bool is_alone);
+  Lump lump_of(int pocket, const RegionCandidate& candidate);
+  Lump flood(const RegionCandidate& candidate);
   std::optional<Choice> best_patch_cut(std::span<const Patch> patches, int min_order,
                                        int max_order);
-  Choice choice_of(const std::vector<Candidate>& candidates, std::size_t leader) const;
+  Choice choice_of(const std::vector<RegionCandidate>& candidates, std::size_t leader) const;
   Choice choice_of(std::span<const Patch* const> patches, const Patch& first) const;
   [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
   [[nodiscard]] bool is_banned(const Section& section, const Region& region) const {

@@ -47,7 +47,7 @@ class CornerCutter {
 
  private:
   /// No new point of the rim had to be put beside the plane it was cut at, as happens on edges
-  /// between vertices by decree: cuts there make slivers that are not flat.
+  /// between rounded vertices: cuts there make slivers that are not flat.
   [[nodiscard]] bool is_exact(const Component& component) const {
     const World& world = body_->world();
     constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before

@@ -70,7 +70,9 @@ void CutCandidates::invalidate(std::span<const RestChange> changes) {
   for (std::size_t k = 0; k < classes_.size(); ++k) {
     const PlanesOfClass& c = classes_[k];
     const auto in_class = std::span(candidates_).subspan(2 * c.first, 2 * (c.last - c.first));
-    const auto is_stale = [](const Candidate& one) { return one.state == State::stale; };
+    const auto is_stale = [](const CutCandidate& one) {
+      return one.state == CutCandidate::State::stale;
+    };
     if (std::ranges::all_of(in_class, is_stale)) continue;
     for (const RestChange& change : changes) invalidate(k, change);
   }
@@ -88,46 +90,49 @@ void CutCandidates::invalidate(std::size_t k, const RestChange& change) {
   const PlaneRanks& planes = edges_.ranks_of_class(k);
   const std::size_t last = 2 * (c.first + planes.before(touched.high + 1));
   for (std::size_t i = 2 * (c.first + planes.before(touched.low)); i < last; ++i) {
-    Candidate& one = candidates_[i];
-    if (one.state == State::stale) continue;
+    CutCandidate& one = candidates_[i];
+    if (one.state == CutCandidate::State::stale) continue;
     const int rank = planes[one.entry - c.first] * one.direction;
     const auto is_beyond = [&](int other) { return other * one.direction > rank; };
     const bool loses_loops_only =
         change.is_natural && !rim.is_empty() && is_beyond(rim.low) == is_beyond(rim.high);
-    one.state = loses_loops_only && one.state != State::cached ? State::shrunk : State::stale;
+    one.state = loses_loops_only && one.state != CutCandidate::State::cached
+                    ? CutCandidate::State::shrunk
+                    : CutCandidate::State::stale;
   }
 }
 
 void CutCandidates::refresh(bool natural_only) {
   if (natural_only && chains_.refresh()) work_ += body_.half_edge_count();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    Candidate& one = candidates_[i];
-    if (one.state == State::cached || one.state == State::active) continue;
+    CutCandidate& one = candidates_[i];
+    if (one.state == CutCandidate::State::cached || one.state == CutCandidate::State::active)
+      continue;
     ++one.version;
-    if (one.state == State::shrunk && prune(one)) continue;
+    if (one.state == CutCandidate::State::shrunk && prune(one)) continue;
     if (one.section != nullptr) one.section->regions.clear();
     if (natural_only && !chains_.may_be_natural(i))
-      one.state = State::stale;
+      one.state = CutCandidate::State::stale;
     else
       make_section(one);
   }
 }
 
 /// Takes the loops that have gone from a section. False if it is to be made anew.
-bool CutCandidates::prune(Candidate& candidate) {
+bool CutCandidates::prune(CutCandidate& candidate) {
   Section& section = section_of(candidate);
   work_ += std::ssize(section.crossings);
   if (!prune_section(body_, section, section_options_)) return false;
-  candidate.state = State::active;
+  candidate.state = CutCandidate::State::active;
   if (is_without_cuts(section)) {
     section.regions.clear();
-    candidate.state = State::cached;
+    candidate.state = CutCandidate::State::cached;
   }
   return true;
 }
 
-void CutCandidates::make_section(Candidate& candidate) {
-  candidate.state = State::cached;
+void CutCandidates::make_section(CutCandidate& candidate) {
+  candidate.state = CutCandidate::State::cached;
   const int plane = planes_[candidate.entry];
   if (!body_.on_plane(plane).has_area()) return;
   const auto edges = edges_.edges_at(candidate.entry, candidate.direction);
@@ -140,12 +145,12 @@ void CutCandidates::make_section(Candidate& candidate) {
   for (const Region& region : fresh_.regions)
     if (region.is_candidate && fresh_.old_area(region) > region.new_area) ++stats_.candidates;
   if (is_without_cuts(fresh_)) return;
-  candidate.state = State::active;
+  candidate.state = CutCandidate::State::active;
   std::swap(section_of(candidate), fresh_);
 }
 
 /// The one that a candidate keeps, or begins to.
-Section& CutCandidates::section_of(Candidate& candidate) {
+Section& CutCandidates::section_of(CutCandidate& candidate) {
   if (candidate.section == nullptr)
     candidate.section = &sections_.emplace_back(planes_[candidate.entry], candidate.direction);
   return *candidate.section;

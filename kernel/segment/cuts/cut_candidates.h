@@ -31,29 +31,28 @@ struct RestChange {
   bool has_covered = false;
 };
 
-/// Where the cuts by one plane may begin: for each side of each split plane of a body the section
-/// just beyond it, kept as long as no cut has touched it.
-class CutCandidates {
- public:
+/// A split plane seen from one side.
+struct CutCandidate {
   enum class State : std::uint8_t {
     stale,   ///< unknown: a cut has touched it since its section was made, or none ever was
     shrunk,  ///< as active, but loops of its section have gone with parts; nothing else has changed
     cached,  ///< nothing can be cut here, as the section has shown
     active,  ///< the section is up to date
   };
-  /// A split plane seen from one side.
-  struct Candidate {
-    std::size_t entry = 0;  ///< of its plane among the split planes
-    int direction = 1;      ///< as that of a Section
-    State state = State::stale;
-    int version = 0;             ///< counts how often it was brought up to date
-    Section* section = nullptr;  ///< null: none was kept ever
 
-    [[nodiscard]] bool has_regions() const {
-      return section != nullptr && !section->regions.empty();
-    }
-  };
+  std::size_t entry = 0;  ///< of its plane among the split planes
+  int direction = 1;      ///< as that of a Section
+  State state = State::stale;
+  int version = 0;             ///< counts how often it was brought up to date
+  Section* section = nullptr;  ///< null: none was kept ever
 
+  [[nodiscard]] bool has_regions() const { return section != nullptr && !section->regions.empty(); }
+};
+
+/// Where the cuts by one plane may begin: for each side of each split plane of a body the section
+/// just beyond it, kept as long as no cut has touched it.
+class CutCandidates {
+ public:
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of the
   /// body.
   CutCandidates(const Boundary& body, const SegmentOptions& options, Side free_side,
@@ -66,7 +65,7 @@ class CutCandidates {
   void refresh(bool natural_only);
 
   [[nodiscard]] std::size_t size() const { return candidates_.size(); }
-  [[nodiscard]] const Candidate& operator[](std::size_t i) const { return candidates_[i]; }
+  [[nodiscard]] const CutCandidate& operator[](std::size_t i) const { return candidates_[i]; }
 
  private:
   /// The split planes of one normal class: planes_[first…last).
@@ -75,10 +74,10 @@ class CutCandidates {
     std::size_t first, last;
   };
   void invalidate(std::size_t k, const RestChange& change);
-  void bring_up_to_date(Candidate& candidate, std::size_t number);
-  void make_section(Candidate& candidate);
-  [[nodiscard]] bool prune(Candidate& candidate);
-  Section& section_of(Candidate& candidate);
+  void bring_up_to_date(CutCandidate& candidate, std::size_t number);
+  void make_section(CutCandidate& candidate);
+  [[nodiscard]] bool prune(CutCandidate& candidate);
+  Section& section_of(CutCandidate& candidate);
 
   const Boundary& body_;
   World& world_;
@@ -89,9 +88,9 @@ class CutCandidates {
   std::vector<PlanesOfClass> classes_;
   EdgeIndex edges_;
   NaturalChains chains_;
-  std::vector<Candidate> candidates_;  ///< of each plane in front, then behind
-  std::deque<Section> sections_;       ///< of candidates
-  Section fresh_;                      ///< room for the section at hand
+  std::vector<CutCandidate> candidates_;  ///< of each plane in front, then behind
+  std::deque<Section> sections_;          ///< of candidates
+  Section fresh_;                         ///< room for the section at hand
 };
 
 }  // namespace oriel::detail

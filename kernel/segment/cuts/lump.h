@@ -6,12 +6,15 @@
 #include <span>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+
 namespace oriel::detail {
 
 /// A connected piece of material (or air) in front of a section plane: what a cut there would split
 /// off.
 struct Lump {
-  Few<int, 2> regions;  ///< of the section, ascending: all its contacts with the plane
+  boost::container::small_vector<int, 2>
+      regions;  ///< of the section, ascending: all its contacts with the plane
   double new_area = 0;
   double volume = 0;
   double value = 0;  ///< the key that the order sorts it by

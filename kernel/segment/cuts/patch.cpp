@@ -92,7 +92,7 @@ class PatchFinder {
   }
 
   /// Where what is listed of a group stands among that of all groups.
-  struct Place {
+  struct ListRange {
     std::size_t first = 0, last = 0;
     template <class T>
     [[nodiscard]] std::span<const T> of(const std::vector<T>& all) const {
@@ -101,12 +101,12 @@ class PatchFinder {
   };
   /// Facets that hang together, with what is around them.
   struct Grown {
-    Place facets;
+    ListRange facets;
     double area = 0;
-    Vec3 open;     ///< the sum of area × normal, which caps have to make up for
-    Place rim;     ///< half-edges to other groups or the ground
-    Place sides;   ///< of its own facets, ascending
-    Place beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
+    Vec3 open;         ///< the sum of area × normal, which caps have to make up for
+    ListRange rim;     ///< half-edges to other groups or the ground
+    ListRange sides;   ///< of its own facets, ascending
+    ListRange beyond;  ///< what lies across the rim: sides, and the groups they are of; sorted
     bool meets_ground = false;
   };
   /// A half-edge of a rim, and the facet beyond it.
@@ -116,7 +116,7 @@ class PatchFinder {
 
   /// Sorts what stands from `first` on, each once.
   template <class T>
-  static Place close(std::vector<T>& all, std::size_t first) {
+  static ListRange close(std::vector<T>& all, std::size_t first) {
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
     std::ranges::sort(begin, all.end());
     all.erase(std::unique(begin, all.end()), all.end());
@@ -188,10 +188,10 @@ class PatchFinder {
       return false;
     const std::size_t begin = met_groups_.size();
     met_groups_.insert(met_groups_.end(), widened_.begin(), widened_.end());
-    met_.emplace(name, Place{begin, met_groups_.size()});
+    met_.emplace(name, ListRange{begin, met_groups_.size()});
     return true;
   }
-  [[nodiscard]] bool is_at_hand(const Place& set) const {
+  [[nodiscard]] bool is_at_hand(const ListRange& set) const {
     const auto groups = set.of(met_groups_);
     return groups.size() == widened_.size() &&
            std::ranges::all_of(groups, [&](int n) { return is_widened(n); });
@@ -242,7 +242,7 @@ class PatchFinder {
   /// bits of limit_bits_, and between which group `n`, which the component is, can be widened.
   template <class Visit>
   void for_fewer_sides(int n, const Component& component, const Visit& visit) {
-    Few<Side, kMostLimits> sides;
+    boost::container::small_vector<Side, kMostLimits> sides;
     for (const Side side : component.sides)
       if (side != component.ground) sides.push_back(side);
     if (sides.size() < 3 || sides.size() > kMostLimits) return;
@@ -262,9 +262,9 @@ class PatchFinder {
   /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
   /// them: it becomes too large there as well, and runs into the same planes where the set has
   /// them.
-  Few<unsigned, kMostSets> sets_to_widen_in(int n, std::size_t sides) {
+  boost::container::small_vector<unsigned, kMostSets> sets_to_widen_in(int n, std::size_t sides) {
     const unsigned all = (1U << sides) - 1;
-    Few<unsigned, kMostSets> sets;
+    boost::container::small_vector<unsigned, kMostSets> sets;
     std::array<unsigned, kMostSets> run_into;
     run_into[all] = at_hand_[at(n)].own_limits;
     for (unsigned set = all - 1; set > 0; --set) {
@@ -344,7 +344,7 @@ class PatchFinder {
       open = open + grown_[at(n)].open;
       area += grown_[at(n)].area;
     }
-    Few<Vec3, 4> normals;
+    boost::container::small_vector<Vec3, 4> normals;
     for (const Side side : component.sides) {
       normals.push_back(world_.planes.normal(side));
       old_area += body_.area_on(side);
@@ -386,7 +386,7 @@ class PatchFinder {
   /// By side: its bit in the sets of for_fewer_sides(), 0 if it is in none.
   std::vector<unsigned> limit_bits_;
   /// Groups that were at hand together, in met_groups_, by a name that others hardly have.
-  std::unordered_multimap<std::uint64_t, Place> met_;
+  std::unordered_multimap<std::uint64_t, ListRange> met_;
   std::vector<int> met_groups_;
   std::vector<Patch> patches_;
 };

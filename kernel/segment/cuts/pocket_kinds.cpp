@@ -27,7 +27,7 @@ Vec3 Pockets::in_metres(const std::array<std::int64_t, 3>& shift) const {
 /// Whether the pocket at hand is of a kind. If so its half-edges are in walk_, in the kind's order,
 /// and all that list_facets() asks for is known to hold: nothing is asked for that the kind has
 /// not.
-bool Pockets::is_like(const Kind& kind, Pocket& pocket, const Section& section) {
+bool Pockets::is_like(const PocketKind& kind, Pocket& pocket, const Section& section) {
   if (std::ssize(rim_) != kind.rim) return false;
   const double grid_m = body_.world().points.grid_m();
   const Vec3 difference = corner_ - kind.corner;
@@ -45,7 +45,7 @@ bool Pockets::is_like(const Kind& kind, Pocket& pocket, const Section& section) 
 
 /// Lists the half-edges of the pocket at hand from `start` on as those of the kind are listed.
 /// False if its facets hang together otherwise.
-bool Pockets::walk_like(const Kind& kind, int start, Vec3 shift) {
+bool Pockets::walk_like(const PocketKind& kind, int start, Vec3 shift) {
   StampSet& is_found = body_.world().scratch.facets_of_lump;
   is_found.start(body_.facet_count());
   is_found.insert(wall_);
@@ -103,12 +103,12 @@ std::optional<int> Pockets::find_in_facet(int f, Vec3 place) const {
 }
 
 /// Vertices are those of the kind, moved; and those beside the rim are in front of the section.
-bool Pockets::are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const {
+bool Pockets::are_corners_like(const PocketKind& kind, Vec3 shift, const Section& section) const {
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int limit = planes.rank_of(section.plane) * section.direction;
   const auto edges = edges_of(pockets_[at(kind.first)]);
-  return std::ranges::all_of(kind.corners, [&](const Corner& corner) {
+  return std::ranges::all_of(kind.corners, [&](const PocketCorner& corner) {
     const int e = walk_[at(corner.edge)];
     return is_same_place(body_.at(e) - body_.at(edges[at(corner.edge)]) - shift) &&
            (corner.is_on_rim || ranks[at(body_.origin(e))] * section.direction > limit);
@@ -116,7 +116,7 @@ bool Pockets::are_corners_like(const Kind& kind, Vec3 shift, const Section& sect
 }
 
 /// The planes are those of the kind, moved, and the facets are made of as many of the solid's.
-bool Pockets::are_facets_like(const Kind& kind, const Pocket& pocket) {
+bool Pockets::are_facets_like(const PocketKind& kind, const Pocket& pocket) {
   const auto edges = edges_of(pockets_[at(kind.first)]);
   std::size_t i = 0;
   return std::ranges::all_of(kind.sizes, [&](int size) {
@@ -141,7 +141,7 @@ bool Pockets::is_moved(Side from, Side to, const std::array<std::int64_t, 3>& sh
 
 /// The pocket at hand is the first of its kind; -1 if it is none.
 int Pockets::new_kind(const Section& section, const Region& region) {
-  Kind kind;
+  PocketKind kind;
   constexpr std::size_t kFacets = 8;  // a window has no more, mostly
   kind.sizes.reserve(kFacets);
   kind.loops.reserve(kFacets);
@@ -160,7 +160,7 @@ int Pockets::new_kind(const Section& section, const Region& region) {
   return static_cast<int>(kinds_.size()) - 1;
 }
 
-void Pockets::list_corners(Kind& kind) {
+void Pockets::list_corners(PocketKind& kind) {
   StampMap& corner_at = body_.world().scratch.corner_at_point;
   corner_at.start(body_.world().points.size());
   kind.corners.reserve(walk_.size() / 2);  // no fewer half-edges begin at a vertex
@@ -177,7 +177,7 @@ void Pockets::list_corners(Kind& kind) {
 }
 
 /// What its lump and its leaf ask for, beside convexity.
-void Pockets::judge(Kind& kind, bool is_hole) const {
+void Pockets::judge(PocketKind& kind, bool is_hole) const {
   const StampMap& corner_at = body_.world().scratch.corner_at_point;
   const auto is_on_rim = [&](int point) {
     return kind.corners[at(corner_at.find(point))].is_on_rim;
@@ -186,7 +186,7 @@ void Pockets::judge(Kind& kind, bool is_hole) const {
   kind.has_bend = is_hole && kind.is_convex &&
                   std::ranges::any_of(kind.twins, [](int twin) { return twin >= 0; });
   kind.is_leaf = kind.is_convex && kind.loops.size() == kind.sizes.size() &&
-                 std::ranges::all_of(kind.corners, [](const Corner& corner) {
+                 std::ranges::all_of(kind.corners, [](const PocketCorner& corner) {
                    return corner.facets + (corner.is_on_rim ? 1 : 0) > 2;
                  });
   std::size_t i = 0;
@@ -208,9 +208,9 @@ void Pockets::judge(Kind& kind, bool is_hole) const {
   }
 }
 
-std::optional<Pockets::Flooded> Pockets::flooded(int pocket, const Section& section,
-                                                 const Region& region) const {
-  const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+std::optional<Pockets::FloodedPocket> Pockets::flooded(int pocket, const Section& section,
+                                                       const Region& region) const {
+  const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   if (kind.is_unclear) return std::nullopt;
   const auto& planes = body_.world().planes;
   const auto edges = edges_of(pockets_[at(pocket)]);
@@ -222,10 +222,11 @@ std::optional<Pockets::Flooded> Pockets::flooded(int pocket, const Section& sect
     first += at(size);
   }
   const double cap = planes.offset_m(section.looking()) * region.area;
-  return Flooded{((region.is_material ? sum : -sum) - cap) / 3, kind.has_bend};
+  return FloodedPocket{((region.is_material ? sum : -sum) - cap) / 3, kind.has_bend};
 }
 
-bool Pockets::is_convex_pocket(const Kind& kind, std::span<const int> edges, bool is_hole) const {
+bool Pockets::is_convex_pocket(const PocketKind& kind, std::span<const int> edges,
+                               bool is_hole) const {
   constexpr double kHardly = 0.02;  // sine: flatter edges are left to Boundary::is_reflex
   const auto& planes = body_.world().planes;
   for (std::size_t i = 0; i < edges.size(); ++i) {

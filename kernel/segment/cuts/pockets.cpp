@@ -26,11 +26,11 @@ void Pockets::changed(const std::vector<RestChange>& changes) {
     for (const int p : change.points) is_touched.insert(p);
   const auto has_gone = [&](const Pocket& pocket) {
     const auto edges = edges_of(pocket);
-    return std::ranges::any_of(kinds_[at(pocket.kind)].corners, [&](const Corner& corner) {
+    return std::ranges::any_of(kinds_[at(pocket.kind)].corners, [&](const PocketCorner& corner) {
       return is_touched.contains(body_.origin(edges[at(corner.edge)]));
     });
   };
-  for (Kind& kind : kinds_)
+  for (PocketKind& kind : kinds_)
     if (kind.cap >= 0 && has_gone(pockets_[at(kind.first)])) kind.cap = -1;
   for (Pocket& pocket : pockets_)
     if (pocket.kind >= 0 && (kinds_[at(pocket.kind)].cap < 0 || has_gone(pocket))) pocket.kind = -1;
@@ -42,7 +42,7 @@ int Pockets::find_known(const Section& section, const Region& region) const {
   const int known =
       at_edge_.find(section.crossings[at(section.loops[at(region.loops[0])].first)].edge);
   if (known < 0 || pockets_[at(known)].kind < 0) return -1;
-  const Kind& kind = kinds_[at(pockets_[at(known)].kind)];
+  const PocketKind& kind = kinds_[at(pockets_[at(known)].kind)];
   const bool is_of_section =
       kind.cap == section.split_side(region) && kind.direction == section.direction;
   return is_of_section ? known : -1;
@@ -108,7 +108,7 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
 
 /// Lists what hangs together inside the rim. False if it is no pocket: its half-edges begin in
 /// front of the section or on the rim, and to the wall there are edges of the rim only.
-bool Pockets::list_facets(const Section& section, Kind& kind) {
+bool Pockets::list_facets(const Section& section, PocketKind& kind) {
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int limit = planes.rank_of(section.plane) * section.direction;
@@ -135,7 +135,7 @@ bool Pockets::list_facets(const Section& section, Kind& kind) {
 }
 
 /// False if it is none of a pocket.
-bool Pockets::list_facet(Kind& kind, int first) {
+bool Pockets::list_facet(PocketKind& kind, int first) {
   const int f = body_.facet_of(first), loop = body_.edge(first).loop;
   const auto& facet = body_.facet(f);
   if (!facet.marks.empty() || facets_.size() == kMostPocketFacets) return false;
@@ -151,7 +151,7 @@ bool Pockets::list_facet(Kind& kind, int first) {
   return !has_rim;
 }
 
-void Pockets::list_loop(Kind& kind, int first) {
+void Pockets::list_loop(PocketKind& kind, int first) {
   StampMap& place = body_.world().scratch.place_in_walk;
   const int before = static_cast<int>(walk_.size());
   int e = first;
@@ -182,7 +182,7 @@ std::span<const int> Pockets::edges_of(const Pocket& pocket) const {
 
 Cap Pockets::cap_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
-  const Kind& kind = kinds_[at(here.kind)];
+  const PocketKind& kind = kinds_[at(here.kind)];
   Cap cap{kind.cap, {}, {}};
   CapLoop& loop = cap.loops.emplace_back();
   loop.edges.reserve(at(kind.rim));
@@ -191,18 +191,18 @@ Cap Pockets::cap_of(int pocket) const {
   return cap;
 }
 
-Leaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hole) const {
+PocketLeaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hole) const {
   // Facet by facet and edge by edge as take_off() makes a body of it.
-  const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+  const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   const int flip = is_hole ? 1 : 0;
-  Leaf leaf;
+  PocketLeaf leaf;
   leaf.faces.reserve(kind.sizes.size() + 1);
   leaf.sources.reserve(kind.sizes.size());
   for (const int f : facets) {
     const auto& facet = body_.facet(f);
     for (const int source : facet.sources)
       leaf.sources.push_back({source, static_cast<int>(leaf.faces.size())});
-    Leaf::Face& face = leaf.faces.emplace_back(facet.side ^ flip, Loop{});
+    PocketLeaf::LeafFace& face = leaf.faces.emplace_back(facet.side ^ flip, Loop{});
     const int first = body_.loop(facet.loops[0]).first;
     face.loop.reserve(4);  // mostly
     int e = first;
@@ -212,7 +212,7 @@ Leaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hole) con
     } while (e != first);
   }
   const auto rim = std::span(rims_).subspan(at(pockets_[at(pocket)].first_rim), at(kind.rim));
-  Leaf::Face& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
+  PocketLeaf::LeafFace& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
   cap.loop.reserve(rim.size());
   for (const int e : rim) cap.loop.push_back(is_hole ? body_.origin(e) : body_.target(e));
   if (!is_hole) std::ranges::reverse(cap.loop);
@@ -221,17 +221,18 @@ Leaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hole) con
 
 std::vector<int> Pockets::points_of(int pocket) const {
   const auto edges = edges_of(pockets_[at(pocket)]);
-  const Kind& kind = kinds_[at(pockets_[at(pocket)].kind)];
+  const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   std::vector<int> points;
   points.reserve(kind.corners.size());
-  for (const Corner& corner : kind.corners) points.push_back(body_.origin(edges[at(corner.edge)]));
+  for (const PocketCorner& corner : kind.corners)
+    points.push_back(body_.origin(edges[at(corner.edge)]));
   std::ranges::sort(points);
   return points;
 }
 
 std::vector<int> Pockets::facets_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
-  const Kind& kind = kinds_[at(here.kind)];
+  const PocketKind& kind = kinds_[at(here.kind)];
   std::vector<int> facets;
   facets.reserve(kind.sizes.size());
   int i = here.first_edge;
@@ -243,15 +244,15 @@ std::vector<int> Pockets::facets_of(int pocket) const {
   return facets;
 }
 
-Pockets::Order Pockets::order_of(int pocket) const {
+Pockets::PocketOrder Pockets::order_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
-  const Kind& kind = kinds_[at(here.kind)];
+  const PocketKind& kind = kinds_[at(here.kind)];
   const auto edges = edges_of(here);
-  Order order{pocket, {}, {}, {}};
+  PocketOrder order{pocket, {}, {}, {}};
   order.points.reserve(kind.corners.size());
   order.planes.reserve(kind.sizes.size() + 1);
   order.sources.reserve(kind.sizes.size());
-  for (const Corner& corner : kind.corners)
+  for (const PocketCorner& corner : kind.corners)
     order.points.emplace_back(body_.origin(edges[at(corner.edge)]), corner.edge);
   order.planes.emplace_back(kind.cap >> 1, -1);
   int first = 0;

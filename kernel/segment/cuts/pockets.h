@@ -37,12 +37,12 @@ class Pockets {
   int find(const Section& section, int region, bool is_alone);
   /// What a flood from the region of a pocket finds, which is sound and finite; nothing if only a
   /// flood can tell.
-  struct Flooded {
+  struct FloodedPocket {
     double volume;
     bool has_bend;
   };
-  [[nodiscard]] std::optional<Flooded> flooded(int pocket, const Section& section,
-                                               const Region& region) const;
+  [[nodiscard]] std::optional<FloodedPocket> flooded(int pocket, const Section& section,
+                                                     const Region& region) const;
 
   [[nodiscard]] int kind_count() const { return static_cast<int>(kinds_.size()); }
   /// Pockets of one kind lie in front of one section and are congruent, in all that a segmentation
@@ -54,7 +54,7 @@ class Pockets {
 
   /// What a pocket that is_leaf() becomes, but for its volume; `facets` are its facets_of(). Needs
   /// the body as it was.
-  [[nodiscard]] Leaf leaf_of(int pocket, std::span<const int> facets, bool is_hole) const;
+  [[nodiscard]] PocketLeaf leaf_of(int pocket, std::span<const int> facets, bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
   [[nodiscard]] std::vector<int> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
@@ -71,14 +71,14 @@ class Pockets {
     std::array<std::int64_t, 3> shift = {};  ///< from the first of its kind, in grid units
   };
   /// A vertex, as a half-edge that begins there.
-  struct Corner {
+  struct PocketCorner {
     int edge;
     bool is_on_rim;
     int facets = 0;  ///< of the pocket, that meet there
   };
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
   /// listed facet by facet, in the order in which these are met.
-  struct Kind {
+  struct PocketKind {
     Side cap = -1;  ///< -1: the first has gone, and with it the kind
     int direction = 0;
     bool is_convex = false, is_leaf = false;
@@ -90,11 +90,11 @@ class Pockets {
     std::vector<int> loops;    ///< the same of their loops
     std::vector<int> entries;  ///< of each facet but the first: the half-edge over which it is met
     std::vector<int> twins;    ///< by half-edge; -1: of the rim
-    std::vector<Corner> corners;  ///< one for each vertex
-    int rim = 0;                  ///< how many
+    std::vector<PocketCorner> corners;  ///< one for each vertex
+    int rim = 0;                        ///< how many
   };
   /// The vertices, planes and sources of a pocket in the order in which maps from it list them.
-  struct Order {
+  struct PocketOrder {
     int pocket = -1;
     std::vector<std::pair<int, int>> points;  ///< with a half-edge that begins there
     std::vector<std::pair<int, int>> planes;  ///< with a half-edge of a facet; -1: the cap's
@@ -105,34 +105,35 @@ class Pockets {
   [[nodiscard]] int find_known(const Section& section, const Region& region) const;
   bool trace_rim(const Section& section, const Region& region);
   [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
-  [[nodiscard]] bool is_like(const Kind& kind, Pocket& pocket, const Section& section);
-  bool walk_like(const Kind& kind, int start, Vec3 shift);
+  [[nodiscard]] bool is_like(const PocketKind& kind, Pocket& pocket, const Section& section);
+  bool walk_like(const PocketKind& kind, int start, Vec3 shift);
   bool walk_facet(int first, std::span<const int> model, std::span<const int>& loops, Vec3 shift);
   bool walk_loop(int first, int size);
   [[nodiscard]] std::optional<int> find_in_facet(int f, Vec3 place) const;
-  [[nodiscard]] bool are_corners_like(const Kind& kind, Vec3 shift, const Section& section) const;
-  [[nodiscard]] bool are_facets_like(const Kind& kind, const Pocket& pocket);
+  [[nodiscard]] bool are_corners_like(const PocketKind& kind, Vec3 shift,
+                                      const Section& section) const;
+  [[nodiscard]] bool are_facets_like(const PocketKind& kind, const Pocket& pocket);
   [[nodiscard]] bool has_own_sources();
   [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
   int new_kind(const Section& section, const Region& region);
-  bool list_facets(const Section& section, Kind& kind);
-  bool list_facet(Kind& kind, int first);
-  void list_loop(Kind& kind, int first);
-  void list_corners(Kind& kind);
-  void judge(Kind& kind, bool is_hole) const;
-  [[nodiscard]] bool is_convex_pocket(const Kind& kind, std::span<const int> edges,
+  bool list_facets(const Section& section, PocketKind& kind);
+  bool list_facet(PocketKind& kind, int first);
+  void list_loop(PocketKind& kind, int first);
+  void list_corners(PocketKind& kind);
+  void judge(PocketKind& kind, bool is_hole) const;
+  [[nodiscard]] bool is_convex_pocket(const PocketKind& kind, std::span<const int> edges,
                                       bool is_hole) const;
   [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;
   [[nodiscard]] Vec3 in_metres(const std::array<std::int64_t, 3>& shift) const;
-  [[nodiscard]] Order order_of(int pocket) const;
+  [[nodiscard]] PocketOrder order_of(int pocket) const;
 
   const Boundary& body_;
   int ground_plane_;
   std::vector<Pocket> pockets_;
-  std::vector<Kind> kinds_;
+  std::vector<PocketKind> kinds_;
   std::vector<int> edges_, rims_;  ///< of the pockets
   StampMap at_edge_;               ///< pockets, by the first crossing of their regions
-  mutable Order order_;            ///< of the model that was asked for last
+  mutable PocketOrder order_;      ///< of the model that was asked for last
 
   // The pocket at hand.
   std::vector<int> rim_, facets_, walk_;

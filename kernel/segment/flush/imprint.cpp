@@ -16,7 +16,7 @@ struct ChordStop {
 };
 
 class Imprinter {
-  using Rim = Few<int, 32>;  ///< half-edges
+  using Rim = boost::container::small_vector<int, 32>;  ///< half-edges
 
  public:
   Imprinter(Boundary& body, const Section& section, const Lump& lump, std::vector<int>& touched)
@@ -142,7 +142,7 @@ class Imprinter {
     const int f = body_.facet_of(begin);
     const Vec3 line = line_in(f);
     const int last_in = body_.prev(end);
-    Few<ChordStop, 4> stops{
+    boost::container::small_vector<ChordStop, 4> stops{
         {begin, body_.next(begin), dot(line, body_.world().points.at(body_.target(begin)))}};
     const double goal = dot(line, body_.at(end));
     for (const ChordStop& corner : corners_.at(f))
@@ -214,8 +214,9 @@ class Imprinter {
   int normal_class_;
   int plane_rank_;
   Vec3 axis_;
-  std::map<int, Few<ChordStop, 4>> corners_;
-  std::map<int, Few<int, 8>> fresh_;  ///< half-edges whose cycles have changed, by facet
+  std::map<int, boost::container::small_vector<ChordStop, 4>> corners_;
+  std::map<int, boost::container::small_vector<int, 8>>
+      fresh_;  ///< half-edges whose cycles have changed, by facet
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/boundary/reach.h"
-#include "kernel/segment/flush/insets.h"
-#include "kernel/segment/flush/loose.h"
+#include "kernel/segment/flush/contained_polygons.h"
 #include "kernel/segment/flush/subdivisions.h"
+#include "kernel/segment/flush/unassigned_polygons.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@ namespace oriel {
 
 namespace {
 
-using detail::Inset;
+using detail::ContainedPolygons;
 using detail::Outline;
 using detail::Reach;
 
 /// A feature of the tree whose largest cap lies in the plane of a subdivision.
-struct Resident {
+struct CapInPlane {
   FeatureId id;
   Reach cap;  ///< of its points in that plane
 };
@@ -35,15 +35,16 @@ class ImprintWriter {
         out_(segmentation),
         tolerances_(tolerances),
         subdivisions_(detail::subdivisions_of(building, solid, tolerances)),
-        insets_(find_insets(solid, subdivisions_, tolerances)),
+        contained_(find_contained(solid, subdivisions_, tolerances)),
         tree_features_(segmentation.features.size()) {}
 
   void run() {
-    if (insets_.empty()) return;
+    if (contained_.empty()) return;
     find_homes();
-    for (std::size_t i = 0; i < insets_.size();) {
+    for (std::size_t i = 0; i < contained_.size();) {
       std::size_t past = i;
-      while (past < insets_.size() && insets_[past].subdivision == insets_[i].subdivision) ++past;
+      while (past < contained_.size() && contained_[past].subdivision == contained_[i].subdivision)
+        ++past;
       write_subdivision(i, past);
       i = past;
     }
@@ -52,8 +53,8 @@ class ImprintWriter {
 
  private:
   [[nodiscard]] Feature& feature(FeatureId id) { return out_.features[id.index()]; }
-  [[nodiscard]] const Facet& facet_of(const Inset& inset) const {
-    return solid_.facets[subdivisions_.subdivisions[at(inset.subdivision)].facet.index()];
+  [[nodiscard]] const Facet& facet_of(const ContainedPolygons& contained) const {
+    return solid_.facets[subdivisions_.subdivisions[at(contained.subdivision)].facet.index()];
   }
 
   /// Which cell facet has an input polygon, and which features lie in which plane.
@@ -75,11 +76,11 @@ class ImprintWriter {
         if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
           cap.push_back(p);
       }
-      residents_[f.planes.front()].push_back(
+      caps_on_[f.planes.front()].push_back(
           {FeatureId{i}, detail::axes_in(plane.normal).reach_of(cap)});
     }
-    for (auto& [plane, residents] : residents_)
-      std::ranges::stable_sort(residents, {}, [](const Resident& r) { return r.cap.u0; });
+    for (auto& [plane, caps] : caps_on_)
+      std::ranges::stable_sort(caps, {}, [](const CapInPlane& r) { return r.cap.u0; });
   }
 
   /// What the cap of a feature is told by: of an uncut one its ring, as it holds what lies beside
@@ -93,25 +94,25 @@ class ImprintWriter {
 
   /// The insets of one subdivision, the largest first.
   void write_subdivision(std::size_t first, std::size_t past) {
-    const PlaneId plane = facet_of(insets_[first]).plane;
+    const PlaneId plane = facet_of(contained_[first]).plane;
     const detail::ReachAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
     for (std::size_t i = first; i < past; ++i) {
-      Inset& inset = insets_[i];
-      const auto home = home_of(inset);
+      ContainedPolygons& contained = contained_[i];
+      const auto home = home_of(contained);
       if (!home) continue;
-      if (!inset.whole.empty() && fills_whole(inset, plane, axes)) {
-        inset.outline = std::move(inset.whole);
-        inset.area_m2 = detail::signed_area(inset.outline, normal_of(plane));
+      if (!contained.whole.empty() && fills_whole(contained, plane, axes)) {
+        contained.outline = std::move(contained.whole);
+        contained.area_m2 = detail::signed_area(contained.outline, normal_of(plane));
       }
-      if (inset.outline.empty()) continue;
-      const Reach reach = axes.reach_of(inset.outline);
-      const std::vector<FeatureId> within = residents_within(inset.outline, plane, reach);
-      if (absorb(inset, within, reach, axes)) continue;
+      if (contained.outline.empty()) continue;
+      const Reach reach = axes.reach_of(contained.outline);
+      const std::vector<FeatureId> within = features_within(contained.outline, plane, reach);
+      if (absorb(contained, within, reach, axes)) continue;
       const FeatureId id{static_cast<int>(out_.features.size())};
-      out_.features.push_back(make(inset, *home, plane));
-      for (const FeatureId resident : within)
-        if (!carries(resident, id)) feature(resident).host = id;
-      for (const int p : inset.polygons) owner_[p] = id;
+      out_.features.push_back(make(contained, *home, plane));
+      for (const FeatureId found_id : within)
+        if (!carries(found_id, id)) feature(found_id).host = id;
+      for (const int p : contained.polygons) owner_[p] = id;
     }
   }
 
@@ -123,10 +124,10 @@ class ImprintWriter {
   }
 
   /// The cell facet that has the largest of the polygons.
-  [[nodiscard]] std::optional<CellFacet> home_of(const Inset& inset) const {
+  [[nodiscard]] std::optional<CellFacet> home_of(const ContainedPolygons& contained) const {
     std::optional<CellFacet> home;
     double largest = -1;
-    for (const int p : inset.polygons) {
+    for (const int p : contained.polygons) {
       const detail::SubdivisionPolygon& polygon = subdivisions_.polygons[at(p)];
       const auto found = home_.find(polygon.source);
       if (found == home_.end() || polygon.area_m2 <= largest) continue;
@@ -137,14 +138,14 @@ class ImprintWriter {
   }
 
   /// The features of the tree whose largest cap lies within an outline.
-  [[nodiscard]] std::vector<FeatureId> residents_within(const Outline& outline, PlaneId plane,
-                                                        const Reach& reach) {
+  [[nodiscard]] std::vector<FeatureId> features_within(const Outline& outline, PlaneId plane,
+                                                       const Reach& reach) {
     std::vector<FeatureId> within;
-    const auto found = residents_.find(plane);
-    if (found == residents_.end()) return within;
+    const auto found = caps_on_.find(plane);
+    if (found == caps_on_.end()) return within;
     const double slack = slack_m();
     auto r = std::ranges::lower_bound(found->second, reach.u0 - slack, {},
-                                      [](const Resident& resident) { return resident.cap.u0; });
+                                      [](const CapInPlane& found_id) { return found_id.cap.u0; });
     for (; r != found->second.end() && r->cap.u0 <= reach.u1; ++r) {
       if (!reach.holds(r->cap, slack)) continue;
       if (detail::contains({{outline}}, normal_of(plane), feature(r->id).cap_point))
@@ -161,15 +162,17 @@ class ImprintWriter {
   }
 
   /// Polygons and recesses together are what the host leaves free.
-  [[nodiscard]] bool fills_whole(const Inset& inset, PlaneId plane, const detail::ReachAxes& axes) {
+  [[nodiscard]] bool fills_whole(const ContainedPolygons& contained, PlaneId plane,
+                                 const detail::ReachAxes& axes) {
     double filled_m2 = 0;
-    for (const int p : inset.polygons) filled_m2 += subdivisions_.polygons[at(p)].area_m2;
-    for (const FeatureId id : residents_within(inset.whole, plane, axes.reach_of(inset.whole))) {
+    for (const int p : contained.polygons) filled_m2 += subdivisions_.polygons[at(p)].area_m2;
+    for (const FeatureId id :
+         features_within(contained.whole, plane, axes.reach_of(contained.whole))) {
       if (feature(id).sense != Sense::hole) return false;
       filled_m2 += feature(id).new_area_m2;
     }
     constexpr double kFilled = 0.98;  // noise, and what a cut leaves at the rim
-    return filled_m2 >= kFilled * detail::signed_area(inset.whole, normal_of(plane));
+    return filled_m2 >= kFilled * detail::signed_area(contained.whole, normal_of(plane));
   }
 
   /// How far the input's points and those that were snapped to planes may be apart.
@@ -178,13 +181,13 @@ class ImprintWriter {
   [[nodiscard]] Vec3 normal_of(PlaneId plane) const { return solid_.planes[plane.index()].normal; }
 
   /// True if the outline is that of a recess: then the recess has the polygons.
-  bool absorb(const Inset& inset, const std::vector<FeatureId>& within, const Reach& reach,
-              const detail::ReachAxes& axes) {
+  bool absorb(const ContainedPolygons& contained, const std::vector<FeatureId>& within,
+              const Reach& reach, const detail::ReachAxes& axes) {
     for (const FeatureId id : within) {
       Feature& recess = feature(id);
       if (recess.sense != Sense::hole && !recess.is_uncut) continue;
       if (!axes.reach_of(cap_points_of(recess)).holds(reach, slack_m())) continue;
-      for (const int p : inset.polygons) {
+      for (const int p : contained.polygons) {
         recess.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
         owner_[p] = id;
       }
@@ -200,9 +203,9 @@ class ImprintWriter {
   }
 
   /// The smaller of the imprint and the uncut feature that have the host polygon.
-  [[nodiscard]] std::optional<FeatureId> host_of(const Inset& inset) const {
-    const auto imprint = owner_.find(inset.host);
-    const auto ring = ring_.find(subdivisions_.polygons[at(inset.host)].source);
+  [[nodiscard]] std::optional<FeatureId> host_of(const ContainedPolygons& contained) const {
+    const auto imprint = owner_.find(contained.host);
+    const auto ring = ring_.find(subdivisions_.polygons[at(contained.host)].source);
     if (imprint == owner_.end() && ring == ring_.end()) return std::nullopt;
     if (imprint == owner_.end()) return ring->second;
     if (ring == ring_.end()) return imprint->second;
@@ -210,22 +213,22 @@ class ImprintWriter {
     return area_m2(ring->second) < area_m2(imprint->second) ? ring->second : imprint->second;
   }
 
-  Feature make(const Inset& inset, CellFacet home, PlaneId plane) {
+  Feature make(const ContainedPolygons& contained, CellFacet home, PlaneId plane) {
     Feature f;
     f.sense = Sense::imprint;
     f.parent = out_.cells[home.cell.index()].feature;
-    f.host = host_of(inset).value_or(f.parent);
+    f.host = host_of(contained).value_or(f.parent);
     f.host_facet = home;
-    f.new_area_m2 = inset.area_m2;
+    f.new_area_m2 = contained.area_m2;
     f.planes = {plane};
-    f.cap_point =
-        detail::interior_point({{inset.outline}}, normal_of(plane)).value_or(inset.outline[0]);
+    f.cap_point = detail::interior_point({{contained.outline}}, normal_of(plane))
+                      .value_or(contained.outline[0]);
     f.is_natural = true;
-    for (const int p : inset.polygons) {
+    for (const int p : contained.polygons) {
       f.source_polygons.push_back(subdivisions_.polygons[at(p)].source);
       f.surface_m2 += subdivisions_.polygons[at(p)].area_m2;
     }
-    for (const Vec3 p : inset.outline) {
+    for (const Vec3 p : contained.outline) {
       f.outline.push_back(static_cast<int>(out_.vertices.size()));
       out_.vertices.push_back({p, false});
       f.box.grow(p);
@@ -267,10 +270,10 @@ class ImprintWriter {
   Segmentation& out_;
   const Tolerances& tolerances_;
   detail::Subdivisions subdivisions_;
-  std::vector<Inset> insets_;
+  std::vector<ContainedPolygons> contained_;
   std::size_t tree_features_;
   std::map<int, CellFacet> home_;  ///< by Polygon::source
-  std::map<PlaneId, std::vector<Resident>> residents_;
+  std::map<PlaneId, std::vector<CapInPlane>> caps_on_;
   std::map<int, FeatureId> ring_;   ///< by Polygon::source: the smallest uncut feature
   std::map<int, FeatureId> owner_;  ///< of subdivision polygons: the smallest imprint so far
 };
@@ -280,7 +283,7 @@ class ImprintWriter {
 void add_imprints(const Building& building, const Solid& solid, Segmentation& segmentation,
                   const Tolerances& tolerances) {
   ImprintWriter(building, solid, segmentation, tolerances).run();
-  detail::join_loose_polygons(building, solid, segmentation, tolerances);
+  detail::join_unassigned_polygons(building, solid, segmentation, tolerances);
 }
 
 }  // namespace oriel

@@ -15,14 +15,14 @@ constexpr double kCell_m = 1;
 
 }  // namespace
 
-std::size_t PolygonGrid::Hash::operator()(const Place& p) const {
+std::size_t PolygonGrid::Hash::operator()(const GridPlace& p) const {
   std::uint64_t hash = 0;
   for (const long c : {p.x, p.y, p.z})
     hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
   return static_cast<std::size_t>(hash ^ hash >> 32);
 }
 
-PolygonGrid::Place PolygonGrid::place_of(Vec3 point) {
+PolygonGrid::GridPlace PolygonGrid::place_of(Vec3 point) {
   const auto cell = [](double c) { return static_cast<long>(std::floor(c / kCell_m)); };
   return {cell(point.x), cell(point.y), cell(point.z)};
 }
@@ -68,7 +68,7 @@ std::vector<int> PolygonGrid::within(const Box& box) const {
     for (const int i : cell)
       if (is_in(polygons_[static_cast<std::size_t>(i)].middle())) found.push_back(i);
   };
-  const Place low = place_of(box.min), high = place_of(box.max);
+  const GridPlace low = place_of(box.min), high = place_of(box.max);
   const double cells = static_cast<double>(high.x - low.x + 1) *
                        static_cast<double>(high.y - low.y + 1) *
                        static_cast<double>(high.z - low.z + 1);

@@ -2,17 +2,18 @@
 
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
-#include "kernel/segment/boundary/few.h"
 
 #include <unordered_map>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
 /// An input polygon in space.
 struct PlacedPolygon {
   int source = -1;
-  Few<Outline, 1> rings;  ///< the outer one first
+  boost::container::small_vector<Outline, 1> rings;  ///< the outer one first
   Box box;
   Vec3 area;  ///< its area vector, in m²
 
@@ -37,18 +38,18 @@ class PolygonGrid {
   [[nodiscard]] std::vector<int> within(const Box& box) const;
 
  private:
-  struct Place {
+  struct GridPlace {
     long x, y, z;
-    friend bool operator==(const Place&, const Place&) = default;
+    friend bool operator==(const GridPlace&, const GridPlace&) = default;
   };
   struct Hash {
-    std::size_t operator()(const Place& p) const;
+    std::size_t operator()(const GridPlace& p) const;
   };
-  static Place place_of(Vec3 point);
+  static GridPlace place_of(Vec3 point);
 
   std::vector<PlacedPolygon> polygons_;
-  using Cell = Few<int, 4>;  ///< polygons
-  std::unordered_map<Place, Cell, Hash> cells_;
+  using Cell = boost::container::small_vector<int, 4>;  ///< polygons
+  std::unordered_map<GridPlace, Cell, Hash> cells_;
 };
 
 }  // namespace oriel::detail

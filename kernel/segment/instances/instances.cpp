@@ -9,10 +9,10 @@ namespace oriel::detail {
 
 /// Gives the body at a node the subtree of a congruent one: nodes, features and cells are those of
 /// the model, moved. No cut has a plane that its body has not, so the map has all planes needed.
-class Instances::Copier {
+class Instances::SubtreeCopier {
  public:
-  Copier(const Subtree& model, const Congruence& how, World& world, CellWriter& cells,
-         Segmentation& out)
+  SubtreeCopier(const Subtree& model, const Congruence& how, World& world, CellWriter& cells,
+                Segmentation& out)
       : model_(model),
         how_(how),
         world_(world),
@@ -154,7 +154,7 @@ void Instances::open(const WaitingBody& body, std::size_t waiting) {
 
 void Instances::close(std::size_t waiting) {
   while (!open_.empty()) {
-    Model& model = models_[at(open_.back())];
+    PocketModel& model = models_[at(open_.back())];
     if (waiting >= model.waiting) return;
     model.subtree.last_node = static_cast<int>(out_.nodes.size());
     model.subtree.last_feature = static_cast<int>(out_.features.size());
@@ -166,7 +166,7 @@ void Instances::close(std::size_t waiting) {
 bool Instances::copy(const WaitingBody& body) {
   if (!body.copy_of_model) return false;
   const Subtree& model = models_[at(body.model)].subtree;
-  Copier(model, *body.copy_of_model, world_, cells_, out_).run(body.node, body.feature);
+  SubtreeCopier(model, *body.copy_of_model, world_, cells_, out_).run(body.node, body.feature);
   ++out_.stats.instanced;
   return true;
 }

@@ -20,7 +20,7 @@ struct WaitingBody {
   bool has_one_shell = false;   ///< for certain, so it has no cavities
   int model = -1;               ///< others wait for what becomes of it, or it waits itself
   std::optional<Congruence> copy_of_model = std::nullopt;
-  std::optional<Leaf> leaf = std::nullopt;  ///< what the body is, which is not made then
+  std::optional<PocketLeaf> leaf = std::nullopt;  ///< what the body is, which is not made then
 };
 
 /// Gives pockets that are congruent to another one a copy of what becomes of that one, their model.
@@ -52,16 +52,16 @@ class Instances {
     int first_feature = 0, last_feature = 0;
     CellId first_cell, last_cell;
   };
-  struct Model {
+  struct PocketModel {
     Subtree subtree;
     std::size_t waiting = 0;  ///< bodies below it
   };
-  class Copier;
+  class SubtreeCopier;
 
   World& world_;
   CellWriter& cells_;
   Segmentation& out_;
-  std::vector<Model> models_;
+  std::vector<PocketModel> models_;
   std::vector<int> open_;  ///< those that are being split, the innermost last
 };
 

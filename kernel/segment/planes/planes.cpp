@@ -37,7 +37,7 @@ void PlaneTable::add(const Plane& plane, bool is_flipped, PlaneId id) {
   const bool is_new_class =
       planes_.empty() || planes_.back().plane.coefficients != plane.coefficients;
   if (is_new_class) classes_.emplace_back();
-  Class& c = classes_.back();
+  NormalClass& c = classes_.back();
   if (is_new_class || planes_.back().plane.offset != plane.offset) {
     Entry& entry = planes_.emplace_back();
     entry.normal_class = class_count() - 1;

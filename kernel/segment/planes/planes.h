@@ -18,7 +18,7 @@ class PlaneTable {
  public:
   explicit PlaneTable(const std::vector<Plane>& oriented);
 
-  struct Class {
+  struct NormalClass {
     Vec3 normal;
     std::vector<int> planes;  ///< by ascending offset
     std::vector<double> offsets_m;
@@ -26,7 +26,7 @@ class PlaneTable {
 
   [[nodiscard]] int size() const { return static_cast<int>(planes_.size()); }
   [[nodiscard]] int class_count() const { return static_cast<int>(classes_.size()); }
-  [[nodiscard]] const Class& normal_class(int k) const {
+  [[nodiscard]] const NormalClass& normal_class(int k) const {
     return classes_[static_cast<std::size_t>(k)];
   }
   [[nodiscard]] int class_of(int plane) const { return entry(plane).normal_class; }
@@ -64,7 +64,7 @@ class PlaneTable {
   }
 
   std::vector<Entry> planes_;
-  std::vector<Class> classes_;
+  std::vector<NormalClass> classes_;
   std::vector<Side> sides_;
 };
 

@@ -41,19 +41,19 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
   for (int p = 0; p < planes.size(); ++p) corners.add(planes.plane(p));
   places_.reserve(points_.size());
   for (std::size_t v = 0; v < points_.size(); ++v) {
-    Point& point = points_[v];
+    TablePoint& point = points_[v];
     const Vec3 at = solid.vertices[v].point;
     std::optional<Vec3> where;
     if (solid.vertices[v].is_meeting && point.planes.size() >= 3) {
       where = corners.meeting(point.planes[0], point.planes[1], point.planes[2]);
       if (!where) where = meeting_of(point);
     }
-    point.is_by_decree = !where || length(*where - at) > kOnSegment_m;
-    if (!point.is_by_decree) {
+    point.is_rounded = !where || length(*where - at) > kOnSegment_m;
+    if (!point.is_rounded) {
       places_.push_back(*where);
       continue;
     }
-    const Place place = place_at(exact::round_finely(at, grid_m_));
+    const ExactPlace place = place_at(exact::round_finely(at, grid_m_));
     places_.push_back(place.at);
     point.stored = static_cast<int>(exact_.size());
     exact_.push_back(place.where);
@@ -62,7 +62,7 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
 }
 
 /// Where its first three planes meet.
-std::optional<Vec3> PointTable::meeting_of(const Point& point) const {
+std::optional<Vec3> PointTable::meeting_of(const TablePoint& point) const {
   const auto plane = [&](std::size_t i) -> const Plane& { return planes_.plane(point.planes[i]); };
   const auto where = exact::meet(plane(0), plane(1), plane(2));
   return where ? std::optional(metres_of(*where)) : std::nullopt;
@@ -89,7 +89,7 @@ Vec3 PointTable::metres_of(const exact::Rational& where) const {
 }
 
 exact::Rational PointTable::exact_at(int p) const {
-  const Point& point = points_[index(p)];
+  const TablePoint& point = points_[index(p)];
   if (point.stored >= 0) return exact_[index(point.stored)];
   const auto plane = [&](std::size_t i) { return planes_.plane(point.planes[i]); };
   return *exact::meet(plane(0), plane(1), plane(2));
@@ -107,7 +107,7 @@ int PointTable::own_rank(int p, int k) const {
 }
 
 /// The rank of a point that is not known to lie on a plane of the class.
-int PointTable::rank_beside(int p, const PlaneTable::Class& c) const {
+int PointTable::rank_beside(int p, const PlaneTable::NormalClass& c) const {
   const double along = dot(c.normal, at(p));
   if (along + kCertain_m < c.offsets_m.front()) return 0;
   if (along - kCertain_m > c.offsets_m.back()) return 2 * static_cast<int>(c.offsets_m.size());
@@ -115,7 +115,7 @@ int PointTable::rank_beside(int p, const PlaneTable::Class& c) const {
 }
 
 /// The same where the point, `along` the normal, is not outside all planes.
-int PointTable::rank_between(int p, const PlaneTable::Class& c, double along) const {
+int PointTable::rank_between(int p, const PlaneTable::NormalClass& c, double along) const {
   auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
   for (; i < std::ssize(c.offsets_m) &&
          c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;
@@ -128,7 +128,7 @@ int PointTable::rank_between(int p, const PlaneTable::Class& c, double along) co
 }
 
 int PointTable::compute_rank(int p, int k) {
-  const Point& point = points_[index(p)];
+  const TablePoint& point = points_[index(p)];
   const int own = own_rank(p, k);
   if (point.low < 0) return own;
   const auto [least, most] =
@@ -159,12 +159,14 @@ void PointTable::rank_by_incidence(int k) {
 const Incidence& PointTable::incidence() {
   if (!incidence_.is_made())
     incidence_.make(solid_points_, planes_.size(),
-                    [&](int p) -> const Few<int, 4>& { return points_[index(p)].planes; });
+                    [&](int p) -> const boost::container::small_vector<int, 4>& {
+                      return points_[index(p)].planes;
+                    });
   return incidence_;
 }
 
 int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
-  Point point;
+  TablePoint point;
   point.planes = {f, g, plane};
   std::ranges::sort(point.planes);
   point.low = low;
@@ -172,14 +174,14 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
   const Vec3 from = at(low), along = at(high) - from;
   const Plane& cut = planes_.plane(plane);
   const auto where = exact::meet(planes_.plane(f), planes_.plane(g), cut);
-  Place place;
+  ExactPlace place;
   if (where) place = place_at(*where);
   if (!where || !is_on_segment(place.at, from, along)) {
-    // A vertex by decree lies beside the line on which its planes meet. The edge is the segment
+    // A rounded vertex lies beside the line on which its planes meet. The edge is the segment
     // between its ends, and the point must lie on that, or cutting the edge would change the areas
     // of its facets.
     const double t = (cut.offset_m - dot(cut.normal, from)) / dot(cut.normal, along);
-    point.is_by_decree = true;
+    point.is_rounded = true;
     place = place_at(exact::round_finely(from + std::clamp(t, 0.0, 1.0) * along, grid_m_));
   }
   add(std::move(point), place);
@@ -188,9 +190,9 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
 
 int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
                           const NumberMap& planes) {
-  const Point& model = points_[index(p)];
-  Point point;
-  point.is_by_decree = model.is_by_decree;
+  const TablePoint& model = points_[index(p)];
+  TablePoint point;
+  point.is_rounded = model.is_rounded;
   for (const int plane : model.planes)
     if (const auto moved = find_in(planes, plane)) point.planes.push_back(*moved);
   std::ranges::sort(point.planes);
@@ -202,7 +204,7 @@ int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
   return size() - 1;
 }
 
-void PointTable::add(Point point, const Place& place) {
+void PointTable::add(TablePoint point, const ExactPlace& place) {
   point.stored = static_cast<int>(exact_.size());
   exact_.push_back(place.where);
   places_.push_back(place.at);
@@ -215,9 +217,9 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   if (const auto known = known_meeting(key)) return known;
   const auto where = exact::meet(planes_.plane(p), planes_.plane(q), planes_.plane(r));
   if (!where) return std::nullopt;
-  Point point;
+  TablePoint point;
   point.planes.assign(key.begin(), key.end());
-  const Place place = place_at(*where);
+  const ExactPlace place = place_at(*where);
   met_.push_back(key);
   int& met = meetings_[key];
   if (const auto near = met_near(point, place.at)) return met = *near;
@@ -227,7 +229,14 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   return met;
 }
 
-void PointTable::forget_since(Mark mark) {
+void PointTable::forget_since(const PointMark& mark) {
+  for (; widened_.size() > mark.widened; widened_.pop_back()) {
+    const auto [p, plane] = widened_.back();
+    auto& own = points_[index(p)].planes;
+    own.erase(std::ranges::find(own, plane));
+    const int k = planes_.class_of(plane);
+    if (p < std::ssize(ranks_[index(k)])) ranks_[index(k)][index(p)] = compute_rank(p, k);
+  }
   for (; met_.size() > mark.met; met_.pop_back()) meetings_.erase(met_.back());
   for (int p = size(); p-- > mark.points;) {
     const auto cell = met_in_.find(cell_of(at(p)));
@@ -247,8 +256,8 @@ PointTable::Cell PointTable::cell_of(Vec3 p) const {
 }
 
 /// A point that was met so near by that it is the same one: more than three planes meet there. It
-/// lies on the new planes by decree.
-std::optional<int> PointTable::met_near(const Point& point, Vec3 where) {
+/// counts as lying on the new planes.
+std::optional<int> PointTable::met_near(const TablePoint& point, Vec3 where) {
   const Cell middle = cell_of(where);
   for (int i = 0; i < 27; ++i) {
     const auto found =
@@ -261,7 +270,7 @@ std::optional<int> PointTable::met_near(const Point& point, Vec3 where) {
 }
 
 /// Adds planes to a point; false if it lies on parallel ones.
-bool PointTable::lies_on_too(int p, const Few<int, 4>& planes) {
+bool PointTable::lies_on_too(int p, const boost::container::small_vector<int, 4>& planes) {
   auto& own = points_[index(p)].planes;
   for (const int plane : planes)
     for (const int other : own)
@@ -269,6 +278,7 @@ bool PointTable::lies_on_too(int p, const Few<int, 4>& planes) {
   for (const int plane : planes) {
     if (std::ranges::binary_search(own, plane)) continue;
     own.insert(std::ranges::lower_bound(own, plane), plane);
+    widened_.emplace_back(p, plane);
     auto& ranks = ranks_[index(planes_.class_of(plane))];
     if (p < std::ssize(ranks)) ranks[index(p)] = planes_.rank_of(plane);
   }

@@ -2,12 +2,11 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
-#include "kernel/segment/boundary/few.h"
 #include "kernel/segment/boundary/number_map.h"
-#include "kernel/segment/planes/incidence.h"
 #include "kernel/segment/planes/planes.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -15,7 +14,36 @@
 #include <utility>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+
 namespace oriel::detail {
+
+/// For each plane the points that are known to lie on it, ascending.
+class Incidence {
+ public:
+  /// Makes the lists of all points from 0 on; `planes_of(point)` lists the planes of one.
+  template <class PlanesOf>
+  void make(int points, int planes, const PlanesOf& planes_of) {
+    first_.assign(static_cast<std::size_t>(planes) + 2, 0);
+    for (int p = 0; p < points; ++p)
+      for (const int plane : planes_of(p)) ++first_[static_cast<std::size_t>(plane) + 2];
+    for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    points_.resize(first_.back());
+    for (int p = 0; p < points; ++p)
+      for (const int plane : planes_of(p))
+        points_[first_[static_cast<std::size_t>(plane) + 1]++] = p;
+  }
+
+  [[nodiscard]] bool is_made() const { return !first_.empty(); }
+  [[nodiscard]] std::span<const int> on(int plane) const {
+    const std::size_t i = static_cast<std::size_t>(plane);
+    return std::span(points_).subspan(first_[i], first_[i + 1] - first_[i]);
+  }
+
+ private:
+  std::vector<std::size_t> first_;  ///< by plane, in points_
+  std::vector<int> points_;
+};
 
 /// The vertices of a solid and those that cuts make, with their ranks in every class of planes.
 ///
@@ -32,7 +60,7 @@ class PointTable {
   [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
   [[nodiscard]] Vec3 at(int point) const { return places_[index(point)]; }
   /// True if the point is known by the three planes it was made of.
-  [[nodiscard]] bool is_meeting(int point) const { return !points_[index(point)].is_by_decree; }
+  [[nodiscard]] bool is_meeting(int point) const { return !points_[index(point)].is_rounded; }
 
   /// The ranks of all points in class k, by point; valid until the next point is added.
   [[nodiscard]] std::span<const int> ranks(int k);
@@ -53,35 +81,36 @@ class PointTable {
   }
 
   /// The point where an edge (the meeting of planes f and g, from `low` to `high`) crosses `plane`.
-  /// Its ranks lie between those of the edge's ends, whatever rounding there was in a vertex by
-  /// decree.
+  /// Its ranks lie between those of the edge's ends, whatever was rounded.
   int cross_edge(int f, int g, int low, int high, int plane);
 
   /// The point where three planes meet; nothing if they do not. Where more than three meet, up to
   /// weld_m, it is one point and lies on all of them.
   std::optional<int> meet(int p, int q, int r);
 
-  /// Point `p` moved by a whole number of grid units, on the planes that those of p are mapped to.
+  /// TablePoint `p` moved by a whole number of grid units, on the planes that those of p are mapped
+  /// to.
   int add_moved(int p, const std::array<std::int64_t, 3>& shift, const NumberMap& planes);
 
   /// What is there now, to come back to if what is tried next is not kept.
-  struct Mark {
+  struct PointMark {
     int points;
-    std::size_t met;
+    std::size_t met, widened;
   };
-  [[nodiscard]] Mark mark() const { return {size(), met_.size()}; }
-  /// Forgets the points that were made since; nothing may use them any more.
-  void forget_since(Mark mark);
+  [[nodiscard]] PointMark mark() const { return {size(), met_.size(), widened_.size()}; }
+  /// Forgets the points that were made since, which nothing may use any more, and the planes that
+  /// older ones were found to lie on since. Marks are gone back to last made first.
+  void forget_since(const PointMark& mark);
 
  private:
-  struct Point {
-    Few<int, 4> planes;  ///< sorted
-    bool is_by_decree = false;
+  struct TablePoint {
+    boost::container::small_vector<int, 4> planes;  ///< sorted
+    bool is_rounded = false;
     int low = -1, high = -1;  ///< the ends of the edge it was made on
     int stored = -1;          ///< in exact_; -1: it is where its first three planes meet
   };
   /// Where a point is, exactly and in metres.
-  struct Place {
+  struct ExactPlace {
     exact::Rational where;
     Vec3 at;
   };
@@ -89,28 +118,28 @@ class PointTable {
   using Cell = std::array<std::int64_t, 3>;
   [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
   const Incidence& incidence();
-  [[nodiscard]] std::optional<Vec3> meeting_of(const Point& point) const;
+  [[nodiscard]] std::optional<Vec3> meeting_of(const TablePoint& point) const;
   void list_planes(const std::vector<Facet>& facets);
   void rank_by_incidence(int k);
   [[nodiscard]] Cell cell_of(Vec3 p) const;
-  std::optional<int> met_near(const Point& point, Vec3 where);
-  bool lies_on_too(int p, const Few<int, 4>& planes);
-  void add(Point point, const Place& place);
+  std::optional<int> met_near(const TablePoint& point, Vec3 where);
+  bool lies_on_too(int p, const boost::container::small_vector<int, 4>& planes);
+  void add(TablePoint point, const ExactPlace& place);
   [[nodiscard]] Vec3 metres_of(const exact::Rational& where) const;
-  [[nodiscard]] Place place_at(const exact::Rational& where) const {
+  [[nodiscard]] ExactPlace place_at(const exact::Rational& where) const {
     return {where, metres_of(where)};
   }
   [[nodiscard]] exact::Rational exact_at(int p) const;
   [[nodiscard]] int exact_side(const exact::Rational& point, int plane) const;
   int compute_rank(int point, int k);
   [[nodiscard]] int own_rank(int p, int k) const;
-  [[nodiscard]] int rank_beside(int p, const PlaneTable::Class& c) const;
-  [[nodiscard]] int rank_between(int p, const PlaneTable::Class& c, double along) const;
+  [[nodiscard]] int rank_beside(int p, const PlaneTable::NormalClass& c) const;
+  [[nodiscard]] int rank_between(int p, const PlaneTable::NormalClass& c, double along) const;
 
   double grid_m_;
   double near_m_;  ///< points that were met closer than this are one
   const PlaneTable& planes_;
-  std::vector<Point> points_;
+  std::vector<TablePoint> points_;
   std::vector<Vec3> places_;  ///< by point, close together
   std::vector<exact::Rational> exact_;
   std::vector<std::vector<int>> ranks_;
@@ -118,6 +147,7 @@ class PointTable {
   int solid_points_ = 0;
   std::map<std::array<int, 3>, int> meetings_;  ///< points that meet() has made, by three planes
   std::vector<std::array<int, 3>> met_;         ///< their keys, in order
+  std::vector<std::pair<int, int>> widened_;    ///< points and planes that lies_on_too() gave them
   std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
 };
 

@@ -4,7 +4,7 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/boundary/reach.h"
 #include "kernel/segment/flush/polygon_grid.h"
-#include "kernel/segment/rings/residents.h"
+#include "kernel/segment/rings/feature_index.h"
 #include "kernel/segment/rings/ring_content.h"
 #include "kernel/segment/rings/rings.h"
 
@@ -42,13 +42,13 @@ class RingWriter {
         solid_(solid),
         out_(segmentation),
         tolerances_(tolerances),
-        residents_(segmentation, tolerances) {}
+        index_(segmentation, tolerances) {}
 
   void run() {
     const bool is_open = solid_.shells.empty();
-    if (!is_open && all_rings_have_residents(solid_, residents_, tolerances_)) return;
+    if (!is_open && are_all_rings_filled(solid_, index_, tolerances_)) return;
     grid_ = detail::PolygonGrid(building_, solid_.grid_m);
-    const std::vector<Ring> rings = detail::find_rings(solid_, grid_, residents_, tolerances_);
+    const std::vector<Ring> rings = detail::find_rings(solid_, grid_, index_, tolerances_);
     if (rings.empty()) return;
     find_homes();
     for (const Ring& ring : rings) write(ring);
@@ -88,10 +88,10 @@ class RingWriter {
     const std::optional<FeatureId> owner = owner_of(ring, content);
     const FeatureId id{static_cast<int>(out_.features.size())};
     out_.features.push_back(make(ring, content, *home, owner));
-    for (const FeatureId resident : residents_.within(plane, reach)) {
-      Feature& inner = out_.features[resident.index()];
+    for (const FeatureId inner_id : index_.within(plane, reach)) {
+      Feature& inner = out_.features[inner_id.index()];
       if (inner.planes.front() == plane && !inner.is_uncut &&
-          detail::contains({&ring.outline, 1}, normal, inner.cap_point) && !carries(resident, id))
+          detail::contains({&ring.outline, 1}, normal, inner.cap_point) && !carries(inner_id, id))
         inner.host = id;
     }
     for (const int p : content.polygons) owner_[grid_.polygons()[at(p)].source] = id;
@@ -249,7 +249,7 @@ class RingWriter {
   const Solid& solid_;
   Segmentation& out_;
   const Tolerances& tolerances_;
-  detail::Residents residents_;
+  detail::FeatureIndex index_;
   detail::PolygonGrid grid_;
   std::vector<CellFacet> home_;     ///< by Polygon::source, invalid where there is none
   std::map<int, FeatureId> owner_;  ///< by Polygon::source: the smallest ring around it so far

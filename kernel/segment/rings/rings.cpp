@@ -2,7 +2,7 @@
 
 #include "kernel/base/index.h"
 #include "kernel/segment/boundary/reach.h"
-#include "kernel/segment/rings/residents.h"
+#include "kernel/segment/rings/feature_index.h"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,8 @@ namespace {
 /// A polygon whose inner rings come this near to its outer one on all four sides is a frame: what
 /// casement frames are wide, and some.
 constexpr double kFrame_m = 0.15;
-/// How far the sides of a notch must turn, and how straight they may go on (see detail/insets.cpp).
+/// How far the sides of a notch must turn, and how straight they may go on (see
+/// flush/contained_polygons.cpp).
 constexpr double kNotch_deg = 150;
 constexpr double kStraightSide_deg = 1;
 
@@ -36,10 +37,10 @@ class RingFinder {
   RingFinder(const Solid& solid, const PolygonGrid& grid, const Tolerances& tolerances)
       : solid_(solid), grid_(grid), tolerances_(tolerances), is_open_(solid.shells.empty()) {}
 
-  std::vector<Ring> run(Residents& residents) {
+  std::vector<Ring> run(FeatureIndex& features) {
     for (int f = 0; f < std::ssize(solid_.facets); ++f) find_rings_of(f);
     join_leaves();
-    std::erase_if(rings_, [&](const Ring& ring) { return is_filled(ring, residents); });
+    std::erase_if(rings_, [&](const Ring& ring) { return is_filled(ring, features); });
     if (rings_.size() > 1) sort();
     return std::move(rings_);
   }
@@ -52,9 +53,9 @@ class RingFinder {
     return plane_of(static_cast<int>(ring.facet.index()));
   }
 
-  [[nodiscard]] bool is_filled(const Ring& ring, Residents& residents) const {
-    return residents.fills(solid_.facets[ring.facet.index()].plane,
-                           axes_in(plane_of(ring).normal).reach_of(ring.outline));
+  [[nodiscard]] bool is_filled(const Ring& ring, FeatureIndex& features) const {
+    return features.fills(solid_.facets[ring.facet.index()].plane,
+                          axes_in(plane_of(ring).normal).reach_of(ring.outline));
   }
 
   void find_rings_of(int f) {
@@ -249,9 +250,9 @@ bool is_slit(const Ring& ring, const Tolerances& tolerances) {
   return ring.area_m2 <= tolerances.weld_m * perimeter(ring.outline) / 2;
 }
 
-std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, Residents& residents,
+std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, FeatureIndex& features,
                              const Tolerances& tolerances) {
-  return RingFinder(solid, grid, tolerances).run(residents);
+  return RingFinder(solid, grid, tolerances).run(features);
 }
 
 }  // namespace oriel::detail

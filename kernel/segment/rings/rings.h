@@ -41,13 +41,13 @@ Ring ring_of(const Solid& solid, FacetId facet, const Loop& loop);
 /// So thin that it is no ring.
 bool is_slit(const Ring& ring, const Tolerances& tolerances);
 
-class Residents;
+class FeatureIndex;
 
-/// The rings of a solid's facets that no resident fills; of an open shell (no Solid::shells) also
+/// The rings of a solid's facets that no feature fills; of an open shell (no Solid::shells) also
 /// those of the input polygons, narrow frames and notches. The largest first, then by place; slits
 /// are none, and no ring counts twice, nor if one that is filled is like it. `grid` has the
 /// polygons of the building that `solid` is of.
-std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, Residents& residents,
+std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, FeatureIndex& features,
                              const Tolerances& tolerances);
 
 }  // namespace oriel::detail

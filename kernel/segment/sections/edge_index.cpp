@@ -35,35 +35,35 @@ void EdgeIndex::update() {
 }
 
 /// Takes in the edges that came since the last time.
-void EdgeIndex::enter(Class& c) {
+void EdgeIndex::enter(EdgesOfClass& c) {
   if (!c.ranks.is_ready()) make_table(c);
   find_new_runs(c);
   if (c.entered == 0) {
     std::vector<int> sizes(c.ranks.size() + 2, 0);
-    for (const Run& run : runs_) {
+    for (const GapRun& run : runs_) {
       ++sizes[run.first];
       --sizes[run.last + 1];
     }
     std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
     sizes.pop_back();
     c.lists.make(sizes);
-    for (const Run& run : runs_) c.lists.push_back_in_room(run.first, run.last, run.half);
+    for (const GapRun& run : runs_) c.lists.push_back_in_room(run.first, run.last, run.half);
   } else {
-    for (const Run& run : runs_) c.lists.push_back(run.first, run.last, run.half);
+    for (const GapRun& run : runs_) c.lists.push_back(run.first, run.last, run.half);
   }
   c.entered = edges_.size();
 }
 
-void EdgeIndex::make_table(Class& c) const {
+void EdgeIndex::make_table(EdgesOfClass& c) const {
   c.ranks.make_table(body_.world().planes.normal_class(c.number).planes.size());
 }
 
-void EdgeIndex::find_new_runs(const Class& c) {
-  const auto edges = std::span<const Edge>(edges_).subspan(c.entered);
+void EdgeIndex::find_new_runs(const EdgesOfClass& c) {
+  const auto edges = std::span<const IndexedEdge>(edges_).subspan(c.entered);
   runs_.clear();
   runs_.reserve(edges.size());
   const auto rank = body_.world().points.ranks(c.number);
-  for (const Edge& edge : edges) {
+  for (const IndexedEdge& edge : edges) {
     const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
     if (low == high) continue;
     runs_.push_back({edge.half, c.ranks.before(low + 1), c.ranks.before(high)});

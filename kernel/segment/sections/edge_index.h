@@ -2,13 +2,50 @@
 
 #include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/boundary/growing_lists.h"
-#include "kernel/segment/planes/plane_ranks.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace oriel::detail {
+
+/// The ranks of some planes of one normal class, ascending.
+class PlaneRanks {
+ public:
+  void push_back(int rank) { ranks_.push_back(rank); }
+  [[nodiscard]] std::size_t size() const { return ranks_.size(); }
+  [[nodiscard]] int operator[](std::size_t i) const { return ranks_[i]; }
+
+  /// To be called once, with the number of planes that the class has: lets before() look up instead
+  /// of search, unless these are many more than those asked for.
+  void make_table(std::size_t planes_of_class) {
+    is_ready_ = true;
+    constexpr std::size_t kMany = 8;  // times: then searching costs less than a table
+    const std::size_t ranks = 2 * planes_of_class + 2;
+    if (ranks > kMany * ranks_.size()) return;
+    before_.reserve(ranks);
+    for (std::size_t rank = 0, i = 0; rank < ranks; ++rank) {
+      while (i < ranks_.size() && ranks_[i] < static_cast<int>(rank)) ++i;
+      before_.push_back(static_cast<int>(i));
+    }
+  }
+  [[nodiscard]] bool is_ready() const { return is_ready_; }
+
+  /// How many of the planes have a lesser rank than this, which need not be one of the class.
+  [[nodiscard]] std::size_t before(int rank) const {
+    if (rank <= 0) return 0;
+    const auto place = static_cast<std::size_t>(rank);
+    if (place < before_.size()) return static_cast<std::size_t>(before_[place]);
+    if (!before_.empty()) return ranks_.size();
+    return static_cast<std::size_t>(std::ranges::lower_bound(ranks_, rank) - ranks_.begin());
+  }
+
+ private:
+  std::vector<int> ranks_;
+  std::vector<int> before_;  ///< by rank; empty: to be searched for
+  bool is_ready_ = false;
+};
 
 /// The edges that sections of a body may cross, so that a section costs what it meets and not what
 /// the body has. The split planes of a normal class leave gaps between them, and one before the
@@ -24,8 +61,8 @@ class EdgeIndex {
   /// +1, as its class has it), or behind it (-1); dead edges and some that were shortened since may
   /// be among them. `entry` counts in `planes`.
   [[nodiscard]] std::span<const int> edges_at(std::size_t entry, int direction) {
-    const Place& place = places_[entry];
-    Class& c = classes_[place.number];
+    const GapPlace& place = places_[entry];
+    EdgesOfClass& c = classes_[place.number];
     if (c.entered < edges_.size()) enter(c);
     return c.lists[place.gap + (direction > 0 ? 1 : 0)];
   }
@@ -35,42 +72,42 @@ class EdgeIndex {
 
   /// The ranks of those of the planes that are of the k-th of their classes.
   [[nodiscard]] const PlaneRanks& ranks_of_class(std::size_t k) {
-    Class& c = classes_[k];
+    EdgesOfClass& c = classes_[k];
     if (!c.ranks.is_ready()) make_table(c);
     return c.ranks;
   }
 
  private:
   /// A living half-edge that speaks for its edge.
-  struct Edge {
+  struct IndexedEdge {
     int half, from, to;
   };
-  struct Class {
+  struct EdgesOfClass {
     int number;
     PlaneRanks ranks;
     GrowingLists lists = {};  ///< half-edges by gap
     std::size_t entered = 0;  ///< how many of edges_
   };
   /// A half-edge whose edge is not level, and the gaps that it runs through.
-  struct Run {
+  struct GapRun {
     int half;
     std::size_t first, last;
   };
   /// The gap behind a plane.
-  struct Place {
+  struct GapPlace {
     std::size_t number;  ///< of its class
     std::size_t gap;
   };
-  void enter(Class& c);
-  void make_table(Class& c) const;
-  void find_new_runs(const Class& c);
+  void enter(EdgesOfClass& c);
+  void make_table(EdgesOfClass& c) const;
+  void find_new_runs(const EdgesOfClass& c);
 
   const Boundary& body_;
-  std::vector<Class> classes_;
-  std::vector<Place> places_;  ///< by plane
-  std::vector<Edge> edges_;    ///< as they came
-  int known_ = 0;              ///< half-edges taken in
-  std::vector<Run> runs_;      ///< of the class at hand
+  std::vector<EdgesOfClass> classes_;
+  std::vector<GapPlace> places_;    ///< by plane
+  std::vector<IndexedEdge> edges_;  ///< as they came
+  int known_ = 0;                   ///< half-edges taken in
+  std::vector<GapRun> runs_;        ///< of the class at hand
 };
 
 }  // namespace oriel::detail

@@ -24,7 +24,7 @@ NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& plane
 }
 
 void NaturalChains::expect(const std::vector<std::pair<int, int>>& new_edges) {
-  for (Class& c : classes_)
+  for (ChainsOfClass& c : classes_)
     for (std::size_t i = 0; c.is_known && i < new_edges.size(); ++i) {
       const int rank = world_.points.rank(new_edges[i].first, c.number);
       c.is_known = (rank & 1) == 0 || world_.points.rank(new_edges[i].second, c.number) != rank;
@@ -32,17 +32,17 @@ void NaturalChains::expect(const std::vector<std::pair<int, int>>& new_edges) {
 }
 
 void NaturalChains::forget() {
-  for (Class& c : classes_) c.is_known = false;
+  for (ChainsOfClass& c : classes_) c.is_known = false;
 }
 
 bool NaturalChains::refresh() {
-  if (std::ranges::all_of(classes_, &Class::is_known)) return false;
+  if (std::ranges::all_of(classes_, &ChainsOfClass::is_known)) return false;
   find_living_edges();
   if (free_side_ >= 0) {
     free_ranks_ = world_.points.ranks(world_.planes.class_of(free_side_ >> 1));
     free_rank_ = world_.planes.rank_of(free_side_ >> 1);
   }
-  for (Class& c : classes_) {
+  for (ChainsOfClass& c : classes_) {
     if (!c.is_known) look(c);
     c.is_known = true;
   }
@@ -90,7 +90,7 @@ std::pair<int, int> NaturalChains::ranks_around(std::span<const int> ranks, int 
   return {rank_at(before), rank_at(after)};
 }
 
-void NaturalChains::look(const Class& c) {
+void NaturalChains::look(const ChainsOfClass& c) {
   const auto ranks = world_.points.ranks(c.number);
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
   normal_ = normal;
@@ -100,7 +100,7 @@ void NaturalChains::look(const Class& c) {
     scratch.leaving.resize(ranks.size(), 0);
     scratch.entering.resize(ranks.size(), 0);
   }
-  for (const Edge& edge : edges_) {
+  for (const LivingEdge& edge : edges_) {
     const int rank = ranks[at(edge.from)];
     if ((rank & 1) == 0 || ranks[at(edge.to)] != rank) continue;
     // Mostly one of the facets lies in the plane and the other one does not.
@@ -121,15 +121,15 @@ void NaturalChains::look(const Class& c) {
 
 /// Puts the steps of each slot together, in their order: those of the i-th slot of the class stand
 /// from ends_[i] up to ends_[i + 1].
-void NaturalChains::sort_steps(const Class& c) {
+void NaturalChains::sort_steps(const ChainsOfClass& c) {
   const std::size_t slots = 2 * (c.last - c.first);
   ends_.assign(slots + 2, 0);
   // A place on, as each end moves from the first of its steps to the last.
   int* const ends = ends_.data() - 2 * c.first + 1;
-  for (const Step& step : steps_) ++ends[step.slot + 1];
+  for (const ChainStep& step : steps_) ++ends[step.slot + 1];
   for (std::size_t i = 2; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
   sorted_.resize(steps_.size());
-  for (const Step& step : steps_) sorted_[at(ends[step.slot]++)] = step;
+  for (const ChainStep& step : steps_) sorted_[at(ends[step.slot]++)] = step;
 }
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
@@ -145,13 +145,13 @@ bool NaturalChains::hangs_below(int e, int from, int to, bool is_up) const {
 
 /// Takes away what comes from nowhere or leads to nowhere, again and again, and tells whether
 /// something is left. Gives up after some rounds: then there may be a chain.
-bool NaturalChains::has_chain(std::span<Step> steps, std::size_t slot) {
+bool NaturalChains::has_chain(std::span<ChainStep> steps, std::size_t slot) {
   std::vector<int>&leaving = world_.scratch.leaving, &entering = world_.scratch.entering;
-  for (const Step& step : steps) {
+  for (const ChainStep& step : steps) {
     ++leaving[at(step.from)];
     ++entering[at(step.to)];
   }
-  const auto is_loose = [&](const Step& step) {
+  const auto is_loose = [&](const ChainStep& step) {
     const bool is = (entering[at(step.from)] == 0 && !is_free(step.from)) ||
                     (leaving[at(step.to)] == 0 && !is_free(step.to));
     if (is) {
@@ -170,7 +170,8 @@ bool NaturalChains::has_chain(std::span<Step> steps, std::size_t slot) {
     left = now;
   }
   const bool has = left > 0 && may_bound(steps.first(left), slot);
-  for (const Step& step : steps.first(left)) leaving[at(step.from)] = entering[at(step.to)] = 0;
+  for (const ChainStep& step : steps.first(left))
+    leaving[at(step.from)] = entering[at(step.to)] = 0;
   return has;
 }
 
@@ -178,22 +179,22 @@ bool NaturalChains::has_chain(std::span<Step> steps, std::size_t slot) {
 /// counter-clockwise around material, for which the body has facets on the looked-at side, and
 /// clockwise around air, for which it has some on the other one. Told only of closed chains that do
 /// not touch.
-bool NaturalChains::may_bound(std::span<const Step> steps, std::size_t slot) {
+bool NaturalChains::may_bound(std::span<const ChainStep> steps, std::size_t slot) {
   const Side looking = 2 * planes_[slot / 2] + static_cast<int>(slot & 1);
   const auto has_facets = body_.on_plane(looking >> 1).has_facets;
   const bool has_material = has_facets[at(looking & 1)], has_air = has_facets[at(~looking & 1)];
   if (has_material && has_air) return true;
   Scratch& scratch = world_.scratch;
-  for (const Step& step : steps)
+  for (const ChainStep& step : steps)
     if (scratch.leaving[at(step.to)] != 1 || scratch.entering[at(step.from)] != 1 ||
         scratch.leaving[at(step.from)] != 1 || is_free(step.from))
       return true;
   auto& after = scratch.after;
   if (after.size() < scratch.leaving.size()) after.resize(scratch.leaving.size());
-  for (const Step& step : steps) after[at(step.from)] = step.to;
+  for (const ChainStep& step : steps) after[at(step.from)] = step.to;
   const Vec3 normal = world_.planes.normal(looking);
   constexpr int kDone = -1;
-  return std::ranges::any_of(steps, [&](const Step& start) {
+  return std::ranges::any_of(steps, [&](const ChainStep& start) {
     if (after[at(start.from)] == kDone) return false;
     const Vec3 origin = world_.points.at(start.from);
     Vec3 sum, from;

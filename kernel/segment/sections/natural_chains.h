@@ -36,12 +36,12 @@ class NaturalChains {
 
  private:
   /// A half-edge in a plane, of a facet that is on one side of it there.
-  struct Step {
+  struct ChainStep {
     int slot;
     int from, to;
   };
   /// The planes of one class: planes_[first…last).
-  struct Class {
+  struct ChainsOfClass {
     int number;
     std::size_t first, last;
     bool is_known = false;
@@ -49,21 +49,21 @@ class NaturalChains {
 
   /// A living edge, as far as all classes ask of it: its half-edge and the twin of that, where they
   /// begin, and the planes of their facets.
-  struct Edge {
+  struct LivingEdge {
     int half, twin;
     int from, to;
     int plane, twin_plane;
   };
 
   void find_living_edges();
-  void look(const Class& c);
-  void sort_steps(const Class& c);
+  void look(const ChainsOfClass& c);
+  void sort_steps(const ChainsOfClass& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
   void add_step(int entry, std::span<const int> ranks, int e, int from, int to);
   [[nodiscard]] std::pair<int, int> ranks_around(std::span<const int> ranks, int e, int rank) const;
   [[nodiscard]] bool hangs_below(int e, int from, int to, bool is_up) const;
-  bool has_chain(std::span<Step> steps, std::size_t slot);
-  [[nodiscard]] bool may_bound(std::span<const Step> steps, std::size_t slot);
+  bool has_chain(std::span<ChainStep> steps, std::size_t slot);
+  [[nodiscard]] bool may_bound(std::span<const ChainStep> steps, std::size_t slot);
   [[nodiscard]] bool is_free(int point) const {
     return free_side_ >= 0 && free_ranks_[static_cast<std::size_t>(point)] == free_rank_;
   }
@@ -72,7 +72,7 @@ class NaturalChains {
   World& world_;
   const std::vector<int>& planes_;
   Side free_side_;
-  std::vector<Class> classes_;
+  std::vector<ChainsOfClass> classes_;
   std::vector<char> answers_;  ///< by slot
 
   std::vector<int> entries_;  ///< by plane of the world, where it is in planes_; -1: nowhere
@@ -81,8 +81,8 @@ class NaturalChains {
   std::span<const int> free_ranks_;
   int free_rank_ = 0;
   Vec3 normal_;
-  std::vector<Edge> edges_;  ///< the living ones
-  std::vector<Step> steps_, sorted_;
+  std::vector<LivingEdge> edges_;  ///< the living ones
+  std::vector<ChainStep> steps_, sorted_;
   std::vector<int> ends_;
 };
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "kernel/segment/boundary/boundary.h"
-#include "kernel/segment/boundary/few.h"
 
 #include <array>
 #include <span>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
@@ -28,7 +29,8 @@ struct SectionLoop {
 /// Of material it is the contact of a protrusion, of air the cap of a hole.
 struct Region {
   bool is_material = true;
-  Few<int, 2> loops;  ///< the one around it first, then those it surrounds
+  boost::container::small_vector<int, 2>
+      loops;  ///< the one around it first, then those it surrounds
   /// Its area, and without what coplanar facets of the opposite side cover: the new area of the
   /// cut.
   double area = 0;
@@ -83,7 +85,7 @@ struct SectionOptions {
 /// Makes the section of `section.plane` towards `section.direction`, whatever was in `section`
 /// before. `edges` holds at least one half-edge of every edge that crosses the plane; dead ones and
 /// others do no harm. The air around the body has no region. A body whose crossings do not
-/// alternate along a facet (possible only where vertices lie on planes by decree) gives no loops
+/// alternate along a facet (possible only where vertices are rounded) gives no loops
 /// and no regions.
 void section_at(const Boundary& body, Section& section, std::span<const int> edges,
                 const SectionOptions& options);

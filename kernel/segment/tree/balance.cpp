@@ -14,7 +14,7 @@ namespace {
 
 /// Coordinates are meetings of exact planes in doubles: what overlaps by less than this touches.
 constexpr double kTouching_m = 1e-9;
-/// How far vertices by decree may lie off the planes of their facets.
+/// How far rounded vertices may lie off the planes of their facets.
 constexpr double kBehindPlane_m = 1e-6;
 
 std::vector<NodeId> children_of(const CsgNode& node) {

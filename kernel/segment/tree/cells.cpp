@@ -116,7 +116,7 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
   return id;
 }
 
-CellId CellWriter::add(Leaf leaf, NodeId node, int sign, FeatureId feature) {
+CellId CellWriter::add(PocketLeaf leaf, NodeId node, int sign, FeatureId feature) {
   const CellId id{static_cast<int>(out_.cells.size())};
   Cell& cell = out_.cells.emplace_back();
   cell.sign = sign;
@@ -124,7 +124,7 @@ CellId CellWriter::add(Leaf leaf, NodeId node, int sign, FeatureId feature) {
   cell.node = node;
   cell.feature = feature;
   cell.facets.reserve(leaf.faces.size());
-  for (Leaf::Face& face : leaf.faces) {
+  for (PocketLeaf::LeafFace& face : leaf.faces) {
     Facet& facet = cell.facets.emplace_back();
     facet.plane = plane_id(face.side);
     facet.loops.push_back(std::move(face.loop));
@@ -140,8 +140,9 @@ void CellWriter::finish(const Building& building, const Solid& solid) {
   attribute_polygons(building, solid);
 }
 
-std::vector<CellWriter::Shape> CellWriter::shapes_of(std::span<const CellFacet> cell_facets) const {
-  std::vector<Shape> shapes(cell_facets.size());
+std::vector<CellWriter::FacetShape> CellWriter::shapes_of(
+    std::span<const CellFacet> cell_facets) const {
+  std::vector<FacetShape> shapes(cell_facets.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const CellFacet here = cell_facets[i];
     for (const Loop& loop : out_.cells[here.cell.index()].facets[at(here.facet)].loops) {
@@ -156,12 +157,12 @@ std::vector<CellWriter::Shape> CellWriter::shapes_of(std::span<const CellFacet> 
 
 /// The shape that holds most of a polygon.
 std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon,
-                                const std::vector<Shape>& shapes, Vec3 normal) const {
+                                const std::vector<FacetShape>& shapes, Vec3 normal) const {
   Box box;
   for (const int v : polygon.rings[0]) box.grow(building.vertices[at(v)]);
   // That of the corners on the grid: of two numbers the lesser one is not rounded to more.
   box = {exact::on_grid(box.min, out_.grid_m), exact::on_grid(box.max, out_.grid_m)};
-  Few<std::size_t, 8> near;
+  boost::container::small_vector<std::size_t, 8> near;
   for (std::size_t i = 0; i < shapes.size(); ++i)
     if (may_overlap(box, shapes[i].box, normal)) near.push_back(i);
   if (near.empty()) return 0;
@@ -220,7 +221,7 @@ void CellWriter::attribute_polygons(const Building& building, const Solid& solid
     if (cell_facets.size() <= 1) continue;
     if (polygon_of_source.empty()) polygon_of_source = polygon_of_each_source(building);
     const Vec3 normal = solid.planes[facet.plane.index()].normal;
-    const std::vector<Shape> shapes = shapes_of(cell_facets);
+    const std::vector<FacetShape> shapes = shapes_of(cell_facets);
     for (const int& polygon : facet.polygons)
       give({&polygon, 1},
            cell_facets[home_of(building, *polygon_of_source[at(polygon)], shapes, normal)]);

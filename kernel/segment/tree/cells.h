@@ -3,7 +3,6 @@
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/segment/boundary/boundary.h"
-#include "kernel/segment/boundary/few.h"
 #include "kernel/segment/boundary/leaf.h"
 #include "kernel/segment/instances/congruence.h"
 
@@ -11,6 +10,8 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
@@ -28,7 +29,7 @@ class CellWriter {
   /// Adds a leaf that lies in `feature` (invalid: in no feature).
   CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
              FeatureId feature);
-  CellId add(Leaf leaf, NodeId node, int sign, FeatureId feature);
+  CellId add(PocketLeaf leaf, NodeId node, int sign, FeatureId feature);
 
   /// The side that such an id stands for.
   [[nodiscard]] Side side_of(PlaneId id) const;
@@ -43,19 +44,21 @@ class CellWriter {
 
  private:
   /// The outlines of a cell facet.
-  struct Shape {
-    Few<Outline, 1> outlines;
+  struct FacetShape {
+    boost::container::small_vector<Outline, 1> outlines;
     Box box;
   };
-  Few<CellFacet, 2>& made_of(int source) { return made_of_[static_cast<std::size_t>(source)]; }
+  boost::container::small_vector<CellFacet, 2>& made_of(int source) {
+    return made_of_[static_cast<std::size_t>(source)];
+  }
   /// The features that polygons of a cell of `innermost` are in; valid until the next call.
   const std::vector<FeatureId>& features_around(FeatureId innermost);
   /// To a cell facet, and to the features it is in.
   void give(std::span<const int> polygons, const CellFacet& home);
   void attribute_polygons(const Building& building, const Solid& solid);
-  [[nodiscard]] std::vector<Shape> shapes_of(std::span<const CellFacet> cell_facets) const;
+  [[nodiscard]] std::vector<FacetShape> shapes_of(std::span<const CellFacet> cell_facets) const;
   [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,
-                                    const std::vector<Shape>& shapes, Vec3 normal) const;
+                                    const std::vector<FacetShape>& shapes, Vec3 normal) const;
 
   World& world_;
   Segmentation& out_;
@@ -64,7 +67,7 @@ class CellWriter {
   FeatureId innermost_;                ///< that was asked for last, and what it is in
   std::vector<FeatureId> around_;
   /// By facet of the solid, the cell facets made of it.
-  std::vector<Few<CellFacet, 2>> made_of_;
+  std::vector<boost::container::small_vector<CellFacet, 2>> made_of_;
 };
 
 }  // namespace oriel::detail

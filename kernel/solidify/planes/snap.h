@@ -25,7 +25,7 @@ struct SnappedSolid {
 /// A vertex of three planes goes to their meeting. A vertex of more, or one whose meeting lies
 /// further than four times plane_offset_m from where it was (planes that are almost parallel meet
 /// anywhere), goes to the grid point next to the least-squares point of its planes, and lies on
-/// them by decree. Vertices that come to lie within weld_m of a neighbour on a loop become one with
+/// them rounded. Vertices that come to lie within weld_m of a neighbour on a loop become one with
 /// it; facets that vanish so are counted. Facet::polygons holds source numbers.
 SnappedSolid snap_vertices(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
                            FacetDraft draft, const Tolerances& tolerances);

@@ -87,7 +87,7 @@ bool orient_alike(Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups,
   const auto turned = polygons_to_turn(soup, mesh, groups);
   if (!turned) {
     issues.push_back(building_issue(Severity::error, Code::E307, building,
-                                    "the polygons cannot be oriented alike (val3dity 307)"));
+                                    "the polygons cannot be oriented consistently (val3dity 307)"));
     return false;
   }
   for (int p = 0; p < soup.polygon_count(); ++p)

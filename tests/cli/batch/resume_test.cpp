@@ -53,7 +53,7 @@ TEST_SUITE("cli") {
     const Outcome outcome =
         run({"label", input, "-o", folder / "out.city.jsonl", "--status", folder / "s", "-j", "2"});
     CHECK(outcome.exit == 3);
-    CHECK(outcome.says("labelled 990 of 1000 buildings"));
+    CHECK(outcome.says("990 of 1000 buildings labelled"));
     const json status = json::parse(bytes_of(folder / "s.status.json"));
     CHECK(status["records"] ==
           json{{"read", 1001}, {"passed_on", 991}, {"refused", 10}, {"not_selected", 0}});

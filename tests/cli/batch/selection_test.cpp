@@ -106,7 +106,7 @@ TEST_SUITE("cli") {
     const Outcome outcome =
         run({"label", "-", "--from", "cityjson", "-o", "-", "--id", "b"}, {.in = city.dump()});
     CHECK(outcome.exit == 0);
-    CHECK(outcome.says("labelled 1 of 1 buildings"));
+    CHECK(outcome.says("1 of 1 building labelled"));
     const json out = json::parse(outcome.out);
     CHECK(out["CityObjects"]["a"] == city["CityObjects"]["a"]);
     CHECK(out["CityObjects"]["b"]["attributes"].contains("oriel_pack"));
@@ -120,7 +120,7 @@ TEST_SUITE("cli") {
     const Outcome one =
         run({"segment", "-", "--from", "cityjson", "--id", "b"}, {.in = city.dump()});
     CHECK(one.exit == 0);
-    CHECK(one.says("segmented 1 of 1 buildings"));
+    CHECK(one.says("1 of 1 building segmented"));
   }
 
   TEST_CASE("a box of three numbers or a share of no building is wrong usage") {

@@ -1,4 +1,4 @@
-#include "generalise/account.h"
+#include "generalise/feature_outcome.h"
 #include "generalise/generalise.h"
 #include "generalise/operators/operators.h"
 #include "generalise/removal/fill_rings.h"
@@ -334,8 +334,9 @@ TEST_SUITE("generalise") {
       Interpretation named = bare;
       named.verdicts[id.index()].label = "chimney";
       CHECK_FALSE(is_part(refused, plan, named));
-      CHECK(account(plan, *done.value, line.table(), bare)[id.index()].outcome == "kept");
-      CHECK(account(plan, *done.value, line.table(), named)[id.index()].outcome == "refused");
+      CHECK(feature_outcomes(plan, *done.value, line.table(), bare)[id.index()].outcome == "kept");
+      CHECK(feature_outcomes(plan, *done.value, line.table(), named)[id.index()].outcome ==
+            "refused");
       ++carriers;
     }
     CHECK(carriers == 1);

@@ -86,7 +86,7 @@ TEST_SUITE("generalise") {
       return solid.facets.size() == 8 ? Fitness::valid : Fitness::as_it_came;
     };
     CHECK(reason_of(order(), judging(eight_facets)) ==
-          "a facet at it cannot go: the building would not be valid");
+          "cannot remove the narrow facet: the building would not be valid");
   }
 
   TEST_CASE("of two facets the one goes that leaves a fit building") {
@@ -104,7 +104,7 @@ TEST_SUITE("generalise") {
       return Violation{Code::G405, "the footprint would change by 0.08 %"};
     };
     CHECK(reason_of(order(), validator) ==
-          "a facet at it cannot go: the footprint would change by 0.08 %");
+          "cannot remove the narrow facet: the footprint would change by 0.08 %");
   }
 
   TEST_CASE("a facet that has to stay stays, and without a validator all do") {
@@ -113,7 +113,7 @@ TEST_SUITE("generalise") {
       return "it is of a feature that stays";
     };
     CHECK(reason_of(keeping, judging(kAlwaysValid)) ==
-          "a facet at it cannot go: it is of a feature that stays");
+          "cannot remove the narrow facet: it is of a feature that stays");
     CHECK(reason_of(order(), {}) == "whether the building would still be valid is not asked");
   }
 }

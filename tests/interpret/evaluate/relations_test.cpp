@@ -244,10 +244,10 @@ TEST_SUITE("interpret") {
     const auto verdicts = interpret(base, scene.table(), scene.graph());
     const auto report = explain(base, scene.table(), scene.graph(), verdicts, FeatureId{0});
     REQUIRE(report.rules.at(0).require.size() == 2);
-    CHECK(report.rules[0].require[0].value == "exists(in_row) = 1 of 1");
+    CHECK(report.rules[0].require[0].value == "exists(in_row) is 1 of 1");
     CHECK(report.rules[0].require[0].bound ==
           "in_row: same_storey where abs(base_height - other.base_height) <= 0.2 m");
-    CHECK(report.rules[0].require[1].value == "max(base_height of in_row) = 1.10 m of 1");
+    CHECK(report.rules[0].require[1].value == "max(base_height of in_row) is 1.10 m of 1");
     CHECK(report.rules[0].require[1].miss == "misses by 0.90 m");
   }
 

@@ -86,21 +86,21 @@ TEST_SUITE("interpret") {
   TEST_CASE("an unknown feature is explained with its nearest candidate") {
     CHECK(to_text(explain_first(kPack, window_with_a_low_sill())) ==
           R"(f0 -> unknown   best candidate: window 0.29 (< min_score 0.35)
-  opening.shape   holds                                   opening                                           t.yaml:8:5
-    holds         sense = hole                            = hole                                            t.yaml:8:50
-    holds         depth = 0.10 m                          <= 0.60 m                                         t.yaml:5:19
-  door.ground     fails                                   door                                              t.yaml:9:5
-    holds         self is opening = yes                                                                     t.yaml:12:9
-    fails         base_height = 0.61 m                    <= 0.60 m ($sill_max), misses by 0.01 m           t.yaml:13:9
-    holds         host_inclination = 90.00 deg            in 75.00 deg .. 105.00 deg                        t.yaml:13:38
-  window.regular  holds, score 0.29                       window                                            t.yaml:14:5
-    holds         self is opening = yes                                                                     t.yaml:16:15
-    holds         base_height = 0.61 m                    > 0.60 m ($sill_max)                              t.yaml:16:35
-    no veto       quality > 0.9 and not natural                                                             t.yaml:17:14
-      fails       quality = 0.10                          > 0.90, misses by 0.80                            t.yaml:17:14
-      unknown     not natural = ?                         natural is missing                                t.yaml:17:32
-    0.87 x1       a = 2.10 m                              rises 0.40 m .. 0.90 m, falls 2.00 m .. 2.80 m    t.yaml:19:9
-    0.00 x2       count(alike where is opening) = 0 of 0  rises 0 .. 3, nearest miss f1: a = 2.10 m ~ 1.40 m by 10 %, differs 33.3 % t.yaml:20:9
+  opening.shape   holds                                    opening                                                   t.yaml:8:5
+    holds         sense is hole                                                                                      t.yaml:8:50
+    holds         depth is 0.10 m                          at most 0.60 m                                            t.yaml:5:19
+  door.ground     fails                                    door                                                      t.yaml:9:5
+    holds         self is opening: yes                                                                               t.yaml:12:9
+    fails         base_height is 0.61 m                    must be at most 0.60 m ($sill_max), misses by 0.01 m      t.yaml:13:9
+    holds         host_inclination is 90.00 deg            within 75.00 deg .. 105.00 deg                            t.yaml:13:38
+  window.regular  holds, score 0.29                        window                                                    t.yaml:14:5
+    holds         self is opening: yes                                                                               t.yaml:16:15
+    holds         base_height is 0.61 m                    above 0.60 m ($sill_max)                                  t.yaml:16:35
+    no veto       quality > 0.9 and not natural                                                                      t.yaml:17:14
+      fails       quality is 0.10                          must be above 0.90, misses by 0.80                        t.yaml:17:14
+      unknown     not natural: ?                           natural is missing                                        t.yaml:17:32
+    0.87 x1       a is 2.10 m                              rises 0.40 m .. 0.90 m, falls 2.00 m .. 2.80 m            t.yaml:19:9
+    0.00 x2       count(alike where is opening) is 0 of 0  rises 0 .. 3, nearest miss f1: a is 2.10 m, must be within 10 % of 1.40 m, differs by 33.3 % t.yaml:20:9
   nearest flip: sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground
 )");
   }
@@ -143,42 +143,42 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("values bounds and misses are shown in units") {
     const ConditionReport range = judged("b in 0.3 m .. 2.2 m", {{"b", 2.5}});
-    CHECK(range.value == "b = 2.50 m");
-    CHECK(range.bound == "in 0.30 m .. 2.20 m");
+    CHECK(range.value == "b is 2.50 m");
+    CHECK(range.bound == "must be within 0.30 m .. 2.20 m");
     CHECK(range.miss == "misses by 0.30 m");
 
     const ConditionReport list = judged("sense in [hole, imprint]", {{"sense", "cavity"}});
-    CHECK(list.value == "sense = cavity");
-    CHECK(list.bound == "in [hole, imprint]");
+    CHECK(list.value == "sense is cavity");
+    CHECK(list.bound == "must be one of [hole, imprint]");
     CHECK(list.miss.empty());
 
     const ConditionReport similar = judged("a ~ b by 10 %", {{"a", 1.0}, {"b", 1.5}});
-    CHECK(similar.value == "a = 1.00 m");
-    CHECK(similar.bound == "~ 1.50 m by 10 %");
-    CHECK(similar.miss == "differs 33.3 %");
+    CHECK(similar.value == "a is 1.00 m");
+    CHECK(similar.bound == "must be within 10 % of 1.50 m");
+    CHECK(similar.miss == "differs by 33.3 %");
 
     const ConditionReport turned = judged("2 m <= a", {{"a", 1.0}});
-    CHECK(turned.value == "a = 1.00 m");
-    CHECK(turned.bound == ">= 2.00 m");
+    CHECK(turned.value == "a is 1.00 m");
+    CHECK(turned.bound == "must be at least 2.00 m");
     CHECK(turned.miss == "misses by 1.00 m");
 
     const ConditionReport derived = judged("a / b >= 1.2", {{"a", 1.0}, {"b", 1.0}});
-    CHECK(derived.value == "a / b = 1.00");
-    CHECK(derived.bound == ">= 1.20");
+    CHECK(derived.value == "a / b is 1.00");
+    CHECK(derived.bound == "must be at least 1.20");
 
     const ConditionReport facet = judged("host is roof", {{"host_inclination", 80.0}});
     CHECK(facet.miss == "misses by 5.00 deg");
 
     const ConditionReport count = judged("split_order = 2", {{"split_order", 1.0}});
-    CHECK(count.value == "split_order = 1");
-    CHECK(count.bound == "= 2");
+    CHECK(count.value == "split_order is 1");
+    CHECK(count.bound == "must be 2");
     CHECK(count.miss == "misses by 1");
   }
 
   TEST_CASE("a narrow miss is shown with enough decimals") {
     const ConditionReport report = judged("base_height <= 0.6 m", {{"base_height", 0.6004}});
-    CHECK(report.value == "base_height = 0.6004 m");
-    CHECK(report.bound == "<= 0.6000 m");
+    CHECK(report.value == "base_height is 0.6004 m");
+    CHECK(report.bound == "must be at most 0.6000 m");
     CHECK(report.miss == "misses by 0.0004 m");
   }
 
@@ -188,7 +188,7 @@ TEST_SUITE("interpret") {
     CHECK(report.missing == std::vector<std::string>{"a", "natural", "sense"});
     REQUIRE(report.parts.size() == 2);
     CHECK(report.parts[0].parts.size() == 2);
-    CHECK(report.parts[1].value == "sense = ?");
+    CHECK(report.parts[1].value == "sense is ?");
   }
 
   TEST_CASE("the nearest miss is that of the other feature that misses least") {
@@ -199,11 +199,11 @@ TEST_SUITE("interpret") {
     const Explanation explanation = explain_first(kPack, scene);
     const TermReport& term = explanation.rules[2].terms[1];
     // f1 is an opening and differs by 33 %, f2 is alike and none, f3 is neither.
-    CHECK(term.value == "count(alike where is opening) = 0 of 1");
+    CHECK(term.value == "count(alike where is opening) is 0 of 1");
     CHECK(term.nearest == "f1");
     REQUIRE(term.nearest_misses.size() == 1);
-    CHECK(term.nearest_misses[0].value == "a = 2.10 m");
-    CHECK(term.nearest_misses[0].miss == "differs 33.3 %");
+    CHECK(term.nearest_misses[0].value == "a is 2.10 m");
+    CHECK(term.nearest_misses[0].miss == "differs by 33.3 %");
     CHECK(to_json(explanation)
               .find(R"("nearest":{"feature":"f1","misses":[{"text":"a ~ other.a )"
                     R"(by 10 %")") != std::string::npos);
@@ -223,16 +223,17 @@ TEST_SUITE("interpret") {
       return text;
     };
     CHECK(said("exists(beside where a < self.a)") ==
-          " f1 a = 2.00 m < 1.00 m (self.a) misses by 1.00 m");
-    CHECK(said("exists(beside where a > 3 m and sense = cavity)") == " f3 sense = hole = cavity ");
+          " f1 a is 2.00 m must be below 1.00 m (self.a) misses by 1.00 m");
+    CHECK(said("exists(beside where a > 3 m and sense = cavity)") ==
+          " f3 sense is hole must be cavity ");
     CHECK(said("none(beside where a > 2 m)") == "in the way: f2, f3");
     CHECK(said("all(beside where a > 2 m)") == "in the way: f1");
     CHECK(said("not exists(beside where a > 3 m)") == "in the way: f3");
     CHECK(said("count(beside where a > 2.2 m) >= 3") ==
-          "misses by 1 f1 a = 2.00 m > 2.20 m misses by 0.20 m");
+          "misses by 1 f1 a is 2.00 m must be above 2.20 m misses by 0.20 m");
     CHECK(said("count(beside where a > 2.2 m) < 2") == "in the way: f2, f3");
     CHECK(said("count(beside where a > 2.2 m) in 3 .. 5") ==
-          "misses by 1 f1 a = 2.00 m > 2.20 m misses by 0.20 m");
+          "misses by 1 f1 a is 2.00 m must be above 2.20 m misses by 0.20 m");
   }
 
   TEST_CASE("the smallest change of a param that flips the label is found") {

@@ -18,7 +18,7 @@ TEST_SUITE("interpret") {
   }
 
   TEST_CASE("every attribute has a dimension that a unit names") {
-    for (const Attribute& attribute : feature_schema()) {
+    for (const AttributeInfo& attribute : feature_schema()) {
       const Dimension dimension = dimension_of(attribute.unit);
       CHECK(unit_of(dimension) == suffix_of(attribute.unit));
       CHECK((dimension.is_plain() || unit_word(unit_of(dimension)).has_value()));

@@ -42,7 +42,8 @@ TEST_SUITE("interpret") {
   TEST_CASE("sheets are told apart by where they are thin and how they grow") {
     const auto place = [](std::map<std::string, double> numbers) {
       FeatureTable table("b", 1);
-      for (const auto& [name, number] : numbers) table.set(FeatureId{0}, name, number);
+      for (const auto& [name, number] : numbers)
+        table.set(FeatureId{0}, find_attribute(name).value(), number);
       return to_string(sheet_place(table, FeatureId{0}, 0.25));
     };
     CHECK(place({{"depth", 0.2}, {"inclination", 90}, {"growth_out", 0.2}}) == "lamina");

@@ -14,10 +14,10 @@ namespace {
 /// One surface with these attributes.
 SurfaceTable surface(double inclination, double height, const std::string& part = "") {
   SurfaceTable table(1);
-  table.set(0, "inclination", inclination);
-  table.set(0, "base_height", height);
-  table.set(0, "b", 2.0);
-  if (!part.empty()) table.set(0, "part", part);
+  table.set(0, SurfaceAttribute::inclination, inclination);
+  table.set(0, SurfaceAttribute::base_height, height);
+  table.set(0, SurfaceAttribute::b, 2.0);
+  if (!part.empty()) table.set(0, SurfaceAttribute::part, part);
   return table;
 }
 
@@ -34,11 +34,11 @@ SurfaceVerdict verdict(const std::string& pack, const SurfaceTable& table) {
 SurfaceTable many_surfaces() {
   SurfaceTable many(1500);
   for (std::size_t row = 0; row < many.rows(); ++row) {
-    many.set(row, "inclination", static_cast<double>(row % 181));
-    many.set(row, "base_height", static_cast<double>(row % 7) / 4);
-    if (row % 3 == 0) many.set(row, "gap_above", static_cast<double>(row % 11));
-    if (row % 5 > 0) many.set(row, "b", static_cast<double>(row % 13) / 6);
-    if (row % 2 == 0) many.set(row, "wall_up", static_cast<double>(row % 17) / 16);
+    many.set(row, SurfaceAttribute::inclination, static_cast<double>(row % 181));
+    many.set(row, SurfaceAttribute::base_height, static_cast<double>(row % 7) / 4);
+    if (row % 3 == 0) many.set(row, SurfaceAttribute::gap_above, static_cast<double>(row % 11));
+    if (row % 5 > 0) many.set(row, SurfaceAttribute::b, static_cast<double>(row % 13) / 6);
+    if (row % 2 == 0) many.set(row, SurfaceAttribute::wall_up, static_cast<double>(row % 17) / 16);
   }
   return many;
 }
@@ -48,16 +48,16 @@ class LateNumbers : public MoreAttributes {
  public:
   LateNumbers(const SurfaceTable& known, SurfaceTable& table) : known_(known), table_(table) {}
 
-  [[nodiscard]] bool is_pending(std::size_t column) const override {
+  [[nodiscard]] bool is_pending(SurfaceAttribute attribute) const override {
     for (std::size_t i = asked_.size(); i < kColumns.size(); ++i)
-      if (surface_column_of(kColumns[i]) == column) return true;
+      if (kColumns[i] == attribute) return true;
     return false;
   }
   void measure(std::span<const int> rows) override {
-    const char* name = kColumns.at(asked_.size());
+    const SurfaceAttribute attribute = kColumns.at(asked_.size());
     for (const int r : rows) {
       const auto row = static_cast<std::size_t>(r);
-      if (const auto value = known_.number(row, name)) table_.set(row, name, *value);
+      if (const auto value = known_.number(row, attribute)) table_.set(row, attribute, *value);
     }
     asked_.emplace_back(rows.begin(), rows.end());
   }
@@ -65,7 +65,8 @@ class LateNumbers : public MoreAttributes {
   [[nodiscard]] const std::vector<std::vector<int>>& asked() const { return asked_; }
 
  private:
-  static constexpr std::array<const char*, 3> kColumns = {"b", "gap_above", "wall_up"};
+  static constexpr std::array kColumns = {SurfaceAttribute::b, SurfaceAttribute::gap_above,
+                                          SurfaceAttribute::wall_up};
   const SurfaceTable& known_;
   SurfaceTable& table_;
   std::vector<std::vector<int>> asked_;
@@ -100,7 +101,7 @@ TEST_SUITE("interpret") {
     CHECK(verdict(pack, surface(0, 5, "window")).rule == "flat");
     CHECK(verdict(pack, surface(90, 5)).rule.empty());
     SurfaceTable covered = surface(0, 0.5);
-    covered.set(0, "gap_above", 3.0);
+    covered.set(0, SurfaceAttribute::gap_above, 3.0);
     CHECK(verdict(pack, covered).type == "OuterFloorSurface");
   }
 
@@ -110,8 +111,9 @@ TEST_SUITE("interpret") {
     const auto verdicts = interpret_surfaces(base, many);
     for (std::size_t row = 0; row < many.rows(); ++row) {
       SurfaceTable one(1);
-      for (const char* name : {"inclination", "base_height", "gap_above", "b", "wall_up"})
-        if (const auto value = many.number(row, name)) one.set(0, name, *value);
+      for (const SurfaceAttribute attribute : kSurfaceAttributes)
+        if (info_of(attribute).unit != Unit::text)
+          if (const auto value = many.number(row, attribute)) one.set(0, attribute, *value);
       CHECK(interpret_surfaces(base, one).at(0).type == verdicts[row].type);
       CHECK(explain_surface(base, many, row).starts_with(verdicts[row].type + " by "));
     }
@@ -126,8 +128,8 @@ TEST_SUITE("interpret") {
     for (int row = 0; row < static_cast<int>(known.rows()); row += 2) rows.push_back(row);
     SurfaceTable table(known.rows());
     for (std::size_t row = 0; row < known.rows(); ++row)
-      for (const char* name : {"inclination", "base_height"})
-        table.set(row, name, *known.number(row, name));
+      for (const auto attribute : {SurfaceAttribute::inclination, SurfaceAttribute::base_height})
+        table.set(row, attribute, *known.number(row, attribute));
     LateNumbers late(known, table);
     const auto verdicts = interpret_surfaces(base, table, rows, late);
     REQUIRE(verdicts.size() == known.rows());
@@ -140,7 +142,8 @@ TEST_SUITE("interpret") {
     for (const auto& asked : late.asked()) {
       CHECK_FALSE(asked.empty());
       for (const int row : asked) {
-        const double inclination = *known.number(static_cast<std::size_t>(row), "inclination");
+        const double inclination =
+            *known.number(static_cast<std::size_t>(row), SurfaceAttribute::inclination);
         CHECK((inclination < 75 || inclination > 105));
         CHECK(row % 2 == 0);
       }
@@ -157,7 +160,7 @@ TEST_SUITE("interpret") {
         "  - {id: covered, type: OuterFloorSurface, when: gap_above < 4 m and wall_up > 20 %}\n"
         "  - {id: any, type: RoofSurface, when: inclination < 10 deg}\n"));
     SurfaceTable known(1);
-    known.set(0, "inclination", 0.0);
+    known.set(0, SurfaceAttribute::inclination, 0.0);
     SurfaceTable table = known;
     LateNumbers late(known, table);
     const std::vector<int> rows = {0};

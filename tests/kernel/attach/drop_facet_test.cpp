@@ -92,19 +92,19 @@ TEST_SUITE("kernel/attach") {
     CHECK(is_closed(*dropped.solid));
     CHECK(dropped.solid->facets.size() == 6);
     CHECK(volume_m3(*dropped.solid) == doctest::Approx(480).epsilon(1e-9));
-    CHECK(reason_of(solid, triangle, 0.2) == "those beside it meet too far away");
+    CHECK(reason_of(solid, triangle, 0.2) == "its neighbours meet too far away");
   }
 
   TEST_CASE("a facet does not go where those beside it cannot take its place") {
     const Solid block = solid_of(BoxBody().add({0, 0, 0}, {10, 8, 0.125}).build());
-    CHECK(reason_of(block, facet_looking(block, {1, 0, 0})) == "those beside it do not meet");
+    CHECK(reason_of(block, facet_looking(block, {1, 0, 0})) == "its neighbours do not meet");
     const Solid windows =
         solid_of(BoxBody().add({0, 0, 0}, {10, 8, 6}).remove({1, 0, 1}, {2, 0.25, 2}).build());
     CHECK(reason_of(windows, facet_looking(windows, {0, -1, 0})) == "it has holes");
     const Solid chamfered = solid_of(prism(kChamfered));
     CHECK(reason_of(chamfered, facet_looking(chamfered, {0, 0, 1})) == "it has 5 corners");
     CHECK(reason_of(chamfered, facet_looking(chamfered, kSlant * kChamfer), 0.2) ==
-          "those beside it meet too far away");
+          "its neighbours meet too far away");
     const Solid gabled = solid_of(gabled_house());
     CHECK(reason_of(gabled, facet_looking(gabled, {0, 0, -1}), 1e3) != "");
   }

@@ -24,20 +24,19 @@ TEST_SUITE("kernel/describe") {
     const auto house = small_house();
     const Description all = describe(house.building, house.segmentation);
     int compared = 0;
-    for (std::size_t asked = 0; asked < feature_schema().size(); ++asked) {
-      const Attribute& attribute = feature_schema()[asked];
-      CAPTURE(attribute.name);
+    for (const Attribute asked : kAttributes) {
+      CAPTURE(info_of(asked).name);
       DescribeOptions options;
-      options.attributes.assign(feature_schema().size(), false);
-      options.attributes[asked] = true;
+      options.attributes.assign(kAttributes.size(), false);
+      options.attributes[column_of(asked)] = true;
       options.relations.assign(relation_schema().size(), false);
       const Description some = describe(house.building, house.segmentation, options);
       REQUIRE(some.table.rows() == all.table.rows());
       for (int row = 0; row < static_cast<int>(all.table.rows()); ++row) {
         const FeatureId id{row};
         CHECK(some.table.id(id) == all.table.id(id));
-        if (attribute.unit == Unit::text)
-          CHECK(some.table.text(id, attribute.name) == all.table.text(id, attribute.name));
+        if (info_of(asked).unit == Unit::text)
+          CHECK(some.table.text(id, asked) == all.table.text(id, asked));
         else
           CHECK(some.table.number(id, asked) == all.table.number(id, asked));
         ++compared;

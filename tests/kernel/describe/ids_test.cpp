@@ -51,14 +51,15 @@ TEST_SUITE("kernel/describe") {
       CAPTURE(building.id);
       const Described d = described(building), other = described(test::shuffled(building, 7));
       REQUIRE(ids_of(other.table()) == ids_of(d.table()));
-      for (std::size_t c = 0; c < feature_schema().size(); ++c) {
-        CAPTURE(feature_schema()[c].name);
+      for (const Attribute attribute : kAttributes) {
+        CAPTURE(info_of(attribute).name);
         for (const std::string& id : ids_of(d.table())) {
           const FeatureId here = d.table().find(id), there = other.table().find(id);
-          if (feature_schema()[c].unit == Unit::text)
-            CHECK(d.table().texts(c)[here.index()] == other.table().texts(c)[there.index()]);
+          if (info_of(attribute).unit == Unit::text)
+            CHECK(d.table().texts(attribute)[here.index()] ==
+                  other.table().texts(attribute)[there.index()]);
           else
-            CHECK(d.table().number(here, c) == other.table().number(there, c));
+            CHECK(d.table().number(here, attribute) == other.table().number(there, attribute));
         }
       }
     }

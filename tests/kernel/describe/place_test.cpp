@@ -24,7 +24,7 @@ TEST_SUITE("kernel/describe") {
                                       .build());
     for (const FeatureId door : {d.at({4, 0, 0}, {5, 0.3, 2}), d.at({14, 0, 2}, {15, 0.3, 4})}) {
       check_numbers(d, door, {{"base_height", 0}, {"top", 2}});
-      CHECK(d.table().text(door, "ground_source") == "facet");
+      CHECK(d.table().text(door, Attribute::ground_source) == "facet");
     }
     check_numbers(d, d.at({17, 0, 3}, {18, 0.3, 4}), {{"base_height", 1}});
   }
@@ -53,7 +53,7 @@ TEST_SUITE("kernel/describe") {
     for (const double x : {4.0, 14.0}) {
       const FeatureId window = d.at({x, 0, 4}, {x + 1, 0.3, 6});
       check_numbers(d, window, {{"base_height", 4 - 0.1 * (x + 0.5)}});
-      CHECK(d.table().text(window, "ground_source") == "facet");
+      CHECK(d.table().text(window, Attribute::ground_source) == "facet");
     }
   }
 
@@ -69,10 +69,10 @@ TEST_SUITE("kernel/describe") {
                                       .remove(box({4.5, 2, 20}, {5.5, 4, 22}))
                                       .build());
     const FeatureId skylight = d.at({4.8, 3, 23}, {5.2, 4, 24});
-    CHECK(d.table().text(skylight, "ground_source") == "wall");
+    CHECK(d.table().text(skylight, Attribute::ground_source) == "wall");
     check_numbers(d, skylight, {{"base_height", -1}, {"top", 0}});
     const FeatureId cavity = d.at({4.5, 2, 20}, {5.5, 4, 22});
-    CHECK(d.table().text(cavity, "ground_source") == "body");
+    CHECK(d.table().text(cavity, Attribute::ground_source) == "body");
     check_numbers(d, cavity, {{"base_height", 20}, {"top", 22}});
   }
 
@@ -129,7 +129,7 @@ TEST_SUITE("kernel/describe") {
     const Described d = described(test::cavity_and_lumps());
     REQUIRE(d.table().rows() == 1);
     const FeatureId cavity{0};
-    CHECK(d.table().text(cavity, "sense") == "cavity");
+    CHECK(d.table().text(cavity, Attribute::sense) == "cavity");
     for (const char* name : {"depth", "inclination", "azimuth", "growth_up", "growth_down",
                              "growth_out", "growth_side", "above_eaves", "edge_gap", "along",
                              "host_inclination", "storey", "per_facade", "per_storey"}) {

@@ -51,8 +51,8 @@ TEST_SUITE("kernel/describe") {
                    {"storey", 0},
                    {"per_facade", 1},
                    {"per_storey", 1}});
-    CHECK(d.table().text(window, "sense") == "hole");
-    CHECK(d.table().text(window, "ground_source") == "facet");
+    CHECK(d.table().text(window, Attribute::sense) == "hole");
+    CHECK(d.table().text(window, Attribute::ground_source) == "facet");
   }
 
   TEST_CASE("a chimney on a flat roof has its size and its place") {
@@ -83,7 +83,7 @@ TEST_SUITE("kernel/describe") {
                    {"edge_gap", 3},
                    {"host_inclination", 0},
                    {"per_facade", 1}});
-    CHECK(d.table().text(chimney, "sense") == "protrusion");
+    CHECK(d.table().text(chimney, Attribute::sense) == "protrusion");
     CHECK_FALSE(d.has(chimney, "azimuth"));
     CHECK_FALSE(d.has(chimney, "storey"));
     CHECK_FALSE(d.has(chimney, "per_storey"));
@@ -123,7 +123,9 @@ TEST_SUITE("kernel/describe") {
 
   TEST_CASE("features have the level of detail that the input states") {
     Building building = test::full_house();
-    const auto first = [](const Described& d) { return d.table().number(FeatureId{0}, "lod"); };
+    const auto first = [](const Described& d) {
+      return d.table().number(FeatureId{0}, Attribute::lod);
+    };
     for (const auto& [text, number] : {std::pair{"2.2", 2.2}, {"3", 3.0}}) {
       building.lod = text;
       CHECK(first(described(building)) == number);
@@ -149,7 +151,7 @@ TEST_SUITE("kernel/describe") {
                                "storey", "per_facade", "per_storey", "growth_out", "growth_up"}) {
         CAPTURE(std::string(name));
         const auto numbers_in = [&](const FeatureTable& table) {
-          const auto numbers = table.numbers(column_of(name).value());
+          const auto numbers = table.numbers(find_attribute(name).value());
           return std::vector<double>(numbers.begin(), numbers.end());
         };
         std::vector<double> before = numbers_in(d.table());
@@ -163,9 +165,9 @@ TEST_SUITE("kernel/describe") {
       }
       std::vector<double> facing, faced;
       for (const FeatureId id : test::all_features(d.segmented.segmentation)) {
-        if (const auto a = d.table().number(id, "azimuth"))
+        if (const auto a = d.table().number(id, Attribute::azimuth))
           facing.push_back(std::fmod(*a - degrees + 720 + 1e-3, 360));
-        if (const auto a = t.table().number(id, "azimuth"))
+        if (const auto a = t.table().number(id, Attribute::azimuth))
           faced.push_back(std::fmod(*a + 1e-3, 360));
       }
       std::ranges::sort(facing);

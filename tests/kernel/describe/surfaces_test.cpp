@@ -29,7 +29,7 @@ Building block() {
 std::multiset<std::string> facings(const SurfaceTable& table) {
   std::multiset<std::string> found;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double inclination = table.number(row, "inclination").value();
+    const double inclination = table.number(row, SurfaceAttribute::inclination).value();
     found.insert(inclination < 1 ? "up" : inclination > 179 ? "down" : "wall");
   }
   return found;
@@ -42,7 +42,7 @@ void turn(Polygon& polygon) {
 /// The row of the polygon that looks as said with its points at that height.
 std::size_t row_at(const Building& building, const SurfaceTable& table, double z, bool looks_up) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double inclination = table.number(row, "inclination").value();
+    const double inclination = table.number(row, SurfaceAttribute::inclination).value();
     const bool is_level = looks_up ? inclination < 1 : inclination > 179;
     const int corner = building.polygons[row].rings[0][0];
     if (is_level && building.vertices[static_cast<std::size_t>(corner)].z == doctest::Approx(z))
@@ -59,7 +59,7 @@ TEST_SUITE("kernel/describe") {
     const SurfaceTable table = describe_surfaces(block());
     double sum_m2 = 0;
     for (std::size_t row = 0; row < table.rows(); ++row)
-      sum_m2 += table.number(row, "area").value();
+      sum_m2 += table.number(row, SurfaceAttribute::area).value();
     // The block, the sides of the loggia, the sides of the slab.
     CHECK(sum_m2 == doctest::Approx(2 * 80 + 2 * 90 + 2 * 72 + 4 * (2 * 4 + 2 * 3) / 2.0 +
                                     2 * (2 * 1) + 2 * 0.2)
@@ -76,10 +76,11 @@ TEST_SUITE("kernel/describe") {
     const SurfaceTable open = describe_surfaces(turned);
     REQUIRE(open.rows() == closed.rows());
     for (std::size_t row = 0; row < open.rows(); ++row) {
-      CHECK(open.number(row, "inclination").value() ==
-            doctest::Approx(closed.number(row, "inclination").value()).epsilon(1e-9));
-      CHECK(open.text(row, "facing") == "position");
-      CHECK(closed.text(row, "facing") == "solid");
+      CHECK(
+          open.number(row, SurfaceAttribute::inclination).value() ==
+          doctest::Approx(closed.number(row, SurfaceAttribute::inclination).value()).epsilon(1e-9));
+      CHECK(open.text(row, SurfaceAttribute::facing) == "position");
+      CHECK(closed.text(row, SurfaceAttribute::facing) == "solid");
     }
   }
 
@@ -89,7 +90,8 @@ TEST_SUITE("kernel/describe") {
     const auto expected = facings(untouched);
     const std::size_t row_of_roof = row_at(building, untouched, 9, true);
     std::size_t row_of_wall = 0;
-    while (untouched.number(row_of_wall, "inclination").value() != doctest::Approx(90))
+    while (untouched.number(row_of_wall, SurfaceAttribute::inclination).value() !=
+           doctest::Approx(90))
       ++row_of_wall;
     int told = 0;
     for (unsigned pattern = 1; pattern < 100; ++pattern) {
@@ -99,8 +101,8 @@ TEST_SUITE("kernel/describe") {
         if ((pattern * 2654435761U >> (i % 29)) % 2 == 1) turn(mixed.polygons[i]);
       const SurfaceTable table = describe_surfaces(mixed);
       // Where three quarters of the area agree, or disagree, that is believed of all, walls too.
-      if (table.text(row_of_roof, "facing") != "position") continue;
-      if (table.text(row_of_wall, "facing") != "input") continue;
+      if (table.text(row_of_roof, SurfaceAttribute::facing) != "position") continue;
+      if (table.text(row_of_wall, SurfaceAttribute::facing) != "input") continue;
       CHECK(facings(table) == expected);
       ++told;
     }
@@ -118,9 +120,10 @@ TEST_SUITE("kernel/describe") {
     building.polygons.push_back(sheet);
     const SurfaceTable table = describe_surfaces(building);
     const std::size_t slab = row_at(building, table, 3.2, true);
-    CHECK(table.number(slab, "gap_above").value() == doctest::Approx(5.8));
+    CHECK(table.number(slab, SurfaceAttribute::gap_above).value() == doctest::Approx(5.8));
     // One side of four, 2 m of 6 m, is at the wall.
-    CHECK(table.number(slab, "wall_up").value() == doctest::Approx(2.0 / 6).epsilon(1e-9));
+    CHECK(table.number(slab, SurfaceAttribute::wall_up).value() ==
+          doctest::Approx(2.0 / 6).epsilon(1e-9));
   }
 
   TEST_CASE("a loggia has a ceiling above its floor and walls around it") {
@@ -128,16 +131,17 @@ TEST_SUITE("kernel/describe") {
     const SurfaceTable table = describe_surfaces(building);
     const std::size_t floor = row_at(building, table, 3, true);
     const std::size_t ceiling = row_at(building, table, 6, false);
-    CHECK(table.number(floor, "gap_above").value() == doctest::Approx(3));
-    CHECK(table.number(ceiling, "gap_below").value() == doctest::Approx(3));
-    CHECK(table.number(floor, "wall_up").value() == doctest::Approx(8.0 / 12).epsilon(0.2));
-    CHECK(table.number(floor, "base_height").value() == doctest::Approx(3));
+    CHECK(table.number(floor, SurfaceAttribute::gap_above).value() == doctest::Approx(3));
+    CHECK(table.number(ceiling, SurfaceAttribute::gap_below).value() == doctest::Approx(3));
+    CHECK(table.number(floor, SurfaceAttribute::wall_up).value() ==
+          doctest::Approx(8.0 / 12).epsilon(0.2));
+    CHECK(table.number(floor, SurfaceAttribute::base_height).value() == doctest::Approx(3));
     const std::size_t roof = row_at(building, table, 9, true);
-    CHECK_FALSE(table.number(roof, "gap_above"));
-    CHECK(table.number(roof, "below_ridge").value() == doctest::Approx(0));
+    CHECK_FALSE(table.number(roof, SurfaceAttribute::gap_above));
+    CHECK(table.number(roof, SurfaceAttribute::below_ridge).value() == doctest::Approx(0));
     const std::size_t ground = row_at(building, table, 0, false);
-    CHECK_FALSE(table.number(ground, "gap_below"));
-    CHECK(table.number(ground, "base_height").value() == doctest::Approx(0));
+    CHECK_FALSE(table.number(ground, SurfaceAttribute::gap_below));
+    CHECK(table.number(ground, SurfaceAttribute::base_height).value() == doctest::Approx(0));
   }
 
   TEST_CASE("what is measured of a surface does not depend on what else is") {
@@ -148,18 +152,18 @@ TEST_SUITE("kernel/describe") {
       // The costliest first.
       for (auto what = kSurfaceMeasures.rbegin(); what != kSurfaceMeasures.rend(); ++what)
         survey.measure(*what, {&row, 1});
-      for (const Attribute& attribute : surface_schema()) {
-        if (attribute.unit == Unit::text) continue;
-        CAPTURE(attribute.name);
+      for (const SurfaceAttribute attribute : kSurfaceAttributes) {
+        if (info_of(attribute).unit == Unit::text) continue;
+        CAPTURE(info_of(attribute).name);
         const auto r = static_cast<std::size_t>(row);
-        CHECK(survey.table().number(r, attribute.name) == all.number(r, attribute.name));
+        CHECK(survey.table().number(r, attribute) == all.number(r, attribute));
       }
     }
     SurfaceSurvey untouched(building);
-    for (std::size_t c = 0; c < surface_schema().size(); ++c) {
-      if (!measure_of(c)) continue;
+    for (const SurfaceAttribute attribute : kSurfaceAttributes) {
+      if (!measure_of(attribute)) continue;
       for (std::size_t row = 0; row < all.rows(); ++row)
-        CHECK_FALSE(untouched.table().number(row, surface_schema()[c].name));
+        CHECK_FALSE(untouched.table().number(row, attribute));
     }
   }
 
@@ -172,15 +176,15 @@ TEST_SUITE("kernel/describe") {
     for (int row = 0; row < static_cast<int>(all.table().rows()); ++row) {
       SurfaceSurvey one(building, {}, context, std::span(&row, 1));
       REQUIRE(one.table().rows() == all.table().rows());
-      for (const Attribute& attribute : surface_schema())
+      for (const SurfaceAttribute attribute : kSurfaceAttributes)
         for (std::size_t other = 0; other < all.table().rows(); ++other) {
           const bool is_asked = other == static_cast<std::size_t>(row);
-          if (attribute.unit == Unit::text)
-            CHECK(one.table().text(other, attribute.name) ==
-                  (is_asked ? all.table().text(other, attribute.name) : ""));
+          if (info_of(attribute).unit == Unit::text)
+            CHECK(one.table().text(other, attribute) ==
+                  (is_asked ? all.table().text(other, attribute) : ""));
           else
-            CHECK(one.table().number(other, attribute.name) ==
-                  (is_asked ? all.table().number(other, attribute.name) : std::nullopt));
+            CHECK(one.table().number(other, attribute) ==
+                  (is_asked ? all.table().number(other, attribute) : std::nullopt));
         }
     }
   }
@@ -192,6 +196,6 @@ TEST_SUITE("kernel/describe") {
     const SurfaceTable table = describe_facets(*solid.value);
     REQUIRE(table.rows() == solid.value->facets.size());
     for (std::size_t row = 0; row < table.rows(); ++row)
-      CHECK(table.number(row, "synthetic").value() == (row == 0 ? 1 : 0));
+      CHECK(table.number(row, SurfaceAttribute::synthetic).value() == (row == 0 ? 1 : 0));
   }
 }

@@ -64,13 +64,13 @@ TEST_SUITE("kernel/io") {
     CHECK(thrown_by("a.stl").code == Code::E106);
   }
 
-  TEST_CASE("an empty file is told from a broken one") {
-    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.city.jsonl"})
+  TEST_CASE("an empty file is distinguished from a broken one") {
+    for (const char* name : {"a.city.json", "a.obj", "a.off", "a.ply", "a.city.jsonl"})
       CHECK(refusal_of("", name).code == Code::E102);
     CHECK(refusal_of(" \n").code == Code::E102);
   }
 
-  TEST_CASE("a truncated file is told from a broken one and the place is its end") {
+  TEST_CASE("a truncated file is distinguished from a broken one and the place is its end") {
     const std::string text = BoxFile().text();
     const Issue issue = refusal_of(text.substr(0, 100));
     CHECK(issue.code == Code::E105);
@@ -172,7 +172,7 @@ TEST_SUITE("kernel/io") {
         R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},)"
         R"("CityObjects":{"t":{"type":"Road"}},"vertices":[]})");
     CHECK(record.value);
-    CHECK(codes_of(record.issues) == "E209");
+    CHECK(codes_of(record.issues) == Code::E209);
     CHECK(record.issues[0].severity == Severity::warning);
   }
 
@@ -205,10 +205,10 @@ TEST_SUITE("kernel/io") {
     CHECK(read_text(file.text()).value->buildings.size() == 1);
     std::string text = BoxFile().text();
     text.replace(text.find(R"("Building")"), 10, "3");
-    CHECK(codes_of(read_text(text).issues) == "E201");
+    CHECK(codes_of(read_text(text).issues) == Code::E201);
     CHECK(codes_of(read_text(R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],)"
                              R"("translate":[0,0,0]},"CityObjects":{"a":3},"vertices":[]})")
-                       .issues) == "E202");
+                       .issues) == Code::E202);
   }
 
   TEST_CASE("a vertex that is not three whole numbers costs the buildings that use it") {
@@ -261,7 +261,7 @@ TEST_SUITE("kernel/io") {
     file.objects = R"(,"house":{"type":"Building"})";
     const auto record = read_text(file.text());
     CHECK(record.value->buildings.size() == 1);
-    CHECK(codes_of(record.issues) == "E207");
+    CHECK(codes_of(record.issues) == Code::E207);
   }
 
   TEST_CASE("a ring of fewer than three points is a warning with the number of val3dity") {
@@ -284,7 +284,7 @@ TEST_SUITE("kernel/io") {
     BoxFile file;
     file.boundaries = "[[[[0,3,3,2,1,0]]]]";
     const auto record = read_text(file.text());
-    CHECK(codes_of(record.issues) == "E312");
+    CHECK(codes_of(record.issues) == Code::E312);
     CHECK(record.value->buildings.at(0).polygons[0].rings[0].size() == 4);
   }
 
@@ -302,10 +302,10 @@ TEST_SUITE("kernel/io") {
     std::string text = file.text();
     const auto record = read_text(text);
     CHECK(record.value->buildings.empty());
-    CHECK(codes_of(record.issues) == "E506");
+    CHECK(codes_of(record.issues) == Code::E506);
     file = {};
     file.transform = R"({"scale":[1e308,1,1],"translate":[0,0,0]})";
-    CHECK(codes_of(read_text(file.text()).issues) == "E506");
+    CHECK(codes_of(read_text(file.text()).issues) == Code::E506);
   }
 
   TEST_CASE("a building of more than four kilometres is set aside") {
@@ -314,7 +314,7 @@ TEST_SUITE("kernel/io") {
     file.vertices.replace(file.vertices.find("[4000,0,0]"), 10, "[0,0,0]");
     const auto record = read_text(file.text());
     CHECK(record.value->buildings.empty());
-    CHECK(codes_of(record.issues) == "E501");
+    CHECK(codes_of(record.issues) == Code::E501);
   }
 
   TEST_CASE("a CityJSONSeq without a header line ends after its first line") {
@@ -322,7 +322,7 @@ TEST_SUITE("kernel/io") {
     const std::string line = R"({"type":"CityJSONFeature","CityObjects":{},"vertices":[]})";
     const auto records = test::read_all(folder.write("a.city.jsonl", line + "\n" + line + "\n"));
     REQUIRE(records.size() == 1);
-    CHECK(codes_of(records[0].issues) == "E107");
+    CHECK(codes_of(records[0].issues) == Code::E107);
     CHECK(records[0].issues[0].place.line == 1);
   }
 }

@@ -54,7 +54,7 @@ std::string lod2_polygon(const std::string& ring_content, const std::string& att
 }
 
 TEST_SUITE("kernel/io") {
-  TEST_CASE("an empty CityGML file is told from a broken one") {
+  TEST_CASE("an empty CityGML file is distinguished from a broken one") {
     CHECK(gml_refusal("").code == Code::E102);
     CHECK(gml_refusal(" \n").code == Code::E102);
     CHECK(gml_refusal("<?xml version=\"1.0\"?>\n<!-- no model -->\n").code == Code::E102);
@@ -96,7 +96,7 @@ TEST_SUITE("kernel/io") {
     REQUIRE(records.size() == 3);
     CHECK(records[1].value->buildings.at(0).id == "a");
     CHECK_FALSE(records[2].value);
-    CHECK(codes_of(records[2].issues) == "E105");
+    CHECK(codes_of(records[2].issues) == Code::E105);
   }
 
   TEST_CASE("XML that is not well-formed has line and column and a caret") {
@@ -295,11 +295,11 @@ TEST_SUITE("kernel/io") {
             .code == Code::E503);
   }
 
-  TEST_CASE("a building without geometry is told with a warning") {
+  TEST_CASE("a building without geometry is reported with a warning") {
     const TemporaryFolder folder;
     const auto records =
         read_all(folder.write("a.gml", CityGmlFile{"2.0", building("a", "")}.text()));
-    CHECK(codes_of(records.at(1).issues) == "E209");
+    CHECK(codes_of(records.at(1).issues) == Code::E209);
     CHECK_FALSE(has_errors(records[1].issues));
     CHECK(records[1].value->buildings.empty());
   }
@@ -312,7 +312,7 @@ TEST_SUITE("kernel/io") {
     const auto records = read_all(folder.write("a.gml", file.text()));
     REQUIRE(records.size() == 4);
     CHECK(records[1].issues.empty());
-    CHECK(codes_of(records[2].issues) == "E207");
+    CHECK(codes_of(records[2].issues) == Code::E207);
     CHECK(records[2].value->buildings.empty());
     CHECK(records[3].issues.empty());
   }
@@ -325,7 +325,7 @@ TEST_SUITE("kernel/io") {
     const auto records =
         read_all(folder.write("a.gml", CityGmlFile{"2.0", building("a", lod2(twice))}.text()));
     REQUIRE(records.size() == 2);
-    CHECK(codes_of(records[1].issues) == "E207");
+    CHECK(codes_of(records[1].issues) == Code::E207);
     CHECK(records[1].issues[0].severity == Severity::warning);
     CHECK(records[1].value->buildings.size() == 1);
   }
@@ -336,7 +336,7 @@ TEST_SUITE("kernel/io") {
         "a.gml",
         CityGmlFile{"2.0", building("a", lod2(surface_member(polygon("", "0 0 0 1 0 0 0 1 0"))))}
             .text()));
-    CHECK(codes_of(records.at(1).issues) == "E314");
+    CHECK(codes_of(records.at(1).issues) == Code::E314);
     CHECK(records[1].value->buildings.at(0).polygons.at(0).rings.at(0).size() == 3);
   }
 
@@ -347,7 +347,7 @@ TEST_SUITE("kernel/io") {
                                                       element("bldg:lod3ImplicitRepresentation",
                                                               element("c:ImplicitGeometry", "")))}
                      .text()));
-    CHECK(codes_of(records.at(1).issues) == "E206");
+    CHECK(codes_of(records.at(1).issues) == Code::E206);
     CHECK(records[1].value->buildings.size() == 1);
   }
 }

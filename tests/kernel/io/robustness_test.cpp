@@ -84,13 +84,18 @@ TEST_SUITE("kernel/io") {
             .text());
   }
 
-  TEST_CASE("no truncation and no corrupt byte of an OBJ or OFF file is fatal") {
+  TEST_CASE("no truncation and no corrupt byte of a mesh file is fatal") {
     try_corruptions("a.obj",
                     "# c\no house\nv 0 0 0\nv 1 0 0\nv 0 1.5e0 0\nv 0 0 1\nusemtl brick\n"
                     "f 1//1 2//1 3\nf -1 -2 \\\n-3\ng roof\nf 1/1/1 2 4\n");
     try_corruptions("a.off",
                     "OFF # c\n4 3 0\n0 0 0\n1 0 0\n0 1.5e0 0\n0 0 1\n3 0 1 2\n"
                     "3 1 2 3 255 0 0\n3 0 2 3\n");
+    try_corruptions("a.ply",
+                    "ply\nformat ascii 1.0\ncomment feature 0 a roof\nelement vertex 4\n"
+                    "property float x\nproperty float y\nproperty double z\nelement face 2\n"
+                    "property list uchar int vertex_indices\nproperty int feature\nend_header\n"
+                    "0 0 0\n1 0 0\n0 1.5e0 0\n0 0 1\n3 0 1 2 0\n3 1 2 3 -1\n");
   }
 }
 

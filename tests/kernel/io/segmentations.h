@@ -59,9 +59,9 @@ struct SmallSegmentation {
 
     table.set_id(FeatureId{0}, "b1");
     table.set_id(FeatureId{1}, "w1");
-    table.set(FeatureId{0}, "volume", 1.0 / 3);
-    table.set(FeatureId{1}, "natural", 1);
-    table.set(FeatureId{1}, "sense", "hole");
+    table.set(FeatureId{0}, Attribute::volume, 1.0 / 3);
+    table.set(FeatureId{1}, Attribute::natural, 1);
+    table.set(FeatureId{1}, Attribute::sense, "hole");
     graph.set("host", {{FeatureId{1}, FeatureId{0}}});
     graph.set("contains", {{FeatureId{0}, FeatureId{1}}});
     graph.set("alike", {{FeatureId{1}, FeatureId{0}}, {FeatureId{0}, FeatureId{1}}});

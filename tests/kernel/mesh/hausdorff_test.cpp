@@ -1,24 +1,11 @@
 #include "kernel/mesh/hausdorff.h"
 
-#include "kernel/solidify/solidify.h"
-#include "tests/support/shapes.h"
-
-#include <doctest/doctest.h>
+#include "tests/kernel/mesh/meshes.h"
 
 using namespace oriel;
 using namespace oriel::test;
 
-namespace {
-
-Solid solid_of(const Building& building) {
-  auto solid = solidify(building);
-  REQUIRE(solid.value);
-  return std::move(*solid.value);
-}
-
-}  // namespace
-
-TEST_SUITE("kernel/compare") {
+TEST_SUITE("kernel/mesh") {
   TEST_CASE("a solid is at no distance from itself") {
     const Solid box = solid_of(BoxBody().add({0, 0, 0}, {4, 3, 2}).build());
     CHECK(hausdorff_m(box, box) <= 0.001);

@@ -9,7 +9,7 @@ namespace {
 
 TEST_SUITE("kernel/segment") {
   TEST_CASE("a cut whose rim separates nothing is not made and the rest goes on") {
-    // Two millimetres of noise put vertices beside the planes that they lie on by decree.
+    // Two millimetres of noise put vertices beside the planes that they count as lying on.
     generator::Options options;
     options.seed = 3;
     options.flush = 0.3;

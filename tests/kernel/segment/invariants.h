@@ -7,7 +7,7 @@ namespace oriel::test {
 /// How exact the body is whose segmentation is checked.
 struct Exactness {
   double area_rel = 1e-9;
-  /// How far vertices may lie from their planes: those of valence above three by decree.
+  /// How far vertices may lie from their planes: those of valence above three which are rounded.
   double planarity_m = 1e-6;
   int samples = 200;
   /// False for surveyed models: cells may be slivers that the tolerances turn inside out.

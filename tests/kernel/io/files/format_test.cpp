@@ -13,6 +13,7 @@ TEST_SUITE("kernel/io") {
     CHECK(format_of("b.jsonl") == Format::cityjson_seq);
     CHECK(format_of("b.obj") == Format::obj);
     CHECK(format_of("b.off") == Format::off);
+    CHECK(format_of("b.ply") == Format::ply);
     CHECK(format_of("b.stl") == Format::stl);
     CHECK(format_of("b.gml") == Format::citygml);
     CHECK(format_of("b.citygml") == Format::citygml);
@@ -23,7 +24,7 @@ TEST_SUITE("kernel/io") {
 
   TEST_CASE("every format reads back from its name") {
     for (const Format format : {Format::cityjson, Format::cityjson_seq, Format::citygml,
-                                Format::obj, Format::off, Format::stl})
+                                Format::obj, Format::off, Format::ply, Format::stl})
       CHECK(parse_format(to_string(format)) == format);
     CHECK_FALSE(parse_format("CityJSON "));
   }

@@ -61,7 +61,7 @@ TEST_SUITE("kernel/io") {
     CHECK(record.issues[0].place.column == 7);
   }
 
-  TEST_CASE("what is wrong in an OBJ file is told with line and column") {
+  TEST_CASE("what is wrong in an OBJ file is reported with line and column") {
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     struct Case {
       const char* line;
@@ -117,7 +117,7 @@ TEST_SUITE("kernel/io") {
     CHECK(read_text("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", "a.off").issues.empty());
   }
 
-  TEST_CASE("what is wrong in an OFF file is told with its line") {
+  TEST_CASE("what is wrong in an OFF file is reported with its line") {
     struct Case {
       const char* text;
       const char* code;
@@ -143,6 +143,78 @@ TEST_SUITE("kernel/io") {
                           {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 red\n", "E110", 6},
                           {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "E110", 7}}) {
       const auto record = read_text(c.text, "a.off");
+      CAPTURE(c.text);
+      CHECK_FALSE(record.value);
+      REQUIRE(codes_of(record.issues) == c.code);
+      CHECK(record.issues[0].place.line == c.line);
+    }
+  }
+
+  TEST_CASE("a PLY file is read with further properties and elements") {
+    const auto record = read_text(
+        "ply\r\nformat ascii 1.0\r\ncomment a house\nobj_info by hand\nelement material 1\n"
+        "property list uchar int parts\nproperty float shine\nelement face 4\nproperty uchar red\n"
+        "property list uint8 int32 vertex_index\nproperty list uchar float uv\n"
+        "element vertex 4\nproperty float nx\nproperty float64 z\nproperty double y\n"
+        "property double x\nend_header\n2 7 8 0.5\n255 3 0 2 1 0\n0 3 0 1 3 2 0.1 0.2\n"
+        "0 3 1 2 3 0\n\n0 3 2 0 3 0\n1 0 5403766.115 678114.444\n0 0 5403766 678115\n"
+        "0 0 5403767 678114\n0 1 5403766 678114\n",
+        "house.ply");
+    CHECK(record.issues.empty());
+    REQUIRE(record.value);
+    const Building& building = record.value->buildings.at(0);
+    CHECK(building.id == "house");
+    CHECK(building.is_solid);
+    CHECK(building.polygons.size() == 4);
+    CHECK(building.frame.origin_m == Vec3{678114, 5403766, 0});
+    CHECK(building.vertices[0].y + building.frame.origin_m.y == 5403766.115);
+  }
+
+  TEST_CASE("what is wrong in a PLY file is reported with its line") {
+    const std::string vertex =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+    const std::string head = "ply\nformat ascii 1.0\n";
+    const std::string whole = head + vertex + face + "end_header\n";
+    const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+    struct Case {
+      std::string text;
+      const char* code;
+      int line;
+    };
+    for (const Case& c :
+         {Case{"OFF\n", "E107", 1},
+          {"\n", "E102", 2},
+          {"ply x\n", "E110", 1},
+          {"ply\n", "E110", 2},
+          {"ply\nformat binary_little_endian 1.0\n", "E110", 2},
+          {"ply\nformat ascii 2.0\n", "E110", 2},
+          {head, "E110", 3},
+          {head + "property float x\n", "E110", 3},
+          {head + "element vertex many\n", "E110", 3},
+          {head + "element vertex -1\n", "E110", 3},
+          {head + "element vertex 3\nproperty real x\n", "E110", 4},
+          {head + "element vertex 3\nproperty float\n", "E110", 4},
+          {head + "element vertex 3\nproperty float x\nproperty float x\n", "E110", 5},
+          {head + "element vertex 3\nelement vertex 3\n", "E110", 4},
+          {head + "element vertex 3\nproperty list uchar int x\nend_header\n", "E110", 5},
+          {head + "garbage\n", "E110", 3},
+          {head + vertex + "end_header\n" + points, "E110", 7},
+          {head + face + "end_header\n3 0 1 2\n", "E110", 5},
+          {whole + points, "E110", 13},
+          {whole + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "E110", 11},
+          {whole + "0 0 0\n1 0 0 1\n0 1 0\n3 0 1 2\n", "E110", 11},
+          {whole + "0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n", "E110", 11},
+          {whole + "0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n", "E506", 11},
+          {whole + points + "3 0 1 3\n", "E203", 13},
+          {whole + points + "3 0 1 -1\n", "E203", 13},
+          {whole + points + "4 0 1 2\n", "E110", 13},
+          {whole + points + "999999999 0 1 2\n", "E110", 13},
+          {whole + points + "-3 0 1 2\n", "E110", 13},
+          {whole + points + "2 0 1\n", "E311", 13},
+          {whole + points + "3 0 1 2 9\n", "E110", 13},
+          {whole + points + "3 0 1 2\n3 0 1 2\n", "E110", 14}}) {
+      const auto record = read_text(c.text, "a.ply");
       CAPTURE(c.text);
       CHECK_FALSE(record.value);
       REQUIRE(codes_of(record.issues) == c.code);

@@ -7,6 +7,7 @@
 #include "tests/kernel/io/solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -22,8 +23,8 @@ Document house_of(const std::string& text, const std::string& name = "house.city
   return std::move(*record.value);
 }
 
-LabelledMesh mesh_of(const Document& document, const std::vector<LabelledBuilding>& labelled = {}) {
-  LabelledMesh mesh;
+MeshSource mesh_of(const Document& document, const std::vector<LabelledBuilding>& labelled = {}) {
+  MeshSource mesh;
   append_mesh(mesh, document, labelled);
   return mesh;
 }
@@ -62,7 +63,7 @@ LabelledBuilding box_labels() {
 }
 
 TEST_SUITE("kernel/io") {
-  TEST_CASE("OBJ and OFF keep UTM coordinates to the last bit") {
+  TEST_CASE("OBJ and OFF and PLY keep UTM coordinates to the last bit") {
     const std::string obj =
         "v 678114.444 5403766.115 414.03\nv 678115.4440001 5403766.115 414.03\n"
         "v 678114.444 5403767.115 414.03\nf 1 2 3\n";
@@ -73,6 +74,8 @@ TEST_SUITE("kernel/io") {
     CHECK(input_points(house_of(text, "a.obj")) == input_points(document));
     const std::string off = write_off(mesh_of(document));
     CHECK(input_points(house_of(off, "a.off")) == input_points(document));
+    const std::string ply = write_ply(mesh_of(document));
+    CHECK(input_points(house_of(ply, "a.ply")) == input_points(document));
     CHECK(write_stl(mesh_of(document)).find("vertex 678115.4440001 5403766.115 414.03\n") !=
           std::string::npos);
   }
@@ -101,6 +104,54 @@ TEST_SUITE("kernel/io") {
                                             "house/window_w_1", "house/window_w_1",
                                             "house/chimney_c1"});
     CHECK(again.buildings[0].is_solid);
+  }
+
+  TEST_CASE("PLY is written as a header and points and faces with their features") {
+    const Document document = house_of(BoxFile().text());
+    const std::string text = write_ply(mesh_of(document, {box_labels()}));
+    CHECK(
+        text.starts_with("ply\nformat ascii 1.0\ncomment oriel: metres, z up\n"
+                         "comment feature 0 house unlabelled\ncomment feature 1 house wall\n"
+                         "comment feature 2 house window_w_1\n"));
+    CHECK(text.find("element vertex 8\nproperty double x\nproperty double y\nproperty double z\n"
+                    "element face 6\nproperty list uchar int vertex_indices\n"
+                    "property int feature\nend_header\n1000 2000 10\n") != std::string::npos);
+    const Document again = house_of(text, "a.ply");
+    std::vector<std::string> hints;
+    for (const Polygon& polygon : again.buildings.at(0).polygons) hints.push_back(polygon.hint);
+    std::ranges::sort(hints);
+    CHECK(hints == std::vector<std::string>{"house chimney_c1", "house unlabelled", "house wall",
+                                            "house wall", "house window_w_1", "house window_w_1"});
+    CHECK(again.buildings[0].is_solid);
+    CHECK(again.buildings[0].polygons.size() == 6);
+  }
+
+  TEST_CASE("a face with more than 255 corners has a longer count in PLY") {
+    MeshSource disc;
+    disc.features = {{"disc", "roof", ""}};
+    disc.polygons = {{{{}}, {0, 0, 1}, 0}};
+    for (int i = 0; i < 300; ++i) {
+      disc.points.push_back({std::cos(i * 0.02), std::sin(i * 0.02), 0});
+      disc.polygons[0].rings[0].push_back(i);
+    }
+    const std::string text = write_ply(disc);
+    CHECK(text.find("property list uint int vertex_indices\n") != std::string::npos);
+    CHECK(house_of(text, "a.ply").buildings.at(0).polygons.at(0).rings[0].size() == 300);
+  }
+
+  TEST_CASE("bodies that touch along an edge are written with the vertices they came with") {
+    // Two boxes with an edge in common, as OpenMesh would refuse them.
+    Solid boxes;
+    test::add_box(boxes, {0, 0, 0}, {1, 1, 1}, 0);
+    test::add_box(boxes, {1, 1, 0}, {2, 2, 1}, 1);
+    LabelledBuilding labelled;
+    labelled.building = "house";
+    labelled.geometry = boxes;
+    const std::string text = write_obj(mesh_of(house_of(BoxFile().text()), {labelled}));
+    CHECK(std::ranges::count(text, 'v') == 16);
+    CHECK(text.find("f 1 4 3 2\n") != std::string::npos);
+    CHECK(text.find("f 9 12 11 10\n") != std::string::npos);
+    CHECK(house_of(text, "a.obj").buildings.at(0).polygons.size() == 12);
   }
 
   TEST_CASE("STL has one solid for each label") {
@@ -136,12 +187,12 @@ TEST_SUITE("kernel/io") {
     test::add_box(*labelled.geometry, {0, 0, 0}, {1, 1, 1}, 0);
     labelled.surfaces = {{"RoofSurface", -1, {}}};
     labelled.surface_of_polygon = {-1, 0};
-    const LabelledMesh mesh = mesh_of(house_of(BoxFile().text()), {labelled});
-    CHECK(mesh.vertices.size() == 8);
-    CHECK(mesh.vertices[0] == Vec3{1000, 2000, 10});
-    CHECK(mesh.faces.size() == 6);
-    CHECK(mesh.groups.size() == 2);
-    CHECK(mesh.groups[1].label == "roof");
+    const MeshSource mesh = mesh_of(house_of(BoxFile().text()), {labelled});
+    CHECK(mesh.points.size() == 8);
+    CHECK(mesh.points[0] == Vec3{1000, 2000, 10});
+    CHECK(mesh.polygons.size() == 6);
+    CHECK(mesh.features.size() == 2);
+    CHECK(mesh.features[1].label == "roof");
   }
 
   TEST_CASE("an OBJ file becomes a CityJSON file that keeps its coordinates") {

@@ -37,11 +37,11 @@ TEST_SUITE("kernel/io") {
       for (int i = 0; i < static_cast<int>(table.rows()); ++i) {
         const FeatureId row{i};
         CHECK(table.id(row) == small.table.id(row));
-        for (std::size_t column = 0; column < feature_schema().size(); ++column) {
-          if (feature_schema()[column].unit == Unit::text)
-            CHECK(table.texts(column)[row.index()] == small.table.texts(column)[row.index()]);
+        for (const Attribute attribute : kAttributes) {
+          if (info_of(attribute).unit == Unit::text)
+            CHECK(table.text(row, attribute) == small.table.text(row, attribute));
           else
-            CHECK(table.number(row, column) == small.table.number(row, column));
+            CHECK(table.number(row, attribute) == small.table.number(row, attribute));
         }
       }
       std::size_t pairs = 0;
@@ -60,11 +60,11 @@ TEST_SUITE("kernel/io") {
     REQUIRE(read.value->size() == 2);
     CHECK((*read.value)[0].table.rows() == 2);
     CHECK((*read.value)[0].graph.pairs("beside").size() == 1);
-    CHECK((*read.value)[1].table.number(FeatureId{0}, "a") == 3);
+    CHECK((*read.value)[1].table.number(FeatureId{0}, Attribute::a) == 3);
     CHECK((*read.value)[1].graph.pairs("beside").empty());
   }
 
-  TEST_CASE("a relation to what is not in the file is told") {
+  TEST_CASE("a relation to what is not in the file is reported") {
     const auto read = tables_of("building,id,host,rel_beside\nh,f,x,g;y\nh,g,,f\nk,f,,\n", "f.csv");
     REQUIRE(codes_of(read.issues) == "E121");
     CHECK(read.issues[0].severity == Severity::warning);
@@ -83,8 +83,8 @@ TEST_SUITE("kernel/io") {
     REQUIRE(read.value->size() == 1);
     const FeatureTable& table = read.value->front().table;
     REQUIRE(table.rows() == 2);
-    CHECK(table.number(FeatureId{0}, "a") == 1);
-    CHECK(table.number(FeatureId{1}, "a") == 3);
+    CHECK(table.number(FeatureId{0}, Attribute::a) == 1);
+    CHECK(table.number(FeatureId{1}, Attribute::a) == 3);
     CHECK(table.id(FeatureId{1}) == "i");
   }
 

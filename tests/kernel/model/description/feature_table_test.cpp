@@ -1,6 +1,7 @@
 #include "kernel/model/description/feature_table.h"
 
 #include "kernel/model/description/feature_graph.h"
+#include "kernel/model/description/surface_table.h"
 
 #include <cstdint>
 #include <set>
@@ -16,50 +17,57 @@ namespace {
 TEST_SUITE("kernel/model") {
   TEST_CASE("attribute names stand once in the schema") {
     std::set<std::string> names;
-    for (const Attribute& attribute : feature_schema()) CHECK(names.insert(attribute.name).second);
+    for (const AttributeInfo& attribute : feature_schema())
+      CHECK(names.insert(attribute.name).second);
     for (const RelationKind& relation : relation_schema())
       if (relation.name != "host") CHECK(names.insert(relation.name).second);
   }
 
   TEST_CASE("a value that was never set is missing and not zero") {
     FeatureTable table("house", 2);
-    CHECK_FALSE(table.number(FeatureId{0}, "base_height"));
-    table.set(FeatureId{0}, "base_height", 0.0);
-    CHECK(table.number(FeatureId{0}, "base_height") == 0.0);
-    CHECK_FALSE(table.number(FeatureId{1}, "base_height"));
-    CHECK(table.text(FeatureId{1}, "sense").empty());
+    CHECK_FALSE(table.number(FeatureId{0}, Attribute::base_height));
+    table.set(FeatureId{0}, Attribute::base_height, 0.0);
+    CHECK(table.number(FeatureId{0}, Attribute::base_height) == 0.0);
+    CHECK_FALSE(table.number(FeatureId{1}, Attribute::base_height));
+    CHECK(table.text(FeatureId{1}, Attribute::sense).empty());
   }
 
   TEST_CASE("a text that stands in many rows is kept once") {
     FeatureTable table("house", 4);
-    for (const int row : {0, 1, 3}) table.set(FeatureId{row}, "sense", "hole");
-    table.set(FeatureId{1}, "sense", "protrusion");
-    table.set(FeatureId{3}, "sense", "");
-    const WordColumn& senses = table.texts(*column_of("sense"));
+    for (const int row : {0, 1, 3}) table.set(FeatureId{row}, Attribute::sense, "hole");
+    table.set(FeatureId{1}, Attribute::sense, "protrusion");
+    table.set(FeatureId{3}, Attribute::sense, "");
+    const WordColumn& senses = table.texts(Attribute::sense);
     CHECK(senses.words() == std::vector<std::string>{"", "hole", "protrusion"});
     CHECK(senses.numbers() == std::vector<std::uint32_t>{1, 2, 0, 0});
     const FeatureTable copy = table;
-    CHECK(copy.text(FeatureId{0}, "sense") == "hole");
-    CHECK(copy.text(FeatureId{1}, "sense") == "protrusion");
-    CHECK(copy.text(FeatureId{3}, "sense").empty());
+    CHECK(copy.text(FeatureId{0}, Attribute::sense) == "hole");
+    CHECK(copy.text(FeatureId{1}, Attribute::sense) == "protrusion");
+    CHECK(copy.text(FeatureId{3}, Attribute::sense).empty());
   }
 
   TEST_CASE("columns of numbers stay apart in whatever order they are set") {
     FeatureTable table("house", 2);
-    table.set(FeatureId{1}, "volume", 3.0);
-    table.set(FeatureId{0}, "base_height", 1.0);
-    table.set(FeatureId{0}, "volume", 2.0);
-    CHECK(table.number(FeatureId{0}, "volume") == 2.0);
-    CHECK(table.number(FeatureId{1}, "volume") == 3.0);
-    CHECK(table.number(FeatureId{0}, "base_height") == 1.0);
-    CHECK_FALSE(table.number(FeatureId{1}, "base_height"));
-    CHECK_FALSE(table.number(FeatureId{0}, "a"));
+    table.set(FeatureId{1}, Attribute::volume, 3.0);
+    table.set(FeatureId{0}, Attribute::base_height, 1.0);
+    table.set(FeatureId{0}, Attribute::volume, 2.0);
+    CHECK(table.number(FeatureId{0}, Attribute::volume) == 2.0);
+    CHECK(table.number(FeatureId{1}, Attribute::volume) == 3.0);
+    CHECK(table.number(FeatureId{0}, Attribute::base_height) == 1.0);
+    CHECK_FALSE(table.number(FeatureId{1}, Attribute::base_height));
+    CHECK_FALSE(table.number(FeatureId{0}, Attribute::a));
   }
 
-  TEST_CASE("setting an attribute that the schema does not have is refused") {
-    FeatureTable table("house", 1);
-    CHECK_THROWS_AS(table.set(FeatureId{0}, "heigth", 1.0), std::logic_error);
-    CHECK_THROWS_AS(table.set(FeatureId{0}, "sense", 1.0), std::logic_error);
+  TEST_CASE("each attribute is found by its name and stands in its row of the table") {
+    CHECK(feature_schema().size() == kAttributes.size());
+    for (const Attribute attribute : kAttributes)
+      CHECK(find_attribute(info_of(attribute).name) == attribute);
+    for (const SurfaceAttribute attribute : kSurfaceAttributes)
+      CHECK(find_surface_attribute(info_of(attribute).name) == attribute);
+    CHECK(info_of(Attribute::height).name == "height");
+    CHECK(info_of(Attribute::sense).words.size() == 4);
+    CHECK_FALSE(find_attribute("heigth"));
+    CHECK_FALSE(find_surface_attribute("height"));
   }
 
   TEST_CASE("features of a class are each other's others, and none is its own") {
@@ -99,9 +107,9 @@ TEST_SUITE("kernel/model") {
   }
 
   TEST_CASE("records carry the unit in the name") {
-    CHECK(record_name(feature_schema()[*column_of("base_height")]) == "base_height_m");
-    CHECK(record_name(feature_schema()[*column_of("inclination")]) == "inclination_deg");
-    CHECK(record_name(feature_schema()[*column_of("quality")]) == "quality");
+    CHECK(record_name(info_of(Attribute::base_height)) == "base_height_m");
+    CHECK(record_name(info_of(Attribute::inclination)) == "inclination_deg");
+    CHECK(record_name(info_of(Attribute::quality)) == "quality");
   }
 }
 

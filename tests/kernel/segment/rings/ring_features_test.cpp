@@ -193,12 +193,12 @@ TEST_SUITE("kernel/segment") {
     Building building = test::plain_block();
     std::vector<int> ring = test::front_ring(building, 2, 1, 3, 2);
     test::front_wall(building).rings.emplace_back(ring.rbegin(), ring.rend());
-    const auto rectangle = [&](double y, double inset) {
+    const auto rectangle = [&](double y, double contained) {
       std::vector<int> corners;
-      for (const Vec3 p : {Vec3{2 + inset, y, 1 + inset},
-                           {3 - inset, y, 1 + inset},
-                           {3 - inset, y, 2 - inset},
-                           {2 + inset, y, 2 - inset}})
+      for (const Vec3 p : {Vec3{2 + contained, y, 1 + inset},
+                           {3 - contained, y, 1 + inset},
+                           {3 - contained, y, 2 - inset},
+                           {2 + contained, y, 2 - inset}})
         corners.push_back(test::add_vertex(building, p));
       return corners;
     };

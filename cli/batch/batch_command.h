@@ -1,0 +1,86 @@
+#pragma once
+
+#include "cli/batch/outcome.h"
+#include "kernel/io/document.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel::cli {
+
+/// What BatchRunner calls of a command, by one thread at a time and in the order of the inputs,
+/// unless something else is said.
+class BatchCommand {
+ public:
+  virtual ~BatchCommand() = default;
+
+  /// Before the first record of an input.
+  virtual void begin(std::size_t /*input*/) {}
+  /// After the last record. Not called for an input that could not be read as a whole.
+  virtual void end(std::size_t /*input*/) {}
+  /// All inputs are done: outputs that are not yet in their place come there. Before the status is
+  /// written.
+  virtual void commit() {}
+};
+
+/// A command that looks at each record with its buildings.
+class VisitingCommand : public BatchCommand {
+ public:
+  /// `results` are the buildings after the pipeline, in their order.
+  virtual void visit(const Document& document, std::vector<PipelineResult>& results) = 0;
+};
+
+/// A visiting command that is no more than its functions.
+class RecordVisitor final : public VisitingCommand {
+ public:
+  using Visit = std::function<void(const Document&, std::vector<PipelineResult>&)>;
+  explicit RecordVisitor(
+      Visit visit, std::function<void()> begin = [] {})
+      : visit_(std::move(visit)), begin_(std::move(begin)) {}
+
+  void begin(std::size_t /*input*/) override { begin_(); }
+  void visit(const Document& document, std::vector<PipelineResult>& results) override {
+    visit_(document, results);
+  }
+
+ private:
+  Visit visit_;
+  std::function<void()> begin_;
+};
+
+/// A command that writes record by record: what it makes of one depends on no other. So its records
+/// can be made in forked processes (--isolate), be taken from an earlier run (--reuse), and a run
+/// can go on where it was killed (--resume).
+class ProducingCommand : public BatchCommand {
+ public:
+  /// What a record of input number `input` adds to the outputs. Touches nothing else; several
+  /// threads may call it.
+  virtual Product make(std::size_t input, const Document& document,
+                       const std::vector<PipelineResult>& results, Timings& timings) const = 0;
+  /// Puts it there.
+  virtual void take(const Document& document, Product product) = 0;
+  /// The outputs as they are.
+  [[nodiscard]] virtual PartPlaces places() const = 0;
+  /// All that a product depends on besides source, configuration and rules.
+  [[nodiscard]] virtual std::string recipe() const = 0;
+  /// What was taken needs nothing but its outputs, so that the run can go on after any record.
+  [[nodiscard]] virtual bool is_streaming() const = 0;
+  /// All inputs were done when an earlier run was killed: outputs of all of them together, which
+  /// `begin` opens otherwise, are to be opened for `commit`.
+  virtual void reopen() = 0;
+  /// Counts of what was taken; kept and restored with the run. Null: there are none.
+  virtual std::map<std::string, int>* counts() { return nullptr; }
+};
+
+inline constexpr std::size_t kNoBuilding = SIZE_MAX;
+
+/// Work begins on building number `building` of the record at hand, or on the record as a whole:
+/// what is blamed if a worker of --isolate ends here. Costs nothing without it.
+void now_at_building(std::size_t building);
+
+}  // namespace oriel::cli

@@ -1,0 +1,380 @@
+#include "cli/batch/batch_runner.h"
+
+#include "cli/batch/isolation.h"
+#include "cli/terminal/logging.h"
+#include "kernel/base/log.h"
+#include "kernel/base/sha256.h"
+#include "kernel/io/files/output_file.h"
+#include "kernel/io/files/partial_files.h"
+
+#include <algorithm>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+using nlohmann::ordered_json;
+
+ExitCode BatchRunner::run(VisitingCommand& command) {
+  command_ = visitor_ = &command;
+  return run_all();
+}
+
+ExitCode BatchRunner::run(ProducingCommand& command) {
+  command_ = producer_ = &command;
+  return run_all();
+}
+
+ExitCode BatchRunner::run_all() {
+  const auto stdins = std::ranges::count(options_.inputs, "-");
+  if (stdins > 1 || (stdins > 0 && options_.repeat > 1))
+    throw CLI::ValidationError("input", "stdin can be read only once");
+  for (const auto& [option, is_given] : {std::pair("--isolate", options_.is_isolated),
+                                         std::pair("--reuse", !options_.reuse.empty())})
+    if (producer_ == nullptr && is_given)
+      throw CLI::ValidationError(option, "works only with commands that write record by record");
+  if (!begin_status()) return state_.code;
+  const bool is_all_read =
+      resume_ && resume_->state() && resume_->position().input >= options_.inputs.size();
+  if (producer_ != nullptr && is_all_read && state_.code != ExitCode::input) producer_->reopen();
+  for (run_ = 1; run_ <= options_.repeat; ++run_) {
+    timings_.emplace_back();
+    if (!resume_) state_ = {.code = state_.code};
+    run_inputs();
+    progress_->finish(progress_counts());
+    log_stages();
+  }
+  command_->commit();
+  if (!options_.timings_file.empty()) write_file(options_.timings_file, to_json(timings_));
+  if (state_.code == ExitCode::set_aside && options_.allows(state_.set_aside, state_.buildings))
+    state_.code = ExitCode::clean;
+  if (status_) write_status();
+  if (resume_) resume_->remove();
+  return state_.code;
+}
+
+/// False if there is nothing to do: the same command has come to its end before.
+bool BatchRunner::begin_status() {
+  if (options_.status_stem.empty()) return true;
+  PartialFiles::watch();
+  if (options_.is_resumable) {
+    resume_.emplace(options_, rules_ != nullptr ? rules_->sha256() : "");
+    if (const auto finished = resume_->finished()) {
+      was_done_ = true;
+      state_.code = static_cast<ExitCode>(*finished);
+      run_log().info("all of it was done before");
+      return false;
+    }
+  }
+  if (!options_.reuse.empty()) {
+    cache_.emplace(options_.reuse, options_.status_stem, recipe_sha256());
+    if (cache_->fault()) report_.add(*cache_->fault());
+  }
+  status_.emplace(options_.status_stem);
+  if (resume_ && resume_->state()) restore(*resume_->state());
+  return true;
+}
+
+/// Results are taken from a run of the same program with the same rules and options only.
+std::string BatchRunner::recipe_sha256() const {
+  const Selection& selection = options_.selection;
+  return sha256(fmt::format(
+      "{} {} {} rules={} program={} selection={} {} {} {} {} {}", producer_->recipe(),
+      options_.configuration(), options_.from, rules_ != nullptr ? rules_->sha256() : "",
+      program_sha256(), fmt::join(selection.ids, ","), fmt::join(selection.bbox, ","),
+      selection.cotype, selection.one_in, selection.seed, selection.is_exclusion));
+}
+
+void BatchRunner::run_inputs() {
+  progress_.emplace(progress_style_of(options_.progress), options_.inputs, state_.buildings);
+  InputReader reader(options_, resume_ ? resume_->position() : Resume::Position{});
+  if (options_.is_isolated) return run_isolated(reader);
+  if (options_.jobs > 1) return run_in_threads(reader);
+  const RecordWorker worker = this->worker();
+  while (const auto item = next(reader)) {
+    reuse(*item);
+    worker.work_on(*item);
+    settle(*item);
+  }
+}
+
+void BatchRunner::run_in_threads(InputReader& reader) {
+  // So many records are held in memory at most.
+  constexpr std::size_t kRecordsPerJob = 4;
+  using Item = std::shared_ptr<WorkItem>;
+  const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(options_.jobs));
+  tbb::task_arena arena(options_.jobs);
+  const std::size_t records = kRecordsPerJob * static_cast<std::size_t>(options_.jobs);
+  const RecordWorker worker = this->worker();
+  const auto read = [&](tbb::flow_control& control) -> Item {
+    auto item = next(reader);
+    if (!item) control.stop();
+    return item;
+  };
+  const auto work = [&](Item item) {
+    reuse(*item);
+    worker.work_on(*item);
+    return item;
+  };
+  const auto end = [&](const Item& item) { settle(*item); };
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        records, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, read) &
+                     tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
+                     tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, end));
+  });
+}
+
+/// Workers have worked on a copy: issues that they dropped are still here.
+void BatchRunner::run_isolated(InputReader& reader) {
+  const RecordWorker worker = this->worker();
+  const auto next_item = [&] {
+    auto item = next(reader);
+    if (item) reuse(*item);
+    return item;
+  };
+  const auto settle_item = [&](WorkItem& item) {
+    worker.drop_unselected(item);
+    settle(item);
+  };
+  Isolation isolation(options_.jobs, options_.most_seconds,
+                      {next_item, [&](WorkItem& item) { worker.work_on(item); }, settle_item});
+  isolation.run();
+}
+
+std::unique_ptr<WorkItem> BatchRunner::next(InputReader& reader) const {
+  auto event = reader.next();
+  return event ? std::make_unique<WorkItem>(std::move(*event)) : nullptr;
+}
+
+/// Takes from an earlier run what came of the same source.
+void BatchRunner::reuse(WorkItem& item) const {
+  const Record* record = item.record();
+  if (!cache_ || record == nullptr || record->header_sha256.empty() || record->was_done) return;
+  const Document& document = *record->document.value;
+  item.source_sha256 = sha256(record->header_sha256 + std::string(source_line(document)));
+  auto outcome = cache_->find(item.source_sha256);
+  item.is_reused = outcome && outcome->buildings.size() == document.buildings.size();
+  if (!item.is_reused) return;
+  item.outcome = std::move(*outcome);
+  worker().drop_unselected(item);
+}
+
+void BatchRunner::settle(WorkItem& item) {
+  timings().add(item.timings);
+  if (const auto* begin = std::get_if<InputBegin>(&item.event)) command_->begin(begin->input);
+  if (const Record* record = item.record()) settle(item, *record);
+  if (const auto* end = std::get_if<InputEnd>(&item.event)) settle(*end);
+  if (const auto* failure = std::get_if<InputFailure>(&item.event)) settle(*failure);
+}
+
+void BatchRunner::settle(WorkItem& item, const Record& record) {
+  bytes_ = record.bytes;
+  if (record.was_done) return;
+  errors_.clear();
+  report(record.document.issues);
+  keep_errors(record.document.issues);
+  if (record.document.value)
+    settle_read(item, record);
+  else
+    settle_refused(record);
+  if (status_ && is_last_run()) status_->add(record, errors_);
+  if (producer_ != nullptr && producer_->is_streaming() && record.line > 0)
+    note({record.input, record.number, record.sha256});
+  progress_->show(progress_counts());
+}
+
+void BatchRunner::settle(const InputEnd& end) {
+  bytes_ = end.bytes;
+  if (end.is_whole) command_->end(end.input);
+  state_.records.read += end.records;
+  if (!end.sha256.empty()) input_sha256_[end.input_name] = end.sha256;
+  if (resume_) resume_->note_read(end.input_name, end.sha256);
+  note({end.input + 1, 0, ""});
+}
+
+void BatchRunner::settle(const InputFailure& failure) {
+  bytes_ = failure.bytes;
+  report({failure.issue});
+  if (status_ && is_last_run()) status_->add_unread(failure.input_name, failure.issue);
+  state_.raise(ExitCode::input);
+  state_.records.read += failure.records;
+  note({failure.input + 1, 0, ""});
+}
+
+/// A line that cannot be read counts as one building.
+void BatchRunner::settle_refused(const Record& record) {
+  ++state_.records.refused;
+  state_.raise(record.is_one_of_many ? ExitCode::set_aside : ExitCode::input);
+  if (!record.is_one_of_many) return;
+  ++state_.buildings;
+  ++state_.set_aside;
+}
+
+void BatchRunner::settle_read(WorkItem& item, const Record& record) {
+  if (worker().is_passed_over(item)) {
+    ++state_.records.not_selected;
+    return;
+  }
+  ++state_.records.passed_on;
+  // Errors of a document that was read are buildings that could not be.
+  const auto unread = static_cast<int>(
+      std::ranges::count(record.document.issues, Severity::error, &Issue::severity));
+  state_.buildings += unread;
+  state_.set_aside += unread;
+  if (unread > 0) state_.raise(ExitCode::set_aside);
+  for (const BuildingOutcome& building : item.outcome.buildings) {
+    if (building.is_passed_over) continue;
+    ++state_.buildings;
+    report(building.issues);
+    if (!building.is_done) {
+      keep_errors(building.issues);
+      ++state_.set_aside;
+      state_.raise(ExitCode::set_aside);
+    }
+    if (building.is_open) ++state_.open;
+    for (const auto& [label, count] : building.labels) state_.labels[label] += count;
+  }
+  if (producer_ != nullptr)
+    settle_product(item, *record.document.value);
+  else
+    visitor_->visit(*record.document.value, item.results);
+}
+
+void BatchRunner::settle_product(WorkItem& item, const Document& document) {
+  Product& product = item.outcome.product;
+  reused_ += item.is_reused ? 1 : 0;
+  if (cache_ && !item.source_sha256.empty() && item.lost.empty())
+    cache_->add(item.source_sha256, producer_->places(), item.outcome);
+  for (const Issue& issue : product.issues) {
+    if (issue.severity == Severity::error)
+      set_aside(issue);
+    else
+      report({issue});
+  }
+  if (auto* counts = producer_->counts())
+    for (const auto& [name, count] : product.counts) (*counts)[name] += count;
+  timings().measure(Stage::write, [&] { producer_->take(document, std::move(product)); });
+}
+
+void BatchRunner::set_aside(const Issue& why) {
+  ++state_.set_aside;
+  state_.raise(ExitCode::set_aside);
+  report({why});
+  errors_.push_back(why);
+}
+
+void BatchRunner::report(const std::vector<Issue>& issues) {
+  if (run_ == 1) report_.add(issues);
+}
+
+void BatchRunner::keep_errors(const std::vector<Issue>& issues) {
+  for (const Issue& issue : issues)
+    if (issue.severity == Severity::error) errors_.push_back(issue);
+}
+
+/// From here the run can go on.
+void BatchRunner::note(const Resume::Position& position) {
+  if (!resume_) return;
+  ordered_json journal = to_json(state_);
+  journal["errors"] = report_.errors();
+  journal["ledger"] = status_->state();
+  if (auto* counts = producer_ != nullptr ? producer_->counts() : nullptr)
+    journal["counts"] = *counts;
+  resume_->note(position, std::move(journal));
+}
+
+void BatchRunner::restore(const ordered_json& journal) {
+  using Counts = std::map<std::string, int>;
+  state_ = run_state_of(journal);
+  report_.restore(journal.at("errors").get<Counts>());
+  status_->restore(journal.at("ledger"));
+  if (auto* counts = producer_ != nullptr ? producer_->counts() : nullptr)
+    *counts = journal.at("counts").get<Counts>();
+  run_log().info("resumes after {} building{}", state_.buildings, state_.buildings == 1 ? "" : "s");
+}
+
+void BatchRunner::write_status() {
+  const RecordCounts& records = state_.records;
+  if (!records.add_up())
+    throw std::logic_error(
+        fmt::format("of {} records {} were passed on, {} refused, {} not selected", records.read,
+                    records.passed_on, records.refused, records.not_selected));
+  if (cache_) {
+    cache_->commit();
+    run_log().info("took {} records from {}", reused_, options_.reuse);
+  }
+  status_->close();
+  RunStatus status;
+  status.inputs = options_.inputs;
+  status.input_sha256 = input_sha256_;
+  if (resume_)
+    for (const auto& [name, mark] : resume_->read()) status.input_sha256[name] = mark.sha256;
+  if (resume_) status.command_sha256 = resume_->command_sha256();
+  status.outputs = resume_ ? resume_->done() : PartialFiles::take_done();
+  if (rules_ != nullptr) status.rules_sha256 = rules_->sha256();
+  status.config_sha256 = sha256(options_.configuration());
+  status.state = state_;
+  status_->commit(status);
+}
+
+/// One line for each stage that took time.
+void BatchRunner::log_stages() const {
+  for (std::size_t s = 0; s < kStageNames.size(); ++s)
+    if (const double ms = timings_.back().ms(static_cast<Stage>(s)); ms > 0)
+      log("oriel").info("stage {}: buildings={} set_aside={} ms={:.0f}", kStageNames[s],
+                        state_.buildings, state_.set_aside, ms);
+}
+
+ProgressCounts BatchRunner::progress_counts() const {
+  return {bytes_, state_.buildings, state_.set_aside};
+}
+
+void BatchRunner::report_summary(const std::string& verb, const std::map<std::string, int>& counts,
+                                 const std::string& suffix) const {
+  if (progress_ && progress_->style() == ProgressStyle::bar)
+    return run_log().write(LogLevel::info, summary_table(verb, counts, suffix));
+  std::vector<std::string> parts;
+  for (const auto& [label, count] : counts)
+    if (!label.empty()) parts.push_back(fmt::format("{} {}", count, label));
+  if (const auto unknown = counts.find(""); unknown != counts.end())
+    parts.push_back(fmt::format("{} unknown", unknown->second));
+  std::string text = fmt::format("{} of {} building{} {}", state_.buildings - state_.set_aside,
+                                 state_.buildings, state_.buildings == 1 ? "" : "s", verb);
+  if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), suffix);
+  if (state_.open > 0) text += fmt::format("; {} open", state_.open);
+  if (state_.set_aside > 0) text += fmt::format("; {} rejected", state_.set_aside);
+  std::vector<std::string> codes;
+  for (const auto& [code, count] : report_.errors())
+    codes.push_back(fmt::format("{} {}", code, count));
+  if (state_.set_aside > 0 && !codes.empty()) text += fmt::format(" ({})", fmt::join(codes, ", "));
+  run_log().write(LogLevel::info, text);
+}
+
+std::string BatchRunner::summary_table(const std::string& verb,
+                                       const std::map<std::string, int>& counts,
+                                       const std::string& suffix) const {
+  std::vector<std::vector<std::string>> rows{{verb, "count"}};
+  const auto add = [&](const std::string& what, int count) {
+    rows.push_back({what, std::to_string(count)});
+  };
+  add("buildings", state_.buildings);
+  add("done", state_.buildings - state_.set_aside);
+  if (state_.open > 0) add("open", state_.open);
+  add("rejected", state_.set_aside);
+  for (const auto& [code, count] : report_.errors()) add("  " + code, count);
+  for (const auto& [label, count] : counts)
+    add("feature " + (label.empty() ? "unknown" : label) + suffix, count);
+  return fmt::format("{}{:.1f} s, {:.1f} buildings/s, {:.2f} MB/s", table(rows),
+                     progress_->seconds(), progress_->buildings_per_s(), progress_->mb_per_s());
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "cli/batch/selection.h"
+#include "oriel/label.h"
+#include "oriel/read.h"
+
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Options that all commands over buildings share.
+struct RunOptions {
+  std::vector<std::string> inputs;
+  std::string lod;
+  std::string from;
+  std::string order = "natural";
+  Tolerances tolerances;
+  /// --plane-offset was given: it holds as it is, also for noisy buildings.
+  bool is_plane_offset_given = false;
+  std::string close = "planar";
+  double cap_area_m2 = RepairOptions{}.cap_area_m2;
+  std::string crossings = "leave";
+  std::int64_t budget = SegmentOptions{}.budget;
+  /// What the input calls its polygons is not looked at.
+  bool ignores_semantics = false;
+  bool is_verbose = false;
+  std::string timings_file;
+  int repeat = 1;
+  /// Records that are worked on at the same time; results do not depend on it.
+  int jobs = 1;
+  /// Buildings are worked on in forked processes.
+  bool is_isolated = false;
+  /// By the clock, for one building in such a process; 0: as long as it takes.
+  double most_seconds = 0;
+  Selection selection;
+  /// Where STEM.status.json and STEM.quarantine.jsonl go; empty: nowhere.
+  std::string status_stem;
+  /// bar, json, none; empty: a bar on a terminal.
+  std::string progress;
+  /// STEM.status.json of an earlier run, from which results are taken; empty: of none.
+  std::string reuse;
+  /// The run may be killed and resumes when the command is given again.
+  bool is_resumable = false;
+  /// So much may be set aside and all is well: a number of buildings, or a share of them.
+  std::string allowed_bad = "0";
+  /// Only what was read is asked for: buildings do not pass the pipeline.
+  bool ends_at_reading = false;
+  /// Only the solid is asked for: buildings are not segmented.
+  bool ends_at_solid = false;
+  /// What is asked of surfaces is what they are, and of features their labels: attributes are
+  /// measured as far as rules read them.
+  bool only_names_surfaces = false;
+  bool only_labels_features = false;
+
+  [[nodiscard]] ReadOptions read_options() const;
+  /// The same for one of the inputs: stdin is a CityJSONSeq unless --from says more.
+  [[nodiscard]] ReadOptions read_options(const std::string& input) const;
+  /// The one input is a stream on stdin; what comes of it goes to stdout if nothing else is said.
+  [[nodiscard]] bool is_piped_stream() const;
+  /// What the library does with a building, without outputs; `observer` gets the time of each
+  /// stage.
+  [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
+  /// All that a result depends on besides input and rules, as one text: what oriel_config_sha256 is
+  /// made of.
+  [[nodiscard]] std::string configuration() const;
+  /// True if no more of `buildings` was set aside than --allow-bad says.
+  [[nodiscard]] bool allows(int set_aside, int buildings) const;
+};
+
+}  // namespace oriel::cli

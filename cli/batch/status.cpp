@@ -1,0 +1,142 @@
+#include "cli/batch/status.h"
+
+#include "cli/batch/resume.h"
+#include "kernel/model/version.h"
+
+#include <algorithm>
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kQuarantine = ".quarantine.jsonl";
+constexpr const char* kStatus = ".status.json";
+
+bool is_utf8(const std::string& text) {
+  try {
+    (void)ordered_json(text).dump();
+    return true;
+  } catch (const ordered_json::type_error&) {
+    return false;
+  }
+}
+
+std::string hexadecimal(std::string_view bytes) {
+  std::string digits;
+  for (const char byte : bytes) digits += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return digits;
+}
+
+std::string dumped(const ordered_json& value, int indent) {
+  return value.dump(indent, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// Of this process or of its largest worker.
+std::int64_t peak_memory_bytes() {
+  struct rusage own {
+  }, workers{};
+  ::getrusage(RUSAGE_SELF, &own);
+  ::getrusage(RUSAGE_CHILDREN, &workers);
+  return std::max(own.ru_maxrss, workers.ru_maxrss) * std::int64_t{1024};
+}
+
+}  // namespace
+
+ordered_json to_json(const RunState& state) {
+  const RecordCounts& records = state.records;
+  return {{"buildings", state.buildings},
+          {"set_aside", state.set_aside},
+          {"open", state.open},
+          {"code", static_cast<int>(state.code)},
+          {"labels", state.labels},
+          {"counted", {records.read, records.refused, records.not_selected, records.passed_on}}};
+}
+
+RunState run_state_of(const ordered_json& json) {
+  const ordered_json& counted = json.at("counted");
+  return {json.at("buildings"),
+          json.at("set_aside"),
+          json.at("open"),
+          json.at("labels").get<std::map<std::string, int>>(),
+          {counted[0], counted[1], counted[2], counted[3]},
+          static_cast<ExitCode>(json.at("code").get<int>())};
+}
+
+StatusWriter::StatusWriter(const std::string& stem)
+    : status_file_(stem + kStatus), quarantine_(stem + kQuarantine) {}
+
+void StatusWriter::add(const Record& record, const std::vector<Issue>& errors) {
+  if (errors.empty()) return;
+  const std::string_view line = record.document.value ? source_line(*record.document.value)
+                                                      : std::string_view(record.refused);
+  append(record.input_name, record.line, errors, line);
+}
+
+void StatusWriter::add_unread(const std::string& input, const Issue& error) {
+  append(input, 0, {error}, {});
+}
+
+void StatusWriter::append(const std::string& input, int line, const std::vector<Issue>& errors,
+                          std::string_view record) {
+  ++records_;
+  ++codes_[to_string(errors[0].code)];
+  ordered_json entry{{"input", input}};
+  if (line > 0) entry["line"] = line;
+  entry["id"] = errors[0].place.building;
+  entry["code"] = to_string(errors[0].code);
+  entry["errors"] = ordered_json::array();
+  for (const Issue& error : errors)
+    entry["errors"].push_back({{"id", error.place.building},
+                               {"code", to_string(error.code)},
+                               {"sentence", error.sentence}});
+  const std::string text(record);
+  if (record.empty())
+    entry["record"] = nullptr;
+  else if (is_utf8(text))
+    entry["record"] = text;
+  else
+    entry["record_hex"] = hexadecimal(record);
+  quarantine_.append(dumped(entry, -1));
+}
+
+ordered_json StatusWriter::state() const { return {{"codes", codes_}, {"records", records_}}; }
+
+void StatusWriter::restore(const ordered_json& state) {
+  codes_ = state.at("codes").get<std::map<std::string, int>>();
+  records_ = state.at("records");
+}
+
+void StatusWriter::commit(const RunStatus& run) {
+  ordered_json status{{"oriel_version", kVersion},
+                      {"program_sha256", program_sha256()},
+                      {"inputs", run.inputs},
+                      {"input_sha256", run.input_sha256},
+                      {"rules_sha256", run.rules_sha256},
+                      {"config_sha256", run.config_sha256},
+                      {"records",
+                       {{"read", run.state.records.read},
+                        {"passed_on", run.state.records.passed_on},
+                        {"refused", run.state.records.refused},
+                        {"not_selected", run.state.records.not_selected}}},
+                      {"buildings", run.state.buildings},
+                      {"done", run.state.buildings - run.state.set_aside},
+                      {"set_aside", run.state.set_aside},
+                      {"quarantined_records", records_},
+                      {"quarantined_by_code", codes_},
+                      {"features", ordered_json::object()},
+                      {"exit_code", static_cast<int>(run.state.code)},
+                      {"peak_memory_bytes", peak_memory_bytes()}};
+  if (!run.command_sha256.empty()) status["command_sha256"] = run.command_sha256;
+  status["outputs"] = to_json(run.outputs);
+  for (const auto& [label, count] : run.state.labels)
+    status["features"][label.empty() ? "unknown" : label] = count;
+  write_file(status_file_, dumped(status, 2));
+}
+
+}  // namespace oriel::cli

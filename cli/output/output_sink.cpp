@@ -1,0 +1,165 @@
+#include "cli/output/output_sink.h"
+
+#include <filesystem>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* extension_of(Format format) {
+  switch (format) {
+    case Format::cityjson:
+      return ".city.json";
+    case Format::cityjson_seq:
+      return ".city.jsonl";
+    case Format::citygml:
+      return ".gml";
+    case Format::obj:
+      return ".obj";
+    case Format::off:
+      return ".off";
+    case Format::ply:
+      return ".ply";
+    case Format::stl:
+      return ".stl";
+  }
+  return "";
+}
+
+/// The file's name without folder and extensions that say its format.
+std::string stem_of(const std::string& path) {
+  std::string name = fs::path(path).filename().string();
+  for (const std::string extension : {".city.jsonl", ".city.json", ".jsonl", ".json", ".citygml",
+                                      ".gml", ".xml", ".obj", ".off", ".ply"})
+    if (name.size() > extension.size() && name.ends_with(extension))
+      return name.substr(0, name.size() - extension.size());
+  return name;
+}
+
+}  // namespace
+
+OutputSink::OutputSink(std::string out, const std::string& to, std::vector<std::string> inputs,
+                       std::optional<Format> from, StlSolids solids)
+    : out_(std::move(out)), inputs_(std::move(inputs)), from_(from), solids_(solids) {
+  if (!to.empty()) to_ = parse_format(to);
+  is_folder_ = out_.ends_with('/') || fs::is_directory(out_);
+  if (inputs_.size() > 1 && !is_folder_)
+    throw CLI::ValidationError("-o", "several inputs need a folder: write it with a / at its end");
+  if (!is_folder_ && out_ != "-" && !to_ && !format_of(out_))
+    throw CLI::ValidationError(
+        "-o", fmt::format("'{}' has no known extension; --to says the format", out_));
+  std::set<std::string> paths;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    check(i);
+    if (!paths.insert(path_for(i)).second)
+      throw CLI::ValidationError(
+          "-o", fmt::format("two inputs would both be written to '{}'", path_for(i)));
+  }
+}
+
+Format OutputSink::format_of_input(std::size_t input) const {
+  if (from_) return *from_;
+  if (inputs_[input] == "-") return kFormatOfStdin;
+  return format_of(inputs_[input]).value_or(Format::cityjson);
+}
+
+void OutputSink::check(std::size_t input) const {
+  const Format from = format_of_input(input);
+  const Format to = to_ ? *to_ : is_folder_ || out_ == "-" ? from : format_of(out_).value_or(from);
+  if (!is_folder_ && out_ != "-" && to == Format::citygml)
+    throw CLI::ValidationError("-o",
+                               "CityGML is read only; it is written as CityJSON (.city.json) "
+                               "or CityJSONSeq (.city.jsonl)");
+  if (from == Format::citygml) return;
+  const bool is_stream_in = from == Format::cityjson_seq,
+             is_stream_out = to == Format::cityjson_seq;
+  if (is_stream_in != is_stream_out && (is_stream_out || to == Format::cityjson))
+    throw CLI::ValidationError(
+        "-o", fmt::format("{} is not written as {}: oriel {} turns one into the other",
+                          to_string(from), to_string(to), is_stream_in ? "collect" : "cat"));
+}
+
+std::string OutputSink::path_for(std::size_t input) const {
+  if (!is_folder_) return out_;
+  const Format from = format_of_input(input);
+  Format to = to_.value_or(from);
+  // CityGML and meshes with labels are CityJSON unless asked otherwise.
+  if (!to_ && (from == Format::citygml || is_mesh(from))) to = Format::cityjson;
+  return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
+}
+
+Format OutputSink::format_of_output(std::size_t input) const {
+  if (to_) return *to_;
+  const Format from = format_of_input(input);
+  return format_of(path_for(input))
+      .value_or(from == Format::cityjson_seq ? from : Format::cityjson);
+}
+
+bool OutputSink::is_gathering(std::size_t input) const {
+  const Format format = format_of_output(input);
+  return format != Format::cityjson && format != Format::cityjson_seq;
+}
+
+bool OutputSink::is_streaming() const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const Format to = to_ ? *to_ : format_of(path_for(i)).value_or(format_of_input(i));
+    if (to != Format::cityjson_seq || format_of_input(i) != Format::cityjson_seq) return false;
+  }
+  return true;
+}
+
+void OutputSink::begin(std::size_t input, bool is_rehearsal) {
+  input_ = input;
+  path_ = path_for(input);
+  mesh_ = {};
+  collector_ = {};
+  if (is_rehearsal) path_ = "/dev/null";
+  if (is_folder_ && !is_rehearsal) {
+    std::error_code error;
+    fs::create_directories(out_, error);  // what is wrong with it shows when the file is opened
+  }
+  file_ = std::make_unique<OutputFile>(path_);
+}
+
+std::string OutputSink::text(std::size_t input, const Document& document,
+                             const std::vector<LabelledBuilding>& labelled,
+                             const WriteOptions& options) const {
+  return is_gathering(input) ? std::string() : write_cityjson(document, labelled, options);
+}
+
+void OutputSink::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                      const std::string& text) {
+  if (is_gathering(input_))
+    append_mesh(mesh_, document, labelled);
+  else if (format_of_output(input_) == Format::cityjson && document.format == Format::citygml)
+    collector_.add(text);
+  else
+    file_->append(text);
+}
+
+void OutputSink::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+                     const WriteOptions& options) {
+  take(document, labelled, text(input_, document, labelled, options));
+}
+
+PartPlace OutputSink::place() const { return {path_, file_ ? file_->size() : 0}; }
+
+std::string OutputSink::end() {
+  if (collector_.has_lines()) file_->append(collector_.text());
+  const Format format = format_of_output(input_);
+  if (format == Format::obj) file_->append(write_obj(mesh_));
+  if (format == Format::off) file_->append(write_off(mesh_));
+  if (format == Format::ply) file_->append(write_ply(mesh_));
+  if (format == Format::stl) file_->append(write_stl(mesh_, solids_));
+  file_->commit();
+  file_.reset();
+  return path_;
+}
+
+}  // namespace oriel::cli

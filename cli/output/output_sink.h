@@ -1,0 +1,71 @@
+#pragma once
+
+#include "cli/batch/outcome.h"
+#include "kernel/io/cityjson/cityjson_collector.h"
+#include "kernel/io/document.h"
+#include "kernel/io/files/format.h"
+#include "kernel/io/files/output_file.h"
+#include "kernel/io/mesh/mesh_writer.h"
+#include "kernel/io/writer.h"
+#include "kernel/model/labelled_building.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Where labelled buildings go: one file, stdout, or for several inputs a folder with a file of the
+/// same name for each. A file appears when its input is done, whole.
+class OutputSink {
+ public:
+  /// `to` is a format's name or empty: then the name of `out` says it, or, for a folder and stdout,
+  /// the input's format (CityJSON for CityGML). Throws CLI::ValidationError if that makes no sense
+  /// (several inputs and no folder, a stream into one file).
+  OutputSink(std::string out, const std::string& to, std::vector<std::string> inputs,
+             std::optional<Format> from, StlSolids solids = StlSolids::by_label);
+
+  /// Lines of streams become lines of streams, and nothing else.
+  [[nodiscard]] bool is_streaming() const;
+  [[nodiscard]] bool is_stdout() const { return out_ == "-"; }
+
+  /// The file at hand and its size so far.
+  [[nodiscard]] PartPlace place() const;
+  /// With `is_rehearsal` the bytes go to nowhere.
+  void begin(std::size_t input, bool is_rehearsal);
+  /// What a record of an input adds, as bytes; empty for formats that are written when all records
+  /// are there. Several threads may call it.
+  [[nodiscard]] std::string text(std::size_t input, const Document& document,
+                                 const std::vector<LabelledBuilding>& labelled,
+                                 const WriteOptions& options) const;
+  /// Such formats: `add` needs the buildings.
+  [[nodiscard]] bool is_gathering(std::size_t input) const;
+  /// Puts a record of the input at hand into its place, whose `text` it was.
+  void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
+            const std::string& text);
+  void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
+           const WriteOptions& options);
+  /// Puts the file in its place and returns its path.
+  std::string end();
+
+ private:
+  [[nodiscard]] Format format_of_input(std::size_t input) const;
+  [[nodiscard]] Format format_of_output(std::size_t input) const;
+  [[nodiscard]] std::string path_for(std::size_t input) const;
+  void check(std::size_t input) const;
+
+  std::string out_;
+  std::vector<std::string> inputs_;
+  std::optional<Format> from_, to_;
+  StlSolids solids_;
+  bool is_folder_ = false;
+
+  std::size_t input_ = 0;
+  std::string path_;
+  std::unique_ptr<OutputFile> file_;
+  MeshSource mesh_;
+  CityJsonCollector collector_;
+};
+
+}  // namespace oriel::cli

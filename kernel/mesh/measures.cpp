@@ -1,0 +1,136 @@
+#include "kernel/mesh/measures.h"
+
+#include "kernel/base/index.h"
+#include "kernel/mesh/half_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace oriel {
+
+namespace {
+
+using detail::PolyMesh;
+using detail::vec3_of;
+using OpenMesh::EdgeHandle;
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+/// The signed angle between the normals of an edge's faces in degrees: below 0 in a valley.
+double dihedral_deg(const PolyMesh& mesh, EdgeHandle edge) {
+  const HalfedgeHandle half_edge = mesh.halfedge_handle(edge, 0);
+  const Vec3 n = vec3_of(mesh.normal(mesh.face_handle(half_edge)));
+  const Vec3 m = vec3_of(mesh.normal(mesh.opposite_face_handle(half_edge)));
+  const Vec3 along = vec3_of(mesh.calc_edge_vector(half_edge));
+  const Vec3 turn = cross(n, m);
+  const double angle = std::atan2(length(turn), dot(n, m)) * kDegrees;
+  return dot(turn, along) < 0 ? -angle : angle;
+}
+
+/// Twice the vector area of a face.
+Vec3 twice_area(const PolyMesh& mesh, FaceHandle face) {
+  Vec3 sum, first, last;
+  int count = 0;
+  for (const auto vertex : mesh.fv_range(face)) {
+    const Vec3 p = vec3_of(mesh.point(vertex));
+    if (count == 0) first = p;
+    if (count > 1) sum = sum + cross(last - first, p - first);
+    last = p;
+    ++count;
+  }
+  return sum;
+}
+
+/// The angle of the corner at the end of `half_edge`.
+double corner_angle(const PolyMesh& mesh, HalfedgeHandle half_edge) {
+  const Vec3 in = vec3_of(mesh.calc_edge_vector(half_edge));
+  const Vec3 out = vec3_of(mesh.calc_edge_vector(mesh.next_halfedge_handle(half_edge)));
+  return std::atan2(length(cross(in, out)), -dot(in, out));
+}
+
+class CornerNormals {
+ public:
+  CornerNormals(const PolyMesh& mesh, double crease_deg) : mesh_(mesh), crease_deg_(crease_deg) {}
+
+  /// The normal at the end of `half_edge`, within its face.
+  [[nodiscard]] Vec3 at_end(HalfedgeHandle half_edge) const {
+    Vec3 sum = weighted(half_edge);
+    HalfedgeHandle at = half_edge;
+    // Round the vertex one way; where that ends at a crease, the other way as well.
+    while (is_smooth(mesh_.next_halfedge_handle(at))) {
+      at = mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(at));
+      if (at == half_edge) return normalised(sum);
+      sum = sum + weighted(at);
+    }
+    for (at = half_edge; is_smooth(at);) {
+      at = mesh_.prev_halfedge_handle(mesh_.opposite_halfedge_handle(at));
+      sum = sum + weighted(at);
+    }
+    return normalised(sum);
+  }
+
+ private:
+  [[nodiscard]] bool is_smooth(HalfedgeHandle half_edge) const {
+    const EdgeHandle edge = mesh_.edge_handle(half_edge);
+    return !mesh_.is_boundary(edge) && std::abs(dihedral_deg(mesh_, edge)) <= crease_deg_;
+  }
+
+  [[nodiscard]] Vec3 weighted(HalfedgeHandle half_edge) const {
+    return corner_angle(mesh_, half_edge) * vec3_of(mesh_.normal(mesh_.face_handle(half_edge)));
+  }
+
+  const PolyMesh& mesh_;
+  double crease_deg_;
+};
+
+}  // namespace
+
+MeshMeasures measure(const Mesh& mesh) {
+  const PolyMesh& half_edges = mesh.half_edges().mesh;
+  MeshMeasures sizes;
+  sizes.edges = mesh.edges();
+  sizes.faces = mesh.faces();
+  for (const auto vertex : half_edges.vertices())
+    if (!half_edges.is_isolated(vertex)) ++sizes.vertices;
+  for (const auto face : half_edges.faces()) {
+    const Vec3 area = twice_area(half_edges, face);
+    const Vec3 corner = vec3_of(half_edges.point(*half_edges.cfv_iter(face)));
+    sizes.area_m2 += length(area) / 2;
+    sizes.volume_m3 += dot(corner, area) / 6;
+  }
+  sizes.is_closed = mesh.findings().open_edges == 0;
+  sizes.euler = sizes.vertices - sizes.edges + sizes.faces;
+  return sizes;
+}
+
+std::vector<FeatureEdge> feature_edges(const Mesh& mesh, double angle_deg) {
+  const PolyMesh& half_edges = mesh.half_edges().mesh;
+  std::vector<FeatureEdge> found;
+  for (const auto edge : half_edges.edges()) {
+    const HalfedgeHandle half_edge = half_edges.halfedge_handle(edge, 0);
+    FeatureEdge feature{half_edges.from_vertex_handle(half_edge).idx(),
+                        half_edges.to_vertex_handle(half_edge).idx(), 0,
+                        half_edges.is_boundary(edge)};
+    if (!feature.is_open) feature.dihedral_deg = dihedral_deg(half_edges, edge);
+    if (feature.is_open || std::abs(feature.dihedral_deg) > angle_deg) found.push_back(feature);
+  }
+  return found;
+}
+
+std::vector<std::vector<Vec3>> corner_normals(const Mesh& mesh, double crease_deg) {
+  const PolyMesh& half_edges = mesh.half_edges().mesh;
+  const CornerNormals normals(half_edges, crease_deg);
+  std::vector<std::vector<Vec3>> of_faces;
+  for (const auto face : half_edges.faces()) {
+    std::vector<Vec3> of_corners;
+    for (const auto half_edge : half_edges.fh_range(face))
+      of_corners.push_back(normals.at_end(half_edge));
+    of_faces.push_back(std::move(of_corners));
+  }
+  return of_faces;
+}
+
+}  // namespace oriel

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+
+namespace oriel::detail {
+
+/// Gives the input polygons that no facet of the solid has (repair left them out) to features.
+///
+/// A polygon that is parallel to an opening, covers it or a part of it by half of itself at least,
+/// and is no further from it than a wall is thick, joins the smallest such opening and what that
+/// lies in: their polygons and vertices, their boxes and surfaces. One that lies flat in a facet,
+/// within plane_offset_m, becomes an imprint there. The others are left alone, as are those
+/// without area.
+void join_unassigned_polygons(const Building& building, const Solid& solid,
+                              Segmentation& segmentation, const Tolerances& tolerances);
+
+}  // namespace oriel::detail

@@ -1,0 +1,95 @@
+#include "kernel/segment/rings/feature_index.h"
+
+#include "kernel/base/index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oriel::detail {
+
+namespace {
+
+/// The caps of a feature fill this part of a ring's rectangle: it is the ring's. As for the boxes
+/// of objects in bench/recall.sh.
+constexpr double kSameRing = 0.8;
+
+/// Of the outline that ring_of() makes of the loop.
+Reach reach_of_ring(const Solid& solid, const Facet& facet, const Loop& loop,
+                    const ReachAxes& axes) {
+  const Plane& plane = solid.planes[facet.plane.index()];
+  Reach reach;
+  for (const int v : loop) axes.grow(reach, laid_on(plane, solid.vertices[at(v)].point));
+  return reach;
+}
+
+}  // namespace
+
+FeatureIndex::FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances)
+    : segmentation_(segmentation), tolerances_(tolerances), planes_(segmentation.planes.size()) {
+  for (int i = 0; i < std::ssize(segmentation.features); ++i)
+    for (const PlaneId plane : segmentation.features[at(i)].planes)
+      planes_[plane.index()].features.push_back(FeatureId{i});
+}
+
+const std::vector<FeatureIndex::PlacedCap>& FeatureIndex::on(PlaneId plane) {
+  OfPlane& here = planes_[plane.index()];
+  if (!here.is_known) {
+    here.is_known = true;
+    here.caps.reserve(here.features.size());
+    for (const FeatureId id : here.features) here.caps.push_back({id, cap_of(id, plane)});
+    std::ranges::stable_sort(here.caps, {}, [](const PlacedCap& r) { return r.cap.u0; });
+  }
+  return here.caps;
+}
+
+Reach FeatureIndex::cap_of(FeatureId id, PlaneId number) const {
+  const Plane& plane = segmentation_.planes[number.index()];
+  const ReachAxes axes = axes_in(plane.normal);
+  Reach cap;
+  for (const int v : segmentation_.features[id.index()].vertices) {
+    const Vec3 p = segmentation_.vertices[at(v)].point;
+    if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
+      axes.grow(cap, p);
+  }
+  return cap;
+}
+
+template <class Test>
+bool FeatureIndex::any_within(PlaneId plane, const Reach& reach, Test test) {
+  const std::vector<PlacedCap>& caps = on(plane);
+  const double slack = tolerances_.weld_m + tolerances_.plane_offset_m;
+  auto r = std::ranges::lower_bound(caps, reach.u0 - slack, {},
+                                    [](const PlacedCap& resident) { return resident.cap.u0; });
+  for (; r != caps.end() && r->cap.u0 <= reach.u1; ++r)
+    if (reach.holds(r->cap, slack) && test(*r)) return true;
+  return false;
+}
+
+std::vector<FeatureId> FeatureIndex::within(PlaneId plane, const Reach& reach) {
+  std::vector<FeatureId> found;
+  any_within(plane, reach, [&](const PlacedCap& r) {
+    found.push_back(r.id);
+    return false;
+  });
+  return found;
+}
+
+bool FeatureIndex::fills(PlaneId plane, const Reach& reach) {
+  const double least_m2 = kSameRing * reach.area();
+  return any_within(plane, reach, [&](const PlacedCap& r) { return r.cap.area() >= least_m2; });
+}
+
+bool are_all_rings_filled(const Solid& solid, FeatureIndex& caps, const Tolerances& tolerances) {
+  for (int f = 0; f < std::ssize(solid.facets); ++f) {
+    const Facet& facet = solid.facets[at(f)];
+    if (facet.loops.size() == 1) continue;
+    const ReachAxes axes = axes_in(solid.planes[facet.plane.index()].normal);
+    for (std::size_t l = 1; l < facet.loops.size(); ++l)
+      if (!caps.fills(facet.plane, reach_of_ring(solid, facet, facet.loops[l], axes)) &&
+          !is_slit(ring_of(solid, FacetId{f}, facet.loops[l]), tolerances))
+        return false;
+  }
+  return true;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "interpret/explain/explain.h"
+#include "interpret/pack/rule_base.h"
+#include "kernel/base/ids.h"
+#include "kernel/model/building.h"
+#include "oriel/result.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oriel {
+
+/// In all of these `result` is what label() said of `building` with the same rules, and is_done()
+/// or, for surfaces, has_surfaces() (with LabelOptions::measures_surfaces). to_text() and to_json()
+/// in interpret/explain/explain.h write an Explanation.
+
+/// The feature with the id `id`, else those whose id begins with it, in their order.
+std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view id);
+
+/// Why a feature has its label, or none: every rule with its conditions, what was found and what
+/// was asked for, and which number of the pack would change it (docs/rules.md).
+Explanation explain(const PipelineResult& result, const RuleBase& rules, FeatureId feature);
+
+/// What a surface is and why: "house: polygon 7 is WallSurface by …", its attributes and
+/// conditions. `polygon` is an index into Building::polygons.
+std::string explain_surface(const Building& building, const PipelineResult& result,
+                            const RuleBase& rules, std::size_t polygon);
+
+/// A polygon near a point.
+struct PolygonAt {
+  /// Index into Building::polygons.
+  std::size_t polygon = 0;
+  double distance_m = 0;
+};
+
+/// The polygon that a point (in the input's coordinates) lies on: of those it is inside of, seen
+/// along their normal, the one whose plane is nearest, of equal ones the first. Nothing if none is
+/// nearer than a pick on a screen is off (5 cm).
+std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point);
+
+/// The smallest feature with a label that the polygon lies in, else the smallest; invalid: none.
+FeatureId feature_of(const Building& building, const PipelineResult& result, std::size_t polygon);
+
+}  // namespace oriel

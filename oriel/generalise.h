@@ -1,0 +1,92 @@
+#pragma once
+
+#include "generalise/feature_outcome.h"
+#include "generalise/generalise.h"
+#include "interpret/pack/rule_base.h"
+#include "interpret/plan/profile.h"
+#include "kernel/base/issue.h"
+#include "kernel/io/document.h"
+#include "oriel/label.h"
+#include "oriel/result.h"
+#include "oriel/write.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// What is to be made of a building: redrawn for a scale, or at levels of detail.
+struct Targets {
+  /// The denominator of the scale, at least 1. Missing: levels of detail.
+  std::optional<double> scale;
+  /// One for each level of detail; for a scale at most one (load_profile_file).
+  std::vector<Profile> profiles;
+
+  [[nodiscard]] bool has_lods() const { return !scale; }
+  /// All that the results depend on.
+  [[nodiscard]] std::string recipe() const;
+  /// "1:5000", "LoD 2.0, 1.2".
+  [[nodiscard]] std::string text() const;
+};
+
+/// The target 1 : denominator, without profile.
+Targets at_scale(double denominator);
+
+/// How a building is generalised, and what is reported of it.
+struct GeneraliseOptions : LabelOptions {
+  bool reports_changes = false;  ///< TargetReport::changes
+  bool reports_figures = false;  ///< TargetReport::figures
+};
+
+/// Figures of a building before and after.
+struct TargetFigures {
+  /// The least length that the target shows.
+  double least_edge_m = 0;
+  SolidFigures before, after;
+  double hausdorff_m = 0;
+};
+
+/// What became of a building at one target.
+struct TargetReport {
+  /// "1:5000", "LoD 2.0".
+  std::string target;
+  /// One for each feature, if asked for.
+  std::vector<FeatureOutcome> changes;
+  /// If asked for, and the building could be drawn.
+  std::optional<TargetFigures> figures;
+};
+
+/// A building generalised.
+struct GeneralisedBuilding {
+  /// Building::id.
+  std::string building;
+  /// One for each target, in their order; empty if the building was rejected.
+  std::vector<Redrawn> levels;
+  std::vector<TargetReport> reports;
+  /// An error says that the building was rejected: G404 it is open, G402, G406, G410.
+  std::vector<Issue> issues;
+  /// What it was drawn from, if its own solid could not be written as a valid one (G417).
+  std::optional<PipelineResult> repaired;
+};
+
+/// Generalises a building for each of the targets: a closed solid with what the target can show
+/// (docs/generalisation.md; paper, section 5).
+///
+/// `building` is one of the document; `result` is what label() said of it with the same rules and
+/// options. Of a building that did not come to its features nothing is made.
+///
+/// The solids are valid as they are written: where one is not, the building is drawn again with
+/// each step checked, then from a repaired solid (G417). What is valid at no scale stays unchanged,
+/// levels of detail are rejected (G410); what was not valid when it was read may stay so (G413).
+/// Throws GeometryError for a fault of oriel's own.
+GeneralisedBuilding generalise(const Document& document, const Building& building,
+                               const PipelineResult& result, const RuleBase& rules,
+                               const Targets& targets, const GeneraliseOptions& options = {});
+
+/// Adds a generalised building to what is written of its record. Of several levels of detail the
+/// first says what is gone from the building; an installation leaves the file if no level has it.
+void add(GeneralisedBuilding building, OutputRecord& output);
+
+}  // namespace oriel

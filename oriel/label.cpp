@@ -1,0 +1,71 @@
+#include "oriel/label.h"
+
+#include "interpret/surfaces/annotate.h"
+#include "kernel/base/sha256.h"
+#include "oriel/pipeline/pipeline.h"
+#include "oriel/segment.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+SegmentOptions segment_options(const PipelineOptions& options, const Tolerances& fitted) {
+  SegmentOptions segmenting;
+  segmenting.order = options.order;
+  segmenting.tolerances = fitted;
+  segmenting.budget = options.budget;
+  return segmenting;
+}
+
+std::string configuration(const PipelineOptions& options) {
+  const Tolerances& tolerances = options.tolerances;
+  return fmt::format(
+             "lod={} order={} coplanar_deg={} plane_offset_m={} weld_m={} value_rel={} budget={} "
+             "close={} close_area_m2={} crossings={}",
+             options.lod, options.order == Order::paper ? "paper" : "natural",
+             tolerances.coplanar_deg, tolerances.plane_offset_m, tolerances.weld_m,
+             tolerances.value_rel, options.budget, to_string(options.repair.close),
+             options.repair.cap_area_m2,
+             options.repair.crossings == Crossings::leave ? "leave" : "cut") +
+         (options.fits_noise ? " fitted_to_noise" : "") +
+         (options.ignores_semantics ? " ignore_semantics" : "");
+}
+
+PipelineResult solid_of(const Building& building, const PipelineOptions& options) {
+  return run_to_solid(building, options.tolerances, options.repair, options.observer);
+}
+
+PipelineResult segment(const Building& building, const PipelineOptions& options) {
+  LabelOptions labelling;
+  static_cast<PipelineOptions&>(labelling) = options;
+  return run_pipeline(building, nullptr, labelling);
+}
+
+PipelineResult label(const Building& building, const RuleBase& rules, const LabelOptions& options) {
+  PipelineResult labelled = run_pipeline(building, &rules, options);
+  if (!options.has_output || !labelled.has_surfaces()) return labelled;
+  try {
+    labelled.output = annotate(building, labelled, rules, options);
+  } catch (const std::exception& fault) {
+    labelled.issues.push_back(own_fault(building, fault));
+  }
+  return labelled;
+}
+
+LabelledBuilding annotate(const Building& building, const PipelineResult& result,
+                          const RuleBase& rules, const LabelOptions& options) {
+  static const Segmentation none;
+  AnnotateOptions annotating;
+  annotating.codelist = options.codelist;
+  annotating.has_reasons = options.has_reasons;
+  annotating.surfaces = result.named_surfaces;
+  if (result.owners) annotating.owners = &*result.owners;
+  annotating.attributes.emplace_back("oriel_config_sha256", sha256(configuration(options)));
+  return annotate(building, result.segmentation ? *result.segmentation : none,
+                  result.description.table, result.description.graph, result.surfaces,
+                  result.interpretation, rules, annotating);
+}
+
+}  // namespace oriel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "interpret/pack/rule_base.h"
+#include "kernel/model/building.h"
+#include "kernel/model/labelled_building.h"
+#include "oriel/options.h"
+#include "oriel/result.h"
+
+#include <string>
+
+namespace oriel {
+
+/// How a building is labelled and what is written of it.
+struct LabelOptions : PipelineOptions {
+  /// Which codes installations get, one of RuleBase::codelists().
+  std::string codelist = "sig3d";
+  /// Every surface and installation gets its reason in one line, `oriel_why`.
+  bool has_reasons = false;
+  /// All attributes of all surfaces are measured. False: only what naming them needs.
+  bool measures_surfaces = false;
+  /// All attributes and relations of features are measured. False: only what the rules read, which
+  /// is enough for labels, but not for records of features.
+  bool measures_features = true;
+  /// PipelineResult::output is made. False: it stays empty, and annotate() makes it later if it is
+  /// needed.
+  bool has_output = true;
+};
+
+/// Names the features and the surfaces of a building by the rules of a pack (load_pack_file).
+///
+/// It does what segment() does, then runs the rules over the features (docs/rules.md) and names the
+/// surfaces. `interpretation.verdicts` has one verdict for each feature; a label that is empty
+/// means "unknown". Never throws: a fault of oriel's own is an error E901 of the building. The
+/// result depends on the building, the pack and the options only: the command gives the same bytes.
+PipelineResult label(const Building& building, const RuleBase& rules,
+                     const LabelOptions& options = {});
+
+/// What is to be written of a building: PipelineResult::output. `result` is what label() said of
+/// `building` with the same rules; it has_surfaces().
+LabelledBuilding annotate(const Building& building, const PipelineResult& result,
+                          const RuleBase& rules, const LabelOptions& options);
+
+}  // namespace oriel

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "kernel/model/repair.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/segment/segment.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace oriel {
+
+/// The stages that a building passes, and those before and after.
+enum class Stage { read, solidify, segment, describe, interpret, generalise, write };
+
+/// Is called after each stage with the milliseconds that it took. Results do not depend on it. A
+/// call works on one thread; whoever shares an observer between threads guards it.
+using StageObserver = std::function<void(Stage stage, double ms)>;
+
+/// How a building becomes a solid and features. The defaults are those of the command.
+struct PipelineOptions {
+  /// See kernel/model/tolerances.h for each number and its reason.
+  Tolerances tolerances;
+  /// tolerances.plane_offset_m grows where the corners of a building lie further off their planes
+  /// (fitted_to_noise), up to a centimetre; a note E126 says so. False: it holds as it is.
+  bool fits_noise = true;
+  /// What may be done to polygons that are no closed shell. repair() always cuts crossings.
+  RepairOptions repair;
+  /// Natural: along existing edges first; paper: as Thiemann and Sester 2004, section 4, has it.
+  Order order = Order::natural;
+  /// Half-edges that segmenting one building may look at, at least 1; then E502.
+  std::int64_t budget = SegmentOptions{}.budget;
+  /// What the input calls its polygons is not looked at.
+  bool ignores_semantics = false;
+  /// The level of detail that was asked for when the input was read (ReadOptions::lod); empty: the
+  /// highest. It changes nothing but the hash in `oriel_config_sha256`, and is the `lod` of the
+  /// operations of a series.
+  std::string lod{};
+  StageObserver observer{};
+};
+
+/// The segmentation's part of the options, with the tolerances that a building was fitted with.
+SegmentOptions segment_options(const PipelineOptions& options, const Tolerances& fitted);
+
+/// All that a result depends on besides input and rules, as one text: `oriel_config_sha256` is the
+/// SHA-256 of it.
+std::string configuration(const PipelineOptions& options);
+
+}  // namespace oriel

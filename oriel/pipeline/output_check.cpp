@@ -1,0 +1,113 @@
+#include "oriel/pipeline/output_check.h"
+
+#include "kernel/base/index.h"
+#include "kernel/io/levels/as_written.h"
+#include "kernel/validate/part_folded.h"
+#include "kernel/validate/validate.h"
+#include "kernel/validate/weld_written.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+OutputCheck check_output(const Document& document, const Building& building, const Solid& solid) {
+  OutputCheck check;
+  const int spare = spare_digits(document);
+  for (;; ++check.digits) {
+    const auto findings = validate(as_written(document, building, solid, check.digits));
+    if (findings.empty()) return check;
+    if (check.digits < spare) continue;
+    check.fault = building_issue(Severity::error, Code::E318, building.id,
+                                 fmt::format("the repaired solid is not valid: {} {}",
+                                             to_string(findings[0].code), findings[0].sentence));
+    return check;
+  }
+}
+
+namespace {
+
+/// Facets are welded and parted so often; what is wrong then is judged as it is.
+constexpr int kPartings = 4;
+
+/// Surfaces and installations are handed on to the facets that are left of theirs.
+void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
+  labelled.geometry = std::move(parted.solid);
+  if (!labelled.surface_of_polygon.empty()) {
+    std::vector<int> surfaces;
+    for (const int whole : parted.whole_of)
+      surfaces.push_back(labelled.surface_of_polygon[at(whole)]);
+    labelled.surface_of_polygon = std::move(surfaces);
+  }
+  for (Installation& installation : labelled.installations) {
+    const Installation old =
+        std::exchange(installation, Installation{installation.id, installation.attributes, {}, {}});
+    for (std::size_t f = 0; f < parted.whole_of.size(); ++f) {
+      const auto found = std::ranges::find(old.polygons, parted.whole_of[f]);
+      if (found == old.polygons.end()) continue;
+      installation.polygons.push_back(static_cast<int>(f));
+      installation.surfaces.push_back(
+          old.surfaces[static_cast<std::size_t>(found - old.polygons.begin())]);
+    }
+  }
+}
+
+/// Welds what is written as one point, else parts facets that are folded as they are written. False
+/// if there is neither, or if something else is wrong, too.
+bool part_once(const Document& document, const Building& building, LabelledBuilding& labelled) {
+  if (!labelled.geometry) return false;
+  const Building written =
+      as_written(document, building, *labelled.geometry, spare_digits(document));
+  const auto findings = validate(written);
+  auto parted = weld_written(*labelled.geometry, written, findings);
+  if (!parted) parted = part_folded(*labelled.geometry, written, findings);
+  if (!parted) return false;
+  put_parted(std::move(*parted), labelled);
+  return true;
+}
+
+bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
+  return validate(building).empty() || !check_output(document, building, own).fault;
+}
+
+}  // namespace
+
+Issue invalid_before(const Building& building, const std::string& why) {
+  return building_issue(Severity::warning, Code::G413, building.id,
+                        "is not valid as it is written, as it was not when it was read: " + why);
+}
+
+OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
+                          const Solid& solid) {
+  OutputCheck check = check_output(document, building, solid);
+  if (!check.fault) return check;
+  std::string why = check.fault->sentence;
+  why.erase(0, why.find(": ") + 2);
+  if (!can_be_valid(document, building, own)) return {0, {}, invalid_before(building, why)};
+  check.fault->code = Code::G410;
+  check.fault->sentence = "would not be valid as it is written: " + why;
+  return check;
+}
+
+void part_written(const Document& document, const Building& building, LabelledBuilding& labelled) {
+  int partings = 0;
+  while (partings < kPartings && part_once(document, building, labelled)) ++partings;
+}
+
+SolidValidator judge_as_written(const Document& document, const Building& building,
+                                const Solid& own, bool is_thorough) {
+  std::optional<bool> may_be;
+  return {[&document, &building, &own, may_be](const Solid& solid) mutable {
+            if (!check_output(document, building, solid).fault) return Fitness::valid;
+            if (!may_be) may_be = can_be_valid(document, building, own);
+            return *may_be ? Fitness::unfit : Fitness::as_it_came;
+          },
+          {},
+          is_thorough};
+}
+
+}  // namespace oriel

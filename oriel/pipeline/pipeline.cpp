@@ -1,0 +1,183 @@
+#include "oriel/pipeline/pipeline.h"
+
+#include "interpret/labelling/interpret.h"
+#include "kernel/base/log.h"
+#include "kernel/segment/flush/imprints.h"
+#include "kernel/segment/rings/ring_features.h"
+#include "kernel/segment/segment_open.h"
+#include "kernel/solidify/noise.h"
+#include "kernel/solidify/open_shell.h"
+#include "kernel/solidify/solidify.h"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+void append(std::vector<Issue>& all, std::vector<Issue> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+/// The facets of a building that solidify found open, or nothing if it found something else: what
+/// was an error then is a warning.
+std::optional<Solid> opened(const Building& building, std::vector<Issue>& issues,
+                            const Tolerances& tolerances) {
+  const auto is_geometry = [](const Issue& issue) {
+    return issue.severity != Severity::error || is_about_geometry(issue.code);
+  };
+  if (!std::ranges::all_of(issues, is_geometry)) return std::nullopt;
+  auto shell = open_shell(building, tolerances);
+  if (!shell) return shell;
+  for (Issue& issue : issues) {
+    if (issue.severity != Severity::error) continue;
+    issue.severity = Severity::warning;
+    issue.sentence += "; features are taken from its rings, nothing is cut";
+  }
+  return shell;
+}
+
+/// The building without what its input calls the polygons.
+Building without_hints(Building building) {
+  for (Polygon& polygon : building.polygons) polygon.hint.clear();
+  return building;
+}
+
+Issue noise_note(const Building& building, const Tolerances& fitted) {
+  return building_issue(
+      Severity::note, Code::E126, building.id,
+      fmt::format("corners lie up to {:.1f} mm off the planes of nine in ten polygons: what is "
+                  "within {:.1f} mm is one plane (--plane-offset)",
+                  1e3 * noise_of(building), 1e3 * fitted.plane_offset_m));
+}
+
+/// Only what the rules read, where nothing else was asked for.
+DescribeOptions describe_options(const RuleBase* rules, const LabelOptions& options) {
+  if (rules == nullptr || options.measures_features) return {};
+  return {rules->attributes_read(), rules->relations_read()};
+}
+
+/// Measures a stage and logs it at level debug: `segmented: building=b1 features=42 ms=118`.
+/// `counts` says what stands between.
+template <class Work, class Counts>
+auto measured(const StageObserver& observer, Stage stage, const char* done,
+              const Building& building, Work work, Counts counts) {
+  double ms = 0;
+  const StageObserver keeping = [&](Stage measured_stage, double took_ms) {
+    ms = took_ms;
+    if (observer) observer(measured_stage, took_ms);
+  };
+  auto value = measure(keeping, stage, work);
+  if (const Log logger = log("oriel"); logger.is_on(LogLevel::debug))
+    logger.debug("{}: building={} {} ms={:.0f}", done, building.id, counts(value), ms);
+  return value;
+}
+
+Segmentation all_features(const Building& building, const PipelineResult& result,
+                          const SegmentOptions& options) {
+  const Solid& solid = *result.solid;
+  Segmentation found = result.is_open ? segment_open(solid) : segment(building, solid, options);
+  add_ring_features(building, solid, found, options.tolerances);
+  add_imprints(building, solid, found, options.tolerances);
+  return found;
+}
+
+/// Fills what stands between the solid and the surfaces.
+void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
+                   const LabelOptions& options, PipelineResult& out) {
+  const StageObserver& observer = options.observer;
+  if (!out.solid) {
+    out.solid = measure(observer, Stage::solidify,
+                        [&] { return opened(building, out.issues, tolerances); });
+    out.is_open = out.solid.has_value();
+  }
+  if (!out.solid) return;
+  Segmentation segmentation = measured(
+      observer, Stage::segment, "segmented", building,
+      [&] { return all_features(building, out, segment_options(options, tolerances)); },
+      [](const Segmentation& found) { return fmt::format("features={}", found.features.size()); });
+  append(out.issues, segmentation.issues);
+  out.description = measured(
+      observer, Stage::describe, "described", building,
+      [&] { return describe(building, segmentation, describe_options(rules, options)); },
+      [](const Description& found) { return fmt::format("features={}", found.table.rows()); });
+  if (rules != nullptr) {
+    out.interpretation = measured(
+        observer, Stage::interpret, "interpreted", building,
+        [&] { return interpret(*rules, out.description.table, out.description.graph); },
+        [](const Interpretation& found) {
+          return fmt::format("labelled={}",
+                             std::ranges::count_if(found.verdicts, [](const Verdict& verdict) {
+                               return !verdict.label.empty();
+                             }));
+        });
+    append(out.issues, out.interpretation.issues);
+  }
+  out.segmentation = std::move(segmentation);
+}
+
+}  // namespace
+
+Issue own_fault(const Building& building, const std::exception& fault) {
+  return building_issue(Severity::error, Code::E901, building.id,
+                        fmt::format("a fault of oriel's own: {}", fault.what()));
+}
+
+PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
+                            const RepairOptions& repair, const StageObserver& observer) {
+  PipelineResult out;
+  try {
+    auto solid = measured(
+        observer, Stage::solidify, "solidified", building,
+        [&] { return solidify(building, tolerances, repair); },
+        [](const auto& made) {
+          return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
+                             made.issues.size());
+        });
+    append(out.issues, std::move(solid.issues));
+    out.repair = std::move(solid.report);
+    out.solid = std::move(solid.value);
+  } catch (const std::exception& fault) {
+    out.issues.push_back(own_fault(building, fault));
+  }
+  return out;
+}
+
+PipelineResult run_from_solid(PipelineResult out, const Building& building, const RuleBase* rules,
+                              const Tolerances& tolerances, const LabelOptions& options) {
+  const auto is_ours = [](const Issue& issue) { return issue.code == Code::E901; };
+  if (std::ranges::none_of(out.issues, is_ours)) {
+    try {
+      if (options.ignores_semantics)
+        find_features(without_hints(building), rules, tolerances, options, out);
+      else
+        find_features(building, rules, tolerances, options, out);
+    } catch (const std::exception& fault) {
+      out.issues.push_back(own_fault(building, fault));
+    }
+  }
+  out.tolerances = tolerances;
+  if (rules != nullptr && options.measures_surfaces)
+    describe_all_surfaces(building, tolerances, options.observer, out);
+  else if (rules != nullptr)
+    name_surfaces(building, tolerances, *rules, options.observer, out);
+  return out;
+}
+
+PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
+                            const LabelOptions& options) {
+  const Tolerances& given = options.tolerances;
+  const Tolerances fitted = options.fits_noise ? fitted_to_noise(given, noise_of(building)) : given;
+  PipelineResult result =
+      run_from_solid(run_to_solid(building, fitted, options.repair, options.observer), building,
+                     rules, fitted, options);
+  if (fitted.plane_offset_m != given.plane_offset_m)
+    result.issues.push_back(noise_note(building, fitted));
+  return result;
+}
+
+}  // namespace oriel

@@ -1,0 +1,87 @@
+#include "oriel/pipeline/repair_and_retry.h"
+
+#include "kernel/io/levels/as_written.h"
+#include "kernel/validate/part_folded.h"
+#include "kernel/validate/validate.h"
+#include "oriel/pipeline/output_check.h"
+#include "oriel/pipeline/pipeline.h"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+/// Tolerances with which what crosses is cut, as multiples of those given. Planes that are finer
+/// keep surfaces apart that come near each other, coarser ones make one of them: at the defaults up
+/// to 10 mm, as where they are fitted to noise.
+struct Times {
+  double plane_offset, weld;
+};
+constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
+
+/// Facets are parted so often; what is folded then is given up.
+constexpr int kSolidPartings = 4;
+
+/// True if the solid is valid as it is written, once its folded facets are parted.
+bool make_valid(const Document& document, const Building& building, RepairedSolid& repaired) {
+  for (int i = 0; i < kSolidPartings; ++i) {
+    const OutputCheck check = check_output(document, building, *repaired.result.solid);
+    repaired.digits = check.digits;
+    if (!check.fault) return true;
+    const Building written = as_written(document, building, *repaired.result.solid, check.digits);
+    auto parted = part_folded(*repaired.result.solid, written, validate(written));
+    if (!parted) return false;
+    repaired.result.solid = std::move(parted->solid);
+  }
+  return !check_output(document, building, *repaired.result.solid).fault;
+}
+
+Issue repair_warning(const Building& building, const PipelineResult& result) {
+  const auto findings = validate(building);
+  const std::string why = findings.empty()
+                              ? "its surface"
+                              : fmt::format("was not valid as it was read ({} {}) and",
+                                            to_string(findings[0].code), findings[0].sentence);
+  return building_issue(
+      Severity::warning, Code::G417, building.id,
+      fmt::format("{} would not be valid as it is written: it is redrawn from the boundary of its "
+                  "inside, with {} polygons cut",
+                  why, result.repair.cut));
+}
+
+}  // namespace
+
+std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
+                                            const Tolerances& tolerances,
+                                            const PipelineOptions& options) {
+  RepairOptions repair = options.repair;
+  repair.crossings = Crossings::cut_closed;
+  for (const Times& times : kTimes) {
+    Tolerances tried = tolerances;
+    tried.plane_offset_m *= times.plane_offset;
+    tried.weld_m *= times.weld;
+    RepairedSolid repaired{run_to_solid(building, tried, repair, options.observer), 0};
+    repaired.result.tolerances = tried;
+    if (repaired.result.solid && make_valid(document, building, repaired)) return repaired;
+  }
+  return std::nullopt;
+}
+
+std::optional<PipelineResult> repair_and_retry(const Document& document, const Building& building,
+                                               const PipelineResult& result, const RuleBase& rules,
+                                               const LabelOptions& options) {
+  auto repaired = repaired_solid(document, building, result.tolerances, options);
+  if (!repaired) return std::nullopt;
+  const Tolerances tolerances = repaired->result.tolerances;
+  PipelineResult again =
+      run_from_solid(std::move(repaired->result), building, &rules, tolerances, options);
+  if (!again.is_done() || again.is_open) return std::nullopt;
+  again.issues.push_back(repair_warning(building, again));
+  return again;
+}
+
+}  // namespace oriel

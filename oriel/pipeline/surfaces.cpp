@@ -1,0 +1,83 @@
+#include "interpret/surfaces/surfaces.h"
+
+#include "kernel/describe/surfaces.h"
+#include "oriel/pipeline/pipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <span>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+SurfaceContext context_of(const PipelineResult& result) {
+  SurfaceContext context;
+  if (result.solid && !result.is_open) context.solid = &*result.solid;
+  if (result.segmentation) {
+    context.segmentation = &*result.segmentation;
+    context.features = &result.description.table;
+  }
+  return context;
+}
+
+/// The cheaper measures first.
+class MeasuredWhenAsked : public MoreAttributes {
+ public:
+  explicit MeasuredWhenAsked(SurfaceSurvey& survey) : survey_(survey) {}
+
+  [[nodiscard]] bool is_pending(SurfaceAttribute attribute) const override {
+    const auto measure = measure_of(attribute);
+    const auto pending = std::span(kSurfaceMeasures).subspan(done_);
+    return measure && std::ranges::find(pending, *measure) != pending.end();
+  }
+  void measure(std::span<const int> rows) override {
+    survey_.measure(kSurfaceMeasures.at(done_++), rows);
+  }
+
+ private:
+  SurfaceSurvey& survey_;
+  std::size_t done_ = 0;
+};
+
+/// Runs `describe`; what it throws is a fault of ours in this building.
+template <class Describe>
+void measured_describe(const Building& building, const StageObserver& observer,
+                       PipelineResult& result, Describe describe) {
+  try {
+    measure(observer, Stage::describe, describe);
+  } catch (const std::exception& fault) {
+    result.issues.push_back(own_fault(building, fault));
+  }
+}
+
+}  // namespace
+
+void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
+                           const StageObserver& observer, PipelineResult& result) {
+  measured_describe(building, observer, result, [&] {
+    result.surfaces = describe_surfaces(building, tolerances, context_of(result));
+  });
+}
+
+void name_surfaces(const Building& building, const Tolerances& tolerances, const RuleBase& rules,
+                   const StageObserver& observer, PipelineResult& result) {
+  static const Segmentation none;
+  const Segmentation& segmentation = result.segmentation ? *result.segmentation : none;
+  measured_describe(building, observer, result, [&] {
+    const PolygonOwners& owners = result.owners.emplace(polygon_owners(segmentation, building));
+    const auto rows = rows_to_name(building, owners, result.interpretation, rules);
+    SurfaceContext context = context_of(result);
+    context.owners = &owners;
+    SurfaceSurvey survey(building, tolerances, context, rows);
+    SurfaceTable& table = survey.table();
+    table = with_parts(std::move(table), building, owners, result.interpretation, rules, rows);
+    MeasuredWhenAsked more(survey);
+    result.named_surfaces = interpret_surfaces(rules, table, rows, more);
+    result.surfaces = std::move(table);
+  });
+}
+
+}  // namespace oriel

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "generalise/invariants/invariants.h"
+#include "interpret/pack/rule_base.h"
+#include "interpret/plan/profile.h"
+#include "kernel/io/document.h"
+
+#include <optional>
+
+namespace oriel {
+
+/// The least length that a target shows: the profile's, or its c, else 0.125 mm on the map.
+double least_edge_m(const Profile* profile, std::optional<double> scale);
+
+/// What must not change at a target, by the profile and the pack; without a judge and party walls.
+Invariants invariants_of(const Profile* profile, const RuleBase& rules,
+                         std::optional<double> scale);
+
+/// The same of a building, with the walls of the document's other buildings that it stands against
+/// if they matter.
+Invariants with_party_walls(Invariants invariants, const Document& document,
+                            const Building& building, const Solid& solid);
+
+}  // namespace oriel

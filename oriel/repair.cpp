@@ -1,0 +1,101 @@
+#include "oriel/repair.h"
+
+#include "generalise/generalise.h"
+#include "kernel/model/version.h"
+#include "oriel/pipeline/output_check.h"
+#include "oriel/pipeline/repair_and_retry.h"
+#include "oriel/segment.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace oriel {
+
+namespace {
+
+/// Facets that oriel made close what the data leave open: a ClosureSurface where the building has
+/// semantics.
+void label_caps(const Building& building, LabelledBuilding& repaired) {
+  if (std::ranges::all_of(building.polygons, [](const Polygon& p) { return p.hint.empty(); }))
+    return;
+  for (const Facet& facet : repaired.geometry->facets) {
+    repaired.surface_of_polygon.push_back(facet.polygons.empty() ? 0 : -1);
+    if (facet.polygons.empty() && repaired.surfaces.empty())
+      repaired.surfaces.push_back({"ClosureSurface", -1, {}});
+  }
+}
+
+/// The building with its solid in the place of its polygons, and counts of what was repaired.
+LabelledBuilding output_of(const Building& building, const Repaired& repaired, bool keeps_semantics,
+                           int digits) {
+  LabelledBuilding output;
+  output.building = building.id;
+  output.geometry = repaired.solid;
+  output.digits = digits;
+  output.keeps_semantics = keeps_semantics;
+  if (keeps_semantics) label_caps(building, output);
+  const auto add_count = [&](const char* name, std::size_t count) {
+    if (count > 0) output.attributes.emplace_back(name, static_cast<std::int64_t>(count));
+  };
+  output.attributes.emplace_back("oriel_version", std::string(kVersion));
+  add_count("oriel_repair_duplicates", repaired.report.duplicates.size());
+  add_count("oriel_repair_dangling", repaired.report.dangling.size());
+  add_count("oriel_repair_inner", repaired.report.inner.size());
+  add_count("oriel_repair_caps", repaired.report.caps.size());
+  return output;
+}
+
+}  // namespace
+
+PipelineOptions repair_defaults() {
+  PipelineOptions options;
+  options.repair.crossings = Crossings::cut;
+  return options;
+}
+
+Repaired repair(const Document& document, const Building& building,
+                const PipelineOptions& options) {
+  return repair(document, building, solid_of(building, options), options);
+}
+
+Repaired repair(const Document& document, const Building& building, PipelineResult solid,
+                const PipelineOptions& options) {
+  Repaired out{std::move(solid.solid), std::move(solid.repair), {}, std::move(solid.issues)};
+  if (!out.solid) return out;
+  OutputCheck check = check_output(document, building, *out.solid);
+  if (check.fault && options.repair.crossings == Crossings::cut) {
+    if (auto again = repaired_solid(document, building, options.tolerances, options)) {
+      out.solid = std::move(again->result.solid);
+      out.report = std::move(again->result.repair);
+      check = {again->digits, {}, {}};
+    }
+  }
+  if (check.fault) {
+    out.solid.reset();
+    out.issues.push_back(std::move(*check.fault));
+    return out;
+  }
+  out.output = output_of(building, out, !options.ignores_semantics, check.digits);
+  return out;
+}
+
+Checked<LabelledBuilding> on_solid(const Document& document, const Building& building,
+                                   const PipelineResult& result, const LabelledBuilding& labelled) {
+  if (result.is_open)
+    return {{},
+            {building_issue(Severity::error, Code::G404, building.id,
+                            "is open: its polygons are labelled unchanged")}};
+  Generalised whole{*result.solid, {}};
+  whole.is_drawn_anew = true;
+  LabelledBuilding drawn =
+      redraw(building, labelled, *result.segmentation, result.description.table,
+             result.interpretation, std::move(whole), result.tolerances)
+          .labelled;
+  const OutputCheck check = check_output(document, building, *drawn.geometry);
+  if (check.fault) return {{}, {*check.fault}};
+  drawn.digits = check.digits;
+  return {std::move(drawn), {}};
+}
+
+}  // namespace oriel

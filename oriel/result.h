@@ -1,0 +1,54 @@
+#pragma once
+
+#include "interpret/surfaces/surfaces.h"
+#include "kernel/base/issue.h"
+#include "kernel/describe/describe.h"
+#include "kernel/model/description/surface_table.h"
+#include "kernel/model/interpretation.h"
+#include "kernel/model/labelled_building.h"
+#include "kernel/model/polygon_owners.h"
+#include "kernel/model/repair.h"
+#include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/tolerances.h"
+
+#include <optional>
+#include <vector>
+
+namespace oriel {
+
+/// All that is known of one building, as far as it came in the pipeline
+/// solidify → segment → describe → interpret.
+struct PipelineResult {
+  /// Missing: nothing could be made of the polygons, and `issues` says why.
+  std::optional<Solid> solid;
+  RepairReport repair;
+  /// The building stayed open: `solid` is no solid but its open_shell, and nothing was cut.
+  bool is_open = false;
+  std::optional<Segmentation> segmentation;
+  /// Those it was cut with: fitted to its noise.
+  Tolerances tolerances;
+  Description description;
+  /// Empty without rules.
+  Interpretation interpretation;
+  /// With rules, also of a building that was rejected; no rows if describing failed.
+  SurfaceTable surfaces;
+  /// What the surfaces are, where only their names were asked for; then `surfaces` is not complete.
+  std::vector<SurfaceVerdict> named_surfaces;
+  /// Found with them.
+  std::optional<PolygonOwners> owners;
+  /// What write() takes: semantic surfaces, installations and attributes (docs/formats.md); made by
+  /// label(). Of a building that was rejected its surfaces are named all the same. Without id if
+  /// it was not made.
+  LabelledBuilding output;
+  std::vector<Issue> issues;
+  /// Nothing was done: a run of the command that selects buildings left this one out.
+  bool is_passed_over = false;
+
+  /// It was segmented; if not, `issues` has an error that says why the building was rejected.
+  [[nodiscard]] bool is_done() const { return segmentation.has_value(); }
+  /// Its surfaces can be named, though the building may have been rejected.
+  [[nodiscard]] bool has_surfaces() const { return surfaces.rows() > 0; }
+};
+
+}  // namespace oriel

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "oriel/options.h"
+#include "oriel/result.h"
+
+namespace oriel {
+
+/// The solid of a building and nothing more: PipelineResult::solid, `repair` and `issues`.
+/// Tolerances are taken as they are given, not fitted to noise. Never throws: a fault of oriel's
+/// own is an error E901 of the building.
+PipelineResult solid_of(const Building& building, const PipelineOptions& options = {});
+
+/// The features of a building, without labels and without surfaces.
+///
+/// 1. Tolerances are fitted to the noise of the building (PipelineOptions::fits_noise).
+/// 2. solidify; of a building that stays open, open_shell, from whose rings features are taken.
+/// 3. segment, ring features, imprints (paper, section 4; docs/segmentation.md).
+/// 4. describe: attributes and relations of every feature (docs/describe.md).
+///
+/// PipelineResult::is_done() says whether it came to the end; if not, `issues` has the error. Never
+/// throws: a fault of oriel's own is an error E901 of the building. The result depends on the
+/// building and the options only.
+PipelineResult segment(const Building& building, const PipelineOptions& options);
+
+}  // namespace oriel

@@ -1,0 +1,243 @@
+#include "oriel/series.h"
+
+#include "generalise/series/scale_series.h"
+#include "generalise/series/series_levels.h"
+#include "interpret/plan/plan.h"
+#include "kernel/io/levels/written_grid.h"
+#include "oriel/pipeline/output_check.h"
+#include "oriel/pipeline/pipeline.h"
+#include "oriel/pipeline/repair_and_retry.h"
+#include "oriel/pipeline/targets.h"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+/// One building with its levels, before the grid of the file is known.
+struct LeveledBuilding {
+  const Building* building = nullptr;
+  const PipelineResult* result = nullptr;
+  LabelledBuilding labelled;
+  bool is_judged = false;  ///< each step of its levels is, which takes long
+  /// It is drawn from a repaired solid: folded facets are parted, and each level judged by itself.
+  bool is_repaired = false;
+  std::vector<SeriesLevel> levels{};
+  std::unique_ptr<FiringScales> firing{};
+  std::vector<Issue> issues{};                       ///< of its levels
+  std::unique_ptr<const PipelineResult> repaired{};  ///< what `result` is, if it was repaired
+
+  /// All levels are valid solids in the file.
+  [[nodiscard]] bool is_valid() const {
+    return !has_errors(issues) &&
+           std::ranges::find(issues, Code::G413, &Issue::code) == issues.end();
+  }
+};
+
+/// Draws the levels of a record's buildings.
+class SeriesDrawer {
+ public:
+  SeriesDrawer(const Document& document, const RuleBase& rules, const std::vector<double>& scales,
+               const SeriesOptions& options)
+      : document_(document),
+        rules_(rules),
+        scales_(scales),
+        options_(options),
+        profile_(options.profile ? &*options.profile : nullptr),
+        bounds_(plan_bounds(rules)) {
+    // Repairing and labelling again is measured as a part of generalising.
+    options_.observer = nullptr;
+  }
+
+  Series draw(const std::vector<PipelineResult>& results, const StageObserver& observer) {
+    Series series;
+    std::vector<LeveledBuilding> all;
+    measure(observer, Stage::generalise, [&] {
+      for (std::size_t i = 0; i < results.size(); ++i)
+        if (results[i].is_done()) add_levels(document_.buildings[i], results[i], all, series);
+    });
+    std::vector<const LabelledBuilding*> solids;
+    for (const LeveledBuilding& one : all)
+      for (const SeriesLevel& level : one.levels) solids.push_back(&level.redrawn.labelled);
+    const WrittenGrid grid(document_, solids);
+    series.finer_digits = grid.finer_digits();
+    measure(observer, Stage::generalise, [&] {
+      for (const LeveledBuilding& one : all) add_operations(one, grid, series);
+    });
+    return series;
+  }
+
+ private:
+  /// The levels of a building; none if one cannot be written as a valid solid, unless it came as
+  /// none (G413). First its steps are judged, then it is repaired, where either helps.
+  void add_levels(const Building& building, const PipelineResult& result,
+                  std::vector<LeveledBuilding>& all, Series& series) {
+    if (result.is_open) {
+      series.issues.push_back(building_issue(Severity::error, Code::G404, building.id,
+                                             "is open: there is no solid to redraw"));
+      return;
+    }
+    LeveledBuilding one = with_levels(building, result);
+    if (has_errors(one.issues)) judge(one);
+    if (!one.is_valid()) repair(one);
+    series.issues.insert(series.issues.end(), one.issues.begin(), one.issues.end());
+    if (has_errors(one.issues)) return;
+    series.drawn.push_back(building.id);
+    all.push_back(std::move(one));
+  }
+
+  [[nodiscard]] LeveledBuilding with_levels(const Building& building, const PipelineResult& result,
+                                            bool is_repaired = false) const {
+    LeveledBuilding one{&building, &result, annotate(building, result, rules_, options_)};
+    one.is_repaired = is_repaired;
+    draw_levels(one);
+    return one;
+  }
+
+  /// Draws them again with every step judged.
+  void judge(LeveledBuilding& one) const {
+    one.is_judged = true;
+    draw_levels(one);
+  }
+
+  /// Draws them from the repaired solid, if they are valid then.
+  void repair(LeveledBuilding& one) const {
+    auto repaired = repair_and_retry(document_, *one.building, *one.result, rules_, options_);
+    if (!repaired) return;
+    auto result = std::make_unique<const PipelineResult>(std::move(*repaired));
+    LeveledBuilding anew = with_levels(*one.building, *result, true);
+    if (!anew.is_valid()) return;
+    anew.issues.insert(anew.issues.begin(), result->issues.back());
+    anew.repaired = std::move(result);
+    one = std::move(anew);
+  }
+
+  [[nodiscard]] SeriesInput input_of(const LeveledBuilding& one) const {
+    SeriesInput input{*one.building,
+                      one.labelled,
+                      *one.result->solid,
+                      *one.result->segmentation,
+                      one.result->description.table,
+                      one.result->interpretation,
+                      segment_options(options_, one.result->tolerances),
+                      [this, &one](double scale) { return invariants_at(one, scale); },
+                      nullptr,
+                      nullptr};
+    if (!one.is_repaired) return input;
+    input.finish = [this, building = one.building](LabelledBuilding& labelled) {
+      part_written(document_, *building, labelled);
+    };
+    input.fault_of = [this, building = one.building, result = one.result](const Solid& solid) {
+      return check_redrawn(document_, *building, *result->solid, solid).fault;
+    };
+    return input;
+  }
+
+  [[nodiscard]] Invariants invariants_at(const LeveledBuilding& one, double scale) const {
+    const Solid& solid = *one.result->solid;
+    Invariants invariants =
+        with_party_walls(invariants_of(profile_, rules_, scale), document_, *one.building, solid);
+    if (one.is_judged)
+      invariants.validator = judge_as_written(document_, *one.building, solid, true);
+    return invariants;
+  }
+
+  void draw_levels(LeveledBuilding& one) const {
+    const PipelineResult& result = *one.result;
+    const auto& [table, graph] = result.description;
+    const PlanAt plan_at = [&](double scale) {
+      Plan asked = plan(rules_, table, graph, result.interpretation, scale);
+      if (profile_ != nullptr)
+        asked = plan_by_profile(std::move(asked), *profile_, rules_, *result.segmentation, table,
+                                result.interpretation, scale);
+      return asked;
+    };
+    auto levels = series_levels(input_of(one), scales_, plan_at);
+    one.issues = std::move(levels.issues);
+    if (!levels.value) return;
+    one.levels = std::move(*levels.value);
+    check(one);
+    one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
+  }
+
+  /// Says of each level how fine the file has to be; what is valid at no scale of the file is an
+  /// error.
+  void check(LeveledBuilding& one) const {
+    for (std::size_t i = 1; i < one.levels.size() && !has_errors(one.issues); ++i) {
+      SeriesLevel& level = one.levels[i];
+      const SeriesLevel& before = one.levels[i - 1];
+      LabelledBuilding& labelled = level.redrawn.labelled;
+      labelled.digits = before.redrawn.labelled.digits;
+      const bool is_same = level.generalised.removed == before.generalised.removed &&
+                           level.generalised.changed.empty();
+      if (is_same && i > 1) continue;
+      OutputCheck found =
+          check_redrawn(document_, *one.building, *one.result->solid, *labelled.geometry);
+      labelled.digits = std::max(labelled.digits, found.digits);
+      if (found.excuse) one.issues.push_back(std::move(*found.excuse));
+      if (found.fault) one.issues.push_back(std::move(*found.fault));
+    }
+  }
+
+  void add_operations(const LeveledBuilding& one, const WrittenGrid& grid, Series& out) const {
+    const Frame& frame = one.building->frame;
+    BuildingSeries building{one.building->id, frame, one.labelled.attributes, {}, {}};
+    for (const Installation& installation : one.labelled.installations)
+      building.installations.push_back(installation.id);
+    try {
+      building.series = scale_series(input_of(one), one.levels, *one.firing,
+                                     [&](Vec3 local_m) { return grid.place(local_m, frame); });
+    } catch (const GeometryError& fault) {
+      out.issues.push_back(own_fault(*one.building, fault));
+      return;
+    }
+    for (SeriesOperation& operation : building.series.operations) operation.lod = options_.lod;
+    out.buildings.push_back(std::move(building));
+  }
+
+  const Document& document_;
+  const RuleBase& rules_;
+  const std::vector<double>& scales_;
+  SeriesOptions options_;
+  const Profile* profile_;
+  std::vector<double> bounds_;
+};
+
+}  // namespace
+
+std::vector<SeriesOperation> Series::operations() const {
+  std::vector<SeriesOperation> all;
+  for (const BuildingSeries& one : buildings)
+    all.insert(all.end(), one.series.operations.begin(), one.series.operations.end());
+  return all;
+}
+
+Series series(const Document& document, const std::vector<PipelineResult>& results,
+              const RuleBase& rules, const std::vector<double>& scales,
+              const SeriesOptions& options) {
+  return SeriesDrawer(document, rules, scales, options).draw(results, options.observer);
+}
+
+OutputRecord at(const Series& series, double scale) {
+  OutputRecord output;
+  output.options.finer_digits = series.finer_digits;
+  for (const BuildingSeries& one : series.buildings) {
+    LevelState state = one.series.finest;
+    if (!move_state(state, one.series.operations, 0, scale))
+      throw GeometryError("an operation of a series does not fit the state before it");
+    LabelledBuilding level = labelled_building(state, one.frame);
+    for (const std::string& id : one.installations)
+      if (!state.installations.contains(id)) output.options.removed.push_back(id);
+    level.attributes.insert(level.attributes.begin(), one.attributes.begin(), one.attributes.end());
+    output.buildings.push_back(std::move(level));
+  }
+  return output;
+}
+
+}  // namespace oriel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "interpret/pack/rule_base.h"
+#include "interpret/plan/profile.h"
+#include "kernel/base/issue.h"
+#include "kernel/io/document.h"
+#include "kernel/model/scale_series.h"
+#include "oriel/label.h"
+#include "oriel/result.h"
+#include "oriel/write.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oriel {
+
+/// A building from fine to coarse, with what its levels are written with.
+struct BuildingSeries {
+  std::string building;
+  Frame frame;
+  /// The attributes that label() gives it.
+  Members attributes;
+  /// The ids of its installations before any operation.
+  std::vector<std::string> installations;
+  ScaleSeries series;
+};
+
+/// All buildings of a record from fine to coarse.
+struct Series {
+  std::vector<BuildingSeries> buildings;
+  /// Ids of all buildings that levels could be drawn of; those that `buildings` lacks have an E901.
+  std::vector<std::string> drawn;
+  /// The grid on which all levels have their vertices: WriteOptions::finer_digits.
+  int finer_digits = 0;
+  /// An error says that a building was rejected: G404 it is open, G402, G410, E901.
+  std::vector<Issue> issues;
+
+  /// In the order in which they stand in the log: building by building, by ascending scale.
+  [[nodiscard]] std::vector<SeriesOperation> operations() const;
+};
+
+struct SeriesOptions : LabelOptions {
+  /// What to do with features that the pack has no entry for.
+  std::optional<Profile> profile;
+};
+
+/// The series of a record for `scales` (denominators, which ascend): every level a valid solid, and
+/// the elementary operations between them (docs/generalisation.md; Thiemann and Sester, paper
+/// section 5). `results` are what label() said of the document's buildings, in their order, with
+/// the same rules and options; those that are not is_done() are passed over.
+///
+/// A level never has what a finer one lost. First the steps of a building that would not be valid
+/// are judged one by one, then it is drawn from a repaired solid (G417); what helps neither is
+/// rejected, unless it came as no valid solid (G413). Throws GeometryError for a fault of oriel's
+/// own.
+Series series(const Document& document, const std::vector<PipelineResult>& results,
+              const RuleBase& rules, const std::vector<double>& scales,
+              const SeriesOptions& options = {});
+
+/// The record at 1 : scale, between 1 and the coarsest scale of the series. Throws GeometryError if
+/// an operation does not fit the state before it.
+OutputRecord at(const Series& series, double scale);
+
+/// A level made from the files of a series.
+struct LevelFromFiles {
+  /// False: the level and the log do not fit each other, or cannot be read, and `issues` says why.
+  bool is_complete = false;
+  /// The stored level from which it was made.
+  double from_scale = 0;
+  std::string from_file;
+  std::vector<Issue> issues;
+};
+
+/// The level at 1 : scale of the series NAME, from its files NAME.1-N.city.json (of streams
+/// .city.jsonl) and NAME.oplog.jsonl: the stored level that is nearest, with the operations between
+/// carried out or undone. `sink` gets the text, record by record; if is_complete is false in the
+/// end, what it got is not whole. Throws InputError: E101 there is no log or no level, G409 there
+/// are levels of two series, E119 the log is none.
+LevelFromFiles at(const std::string& name, double scale,
+                  const std::function<void(std::string_view)>& sink);
+
+}  // namespace oriel

@@ -1,0 +1,3 @@
+#pragma once
+
+#include "kernel/validate/validate.h"  // IWYU pragma: export
