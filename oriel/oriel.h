@@ -6,6 +6,7 @@
 #include "oriel/explain.h"     // IWYU pragma: export
 #include "oriel/generalise.h"  // IWYU pragma: export
 #include "oriel/label.h"       // IWYU pragma: export
+#include "oriel/mesh.h"        // IWYU pragma: export
 #include "oriel/options.h"     // IWYU pragma: export
 #include "oriel/read.h"        // IWYU pragma: export
 #include "oriel/repair.h"      // IWYU pragma: export

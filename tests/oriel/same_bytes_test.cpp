@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const RuleBase& residential() {
+const RuleBase& default_pack() {
   static const RuleBase rules = load_pack_file("residential").value.value();
   return rules;
 }
@@ -55,7 +55,7 @@ void add_labels(const Document& document, std::vector<PipelineResult>& results,
                 LibraryOutput& out) {
   OutputRecord labelled;
   for (const Building& building : document.buildings) {
-    results.push_back(label(building, residential()));
+    results.push_back(label(building, default_pack()));
     const PipelineResult& result = results.back();
     add(result.output, labelled);
     out.features +=
@@ -68,7 +68,7 @@ void add_generalised(const Document& document, const std::vector<PipelineResult>
                      LibraryOutput& out) {
   OutputRecord coarse;
   for (std::size_t i = 0; i < results.size(); ++i)
-    add(generalise(document, document.buildings[i], results[i], residential(), at_scale(5000)),
+    add(generalise(document, document.buildings[i], results[i], default_pack(), at_scale(5000)),
         coarse);
   out.generalised += write(document, coarse);
 }
@@ -157,9 +157,9 @@ TEST_SUITE("oriel") {
     REQUIRE(records.size() == 1);
     std::vector<PipelineResult> results;
     for (const Building& building : records[0].buildings)
-      results.push_back(label(building, residential()));
+      results.push_back(label(building, default_pack()));
     const std::vector<double> scales{500, 2000, 10000};
-    const Series made = series(records[0], results, residential(), scales);
+    const Series made = series(records[0], results, default_pack(), scales);
     CHECK(bytes_of(folder / "house.1-500.city.json") == write(records[0], at(made, 500)));
     CHECK(bytes_of(folder / "house.1-2000.city.json") == write(records[0], at(made, 2000)));
     CHECK(bytes_of(folder / "house.1-10000.city.json") == write(records[0], at(made, 10000)));
