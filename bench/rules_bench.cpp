@@ -38,7 +38,7 @@ struct Labelled {
   bool is_in_row = false;
 };
 
-std::uint8_t code_of(std::string_view label) {
+std::uint8_t number_of_label(std::string_view label) {
   static constexpr std::array<std::string_view, 7> kLabels = {
       "", "chimney", "door", "window", "window_weak", "dormer", "balcony"};
   for (std::size_t i = 0; i < kLabels.size(); ++i)
@@ -75,7 +75,7 @@ std::vector<Labelled> label(const RuleBase& rules,
     for (const Interpretation& said : interpret(rules, batch)) {
       const std::size_t first = all.size();
       for (const Verdict& verdict : said.verdicts) {
-        if (verdict.label != last) code = code_of(verdict.label);
+        if (verdict.label != last) code = number_of_label(verdict.label);
         last = verdict.label;
         all.push_back({code, false});
       }

@@ -1,5 +1,6 @@
 # Installs the headers of oriel/, the front door, and all that they include: what no public header needs stays private.
 # SOURCE is the source folder, TO the folder that is to hold them.
+cmake_policy(VERSION 3.22)
 file(GLOB waiting RELATIVE ${SOURCE} ${SOURCE}/oriel/*.h)
 set(headers ${waiting})
 while(waiting)

@@ -264,7 +264,7 @@ class FacetMaker {
     for (const int p : members)
       for (const int h : half_edges_of_[at(p)])
         if (!is_walked_[at(h)] && !is_inside(h)) facet.loops.push_back(walk(h));
-    if (facet.loops.empty()) return;  // both sides of one sheet: they bound nothing
+    if (facet.loops.empty()) return;  // welding has folded it onto itself
     put_outer_first(facet);
     out_.facets.push_back(std::move(facet));
   }

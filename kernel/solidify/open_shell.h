@@ -10,9 +10,9 @@ namespace oriel {
 
 /// The facets of a building whose polygons do not close (solidify refused it): planes, vertices and
 /// facets as solidify makes them, but no shells. Every input polygon that has an area is in one
-/// facet, except polygons that cover each other's backs: such a sheet bounds nothing. Edges are met
-/// once, twice or more often; vertices are welded and stay where they are, off their planes by up
-/// to plane_offset_m. Neighbours look the same way, patches of them away from the middle of the
+/// facet, except where welding has folded polygons onto themselves: they bound nothing. Edges are
+/// met once, twice or more often; vertices are welded and stay where they are, off their planes by
+/// up to plane_offset_m. Neighbours look the same way, patches of them away from the middle of the
 /// building.
 ///
 /// It is no solid: `segment` and what cuts must not be given it, `segment_open` may. Nothing if no

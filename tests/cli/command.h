@@ -70,4 +70,7 @@ std::string sample(const std::string& name);
 /// `text` with the first `from` replaced, which must be in it.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 
+/// Without their ends.
+std::vector<std::string> lines_of(const std::string& text);
+
 }  // namespace oriel::test

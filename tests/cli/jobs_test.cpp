@@ -31,13 +31,6 @@ std::string mixed_stream() {
   return text;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 /// The sample house so many times, as a stream: each takes some milliseconds.
 std::string houses(int count) {
   const auto lines = lines_of(run({"cat", sample("house")}).out);

@@ -15,13 +15,6 @@ using nlohmann::json;
 
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 std::string piped(const std::vector<std::string>& arguments, const std::string& in, int exit = 0) {
   const Outcome outcome = run(arguments, {.in = in});
   CAPTURE(arguments[0]);

@@ -22,11 +22,13 @@ inline std::optional<std::filesystem::path> shared_dir() {
   return dir;
 }
 
-/// All CityJSON files of the shared data, sorted.
+/// The CityJSON files of those sets of the shared data that have one building of LoD3 a file,
+/// labelled and stripped; sorted.
 inline std::vector<std::string> city_files(const std::filesystem::path& shared) {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(shared / "data"))
-    if (entry.path().string().ends_with(".city.json")) files.push_back(entry.path().string());
+  for (const char* set : {"ingolstadt", "ogc-simple-house", "random3dcity"})
+    for (const auto& entry : std::filesystem::directory_iterator(shared / "data" / set))
+      if (entry.path().string().ends_with(".city.json")) files.push_back(entry.path().string());
   std::ranges::sort(files);
   return files;
 }

@@ -364,10 +364,10 @@ TEST_SUITE("interpret") {
         R"("runner_up":"","min_score":0,"best":"w","rules":[{"id":"w","label":"window",)"
         R"("priority":0,"predicate":false,"place":{"file":"t.yaml","line":5,"column":5},)"
         R"("outcome":"holds","score":0.5,"require":[{"text":"a > 1 m",)"
-        R"("place":{"file":"t.yaml","line":7,"column":14},"outcome":"holds","value":"a = 1.50 m",)"
-        R"("bound":"> 1.00 m"}],"unless":[],"terms":[{"text":"a",)"
+        R"("place":{"file":"t.yaml","line":7,"column":14},"outcome":"holds","value":"a is 1.50 m",)"
+        R"("bound":"above 1.00 m"}],"unless":[],"terms":[{"text":"a",)"
         R"("place":{"file":"t.yaml","line":8,"column":13},"judged":0.5,"weight":1,)"
-        R"("value":"a = 1.50 m","bound":"rises 1.00 m .. 2.00 m"}]}],"flip":{"nearest":null,)"
+        R"("value":"a is 1.50 m","bound":"rises 1.00 m .. 2.00 m"}]}],"flip":{"nearest":null,)"
         R"("params":0,"without_range":[],"tried":0,"reach":1}})");
   }
 }

@@ -10,7 +10,7 @@ TEST_SUITE("interpret") {
     constexpr Dimension kLength{1, 0};
     CHECK(rules::write(0.61, kLength) == "0.61 m");
     CHECK(rules::write(0.6004, kLength, 0.6) == "0.6004 m");
-    CHECK(rules::write(0.6, kLength, 0.6 + 1e-12) == "0.600000 m");
+    CHECK(rules::write(0.6, kLength, 0.6 + 1e-12) == "0.60 m");
     CHECK(rules::write(3, {}) == "3");
     CHECK(rules::write(3, {}, 2.5) == "3.00");
     CHECK(rules::write(90, {0, 1}) == "90.00 deg");
