@@ -47,11 +47,11 @@ TEST_SUITE("cli") {
         replaced(residential(),
                  "split_order <= 1 and base_height >=", "split_order <= 1 and base_heigth >=");
     check_refused(text,
-                  place_of(text, "heigth") +
+                  place_of(text, "base_heigth") +
                       ": R204 unknown attribute 'base_heigth'; did you mean 'base_height'?\n");
     const Folder folder;
     const Outcome outcome = run({"rules", "check", folder.write("my.yaml", text)});
-    CHECK(outcome.says("\n                             ^~~~~~\n"));
+    CHECK(outcome.says(" ^~~~~~~~~~~\n"));
   }
 
   TEST_CASE("a pack with a unit error is refused") {

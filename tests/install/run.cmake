@@ -21,7 +21,7 @@ endforeach()
 # Nothing private, and nothing that is of this machine.
 file(GLOB_RECURSE headers ${prefix}/include/*)
 foreach(header ${headers})
-  if(header MATCHES "/(detail|pipeline)/" OR NOT header MATCHES "[.]h$")
+  if(header MATCHES "/(detail|pipeline)/" OR NOT header MATCHES "[.](h|inc)$")
     message(FATAL_ERROR "installed, but private: ${header}")
   endif()
 endforeach()

@@ -99,12 +99,12 @@ TEST_SUITE("cli") {
     const Folder folder;
     const std::string input = folder.write("in.city.jsonl", city(5));
     const auto arguments = label(folder, input);
-    CHECK(run(arguments).says("labelled 5 of 5"));
+    CHECK(run(arguments).says("5 of 5 buildings labelled"));
     CHECK(run(arguments).says("all of it was done before"));
     folder.write("out.city.jsonl", "changed");
-    CHECK(run(arguments).says("labelled 5 of 5"));
+    CHECK(run(arguments).says("5 of 5 buildings labelled"));
     folder.write("in.city.jsonl", city(6));
-    CHECK(run(arguments).says("labelled 6 of 6"));
+    CHECK(run(arguments).says("6 of 6 buildings labelled"));
   }
 
   TEST_CASE("a run that was killed while its files came to their places loses nothing") {

@@ -115,7 +115,8 @@ TEST_SUITE("kernel/io") {
                          "comment feature 2 house window_w_1\n"));
     CHECK(text.find("element vertex 8\nproperty double x\nproperty double y\nproperty double z\n"
                     "element face 6\nproperty list uchar int vertex_indices\n"
-                    "property int feature\nend_header\n1000 2000 10\n") != std::string::npos);
+                    "property int feature\nend_header\n") != std::string::npos);
+    CHECK(text.find("\n1000.5 2000.25 10\n") != std::string::npos);
     const Document again = house_of(text, "a.ply");
     std::vector<std::string> hints;
     for (const Polygon& polygon : again.buildings.at(0).polygons) hints.push_back(polygon.hint);
