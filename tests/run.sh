@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 examples/install_packages.sh
 
 echo "== format"
-find bench cli examples generalise interpret kernel tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find bench cli examples generalise interpret kernel oriel tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
   xargs -0 clang-format --dry-run -Werror
 
 echo "== build"
