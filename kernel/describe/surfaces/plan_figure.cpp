@@ -19,11 +19,11 @@ PlanFigure::PlanFigure(std::span<const OutlineView> outlines) {
     for (const Vec3& p : outline) box_.grow(p);
   }
   first_.resize(2 + edges / kEdgesPerStrip, 0);
-  for_each_touch(outlines, [&](std::size_t strip, const Edge&) { ++first_[strip + 1]; });
+  for_each_touch(outlines, [&](std::size_t strip, const PlanEdge&) { ++first_[strip + 1]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   edges_.resize(static_cast<std::size_t>(first_.back()));
   std::vector<int> next(first_.begin(), first_.end() - 1);
-  for_each_touch(outlines, [&](std::size_t strip, const Edge& edge) {
+  for_each_touch(outlines, [&](std::size_t strip, const PlanEdge& edge) {
     edges_[static_cast<std::size_t>(next[strip]++)] = edge;
   });
 }

@@ -19,7 +19,7 @@ class PlanFigure {
   [[nodiscard]] bool contains(Vec3 point) const;
 
  private:
-  struct Edge {
+  struct PlanEdge {
     double from_x, from_y, to_x, to_y;
   };
   [[nodiscard]] std::size_t strip_of(double y) const;
@@ -28,7 +28,7 @@ class PlanFigure {
 
   Box box_;
   /// Edges by the strips of equal width in y that they touch: those of strip s begin at first_[s].
-  std::vector<Edge> edges_;
+  std::vector<PlanEdge> edges_;
   std::vector<int> first_;
 };
 

@@ -34,7 +34,7 @@ VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
     entries_.push_back(entry_of(faces[f], static_cast<int>(f)));
     box_.grow(faces[f].box);
   }
-  std::ranges::sort(entries_, {}, [](const Entry& e) { return std::pair(e.z0, e.face); });
+  std::ranges::sort(entries_, {}, [](const FaceBox& e) { return std::pair(e.z0, e.face); });
   side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(entries_.size()))), 1,
                      kLargestSide);
   met_.resize(entries_.size());
@@ -43,10 +43,11 @@ VerticalLines::VerticalLines(const SurfaceFaces& faces) : faces_(faces) {
 
 /// A plane's heights over a box are between those over its corners. The mean of the corners is on
 /// the plane as the middle is, and is found sooner.
-VerticalLines::Entry VerticalLines::entry_of(const SurfaceFace& face, int number) {
+VerticalLines::FaceBox VerticalLines::entry_of(const SurfaceFace& face, int number) {
   const Box& box = face.box;
   const Vec3 mean = face.mean();
-  Entry entry{box.min.x, box.max.x, box.min.y, box.max.y, Box::kInfinity, -Box::kInfinity, number};
+  FaceBox entry{box.min.x,      box.max.x,       box.min.y, box.max.y,
+                Box::kInfinity, -Box::kInfinity, number};
   for (const double x : {box.min.x, box.max.x})
     for (const double y : {box.min.y, box.max.y}) {
       const double z = z_at(face, mean, {x, y, 0});
@@ -60,7 +61,7 @@ VerticalLines::Entry VerticalLines::entry_of(const SurfaceFace& face, int number
 void VerticalLines::fill_cells() {
   std::vector<Cells> touched;
   touched.reserve(entries_.size());
-  for (const Entry& entry : entries_) touched.push_back(cells_of(entry));
+  for (const FaceBox& entry : entries_) touched.push_back(cells_of(entry));
   const auto for_each_cell = [&](const Cells& cells, auto visit) {
     for (int row = cells.row0; row <= cells.row1; ++row)
       for (int column = cells.column0; column <= cells.column1; ++column)
@@ -81,7 +82,7 @@ void VerticalLines::fill_cells() {
 int VerticalLines::column_of(double x) const { return cell(x, box_.min.x, box_.max.x, side_); }
 int VerticalLines::row_of(double y) const { return cell(y, box_.min.y, box_.max.y, side_); }
 
-VerticalLines::Cells VerticalLines::cells_of(const Entry& e) const {
+VerticalLines::Cells VerticalLines::cells_of(const FaceBox& e) const {
   return {row_of(e.y0), row_of(e.y1), column_of(e.x0), column_of(e.x1)};
 }
 
@@ -92,7 +93,7 @@ std::span<const int> VerticalLines::cell_of(Vec3 point) const {
 }
 
 std::optional<LineCrossing> VerticalLines::crossing(std::size_t entry, Vec3 point) const {
-  const Entry& e = entries_[entry];
+  const FaceBox& e = entries_[entry];
   if (point.x < e.x0 || point.x > e.x1 || point.y < e.y0 || point.y > e.y1) return std::nullopt;
   const SurfaceFace& face = faces_[static_cast<std::size_t>(e.face)];
   auto& met = met_[entry];
@@ -112,7 +113,7 @@ std::vector<LineCrossing> VerticalLines::at(Vec3 point) const {
 std::optional<LineCrossing> VerticalLines::next_above(Vec3 point, double z) const {
   std::optional<LineCrossing> best;
   for (const int number : cell_of(point)) {
-    const Entry& e = entries_[static_cast<std::size_t>(number)];
+    const FaceBox& e = entries_[static_cast<std::size_t>(number)];
     if (best && e.z0 > best->z) break;
     if (e.z1 <= z) continue;
     const auto c = crossing(static_cast<std::size_t>(number), point);
@@ -124,7 +125,7 @@ std::optional<LineCrossing> VerticalLines::next_above(Vec3 point, double z) cons
 std::optional<LineCrossing> VerticalLines::next_below(Vec3 point, double z) const {
   std::optional<LineCrossing> best;
   for (const int number : std::views::reverse(cell_of(point))) {
-    const Entry& e = entries_[static_cast<std::size_t>(number)];
+    const FaceBox& e = entries_[static_cast<std::size_t>(number)];
     if (e.z0 > z || (best && e.z1 < best->z)) continue;
     const auto c = crossing(static_cast<std::size_t>(number), point);
     if (c && c->z <= z && (!best || order(*best) < order(*c))) best = c;

@@ -12,19 +12,19 @@ double Boundary::area(int f) const {
   return sum;
 }
 
-std::size_t Boundary::place_of(Side side) const {
+std::size_t Boundary::place_of(PlaneSide side) const {
   const auto place =
-      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<Side, int>::first);
+      std::ranges::lower_bound(number_of_side_, side, {}, &std::pair<PlaneSide, int>::first);
   return static_cast<std::size_t>(place - number_of_side_.begin());
 }
 
-const Boundary::OnSide* Boundary::on_side(Side side) const {
+const Boundary::OnSide* Boundary::on_side(PlaneSide side) const {
   const std::size_t place = place_of(side);
   if (place == number_of_side_.size() || number_of_side_[place].first != side) return nullptr;
   return &on_side_[index(number_of_side_[place].second)];
 }
 
-double Boundary::area_on(Side side) const {
+double Boundary::area_on(PlaneSide side) const {
   const OnSide* on = on_side(side);
   return on == nullptr || on->living == 0 ? 0 : on->area;
 }
@@ -42,15 +42,15 @@ Boundary::OnPlane Boundary::on_plane(int plane) const {
   return found;
 }
 
-std::vector<Side> Boundary::sides() const {
-  std::vector<Side> sides;
+std::vector<PlaneSide> Boundary::sides() const {
+  std::vector<PlaneSide> sides;
   sides.reserve(number_of_side_.size());
   for (const auto& [side, number] : number_of_side_)
     if (on_side_[index(number)].living > 0) sides.push_back(side);
   return sides;
 }
 
-std::vector<int> Boundary::facets_on(Side side) const {
+std::vector<int> Boundary::facets_on(PlaneSide side) const {
   std::vector<int> living;
   if (const OnSide* on = on_side(side))
     for (const int f : on->facets)
@@ -97,7 +97,7 @@ double Boundary::volume() const {
 }
 
 bool Boundary::bends_inward(int e) const {
-  const Side mine = side_of_edge(e), theirs = side_of_edge(twin(e));
+  const PlaneSide mine = side_of_edge(e), theirs = side_of_edge(twin(e));
   if (mine >> 1 == theirs >> 1) return false;
   const Vec3 along = normalised(world_->points.at(target(e)) - at(e));
   const double bend = dot(cross(world_->planes.normal(mine), world_->planes.normal(theirs)), along);
@@ -125,11 +125,11 @@ void Boundary::reserve(int half_edges, int facets) {
   number_of_side_.reserve(index(facets));
 }
 
-int Boundary::add_facet(Side side, const Sources& sources, std::vector<CapMark> marks) {
+int Boundary::add_facet(PlaneSide side, const Sources& sources, std::vector<CapMark> marks) {
   return add_facet_on(number_side(side), side, sources, std::move(marks));
 }
 
-int Boundary::number_side(Side side) {
+int Boundary::number_side(PlaneSide side) {
   const std::size_t place = place_of(side);
   if (place < number_of_side_.size() && number_of_side_[place].first == side)
     return number_of_side_[place].second;
@@ -140,7 +140,7 @@ int Boundary::number_side(Side side) {
   return number;
 }
 
-int Boundary::add_facet_on(int number, Side side, const Sources& sources,
+int Boundary::add_facet_on(int number, PlaneSide side, const Sources& sources,
                            std::vector<CapMark> marks) {
   const int f = facet_count();
   OnSide& on = on_side_[index(number)];

@@ -39,7 +39,7 @@ struct CapMark {
 /// Half-edges, loops and facets keep their numbers; removed ones are marked dead.
 class Boundary {
  public:
-  struct alignas(16) HalfEdge {  // 32 bytes: found by a shift
+  struct alignas(16) HalfEdgeRecord {  // 32 bytes: found by a shift
     int origin = -1;
     int next = -1;  ///< -1: dead
     int prev = -1;
@@ -58,7 +58,7 @@ class Boundary {
     bool is_hole = false;  ///< else an outer loop, be it a sliver
   };
   struct FacetRecord {
-    Side side = -1;  ///< -1: dead
+    PlaneSide side = -1;  ///< -1: dead
     boost::container::small_vector<int, 2> loops;
     Sources sources;
     std::vector<CapMark> marks;
@@ -75,7 +75,7 @@ class Boundary {
   /// How many of them are dead.
   [[nodiscard]] int dead_edge_count() const { return dead_edges_; }
   [[nodiscard]] int facet_count() const { return static_cast<int>(facets_.size()); }
-  [[nodiscard]] const HalfEdge& edge(int e) const { return half_edges_[index(e)]; }
+  [[nodiscard]] const HalfEdgeRecord& edge(int e) const { return half_edges_[index(e)]; }
   [[nodiscard]] const LoopRecord& loop(int l) const { return loops_[index(l)]; }
   [[nodiscard]] const FacetRecord& facet(int f) const { return facets_[index(f)]; }
   [[nodiscard]] bool is_alive_edge(int e) const { return edge(e).next >= 0; }
@@ -86,11 +86,11 @@ class Boundary {
   [[nodiscard]] int origin(int e) const { return edge(e).origin; }
   [[nodiscard]] int target(int e) const { return edge(edge(e).twin).origin; }
   [[nodiscard]] int facet_of(int e) const { return edge(e).facet; }
-  [[nodiscard]] Side side_of_edge(int e) const { return facet(facet_of(e)).side; }
+  [[nodiscard]] PlaneSide side_of_edge(int e) const { return facet(facet_of(e)).side; }
   [[nodiscard]] Vec3 at(int e) const { return world_->points.at(origin(e)); }
   [[nodiscard]] double area(int f) const;
   /// The area of all facets of a side.
-  [[nodiscard]] double area_on(Side side) const;
+  [[nodiscard]] double area_on(PlaneSide side) const;
   /// The same of both sides of a plane, by orientation, and whether there are any facets.
   struct OnPlane {
     std::array<double, 2> areas = {};
@@ -99,9 +99,9 @@ class Boundary {
   };
   [[nodiscard]] OnPlane on_plane(int plane) const;
   /// The sides that have facets, ascending.
-  [[nodiscard]] std::vector<Side> sides() const;
+  [[nodiscard]] std::vector<PlaneSide> sides() const;
   /// The living facets of a side, ascending.
-  [[nodiscard]] std::vector<int> facets_on(Side side) const;
+  [[nodiscard]] std::vector<int> facets_on(PlaneSide side) const;
   [[nodiscard]] std::vector<int> living_facets() const;
   [[nodiscard]] Outline outline(int l) const;
   [[nodiscard]] std::vector<Outline> outlines(int f) const;
@@ -139,11 +139,11 @@ class Boundary {
     half_edges_[index(e)].bend = half_edges_[index(f)].bend = kUnknown;
   }
   /// A facet without loops. `sources`: none that a facet of this boundary holds.
-  int add_facet(Side side, const Sources& sources = {}, std::vector<CapMark> marks = {});
+  int add_facet(PlaneSide side, const Sources& sources = {}, std::vector<CapMark> marks = {});
   /// The same with the number that number_side() has for the side.
-  int add_facet_on(int number, Side side, const Sources& sources, std::vector<CapMark> marks);
+  int add_facet_on(int number, PlaneSide side, const Sources& sources, std::vector<CapMark> marks);
   /// A number for what lies on a side, for as long as the boundary lives.
-  int number_side(Side side);
+  int number_side(PlaneSide side);
   /// Room for that many half-edges and facets.
   void reserve(int half_edges, int facets);
   /// Adds half-edges that begin at these points as a loop of facet `f`: each leads to the next, or,
@@ -187,8 +187,8 @@ class Boundary {
     int living = 0;
   };
   /// Where a side stands, or would stand, in number_of_side_.
-  [[nodiscard]] std::size_t place_of(Side side) const;
-  [[nodiscard]] const OnSide* on_side(Side side) const;
+  [[nodiscard]] std::size_t place_of(PlaneSide side) const;
+  [[nodiscard]] const OnSide* on_side(PlaneSide side) const;
   [[nodiscard]] OnSide& on_side_of(int f) { return on_side_[index(facets_[index(f)].on_side)]; }
   [[nodiscard]] double perimeter(int l) const;
   int trace(int first);
@@ -210,12 +210,12 @@ class Boundary {
   void remove_seams(int f, const std::vector<int>& seams);
 
   World* world_;
-  std::vector<HalfEdge> half_edges_;
+  std::vector<HalfEdgeRecord> half_edges_;
   int dead_edges_ = 0;
   std::vector<LoopRecord> loops_;
   std::vector<FacetRecord> facets_;
-  std::vector<OnSide> on_side_;                       ///< in no order
-  std::vector<std::pair<Side, int>> number_of_side_;  ///< in on_side_, sorted
+  std::vector<OnSide> on_side_;                            ///< in no order
+  std::vector<std::pair<PlaneSide, int>> number_of_side_;  ///< in on_side_, sorted
 };
 
 /// The boundary of one lump of a solid.
@@ -224,9 +224,9 @@ Boundary boundary_of(const Solid& solid, int lump, World& world);
 /// The loops of a facet without vertices that lie on straight edges, where only two facets meet;
 /// the outer loop first. A loop that would keep fewer than three keeps all, and so do its
 /// neighbours there: the corners of a closed boundary make a closed solid.
-class Corners {
+class CornerLoops {
  public:
-  explicit Corners(const Boundary& body);
+  explicit CornerLoops(const Boundary& body);
   [[nodiscard]] std::vector<Loop> loops(int facet) const;
 
  private:
@@ -239,6 +239,6 @@ class Corners {
 
 /// The side of the ground: the lowest facet that faces down, tilted by no more than `tilt_deg`; -1
 /// if there is none.
-Side ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg);
+PlaneSide ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg);
 
 }  // namespace oriel::detail

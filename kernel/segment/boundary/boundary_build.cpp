@@ -50,7 +50,7 @@ std::vector<int> number_sides(const Solid& solid, int lump, Boundary& boundary) 
     for (const FacetId id : shell.facets)
       numbers[static_cast<std::size_t>(planes.side_of(solid.facets[id.index()].plane))] = 0;
   }
-  for (Side side = 0; side < std::ssize(numbers); ++side)
+  for (PlaneSide side = 0; side < std::ssize(numbers); ++side)
     if (int& number = numbers[static_cast<std::size_t>(side)]; number == 0)
       number = boundary.number_side(side);
   return numbers;
@@ -69,7 +69,7 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {
       const Facet& facet = solid.facets[id.index()];
-      const Side side = world.planes.side_of(facet.plane);
+      const PlaneSide side = world.planes.side_of(facet.plane);
       const int number = numbers[static_cast<std::size_t>(side)];
       const int f = boundary.add_facet_on(number, side, {id.value}, {});
       for (const Loop& loop : facet.loops) boundary.add_cycle(loop, f);
@@ -79,7 +79,7 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
   return boundary;
 }
 
-Corners::Corners(const Boundary& body)
+CornerLoops::CornerLoops(const Boundary& body)
     : body_(body), is_corner_(static_cast<std::size_t>(body.half_edge_count()), 0) {
   for (int e = 0; e < body.half_edge_count(); ++e)
     if (body.is_alive_edge(e)) is_corner(e) = body.next(body.twin(e)) != body.twin(body.prev(e));
@@ -92,7 +92,7 @@ Corners::Corners(const Boundary& body)
   }
 }
 
-bool Corners::keep_enough(int loop) {
+bool CornerLoops::keep_enough(int loop) {
   const int first = body_.loop(loop).first;
   int size = 0, kept = 0, e = first;
   do {
@@ -108,7 +108,7 @@ bool Corners::keep_enough(int loop) {
   return true;
 }
 
-std::vector<Loop> Corners::loops(int facet) const {
+std::vector<Loop> CornerLoops::loops(int facet) const {
   std::vector<Loop> loops;
   std::size_t outer = 0;
   const auto& numbers = body_.facet(facet).loops;
@@ -132,9 +132,9 @@ std::vector<Loop> Corners::loops(int facet) const {
   return loops;
 }
 
-Side ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg) {
+PlaneSide ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg) {
   const double steepest = -std::cos(tilt_deg * std::numbers::pi / 180);
-  Side ground = -1;
+  PlaneSide ground = -1;
   double least = Box::kInfinity;
   for (const Facet& facet : solid.facets) {
     if (solid.planes[facet.plane.index()].normal.z > steepest) continue;

@@ -4,7 +4,7 @@
 
 namespace oriel::detail {
 
-std::span<const FlatBody::Edge> FlatBody::edges() {
+std::span<const FlatBody::EdgePoints> FlatBody::edges() {
   if (!edges_.empty()) return edges_;
   edges_.reserve(at(body_.half_edge_count()) / 2);
   for (int e = 0; e < body_.half_edge_count(); ++e)
@@ -13,7 +13,7 @@ std::span<const FlatBody::Edge> FlatBody::edges() {
   return edges_;
 }
 
-std::span<const FlatBody::Facet> FlatBody::facets() {
+std::span<const FlatBody::RankedFacet> FlatBody::facets() {
   if (!facets_.empty()) return facets_;
   const PlaneTable& planes = body_.world().planes;
   for (int f = 0; f < body_.facet_count(); ++f) {

@@ -13,11 +13,11 @@ class FlatBody {
  public:
   explicit FlatBody(const Boundary& body) : body_(body) {}
 
-  struct Edge {
+  struct EdgePoints {
     int from, to;  ///< points
   };
   /// A facet and where its plane stands among those of its class.
-  struct Facet {
+  struct RankedFacet {
     int number;
     int normal_class;
     int rank;
@@ -25,13 +25,13 @@ class FlatBody {
 
   [[nodiscard]] const Boundary& body() const { return body_; }
   /// Each edge once, in one of its directions.
-  [[nodiscard]] std::span<const Edge> edges();
-  [[nodiscard]] std::span<const Facet> facets();
+  [[nodiscard]] std::span<const EdgePoints> edges();
+  [[nodiscard]] std::span<const RankedFacet> facets();
 
  private:
   const Boundary& body_;
-  std::vector<Edge> edges_;
-  std::vector<Facet> facets_;
+  std::vector<EdgePoints> edges_;
+  std::vector<RankedFacet> facets_;
 };
 
 }  // namespace oriel::detail

@@ -10,7 +10,7 @@ namespace oriel::detail {
 /// A convex body that is told to be a leaf before it is made: all that its cell is written from.
 struct PocketLeaf {
   struct LeafFace {
-    Side side;
+    PlaneSide side;
     Loop loop;
   };
   std::vector<LeafFace> faces;

@@ -125,8 +125,8 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
     return entry->second;
   };
   // A cap may lie in a plane that the original has in the other orientation only.
-  std::map<Side, PlaneId> turned;
-  const auto plane = [&](const World& world, Side side) {
+  std::map<PlaneSide, PlaneId> turned;
+  const auto plane = [&](const World& world, PlaneSide side) {
     if (const PlaneId id = world.planes.id_of(side); id.is_valid()) return id;
     const auto [entry, is_new] =
         turned.emplace(side, PlaneId{static_cast<int>(solid.planes.size())});
@@ -139,7 +139,7 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
   int lump = 0;
   for (const Boundary& body : bodies)
     for (const Boundary& part : part_into_lumps(body)) {
-      const Corners corners(part);
+      const CornerLoops corners(part);
       for (const auto& piece : pieces_of(part)) {
         Shell shell{{}, lump, volume_of(part, piece) < 0};
         for (const int f : piece) {

@@ -49,16 +49,16 @@ class StampMap {
   /// -1 if there is none, as for what is out of range.
   [[nodiscard]] int find(int i) const {
     if (i < 0 || i >= std::ssize(entries_)) return -1;
-    const Entry& entry = entries_[static_cast<std::size_t>(i)];
+    const StampedNumber& entry = entries_[static_cast<std::size_t>(i)];
     return entry.stamp == last_ ? entry.number : -1;
   }
 
  private:
-  struct Entry {
+  struct StampedNumber {
     int stamp = 0;
     int number = -1;
   };
-  std::vector<Entry> entries_;
+  std::vector<StampedNumber> entries_;
   int last_ = 1;
 };
 

@@ -12,9 +12,9 @@ namespace oriel::detail {
 namespace {
 
 /// The cells on either side. Both invalid where they are the same: there is no face.
-struct Sides {
+struct FaceCells {
   CellId front, behind;
-  friend bool operator==(Sides, Sides) = default;
+  friend bool operator==(FaceCells, FaceCells) = default;
 };
 
 /// Joins the regions of an arrangement that have the same sides, and traces what is left.
@@ -26,8 +26,8 @@ class Sheet {
       std::vector<int> front, behind;
       for (const int label : labels)
         (is_in_front(label) ? front : behind).push_back(cell_of(label));
-      const Sides sides{owners.of(front), owners.of(behind)};
-      sides_.push_back(sides.front == sides.behind ? Sides{} : sides);
+      const FaceCells sides{owners.of(front), owners.of(behind)};
+      sides_.push_back(sides.front == sides.behind ? FaceCells{} : sides);
     }
     std::iota(group_.begin(), group_.end(), std::size_t{0});
     for (std::size_t h = 0; h < arrangement.half_edge_count(); h += 2)
@@ -39,8 +39,8 @@ class Sheet {
     std::map<std::size_t, Face> faces;
     std::vector<char> is_traced(arrangement_.half_edge_count(), 0);
     for (std::size_t start = 0; start < is_traced.size(); ++start) {
-      const Sides& sides = sides_[region(start)];
-      if (is_traced[start] != 0 || !is_border(start) || sides == Sides{}) continue;
+      const FaceCells& sides = sides_[region(start)];
+      if (is_traced[start] != 0 || !is_border(start) || sides == FaceCells{}) continue;
       Loop loop;
       for (std::size_t h = start; is_traced[h] == 0; h = next_border(h)) {
         is_traced[h] = 1;
@@ -73,7 +73,7 @@ class Sheet {
   }
 
   const Arrangement& arrangement_;
-  std::vector<Sides> sides_;
+  std::vector<FaceCells> sides_;
   std::vector<std::size_t> group_;
 };
 

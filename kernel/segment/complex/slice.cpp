@@ -58,11 +58,11 @@ void Slicer::add_section(const Facet& facet, int label, std::vector<Chord>& chor
   const auto is_above = [&](int v) { return is_in_front(label) ? side(v) > 0 : side(v) >= 0; };
   // Along the section the facet is entered over an edge that goes down and left over one that goes
   // up. Matched by their order, each as often as the other, whatever rounding does.
-  struct Crossing {
+  struct FacetCrossing {
     double position;
     int vertex;
   };
-  std::vector<Crossing> down, up;
+  std::vector<FacetCrossing> down, up;
   for (const Loop& loop : facet.loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int a = loop[i], b = loop[(i + 1) % loop.size()];
@@ -70,8 +70,8 @@ void Slicer::add_section(const Facet& facet, int label, std::vector<Chord>& chor
       const int vertex = cross_edge(a, b);
       (is_above(a) ? down : up).push_back({dot(along, pool_.at(vertex)), vertex});
     }
-  std::ranges::stable_sort(down, {}, &Crossing::position);
-  std::ranges::stable_sort(up, {}, &Crossing::position);
+  std::ranges::stable_sort(down, {}, &FacetCrossing::position);
+  std::ranges::stable_sort(up, {}, &FacetCrossing::position);
   for (std::size_t i = 0; i < down.size(); ++i)
     if (down[i].vertex != up[i].vertex) chords.push_back({down[i].vertex, up[i].vertex, label, 1});
 }

@@ -29,11 +29,11 @@ class Capper {
     for (const int e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
   }
 
-  std::optional<std::vector<Cap>> run() {
+  std::optional<std::vector<CutCap>> run() {
     if (!order_rim()) return std::nullopt;
-    std::vector<Cap> caps;
+    std::vector<CutCap> caps;
     caps.reserve(component_.sides.size());
-    for (const Side side : component_.sides) {
+    for (const PlaneSide side : component_.sides) {
       auto cap = cap_on(side);
       if (!cap) return std::nullopt;
       caps.push_back(std::move(*cap));
@@ -50,7 +50,7 @@ class Capper {
   /// Where the rim changes from one plane to another.
   struct RimSwitch {
     int point;
-    Side from, to;
+    PlaneSide from, to;
     RimPlace rim;  ///< the first half-edge behind it
   };
 
@@ -75,8 +75,8 @@ class Capper {
     return true;
   }
 
-  std::optional<Cap> cap_on(Side side) {
-    Cap cap{side, {}, {}, false};
+  std::optional<CutCap> cap_on(PlaneSide side) {
+    CutCap cap{side, {}, {}, false};
     if (side == component_.ground) {
       cap.side = side ^ 1;
       cap.is_taken = true;
@@ -106,7 +106,8 @@ class Capper {
   /// From `point`, where the rim leaves the plane of `side` for that of `other`, along the edges of
   /// the corner to where the rim comes back to `side`: adds the free edges, returns the rim
   /// half-edge there.
-  std::optional<RimPlace> walk_in_the_open(Side side, Side other, int point, CapLoop& loop) {
+  std::optional<RimPlace> walk_in_the_open(PlaneSide side, PlaneSide other, int point,
+                                           CapLoop& loop) {
     for (int steps = 0; steps <= 4; ++steps) {
       const auto stop = next_stop(side, other, point);
       if (!stop) return std::nullopt;
@@ -121,11 +122,11 @@ class Capper {
   struct WalkStop {
     int point;
     std::optional<RimPlace> rim;  ///< where the rim takes over
-    Side other;                   ///< the plane to walk along next, if it does not
+    PlaneSide other;              ///< the plane to walk along next, if it does not
   };
 
   /// From the caps `side` and `other` towards the inside of the corner's edge between them.
-  [[nodiscard]] Vec3 ahead(Side side, Side other) const {
+  [[nodiscard]] Vec3 ahead(PlaneSide side, PlaneSide other) const {
     const Vec3 line = cross(world_.planes.normal(side), world_.planes.normal(other));
     const bool is_at_ground = side == component_.ground || other == component_.ground;
     return corner_ == CornerKind::concave && !is_at_ground ? -line : line;
@@ -133,7 +134,7 @@ class Capper {
 
   /// The nearest point ahead on the line in which two planes meet: where the rim comes from `other`
   /// to `side`, or where a third plane of the corner meets them.
-  std::optional<WalkStop> next_stop(Side side, Side other, int point) {
+  std::optional<WalkStop> next_stop(PlaneSide side, PlaneSide other, int point) {
     const Vec3 direction = ahead(side, other);
     const double here = dot(direction, world_.points.at(point));
     std::optional<WalkStop> nearest;
@@ -146,7 +147,7 @@ class Capper {
       least = distance;
       nearest = stop;
     };
-    for (const Side third : component_.sides) {
+    for (const PlaneSide third : component_.sides) {
       if (third == side || third == other) continue;
       const auto meeting = world_.points.meet(side >> 1, other >> 1, third >> 1);
       if (meeting && is_on_corner(*meeting)) offer({*meeting, std::nullopt, third});
@@ -158,9 +159,9 @@ class Capper {
 
   /// The edge between `side` and the stop's plane leads from the stop along the corner, not out of
   /// it.
-  [[nodiscard]] bool bounds_corner(Side side, const WalkStop& stop) {
+  [[nodiscard]] bool bounds_corner(PlaneSide side, const WalkStop& stop) {
     const Vec3 direction = ahead(side, stop.other);
-    return std::ranges::all_of(component_.sides, [&](Side s) {
+    return std::ranges::all_of(component_.sides, [&](PlaneSide s) {
       if (s == side || s == stop.other || world_.points.side(stop.point, s >> 1) != 0) return true;
       const double out = dot(world_.planes.normal(s), direction);
       return corner_ == CornerKind::concave && s != component_.ground ? out >= 0 : out <= 0;
@@ -168,7 +169,7 @@ class Capper {
   }
 
   [[nodiscard]] bool is_on_corner(int point) {
-    return std::ranges::all_of(component_.sides, [&](Side side) {
+    return std::ranges::all_of(component_.sides, [&](PlaneSide side) {
       const int level = world_.points.level(point, side);
       return corner_ == CornerKind::concave && side != component_.ground ? level >= 0 : level <= 0;
     });
@@ -178,7 +179,7 @@ class Capper {
   World& world_;
   const Component& component_;
   CornerKind corner_;
-  boost::container::small_vector<Side, 16>
+  boost::container::small_vector<PlaneSide, 16>
       labels_;  ///< by place in the rim: the plane of the cap there
   boost::container::small_vector<RimPlace, 16> followers_;  ///< likewise
   boost::container::small_vector<RimSwitch, 8> switches_;
@@ -220,7 +221,7 @@ class Judge {
   [[nodiscard]] boost::container::small_vector<SideLimit, 4> limits_of(
       const Component& component) const {
     boost::container::small_vector<SideLimit, 4> limits;
-    for (const Side side : component.sides)
+    for (const PlaneSide side : component.sides)
       if (side != component.ground)
         limits.push_back({world_.points.ranks(world_.planes.class_of(side >> 1)),
                           world_.planes.rank_of(side >> 1), (side & 1) != 0 ? -1 : 1});
@@ -254,7 +255,7 @@ class Judge {
 
   /// No facet outside the patch stands in the way of a free edge.
   [[nodiscard]] bool are_edges_free(const Patch& patch) const {
-    for (const Cap& cap : patch.caps)
+    for (const CutCap& cap : patch.caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges)
           if (edge.rim < 0 && edge.from < edge.to && is_crossed(edge.from, edge.to)) return false;
@@ -263,11 +264,11 @@ class Judge {
 
   [[nodiscard]] bool is_crossed(int from, int to) const {
     const Vec3 p = world_.points.at(from), q = world_.points.at(to);
-    for (const FlatBody::Facet& f : flat_.facets()) {
+    for (const FlatBody::RankedFacet& f : flat_.facets()) {
       const int start = world_.points.rank(from, f.normal_class) - f.rank,
                 end = world_.points.rank(to, f.normal_class) - f.rank;
       if (!are_opposite(start, end)) continue;
-      const Side side = body_.facet(f.number).side;
+      const PlaneSide side = body_.facet(f.number).side;
       const Vec3 normal = world_.planes.normal(side);
       const double offset_m = world_.planes.offset_m(side);
       const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
@@ -281,10 +282,10 @@ class Judge {
   /// An edge of the body goes through a cap that is none of its facets.
   [[nodiscard]] bool is_pierced(const Patch& patch) const {
     return std::ranges::any_of(patch.caps,
-                               [&](const Cap& cap) { return !cap.is_taken && is_pierced(cap); });
+                               [&](const CutCap& cap) { return !cap.is_taken && is_pierced(cap); });
   }
 
-  [[nodiscard]] bool is_pierced(const Cap& cap) const {
+  [[nodiscard]] bool is_pierced(const CutCap& cap) const {
     const Vec3 normal = world_.planes.normal(cap.side);
     const double offset_m = world_.planes.offset_m(cap.side);
     const auto ranks = world_.points.ranks(world_.planes.class_of(cap.side >> 1));
@@ -303,7 +304,7 @@ class Judge {
     return false;
   }
 
-  [[nodiscard]] std::vector<Outline> shape_of(const Cap& cap) const {
+  [[nodiscard]] std::vector<Outline> shape_of(const CutCap& cap) const {
     std::vector<Outline> shape;
     for (const CapLoop& loop : cap.loops) {
       shape.emplace_back();
@@ -318,7 +319,7 @@ class Judge {
     double patch_sum = 0, cap_sum = 0;
     for (const int f : patch.facets)
       patch_sum += world_.planes.offset_m(body_.facet(f).side) * body_.area(f);
-    for (Cap& cap : patch.caps) {
+    for (CutCap& cap : patch.caps) {
       const std::vector<Outline> shape = shape_of(cap);
       const Vec3 normal = world_.planes.normal(cap.side);
       double area = 0;
@@ -350,19 +351,19 @@ class Judge {
 
 }  // namespace
 
-std::vector<Side> Patch::sides() const {
-  std::vector<Side> sides;
-  for (const Cap& cap : caps)
+std::vector<PlaneSide> Patch::sides() const {
+  std::vector<PlaneSide> sides;
+  for (const CutCap& cap : caps)
     if (!cap.is_taken) sides.push_back(cap.side);
   std::ranges::sort(sides);
   return sides;
 }
 
-Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e) {
-  const Side beyond = body.side_of_edge(body.twin(e));
+PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, int e) {
+  const PlaneSide beyond = body.side_of_edge(body.twin(e));
   if (std::ranges::binary_search(sides, beyond)) return beyond;
   auto& points = body.world().points;
-  for (const Side side : sides)
+  for (const PlaneSide side : sides)
     if (points.side(body.origin(e), side >> 1) == 0 && points.side(body.target(e), side >> 1) == 0)
       return side;
   return -1;

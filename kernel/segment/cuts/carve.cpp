@@ -15,7 +15,7 @@ namespace oriel::detail {
 namespace {
 
 /// A point inside a cap, on its plane; nothing if it has no area.
-std::optional<Vec3> point_inside(std::span<const Outline> cap, Side side,
+std::optional<Vec3> point_inside(std::span<const Outline> cap, PlaneSide side,
                                  const PlaneTable& planes) {
   const Vec3 normal = planes.normal(side);
   const auto inside = interior_point(cap, normal);
@@ -26,8 +26,8 @@ std::optional<Vec3> point_inside(std::span<const Outline> cap, Side side,
 }
 
 /// The rim of a cap is all of a hole of a facet of the cap's side, so the cap is what fills it.
-bool is_hole_of_facet(const Boundary& body, const std::vector<Cap>& caps) {
-  const Cap& cap = caps.front();
+bool is_hole_of_facet(const Boundary& body, const std::vector<CutCap>& caps) {
+  const CutCap& cap = caps.front();
   if (caps.size() > 1 || cap.loops.size() > 1 || cap.is_taken || !cap.covered.empty()) return false;
   const auto& edges = cap.loops[0].edges;
   if (std::ranges::any_of(edges, [](const CapEdge& edge) { return edge.rim < 0; })) return false;
@@ -51,7 +51,8 @@ void trace_shape(const CapLoop& loop, const PointTable& points, Outline& shape) 
 /// Fills the hole around which a cap's rim ran; what lay inside is removed already. `shape` is the
 /// cap's outline, `beyond` one of the hole's half-edges. Returns the point inside the cap at which
 /// the mark was left.
-Vec3 fill_ring(Boundary& body, const Cap& cap, const Outline& shape, int beyond, FeatureId mark) {
+Vec3 fill_ring(Boundary& body, const CutCap& cap, const Outline& shape, int beyond,
+               FeatureId mark) {
   const PlaneTable& planes = body.world().planes;
   const auto inside = point_inside({&shape, 1}, cap.side, planes);
   if (inside) body.add_mark(body.facet_of(beyond), {mark, *inside});
@@ -61,12 +62,12 @@ Vec3 fill_ring(Boundary& body, const Cap& cap, const Outline& shape, int beyond,
 
 class Remover {
  public:
-  Remover(Boundary& body, const std::vector<Cap>& caps, bool is_hole)
+  Remover(Boundary& body, const std::vector<CutCap>& caps, bool is_hole)
       : body_(body), caps_(caps), is_hole_(is_hole), copier_(body, is_hole) {
-    for (const Cap& cap : caps)
+    for (const CutCap& cap : caps)
       for (const CapLoop& loop : cap.loops) rim_size_ += loop.edges.size();
     twin_of_rim_.reserve(rim_size_);
-    for (const Cap& cap : caps)
+    for (const CutCap& cap : caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges)
           if (edge.rim >= 0) twin_of_rim_.emplace_back(edge.rim, body.twin(edge.rim));
@@ -102,7 +103,7 @@ class Remover {
     touched.reserve(touched.size() + at(copier_.boundary().half_edge_count()) + rim_size_);
     for (const int f : facets_)
       body_.for_each_edge(f, [&](int e) { touched.push_back(body_.origin(e)); });
-    for (const Cap& cap : caps_)
+    for (const CutCap& cap : caps_)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges) touched.push_back(edge.from);
     body_.remove(facets_);
@@ -122,14 +123,14 @@ class Remover {
   [[nodiscard]] int twin_of(int rim) const { return body_.world().scratch.twin_of_rim.find(rim); }
 
   /// A free edge that waits for its other side.
-  struct OpenEdge {
+  struct FreeEdge {
     int from, to, edge;
   };
 
   /// Half-edges of a cap, linked loop by loop into a facet. Free edges wait in `free` for their
   /// other side; those of the rim are added to `of_rim`.
-  static int add_cap(Boundary& boundary, const Cap& cap, Side side, bool is_backward,
-                     std::vector<OpenEdge>& free, NumberMap& of_rim) {
+  static int add_cap(Boundary& boundary, const CutCap& cap, PlaneSide side, bool is_backward,
+                     std::vector<FreeEdge>& free, NumberMap& of_rim) {
     const int f = boundary.add_facet(side);
     for (const CapLoop& loop : cap.loops) {
       int first = -1, last = -1;
@@ -152,9 +153,9 @@ class Remover {
     return f;
   }
 
-  static void pair_free(Boundary& boundary, const OpenEdge& open, std::vector<OpenEdge>& free) {
+  static void pair_free(Boundary& boundary, const FreeEdge& open, std::vector<FreeEdge>& free) {
     const auto other = std::ranges::find_if(
-        free, [&](const OpenEdge& o) { return o.from == open.to && o.to == open.from; });
+        free, [&](const FreeEdge& o) { return o.from == open.to && o.to == open.from; });
     if (other != free.end())
       boundary.pair(open.edge, other->edge);
     else
@@ -165,10 +166,10 @@ class Remover {
   /// closed.
   void close_lump() {
     Boundary& lump = copier_.boundary();
-    std::vector<OpenEdge> free;
+    std::vector<FreeEdge> free;
     NumberMap of_rim;
     of_rim.reserve(rim_size_);
-    for (const Cap& cap : caps_) {
+    for (const CutCap& cap : caps_) {
       const int f = add_cap(lump, cap, is_hole_ ? cap.side : cap.side ^ 1, !is_hole_, free, of_rim);
       for (const int g : cap.covered) {
         for (const CapMark& mark : body_.facet(g).marks) lump.add_mark(f, mark);
@@ -185,11 +186,11 @@ class Remover {
   }
 
   void close_rest(FeatureId mark) {
-    std::vector<OpenEdge> free;
+    std::vector<FreeEdge> free;
     NumberMap of_rim;
     of_rim.reserve(rim_size_);
     std::vector<int> facets;
-    for (const Cap& cap : caps_)
+    for (const CutCap& cap : caps_)
       facets.push_back(add_cap(body_, cap, cap.side, false, free, of_rim));
     std::ranges::sort(of_rim);
     for (const auto& [rim, e] : of_rim) {
@@ -217,7 +218,7 @@ class Remover {
   }
 
   /// The facet beyond the rim of a cap.
-  [[nodiscard]] int facet_beyond(const Cap& cap) const {
+  [[nodiscard]] int facet_beyond(const CutCap& cap) const {
     for (const CapLoop& loop : cap.loops)
       for (const CapEdge& edge : loop.edges)
         if (edge.rim >= 0) return body_.facet_of(twin_of(edge.rim));
@@ -242,7 +243,7 @@ class Remover {
   }
 
   Boundary& body_;
-  const std::vector<Cap>& caps_;
+  const std::vector<CutCap>& caps_;
   bool is_hole_;
   FacetCopier copier_;
   std::size_t rim_size_ = 0;
@@ -283,7 +284,7 @@ double area_of_loop(const Boundary& body, int l, bool is_hole, Vec3 normal) {
 
 }  // namespace
 
-Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facets, bool is_hole,
+Filled fill_pocket(Boundary& body, const CutCap& cap, const std::vector<int>& facets, bool is_hole,
                    FeatureId mark) {
   const PlaneTable& planes = body.world().planes;
   const PointTable& points = body.world().points;
@@ -293,14 +294,14 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   // Sums as Boundary makes them of a body that is copied facet by facet.
   filled.surface = -area_on_lump(cap.loops[0], points, true, planes.normal(cap.side), room);
   for (const int f : facets) {
-    const Side side = body.facet(f).side ^ flip;
+    const PlaneSide side = body.facet(f).side ^ flip;
     double facet_area = 0;
     for (const int l : body.facet(f).loops)
       facet_area += area_of_loop(body, l, is_hole, planes.normal(side));
     filled.volume += planes.offset_m(side) * facet_area;
     filled.surface += facet_area;
   }
-  const Side inward = cap.side ^ flip ^ 1;
+  const PlaneSide inward = cap.side ^ flip ^ 1;
   const double cap_area = area_on_lump(cap.loops[0], points, is_hole, planes.normal(inward), room);
   filled.volume = (filled.volume + planes.offset_m(inward) * cap_area) / 3;
   filled.surface += cap_area;
@@ -311,7 +312,7 @@ Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facet
   return filled;
 }
 
-std::optional<Carved> take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole,
+std::optional<Carved> take_off(Boundary& body, const std::vector<CutCap>& caps, bool is_hole,
                                FeatureId mark, std::vector<int> touched) {
   Remover remover(body, caps, is_hole);
   if (!remover.find_lump()) return std::nullopt;

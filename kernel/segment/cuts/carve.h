@@ -22,8 +22,8 @@ struct CapLoop {
 };
 
 /// A cap: the new facet that closes the rest where a lump was.
-struct Cap {
-  Side side = -1;
+struct CutCap {
+  PlaneSide side = -1;
   std::vector<CapLoop> loops;
   /// Facets of the opposite side under the cap: they vanish into the body, and so does the cap over
   /// them.
@@ -56,8 +56,8 @@ struct Filled {
 /// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and
 /// returns its caps. Points that were made and the ends of edges that were split are added to
 /// `touched`.
-std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lump,
-                         std::vector<int>& touched);
+std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
+                            std::vector<int>& touched);
 
 /// Takes the lump inside the rims of `caps` off the body. A protrusion goes with its surface; a
 /// hole is filled: its walls leave the body, and the lump is the air that was there, turned right
@@ -65,12 +65,12 @@ std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lum
 /// largest cap of the rest.
 ///
 /// Nothing, and the body is as it was, if the rims do not separate a lump.
-std::optional<Carved> take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole,
+std::optional<Carved> take_off(Boundary& body, const std::vector<CutCap>& caps, bool is_hole,
                                FeatureId mark, std::vector<int> touched);
 
 /// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
 /// pocket, ascending; `cap`: what closes the rest.
-Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facets, bool is_hole,
+Filled fill_pocket(Boundary& body, const CutCap& cap, const std::vector<int>& facets, bool is_hole,
                    FeatureId mark);
 
 }  // namespace oriel::detail

@@ -18,7 +18,7 @@ namespace {
 /// The holes of one set of planes.
 class CornerCutter {
  public:
-  CornerCutter(const Boundary& body, const std::vector<Side>& sides, double weld_m,
+  CornerCutter(const Boundary& body, const std::vector<PlaneSide>& sides, double weld_m,
                std::int64_t& work)
       : old_edges_(body.half_edge_count()),
         old_points_(body.world().points.size()),
@@ -31,7 +31,7 @@ class CornerCutter {
     // The body is copied, and asked what lies behind the planes; for each it is indexed and
     // changed.
     work_ += 2 * (std::ssize(sides_) + 1) * body_->half_edge_count();
-    for (const Side side : sides_)
+    for (const PlaneSide side : sides_)
       if (!imprint_all(side)) return {};
     std::vector<Patch> patches;
     FlatBody flat(*body_);
@@ -53,7 +53,7 @@ class CornerCutter {
     constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before
     return std::ranges::all_of(component.rim, [&](int e) {
       const int point = body_->origin(e);
-      const Side side = rim_side(*body_, sides_, e);
+      const PlaneSide side = rim_side(*body_, sides_, e);
       const double distance =
           dot(world.planes.normal(side), world.points.at(point)) - world.planes.offset_m(side);
       return point < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
@@ -61,7 +61,7 @@ class CornerCutter {
   }
 
   /// Makes the whole outline of the section just behind the plane edges of the body.
-  bool imprint_all(Side side) {
+  bool imprint_all(PlaneSide side) {
     EdgeIndex edges(*body_, {side >> 1});
     const int behind = (side & 1) != 0 ? 1 : -1;
     Section section{side >> 1, behind};
@@ -77,13 +77,13 @@ class CornerCutter {
 
   [[nodiscard]] bool is_behind_all(int f) const {
     if (!body_->is_alive(f)) return false;
-    const Side own = body_->facet(f).side;
-    if (std::ranges::any_of(sides_, [&](Side s) { return s >> 1 == own >> 1; })) return false;
+    const PlaneSide own = body_->facet(f).side;
+    if (std::ranges::any_of(sides_, [&](PlaneSide s) { return s >> 1 == own >> 1; })) return false;
     return std::ranges::all_of(body_->facet(f).loops, [&](int l) {
       const int first = body_->loop(l).first;
       int e = first;
       do {
-        for (const Side side : sides_)
+        for (const PlaneSide side : sides_)
           if (body_->world().points.level(body_->origin(e), side) > 0) return false;
         e = body_->next(e);
       } while (e != first);
@@ -123,9 +123,9 @@ class CornerCutter {
   }
 
   [[nodiscard]] bool lies_on_all(const Component& component) const {
-    std::set<Side> met;
+    std::set<PlaneSide> met;
     for (const int e : component.rim) {
-      const Side side = rim_side(*body_, sides_, e);
+      const PlaneSide side = rim_side(*body_, sides_, e);
       if (side < 0) return false;
       met.insert(side);
     }
@@ -134,7 +134,7 @@ class CornerCutter {
 
   int old_edges_, old_points_;
   std::shared_ptr<Boundary> body_;
-  const std::vector<Side>& sides_;
+  const std::vector<PlaneSide>& sides_;
   double weld_m_;
   std::int64_t& work_;
 };
@@ -153,7 +153,7 @@ class CornerHoleFinder {
       if (group.facets.size() < 2) continue;
       const Component component = options_.has_all_sides ? with_neighbours(group, groups) : group;
       edges_ = edges_of(component);
-      std::vector<Side> set;
+      std::vector<PlaneSide> set;
       try_sets(sides_for(component), 0, set);
     }
     return std::move(patches_);
@@ -180,7 +180,8 @@ class CornerHoleFinder {
   }
 
   /// All sets of the order that can make a corner, each once.
-  void try_sets(const std::vector<Side>& sides, std::size_t first, std::vector<Side>& set) {
+  void try_sets(const std::vector<PlaneSide>& sides, std::size_t first,
+                std::vector<PlaneSide>& set) {
     if (std::ssize(set) == options_.order) return try_set(set);
     for (std::size_t i = first; i < sides.size() && work_ <= options_.budget; ++i) {
       if (!fits(set, sides[i])) continue;
@@ -191,31 +192,31 @@ class CornerHoleFinder {
   }
 
   /// It is a split plane, and equal normals never combine.
-  [[nodiscard]] bool fits(const std::vector<Side>& set, Side side) const {
+  [[nodiscard]] bool fits(const std::vector<PlaneSide>& set, PlaneSide side) const {
     if (std::ranges::find(options_.own_planes, side >> 1) != options_.own_planes.end())
       return false;
     const PlaneTable& planes = body_.world().planes;
-    return std::ranges::none_of(set, [&](Side s) {
+    return std::ranges::none_of(set, [&](PlaneSide s) {
       return planes.class_of(s >> 1) == planes.class_of(side >> 1) && (s & 1) == (side & 1);
     });
   }
 
   /// The sides beyond the rim. If all are asked for, those beyond every convex edge, be it between
   /// two facets of the component, and those of all facets of the body that cross one of its own.
-  [[nodiscard]] std::vector<Side> sides_for(const Component& component) const {
+  [[nodiscard]] std::vector<PlaneSide> sides_for(const Component& component) const {
     if (!options_.has_all_sides) return component.sides;
-    std::set<Side> sides;
+    std::set<PlaneSide> sides;
     for (const int f : component.facets)
       body_.for_each_edge(f, [&](int e) {
         if (!body_.is_reflex(e)) sides.insert(body_.side_of_edge(body_.twin(e)));
       });
-    for (const Side side : all_sides_)
+    for (const PlaneSide side : all_sides_)
       if (std::ranges::any_of(component.facets, [&](int f) { return crosses(f, side); }))
         sides.insert(side);
     return {sides.begin(), sides.end()};
   }
 
-  [[nodiscard]] bool crosses(int f, Side side) const {
+  [[nodiscard]] bool crosses(int f, PlaneSide side) const {
     bool has_front = false, has_back = false;
     body_.for_each_edge(f, [&](int e) {
       const int here = level(body_.origin(e), side);
@@ -235,18 +236,18 @@ class CornerHoleFinder {
     return edges;
   }
 
-  [[nodiscard]] int level(int point, Side side) const {
+  [[nodiscard]] int level(int point, PlaneSide side) const {
     return body_.world().points.level(point, side);
   }
 
   /// The wall of a hole holds a bend, of which a part lies behind all planes, and each plane meets
   /// an edge of the component where it is not in front of another.
-  [[nodiscard]] bool can_cut(const std::vector<Side>& set) const {
+  [[nodiscard]] bool can_cut(const std::vector<PlaneSide>& set) const {
     bool has_bend = false;
     std::vector<char> is_met(set.size(), 0);
     for (const int e : edges_) {
       bool is_behind = true, reaches_behind = true;
-      for (const Side side : set) {
+      for (const PlaneSide side : set) {
         const int low = std::min(level(body_.origin(e), side), level(body_.target(e), side));
         is_behind &= low < 0;
         reaches_behind &= low <= 0;
@@ -260,7 +261,7 @@ class CornerHoleFinder {
     return has_bend && std::ranges::find(is_met, 0) == is_met.end();
   }
 
-  void try_set(const std::vector<Side>& set) {
+  void try_set(const std::vector<PlaneSide>& set) {
     work_ += std::ssize(edges_);
     if (!can_cut(set) || !seen_.insert(set).second) return;
     auto& points = body_.world().points;
@@ -273,10 +274,10 @@ class CornerHoleFinder {
   const Boundary& body_;
   const CornerHoleOptions& options_;
   std::int64_t& work_;
-  std::set<Side> all_sides_;
+  std::set<PlaneSide> all_sides_;
   std::vector<int> group_of_;  ///< by facet
   std::vector<int> edges_;     ///< of the component at hand
-  std::set<std::vector<Side>> seen_;
+  std::set<std::vector<PlaneSide>> seen_;
   std::vector<Patch> patches_;
 };
 

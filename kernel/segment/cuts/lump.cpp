@@ -61,7 +61,7 @@ Lump LumpFinder::find(int region) {
   } while (!stack_.empty());
 
   std::ranges::sort(lump_.regions);
-  const Side looking = section_.looking();
+  const PlaneSide looking = section_.looking();
   double cap_area = 0;
   for (const int r : lump_.regions) {
     cap_area += section_.regions[at(r)].area;
@@ -178,7 +178,7 @@ bool LumpFinder::has_sound_pieces(int c) const {
 
 /// What a directed piece of a facet's outline adds to a third of offset × area.
 void LumpFinder::add_segment(int e, Vec3 from, Vec3 to) {
-  const Side side = body_.side_of_edge(e);
+  const PlaneSide side = body_.side_of_edge(e);
   const auto& planes = body_.world().planes;
   patch_volume_ += planes.offset_m(side) * dot(planes.normal(side), cross(from, to)) / 6;
 }

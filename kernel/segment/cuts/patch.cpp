@@ -205,7 +205,7 @@ class PatchFinder {
   /// Of the groups at hand as one component: the sides on which its rim lies. False, and not all of
   /// them, if these are more than `most` without the ground.
   bool find_sides(Component& component, std::size_t most) const {
-    std::vector<Side>& sides = component.sides;
+    std::vector<PlaneSide>& sides = component.sides;
     sides.clear();
     component.ground = -1;
     for (const int n : widened_) {
@@ -242,21 +242,21 @@ class PatchFinder {
   /// bits of limit_bits_, and between which group `n`, which the component is, can be widened.
   template <class Visit>
   void for_fewer_sides(int n, const Component& component, const Visit& visit) {
-    boost::container::small_vector<Side, kMostLimits> sides;
-    for (const Side side : component.sides)
+    boost::container::small_vector<PlaneSide, kMostLimits> sides;
+    for (const PlaneSide side : component.sides)
       if (side != component.ground) sides.push_back(side);
     if (sides.size() < 3 || sides.size() > kMostLimits) return;
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
     for (std::size_t i = 0; i < grown_.size(); ++i) {
       unsigned own = 0;
-      for (const Side side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
+      for (const PlaneSide side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
       at_hand_[i].own_limits = own;
     }
     // Widened once more there, as few as they are: in ascending order, which ties are decided by.
     const auto sets = sets_to_widen_in(n, sides.size());
     for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
-    for (const Side side : sides) limit_bits_[at(side)] = 0;
+    for (const PlaneSide side : sides) limit_bits_[at(side)] = 0;
   }
 
   /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
@@ -345,7 +345,7 @@ class PatchFinder {
       area += grown_[at(n)].area;
     }
     boost::container::small_vector<Vec3, 4> normals;
-    for (const Side side : component.sides) {
+    for (const PlaneSide side : component.sides) {
       normals.push_back(world_.planes.normal(side));
       old_area += body_.area_on(side);
       covered += body_.area_on(side ^ 1);
@@ -356,7 +356,7 @@ class PatchFinder {
            options_.most_value * old_area + covered + slack;
   }
 
-  [[nodiscard]] bool has_same_normal(Side s, Side t) const {
+  [[nodiscard]] bool has_same_normal(PlaneSide s, PlaneSide t) const {
     return world_.planes.class_of(s >> 1) == world_.planes.class_of(t >> 1) && (s & 1) == (t & 1);
   }
 
@@ -371,8 +371,8 @@ class PatchFinder {
   // Of the groups, one after the other.
   std::vector<int> facets_;
   std::vector<RimEdge> rims_;
-  std::vector<Side> sides_;
-  std::vector<std::pair<Side, int>> beyond_;
+  std::vector<PlaneSide> sides_;
+  std::vector<std::pair<PlaneSide, int>> beyond_;
   double surface_ = 0;  ///< of the body
   /// A group as widenings ask about it.
   struct AtHand {

@@ -128,7 +128,8 @@ bool Pockets::are_facets_like(const PocketKind& kind, const Pocket& pocket) {
 }
 
 /// A side, moved, is the other one. The ground is none but itself.
-bool Pockets::is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const {
+bool Pockets::is_moved(PlaneSide from, PlaneSide to,
+                       const std::array<std::int64_t, 3>& shift) const {
   const auto& planes = body_.world().planes;
   if ((from & 1) != (to & 1) || planes.class_of(from >> 1) != planes.class_of(to >> 1))
     return false;

@@ -53,7 +53,7 @@ int Pockets::find(const Section& section, int region, bool is_alone) {
   if (const int known = find_known(section, here); known >= 0) return known;
   if (!trace_rim(section, here)) return -1;
   Pocket pocket;
-  const Side cap = section.split_side(here);
+  const PlaneSide cap = section.split_side(here);
   for (int k = 0; !is_alone && k < std::ssize(kinds_) && pocket.kind < 0; ++k)
     if (kinds_[at(k)].cap == cap && kinds_[at(k)].direction == section.direction &&
         is_like(kinds_[at(k)], pocket, section))
@@ -180,10 +180,10 @@ std::span<const int> Pockets::edges_of(const Pocket& pocket) const {
   return std::span(edges_).subspan(at(pocket.first_edge), kinds_[at(pocket.kind)].twins.size());
 }
 
-Cap Pockets::cap_of(int pocket) const {
+CutCap Pockets::cap_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
   const PocketKind& kind = kinds_[at(here.kind)];
-  Cap cap{kind.cap, {}, {}};
+  CutCap cap{kind.cap, {}, {}};
   CapLoop& loop = cap.loops.emplace_back();
   loop.edges.reserve(at(kind.rim));
   for (const int e : std::span(rims_).subspan(at(here.first_rim), at(kind.rim)))

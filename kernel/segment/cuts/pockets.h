@@ -26,7 +26,7 @@ namespace oriel::detail {
 class Pockets {
  public:
   /// `ground`: the side of the ground, -1: none.
-  Pockets(const Boundary& body, Side ground) : body_(body), ground_plane_(ground >> 1) {}
+  Pockets(const Boundary& body, PlaneSide ground) : body_(body), ground_plane_(ground >> 1) {}
 
   /// Tells that the body has changed in this way and no other: pockets that the changes have no
   /// point of stay known, with their numbers.
@@ -58,7 +58,7 @@ class Pockets {
   /// Its vertices, sorted; needs the body as it was.
   [[nodiscard]] std::vector<int> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
-  [[nodiscard]] Cap cap_of(int pocket) const;
+  [[nodiscard]] CutCap cap_of(int pocket) const;
   /// Its facets, ascending.
   [[nodiscard]] std::vector<int> facets_of(int pocket) const;
   /// How one pocket is another one of its kind, moved; needs both as they were in the body.
@@ -79,7 +79,7 @@ class Pockets {
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
   /// listed facet by facet, in the order in which these are met.
   struct PocketKind {
-    Side cap = -1;  ///< -1: the first has gone, and with it the kind
+    PlaneSide cap = -1;  ///< -1: the first has gone, and with it the kind
     int direction = 0;
     bool is_convex = false, is_leaf = false;
     /// Its lump has a bend, and has to be flooded.
@@ -114,7 +114,8 @@ class Pockets {
                                       const Section& section) const;
   [[nodiscard]] bool are_facets_like(const PocketKind& kind, const Pocket& pocket);
   [[nodiscard]] bool has_own_sources();
-  [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
+  [[nodiscard]] bool is_moved(PlaneSide from, PlaneSide to,
+                              const std::array<std::int64_t, 3>& shift) const;
   int new_kind(const Section& section, const Region& region);
   bool list_facets(const Section& section, PocketKind& kind);
   bool list_facet(PocketKind& kind, int first);

@@ -63,24 +63,24 @@ bool FacetSplitter::split(FacetId id, const Outline& outline, const std::vector<
 /// `within`. Nothing if the ring lies outside the facet somewhere.
 std::optional<std::vector<Loop>> FacetSplitter::loops_left(int f, const Loop& ring, Vec3 normal,
                                                            std::vector<Loop>& within) {
-  std::set<Edge> of_ring;
+  std::set<DirectedEdge> of_ring;
   for (std::size_t i = 0; i < ring.size(); ++i) of_ring.insert({ring[i], after(ring, i)});
   const std::set<int> corners(ring.begin(), ring.end());
   const Outline outline = outline_of(ring);
   std::vector<Loop> untouched;
-  std::vector<Edge> edges;  // of the loops that the ring meets, to be traced anew
+  std::vector<DirectedEdge> edges;  // of the loops that the ring meets, to be traced anew
   for (const Loop& loop : facet(f).loops) {
     if (std::ranges::none_of(loop, [&](int v) { return corners.contains(v); })) {
       (contains({{outline}}, normal, point(loop[0])) ? within : untouched).push_back(loop);
       continue;
     }
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Edge edge{loop[i], after(loop, i)};
+      const DirectedEdge edge{loop[i], after(loop, i)};
       if (of_ring.contains({edge.second, edge.first})) return std::nullopt;
       if (of_ring.erase(edge) == 0) edges.push_back(edge);
     }
   }
-  for (const Edge& edge : of_ring) edges.emplace_back(edge.second, edge.first);
+  for (const DirectedEdge& edge : of_ring) edges.emplace_back(edge.second, edge.first);
   auto loops = trace(edges, normal);
   if (loops) std::ranges::move(untouched, std::back_inserter(*loops));
   return loops;
@@ -142,7 +142,7 @@ std::optional<Loop> FacetSplitter::fitted(int f, const Outline& outline) {
 /// nothing if the corner is outside.
 std::optional<int> FacetSplitter::corner_at(int f, Vec3 p) {
   std::optional<std::pair<double, int>> nearest;
-  std::optional<std::pair<double, Edge>> nearest_edge;
+  std::optional<std::pair<double, DirectedEdge>> nearest_edge;
   std::vector<Outline> outlines;
   for (const Loop& loop : facet(f).loops) {
     outlines.push_back(outline_of(loop));
@@ -151,7 +151,7 @@ std::optional<int> FacetSplitter::corner_at(int f, Vec3 p) {
       if (to_vertex <= snap_m_ && (!nearest || std::pair(to_vertex, loop[i]) < *nearest))
         nearest = {to_vertex, loop[i]};
       const double to_edge = distance_to_segment(p, point(loop[i]), point(after(loop, i)));
-      const Edge edge{loop[i], after(loop, i)};
+      const DirectedEdge edge{loop[i], after(loop, i)};
       if (to_edge <= snap_m_ && (!nearest_edge || std::pair(to_edge, edge) < *nearest_edge))
         nearest_edge = {to_edge, edge};
     }
@@ -169,13 +169,13 @@ std::optional<int> FacetSplitter::corner_at(int f, Vec3 p) {
   return add_vertex(p);
 }
 
-void FacetSplitter::insert_on_edge(Edge edge, int vertex) {
-  for (const Edge& side : {edge, Edge{edge.second, edge.first}})
+void FacetSplitter::insert_on_edge(DirectedEdge edge, int vertex) {
+  for (const DirectedEdge& side : {edge, DirectedEdge{edge.second, edge.first}})
     if (const auto found = facet_of_.find(side); found != facet_of_.end())
       insert_into(found->second, side, vertex);
 }
 
-void FacetSplitter::insert_into(int f, Edge edge, int vertex) {
+void FacetSplitter::insert_into(int f, DirectedEdge edge, int vertex) {
   for (Loop& loop : facet(f).loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
       if (loop[i] != edge.first || after(loop, i) != edge.second) continue;
@@ -208,7 +208,7 @@ Loop FacetSplitter::with_vertices_between(const Loop& ring, int f) const {
 }
 
 /// The loops that edges make, the surface to their left; nothing if they make none.
-std::optional<std::vector<Loop>> FacetSplitter::trace(const std::vector<Edge>& edges,
+std::optional<std::vector<Loop>> FacetSplitter::trace(const std::vector<DirectedEdge>& edges,
                                                       Vec3 normal) const {
   std::map<int, std::vector<int>> targets;
   for (const auto& [from, to] : edges) targets[from].push_back(to);

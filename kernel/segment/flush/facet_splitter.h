@@ -26,7 +26,7 @@ class FacetSplitter {
   [[nodiscard]] Solid take() { return std::move(solid_); }
 
  private:
-  using Edge = std::pair<int, int>;
+  using DirectedEdge = std::pair<int, int>;
 
   [[nodiscard]] Vec3 point(int v) const {
     return solid_.vertices[static_cast<std::size_t>(v)].point;
@@ -42,16 +42,16 @@ class FacetSplitter {
   int add_vertex(Vec3 p);
   std::optional<Loop> fitted(int f, const Outline& outline);
   std::optional<int> corner_at(int f, Vec3 p);
-  void insert_on_edge(Edge edge, int vertex);
-  void insert_into(int f, Edge edge, int vertex);
+  void insert_on_edge(DirectedEdge edge, int vertex);
+  void insert_into(int f, DirectedEdge edge, int vertex);
   [[nodiscard]] Loop with_vertices_between(const Loop& ring, int f) const;
-  [[nodiscard]] std::optional<std::vector<Loop>> trace(const std::vector<Edge>& edges,
+  [[nodiscard]] std::optional<std::vector<Loop>> trace(const std::vector<DirectedEdge>& edges,
                                                        Vec3 normal) const;
 
   Solid solid_;
   double snap_m_;
   std::vector<int> shell_of_;
-  std::map<Edge, int> facet_of_;  ///< by directed edge
+  std::map<DirectedEdge, int> facet_of_;  ///< by directed edge
   std::map<std::tuple<double, double, double>, int> made_;
 };
 

@@ -28,13 +28,13 @@ class Imprinter {
         plane_rank_(body.world().planes.rank_of(section.plane)),
         axis_(body.world().planes.normal(section.looking())) {}
 
-  std::vector<Cap> run() {
+  std::vector<CutCap> run() {
     split_edges();
     collect_corners();
-    std::vector<Cap> caps;
+    std::vector<CutCap> caps;
     for (const int r : lump_.regions) {
       const Region& region = section_.regions[at(r)];
-      Cap cap{section_.split_side(region), {}, region.covered};
+      CutCap cap{section_.split_side(region), {}, region.covered};
       for (const int l : region.loops) {
         CapLoop loop{rim_of(l)};
         if (!loop.edges.empty()) cap.loops.push_back(std::move(loop));
@@ -221,8 +221,8 @@ class Imprinter {
 
 }  // namespace
 
-std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lump,
-                         std::vector<int>& touched) {
+std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
+                            std::vector<int>& touched) {
   return Imprinter(body, section, lump, touched).run();
 }
 

@@ -58,7 +58,7 @@ class Instances::SubtreeCopier {
     return CellId{id.value - model_.first_cell.value + new_cell_};
   }
   PlaneId moved(PlaneId id) {
-    const Side side = cells_.side_of(id);
+    const PlaneSide side = cells_.side_of(id);
     if (planes_.find(side >> 1) < 0) throw GeometryError("a copy of a pocket has lost planes");
     return cells_.plane_id(2 * planes_.find(side >> 1) + (side & 1));
   }

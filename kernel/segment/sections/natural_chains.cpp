@@ -8,7 +8,8 @@
 
 namespace oriel::detail {
 
-NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side)
+NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes,
+                             PlaneSide free_side)
     : body_(body),
       world_(body.world()),
       planes_(planes),
@@ -180,7 +181,7 @@ bool NaturalChains::has_chain(std::span<ChainStep> steps, std::size_t slot) {
 /// clockwise around air, for which it has some on the other one. Told only of closed chains that do
 /// not touch.
 bool NaturalChains::may_bound(std::span<const ChainStep> steps, std::size_t slot) {
-  const Side looking = 2 * planes_[slot / 2] + static_cast<int>(slot & 1);
+  const PlaneSide looking = 2 * planes_[slot / 2] + static_cast<int>(slot & 1);
   const auto has_facets = body_.on_plane(looking >> 1).has_facets;
   const bool has_material = has_facets[at(looking & 1)], has_air = has_facets[at(~looking & 1)];
   if (has_material && has_air) return true;

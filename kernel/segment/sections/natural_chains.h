@@ -21,7 +21,7 @@ namespace oriel::detail {
 class NaturalChains {
  public:
   /// `planes`: ascending. `free_side`: the ground, -1: none.
-  NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side);
+  NaturalChains(const Boundary& body, const std::vector<int>& planes, PlaneSide free_side);
 
   /// The body has these edges since. Chains over others have not become more.
   void expect(const std::vector<std::pair<int, int>>& new_edges);
@@ -71,7 +71,7 @@ class NaturalChains {
   const Boundary& body_;
   World& world_;
   const std::vector<int>& planes_;
-  Side free_side_;
+  PlaneSide free_side_;
   std::vector<ChainsOfClass> classes_;
   std::vector<char> answers_;  ///< by slot
 

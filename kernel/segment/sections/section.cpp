@@ -343,7 +343,7 @@ class Sectioner {
     region.is_natural = region.has_natural_outline = region.is_candidate = false;
     region.new_area = region.area;
     if (old_area <= 0) return;
-    const Side opposite = section_.split_side(region) ^ 1;
+    const PlaneSide opposite = section_.split_side(region) ^ 1;
     if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
     region.has_natural_outline = is_natural(region.loops[0]);
     region.is_natural =
@@ -436,7 +436,7 @@ class Sectioner {
     return true;
   }
 
-  void take_off_covered(Region& region, Side opposite) {
+  void take_off_covered(Region& region, PlaneSide opposite) {
     const std::vector<int> facets = body_.facets_on(opposite);
     if (facets.empty()) return;
     std::vector<Outline> shape;
@@ -477,7 +477,7 @@ class Sectioner {
   std::span<const int> edges_;
   SectionOptions options_;
   Scratch& scratch_;
-  Side looking_;
+  PlaneSide looking_;
   Vec3 axis_;
   double offset_m_;
   std::span<const int> ranks_;

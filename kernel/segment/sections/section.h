@@ -60,13 +60,13 @@ struct Section {
   bool is_by_loop = false;  ///< crossings stand loop by loop, in their order
 
   /// The side that looks to where the section looks.
-  [[nodiscard]] Side looking() const { return 2 * plane + (direction > 0 ? 0 : 1); }
+  [[nodiscard]] PlaneSide looking() const { return 2 * plane + (direction > 0 ? 0 : 1); }
   [[nodiscard]] double old_area(const Region& region) const {
     return old_areas[region.is_material ? 1 : 0];
   }
   /// The side of the split plane for features of a region: a protrusion's is the side that looks
   /// the same way, a hole's the opposite one.
-  [[nodiscard]] Side split_side(const Region& region) const {
+  [[nodiscard]] PlaneSide split_side(const Region& region) const {
     return region.is_material ? looking() : looking() ^ 1;
   }
 };
@@ -77,7 +77,7 @@ Outline outline_of(const Section& section, int loop);
 /// What a section needs to know beside the body.
 struct SectionOptions {
   /// Chords in facets of this side are as good as edges (-1: none): the ground.
-  Side free_side = -1;
+  PlaneSide free_side = -1;
   /// A region thinner than this is none.
   double weld_m = 0;
 };

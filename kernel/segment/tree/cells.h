@@ -24,7 +24,7 @@ class CellWriter {
       : world_(world), out_(out), made_of_(facets) {}
 
   /// The id of an oriented plane; planes that only caps of parts have are added behind the solid's.
-  PlaneId plane_id(Side side);
+  PlaneId plane_id(PlaneSide side);
 
   /// Adds a leaf that lies in `feature` (invalid: in no feature).
   CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
@@ -32,7 +32,7 @@ class CellWriter {
   CellId add(PocketLeaf leaf, NodeId node, int sign, FeatureId feature);
 
   /// The side that such an id stands for.
-  [[nodiscard]] Side side_of(PlaneId id) const;
+  [[nodiscard]] PlaneSide side_of(PlaneId id) const;
 
   /// The cells from `first` up to `last` were copied, to where `copies` begins: what is made of a
   /// facet of the solid among them has a copy made of the facet that `sources` says.
@@ -62,9 +62,9 @@ class CellWriter {
 
   World& world_;
   Segmentation& out_;
-  std::vector<PlaneId> extra_planes_;  ///< by side
-  std::vector<Side> extra_sides_;      ///< in the order of their ids
-  FeatureId innermost_;                ///< that was asked for last, and what it is in
+  std::vector<PlaneId> extra_planes_;   ///< by side
+  std::vector<PlaneSide> extra_sides_;  ///< in the order of their ids
+  FeatureId innermost_;                 ///< that was asked for last, and what it is in
   std::vector<FeatureId> around_;
   /// By facet of the solid, the cell facets made of it.
   std::vector<boost::container::small_vector<CellFacet, 2>> made_of_;

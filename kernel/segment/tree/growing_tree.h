@@ -31,7 +31,7 @@ struct GrowingTree {
   World world;
   CellWriter cells;
   Instances instances;
-  Side ground = -1;
+  PlaneSide ground = -1;
   std::vector<WaitingBody> waiting;  ///< the last is split next
   std::int64_t work = 0;             ///< half-edges that were looked at
 };

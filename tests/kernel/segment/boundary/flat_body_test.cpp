@@ -29,13 +29,13 @@ std::vector<std::pair<int, int>> living_edges_of(const Boundary& body) {
 void check_lists(const Boundary& body) {
   FlatBody flat(body);
   std::vector<std::pair<int, int>> twice;
-  for (const FlatBody::Edge& edge : flat.edges())
+  for (const FlatBody::EdgePoints& edge : flat.edges())
     twice.insert(twice.end(), 2, std::minmax(edge.from, edge.to));
   std::ranges::sort(twice);
   CHECK(twice == living_edges_of(body));
   std::vector<int> facets;
   const detail::PlaneTable& planes = body.world().planes;
-  for (const FlatBody::Facet& facet : flat.facets()) {
+  for (const FlatBody::RankedFacet& facet : flat.facets()) {
     facets.push_back(facet.number);
     const int plane = body.facet(facet.number).side >> 1;
     CHECK(facet.normal_class == planes.class_of(plane));
