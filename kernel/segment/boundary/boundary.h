@@ -2,6 +2,7 @@
 
 #include "kernel/base/ids.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/boundary/scratch.h"
 #include "kernel/segment/planes/planes.h"
 #include "kernel/segment/planes/points.h"
@@ -240,5 +241,32 @@ class CornerLoops {
 /// The side of the ground: the lowest facet that faces down, tilted by no more than `tilt_deg`; -1
 /// if there is none.
 PlaneSide ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg);
+
+/// The living edges and facets of a body, close together: for questions that all of them are asked
+/// again and again while the body stays as it is. Listed when they are first asked for.
+class FlatBody {
+ public:
+  explicit FlatBody(const Boundary& body) : body_(body) {}
+
+  struct EdgePoints {
+    int from, to;  ///< points
+  };
+  /// A facet and where its plane stands among those of its class.
+  struct RankedFacet {
+    int number;
+    int normal_class;
+    int rank;
+  };
+
+  [[nodiscard]] const Boundary& body() const { return body_; }
+  /// Each edge once, in one of its directions.
+  [[nodiscard]] std::span<const EdgePoints> edges();
+  [[nodiscard]] std::span<const RankedFacet> facets();
+
+ private:
+  const Boundary& body_;
+  std::vector<EdgePoints> edges_;
+  std::vector<RankedFacet> facets_;
+};
 
 }  // namespace oriel::detail

@@ -1,11 +1,13 @@
 #pragma once
 
-#include "kernel/segment/boundary/flat_body.h"
+#include "kernel/model/vec3.h"
+#include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/cuts/carve.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -45,5 +47,12 @@ PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, in
 /// make, if the caps do not close, have no area or are pierced, or if it has no volume.
 std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
                                    std::int64_t& work);
+
+/// The least area that caps in these planes (unit normals, no more than four) have together if they
+/// close a surface. `open` is the sum of area × unit normal over the surface's facets, which closed
+/// surfaces have none of: the caps' own is the same, each cap's area positive. Infinite if no caps
+/// close it. Areas are told apart by more than `slack_m2`: facets may be that much off their
+/// planes.
+double least_cap_area(std::span<const Vec3> normals, Vec3 open, double slack_m2);
 
 }  // namespace oriel::detail

@@ -2,8 +2,8 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/segment/boundary/facet_copier.h"
-#include "kernel/segment/boundary/number_map.h"
+#include "kernel/segment/boundary/parting.h"
+#include "kernel/segment/planes/points.h"
 
 #include <algorithm>
 #include <optional>

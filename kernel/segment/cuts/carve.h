@@ -46,7 +46,7 @@ struct Carved {
   bool has_rim_left = false;
 };
 
-/// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.
+/// What a pocket (cuts/pockets.h) leaves that is taken off without being made a body.
 struct Filled {
   Vec3 cap_point;      ///< a point inside its cap
   double volume = 0;   ///< of the body it would have been

@@ -1,7 +1,7 @@
 #include "kernel/segment/cuts/patch.h"
 
 #include "kernel/base/index.h"
-#include "kernel/segment/cuts/cap_areas.h"
+#include "kernel/segment/cuts/capping.h"
 
 #include <algorithm>
 #include <array>

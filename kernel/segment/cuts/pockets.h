@@ -1,10 +1,9 @@
 #pragma once
 
-#include "kernel/segment/boundary/leaf.h"
 #include "kernel/segment/cuts/carve.h"
 #include "kernel/segment/cuts/cut_candidates.h"
-#include "kernel/segment/instances/congruence.h"
 #include "kernel/segment/sections/section.h"
+#include "kernel/segment/tree/cells.h"
 
 #include <algorithm>
 #include <array>

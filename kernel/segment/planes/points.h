@@ -2,9 +2,9 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
-#include "kernel/segment/boundary/number_map.h"
 #include "kernel/segment/planes/planes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +17,16 @@
 #include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
+
+/// A number for each of some numbers, sorted.
+using NumberMap = std::vector<std::pair<int, int>>;
+
+/// The number that `i` is mapped to; nothing if there is none.
+inline std::optional<int> find_in(const NumberMap& map, int i) {
+  const auto found = std::ranges::lower_bound(map, i, {}, &std::pair<int, int>::first);
+  if (found == map.end() || found->first != i) return std::nullopt;
+  return found->second;
+}
 
 /// For each plane the points that are known to lie on it, ascending.
 class Incidence {

@@ -2,11 +2,15 @@
 
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/vec3.h"
 #include "kernel/segment/boundary/boundary.h"
-#include "kernel/segment/boundary/leaf.h"
-#include "kernel/segment/instances/congruence.h"
+#include "kernel/segment/planes/planes.h"
+#include "kernel/segment/planes/points.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +18,32 @@
 #include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
+
+/// How a pocket is another one, the model, moved by a whole number of grid units: so every answer
+/// about the one is that about the other.
+struct Congruence {
+  std::array<std::int64_t, 3> shift{};  ///< in grid units
+  Vec3 shift_m;
+  NumberMap points;   ///< of the model, of the other
+  NumberMap planes;   ///< likewise
+  NumberMap sources;  ///< of their facets, likewise
+  NumberMap marks;    ///< features with marks on their facets, likewise
+};
+
+/// A convex body that is told to be a leaf before it is made: all that its cell is written from.
+struct PocketLeaf {
+  struct LeafFace {
+    PlaneSide side;
+    Loop loop;
+  };
+  std::vector<LeafFace> faces;
+  /// Facets of the solid that faces are made of, face by face.
+  struct LeafSource {
+    int source, face;
+  };
+  std::vector<LeafSource> sources;
+  double volume = 0;
+};
 
 /// Writes the leaves into the segmentation: their boundaries as cells, and which feature and which
 /// input polygon ended up where.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/segment/instances/instances.h"
 #include "kernel/segment/segment.h"
 #include "kernel/segment/tree/cells.h"
+#include "kernel/segment/tree/instances.h"
 
 #include <cstdint>
 #include <vector>

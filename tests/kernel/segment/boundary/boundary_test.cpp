@@ -1,4 +1,4 @@
-#include "kernel/segment/boundary/flat_body.h"
+#include "kernel/segment/boundary/boundary.h"
 
 #include "tests/support/houses.h"
 #include "tests/support/shapes.h"

@@ -1,4 +1,4 @@
-#include "kernel/segment/instances/instances.h"
+#include "kernel/segment/tree/instances.h"
 
 #include "kernel/base/index.h"
 #include "kernel/base/issue.h"
