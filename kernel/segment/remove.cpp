@@ -263,8 +263,8 @@ class FeatureRemover {
   /// A cut that was made in a part, or after others, may meet more when it is made in the whole.
   [[nodiscard]] bool is_within(const Boundary& lump, const Feature& f) const {
     Box of_lump;
-    for (const int facet : lump.living_facets())
-      lump.for_each_edge(facet, [&](int e) { of_lump.grow(world_.points.at(lump.origin(e))); });
+    for (const detail::BodyFacetId facet : lump.living_facets())
+      lump.for_each_edge(facet, [&](EdgeId e) { of_lump.grow(world_.points.at(lump.origin(e))); });
     const double slack_m = options_.tolerances.weld_m;
     const auto all_not_below = [](Vec3 p, Vec3 q) {
       return p.x >= q.x && p.y >= q.y && p.z >= q.z;
@@ -283,7 +283,7 @@ class FeatureRemover {
   }
   template <class Visit>
   void for_each_polygon(const Boundary& body, const Visit& visit) const {
-    for (const int facet : body.living_facets())
+    for (const detail::BodyFacetId facet : body.living_facets())
       for (const int source : body.facet(facet).sources)
         for (const int polygon : solid_.facets[at(source)].polygons) visit(polygon);
   }
@@ -324,7 +324,7 @@ class FeatureRemover {
 
   [[nodiscard]] static bool is_inside(const Boundary& body, Vec3 point) {
     double winding = 0;
-    for (const int facet : body.living_facets())
+    for (const detail::BodyFacetId facet : body.living_facets())
       winding += detail::winding_part(body.outlines(facet), point);
     return winding > 0.5;
   }

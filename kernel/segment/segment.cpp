@@ -112,14 +112,14 @@ void split(GrowingTree& tree, WaitingBody body) {
   if (!body.has_one_shell) take_out_cavities(tree, body);
   std::optional<Chooser> chooser;
   CutHistory history;
-  int bend = 0;
+  EdgeId bend;
   while (true) {
     if (is_convex(body.body, bend)) return add_leaf(tree, body, LeafFlag::convex);
     if (tree.work > tree.options.budget) return add_leaf(tree, body, LeafFlag::budget);
     if (is_mostly_dead(body.body)) {
       body.body = compacted(body.body);
       chooser.reset();
-      bend = 0;
+      bend = {};
     }
     if (!chooser)
       chooser.emplace(body.body, tree.options, tree.ground, body.own_planes, tree.out.stats,

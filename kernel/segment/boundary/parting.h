@@ -18,14 +18,14 @@ class FacetCopier {
   FacetCopier(const Boundary& from, bool is_turned)
       : from_(from), to_(from.world()), scratch_(from.world().scratch), is_turned_(is_turned) {}
 
-  void add(const std::vector<int>& facets);
+  void add(std::span<const BodyFacetId> facets);
 
   /// Of a half-edge of the facets.
-  [[nodiscard]] int copy_of(int e) const { return scratch_.copy_of.find(e); }
+  [[nodiscard]] EdgeId copy_of(EdgeId e) const { return scratch_.copy_of.find(e); }
   Boundary& boundary() { return to_; }
 
  private:
-  void add(int f);
+  void add(BodyFacetId f);
 
   const Boundary& from_;
   Boundary to_;
@@ -33,7 +33,7 @@ class FacetCopier {
   bool is_turned_;
   // Of the loop at hand.
   std::vector<int> origins_;
-  std::vector<std::pair<int, int>> pairs_;  ///< copies of both sides of edges
+  std::vector<std::pair<EdgeId, EdgeId>> pairs_;  ///< copies of both sides of edges
 };
 
 /// True if all facets hang together: no cavity, and no cut has parted the body.
@@ -66,6 +66,6 @@ BodyState state_of(const Boundary& body);
 bool is_mostly_dead(const Boundary& body);
 
 /// `bend` is where to look first: a half-edge that was reflex when it was asked for last, if any.
-bool is_convex(const Boundary& body, int& bend);
+bool is_convex(const Boundary& body, EdgeId& bend);
 
 }  // namespace oriel::detail

@@ -28,7 +28,7 @@ class Capper {
   Capper(const Boundary& body, const Component& component, CornerKind corner)
       : body_(body), world_(body.world()), component_(component), corner_(corner) {
     labels_.reserve(component.rim.size());
-    for (const int e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
+    for (const EdgeId e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
   }
 
   std::optional<std::vector<CutCap>> run() {
@@ -58,13 +58,13 @@ class Capper {
 
   /// The rim half-edge that follows each on its closed curve.
   bool order_rim() {
-    StampMap& places = world_.scratch.place_in_rim;
+    StampMap<EdgeId>& places = world_.scratch.place_in_rim;
     places.start(body_.half_edge_count());
     for (RimPlace i = 0; i < component_.rim.size(); ++i)
       places.set(component_.rim[i], static_cast<int>(i));
     followers_.reserve(component_.rim.size());
     for (RimPlace i = 0; i < component_.rim.size(); ++i) {
-      int follower = body_.next(component_.rim[i]);
+      EdgeId follower = body_.next(component_.rim[i]);
       for (int steps = 0; places.find(follower) < 0; ++steps) {
         if (steps > body_.half_edge_count()) return false;
         follower = body_.next(body_.twin(follower));
@@ -91,7 +91,7 @@ class Capper {
       RimPlace i = start;
       do {
         is_done[i] = 1;
-        const int e = component_.rim[i];
+        const EdgeId e = component_.rim[i];
         loop.edges.push_back({e, body_.origin(e), body_.target(e)});
         i = followers_[i];
         if (labels_[i] == side) continue;
@@ -113,7 +113,7 @@ class Capper {
     for (int steps = 0; steps <= 4; ++steps) {
       const auto stop = next_stop(side, other, point);
       if (!stop) return std::nullopt;
-      loop.edges.push_back({-1, point, stop->point});
+      loop.edges.push_back({EdgeId{}, point, stop->point});
       if (stop->rim) return stop->rim;
       point = stop->point;
       other = stop->other;
@@ -233,10 +233,10 @@ class Judge {
   [[nodiscard]] std::optional<CornerKind> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
     const auto limits = limits_of(component);
-    StampSet& met = world_.scratch.met_points;
+    StampSet<int>& met = world_.scratch.met_points;
     met.start(world_.points.size());
-    for (const int f : component.facets) {
-      body_.for_each_edge(f, [&](int e) {
+    for (const BodyFacetId f : component.facets) {
+      body_.for_each_edge(f, [&](EdgeId e) {
         work_ += std::ssize(component.sides);
         if (!met.insert(body_.origin(e))) return;
         int most = -1, least = 1;
@@ -260,7 +260,8 @@ class Judge {
     for (const CutCap& cap : patch.caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges)
-          if (edge.rim < 0 && edge.from < edge.to && is_crossed(edge.from, edge.to)) return false;
+          if (!edge.rim.is_valid() && edge.from < edge.to && is_crossed(edge.from, edge.to))
+            return false;
     return true;
   }
 
@@ -319,7 +320,7 @@ class Judge {
   /// the patch no volume.
   bool measure(Patch& patch) const {
     double patch_sum = 0, cap_sum = 0;
-    for (const int f : patch.facets)
+    for (const BodyFacetId f : patch.facets)
       patch_sum += world_.planes.offset_m(body_.facet(f).side) * body_.area(f);
     for (CutCap& cap : patch.caps) {
       const std::vector<Outline> shape = shape_of(cap);
@@ -328,7 +329,7 @@ class Judge {
       for (const Outline& outline : shape) area += signed_area(outline, normal);
       cap_sum += world_.planes.offset_m(cap.side) * area;
       if (cap.is_taken) continue;
-      for (const int g : body_.facets_on(cap.side ^ 1)) {
+      for (const BodyFacetId g : body_.facets_on(cap.side ^ 1)) {
         if (std::ranges::binary_search(patch.facets, g)) continue;
         const auto inside = interior_point(body_.outlines(g), normal);
         if (!inside || !contains(shape, normal, *inside)) continue;
@@ -361,7 +362,7 @@ std::vector<PlaneSide> Patch::sides() const {
   return sides;
 }
 
-PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, int e) {
+PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e) {
   const PlaneSide beyond = body.side_of_edge(body.twin(e));
   if (std::ranges::binary_search(sides, beyond)) return beyond;
   auto& points = body.world().points;

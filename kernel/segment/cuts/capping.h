@@ -17,7 +17,7 @@ namespace oriel::detail {
 /// chimney).
 struct Patch {
   bool is_hole = false;
-  std::vector<int> facets;
+  std::vector<BodyFacetId> facets;
   std::vector<CutCap> caps;
   double new_area = 0;
   double old_area = 0;
@@ -33,15 +33,15 @@ struct Patch {
 
 /// Facets that may become a patch.
 struct Component {
-  std::vector<int> facets;       ///< ascending
-  std::vector<int> rim;          ///< half-edges of its facets, their twins beyond; ascending
-  std::vector<PlaneSide> sides;  ///< on which the rim lies, ascending
-  PlaneSide ground = -1;         ///< one of the sides, if the patch stands on the ground
+  std::vector<BodyFacetId> facets;  ///< ascending
+  std::vector<EdgeId> rim;          ///< half-edges of its facets, their twins beyond; ascending
+  std::vector<PlaneSide> sides;     ///< on which the rim lies, ascending
+  PlaneSide ground = -1;            ///< one of the sides, if the patch stands on the ground
 };
 
 /// The side among `sides` that a rim half-edge lies on: that of the facet beyond it, else one whose
 /// plane holds both ends; -1: none.
-PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, int e);
+PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e);
 
 /// The component with caps on all its sides. Nothing if it does not lie in the corner that they
 /// make, if the caps do not close, have no area or are pierced, or if it has no volume.

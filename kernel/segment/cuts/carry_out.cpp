@@ -222,7 +222,7 @@ class Cut {
   void take_off_pocket(const Lump& lump, const Lump* model) {
     const Pockets& pockets = *choice_.pockets;
     const CutCap cap = pockets.cap_of(lump.pocket);
-    const std::vector<int> facets = pockets.facets_of(lump.pocket);
+    const std::vector<BodyFacetId> facets = pockets.facets_of(lump.pocket);
     std::optional<Congruence> how;
     std::optional<PocketLeaf> leaf;
     if (model != nullptr)
@@ -274,9 +274,9 @@ class Cut {
 }  // namespace
 
 std::vector<int> points_of(const Boundary& body) {
-  const auto edges = std::views::iota(0, body.half_edge_count());
-  const auto is_alive = [&](int e) { return body.is_alive_edge(e); };
-  const auto origin = [&](int e) { return body.origin(e); };
+  const auto edges = body.half_edge_ids();
+  const auto is_alive = [&](EdgeId e) { return body.is_alive_edge(e); };
+  const auto origin = [&](EdgeId e) { return body.origin(e); };
   constexpr int kEdgesAtPoint = 3;  // at least
   return sorted_uniquely(edges | std::views::filter(is_alive) | std::views::transform(origin),
                          body.half_edge_count() / kEdgesAtPoint, body.world());
@@ -284,7 +284,7 @@ std::vector<int> points_of(const Boundary& body) {
 
 void measure(Feature& feature, const Boundary& body) {
   feature.volume_m3 = body.volume();
-  for (int f = 0; f < body.facet_count(); ++f)
+  for (const BodyFacetId f : body.facet_ids())
     if (body.is_alive(f)) feature.surface_m2 += body.area(f);
 }
 

@@ -5,6 +5,7 @@
 #include "kernel/segment/sections/section.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -12,7 +13,7 @@ namespace oriel::detail {
 /// One edge of a cap as the rest has it: along the rim of the lump (the half-edge there), or free:
 /// in the open, or inside the body, where two planes of the cut meet.
 struct CapEdge {
-  int rim = -1;
+  EdgeId rim = {};
   int from = -1, to = -1;  ///< points
 };
 
@@ -27,7 +28,7 @@ struct CutCap {
   std::vector<CapLoop> loops;
   /// Facets of the opposite side under the cap: they vanish into the body, and so does the cap over
   /// them.
-  std::vector<int> covered;
+  std::vector<BodyFacetId> covered;
   /// No new facet, but a part of an old one (of the ground, under a lump) that goes with the lump:
   /// the facet beyond the rim, whose side is the opposite of `side`.
   bool is_taken = false;
@@ -65,12 +66,12 @@ std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& 
 /// largest cap of the rest.
 ///
 /// Nothing, and the body is as it was, if the rims do not separate a lump.
-std::optional<Carved> take_off(Boundary& body, const std::vector<CutCap>& caps, bool is_hole,
+std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
                                FeatureId mark, std::vector<int> touched);
 
 /// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
 /// pocket, ascending; `cap`: what closes the rest.
-Filled fill_pocket(Boundary& body, const CutCap& cap, const std::vector<int>& facets, bool is_hole,
-                   FeatureId mark);
+Filled fill_pocket(Boundary& body, const CutCap& cap, std::span<const BodyFacetId> facets,
+                   bool is_hole, FeatureId mark);
 
 }  // namespace oriel::detail

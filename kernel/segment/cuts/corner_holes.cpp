@@ -38,7 +38,8 @@ class CornerCutter {
     for (const Component& component : components_behind()) {
       auto patch = cap_component(flat, true, component, work_);
       if (!patch || !is_exact(component)) continue;
-      patch->is_natural = std::ranges::all_of(component.rim, [&](int e) { return e < old_edges_; });
+      patch->is_natural =
+          std::ranges::all_of(component.rim, [&](EdgeId e) { return e.value < old_edges_; });
       patch->imprinted = body_;
       patches.push_back(std::move(*patch));
     }
@@ -51,7 +52,7 @@ class CornerCutter {
   [[nodiscard]] bool is_exact(const Component& component) const {
     const World& world = body_->world();
     constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before
-    return std::ranges::all_of(component.rim, [&](int e) {
+    return std::ranges::all_of(component.rim, [&](EdgeId e) {
       const int point = body_->origin(e);
       const PlaneSide side = rim_side(*body_, sides_, e);
       const double distance =
@@ -75,13 +76,13 @@ class CornerCutter {
     return true;
   }
 
-  [[nodiscard]] bool is_behind_all(int f) const {
+  [[nodiscard]] bool is_behind_all(BodyFacetId f) const {
     if (!body_->is_alive(f)) return false;
     const PlaneSide own = body_->facet(f).side;
     if (std::ranges::any_of(sides_, [&](PlaneSide s) { return s >> 1 == own >> 1; })) return false;
-    return std::ranges::all_of(body_->facet(f).loops, [&](int l) {
-      const int first = body_->loop(l).first;
-      int e = first;
+    return std::ranges::all_of(body_->facet(f).loops, [&](LoopId l) {
+      const EdgeId first = body_->loop(l).first;
+      EdgeId e = first;
       do {
         for (const PlaneSide side : sides_)
           if (body_->world().points.level(body_->origin(e), side) > 0) return false;
@@ -93,24 +94,25 @@ class CornerCutter {
 
   /// Connected facets behind all planes whose rim lies on all of them, and that bend inward.
   std::vector<Component> components_behind() {
-    std::vector<int> state(at(body_->facet_count()), 0);  // 1: behind, 2: and in a component
-    for (int f = 0; f < body_->facet_count(); ++f) state[at(f)] = is_behind_all(f) ? 1 : 0;
+    IndexedVector<BodyFacetId, int> state(at(body_->facet_count()),
+                                          0);  // 1: behind, 2: and in a component
+    for (const BodyFacetId f : body_->facet_ids()) state[f] = is_behind_all(f) ? 1 : 0;
     std::vector<Component> found;
-    for (int start = 0; start < body_->facet_count(); ++start) {
-      if (state[at(start)] != 1) continue;
+    for (const BodyFacetId start : body_->facet_ids()) {
+      if (state[start] != 1) continue;
       Component component{{start}, {}, {}};
-      state[at(start)] = 2;
+      state[start] = 2;
       bool has_bend = false;
       for (std::size_t i = 0; i < component.facets.size(); ++i)
-        body_->for_each_edge(component.facets[i], [&](int e) {
-          const int g = body_->facet_of(body_->twin(e));
-          if (state[at(g)] == 0) {
+        body_->for_each_edge(component.facets[i], [&](EdgeId e) {
+          const BodyFacetId g = body_->facet_of(body_->twin(e));
+          if (state[g] == 0) {
             component.rim.push_back(e);
             return;
           }
           has_bend |= body_->is_reflex(e);
-          if (state[at(g)] != 1) return;
-          state[at(g)] = 2;
+          if (state[g] != 1) return;
+          state[g] = 2;
           component.facets.push_back(g);
         });
       if (!has_bend || !lies_on_all(component)) continue;
@@ -124,7 +126,7 @@ class CornerCutter {
 
   [[nodiscard]] bool lies_on_all(const Component& component) const {
     std::set<PlaneSide> met;
-    for (const int e : component.rim) {
+    for (const EdgeId e : component.rim) {
       const PlaneSide side = rim_side(*body_, sides_, e);
       if (side < 0) return false;
       met.insert(side);
@@ -143,7 +145,7 @@ class CornerHoleFinder {
  public:
   CornerHoleFinder(const Boundary& body, const CornerHoleOptions& options, std::int64_t& work)
       : body_(body), options_(options), work_(work) {
-    for (const int f : body.living_facets()) all_sides_.insert(body.facet(f).side);
+    for (const BodyFacetId f : body.living_facets()) all_sides_.insert(body.facet(f).side);
   }
 
   std::vector<Patch> run() {
@@ -163,14 +165,14 @@ class CornerHoleFinder {
   void number_groups(const std::vector<Component>& groups) {
     group_of_.assign(at(body_.facet_count()), -1);
     for (int g = 0; g < std::ssize(groups); ++g)
-      for (const int f : groups[at(g)].facets) group_of_[at(f)] = g;
+      for (const BodyFacetId f : groups[at(g)].facets) group_of_[f] = g;
   }
 
   /// A pocket with those that open into it: a tunnel from another wall has its own bends.
   [[nodiscard]] Component with_neighbours(const Component& group,
                                           const std::vector<Component>& groups) const {
-    std::set<int> joined{group_of_[at(group.facets[0])]};
-    for (const int e : group.rim) joined.insert(group_of_[at(body_.facet_of(body_.twin(e)))]);
+    std::set<int> joined{group_of_[group.facets[0]]};
+    for (const EdgeId e : group.rim) joined.insert(group_of_[body_.facet_of(body_.twin(e))]);
     Component all;
     for (const int g : joined)
       if (groups[at(g)].facets.size() >= 2)
@@ -206,19 +208,19 @@ class CornerHoleFinder {
   [[nodiscard]] std::vector<PlaneSide> sides_for(const Component& component) const {
     if (!options_.has_all_sides) return component.sides;
     std::set<PlaneSide> sides;
-    for (const int f : component.facets)
-      body_.for_each_edge(f, [&](int e) {
+    for (const BodyFacetId f : component.facets)
+      body_.for_each_edge(f, [&](EdgeId e) {
         if (!body_.is_reflex(e)) sides.insert(body_.side_of_edge(body_.twin(e)));
       });
     for (const PlaneSide side : all_sides_)
-      if (std::ranges::any_of(component.facets, [&](int f) { return crosses(f, side); }))
+      if (std::ranges::any_of(component.facets, [&](BodyFacetId f) { return crosses(f, side); }))
         sides.insert(side);
     return {sides.begin(), sides.end()};
   }
 
-  [[nodiscard]] bool crosses(int f, PlaneSide side) const {
+  [[nodiscard]] bool crosses(BodyFacetId f, PlaneSide side) const {
     bool has_front = false, has_back = false;
-    body_.for_each_edge(f, [&](int e) {
+    body_.for_each_edge(f, [&](EdgeId e) {
       const int here = level(body_.origin(e), side);
       has_front |= here > 0;
       has_back |= here < 0;
@@ -227,10 +229,10 @@ class CornerHoleFinder {
   }
 
   /// The edges of a component's facets, each once.
-  [[nodiscard]] std::vector<int> edges_of(const Component& component) const {
-    std::vector<int> edges;
-    for (const int f : component.facets)
-      body_.for_each_edge(f, [&](int e) { edges.push_back(std::min(e, body_.twin(e))); });
+  [[nodiscard]] std::vector<EdgeId> edges_of(const Component& component) const {
+    std::vector<EdgeId> edges;
+    for (const BodyFacetId f : component.facets)
+      body_.for_each_edge(f, [&](EdgeId e) { edges.push_back(std::min(e, body_.twin(e))); });
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
@@ -245,7 +247,7 @@ class CornerHoleFinder {
   [[nodiscard]] bool can_cut(const std::vector<PlaneSide>& set) const {
     bool has_bend = false;
     std::vector<char> is_met(set.size(), 0);
-    for (const int e : edges_) {
+    for (const EdgeId e : edges_) {
       bool is_behind = true, reaches_behind = true;
       for (const PlaneSide side : set) {
         const int low = std::min(level(body_.origin(e), side), level(body_.target(e), side));
@@ -275,8 +277,8 @@ class CornerHoleFinder {
   const CornerHoleOptions& options_;
   std::int64_t& work_;
   std::set<PlaneSide> all_sides_;
-  std::vector<int> group_of_;  ///< by facet
-  std::vector<int> edges_;     ///< of the component at hand
+  IndexedVector<BodyFacetId, int> group_of_;
+  std::vector<EdgeId> edges_;  ///< of the component at hand
   std::set<std::vector<PlaneSide>> seen_;
   std::vector<Patch> patches_;
 };
@@ -289,7 +291,7 @@ std::vector<Patch> find_corner_holes(const Boundary& body, const CornerHoleOptio
 }
 
 void remove_seams(Boundary& body) {
-  for (const int f : body.living_facets())
+  for (const BodyFacetId f : body.living_facets())
     if (body.is_alive(f)) body.heal(f);
 }
 

@@ -21,10 +21,11 @@ namespace oriel::detail {
 /// A number for each of some numbers, sorted.
 using NumberMap = std::vector<std::pair<int, int>>;
 
-/// The number that `i` is mapped to; nothing if there is none.
-inline std::optional<int> find_in(const NumberMap& map, int i) {
-  const auto found = std::ranges::lower_bound(map, i, {}, &std::pair<int, int>::first);
-  if (found == map.end() || found->first != i) return std::nullopt;
+/// What `key` is mapped to in a sorted list of pairs; nothing if there is nothing.
+template <class Key, class Value>
+std::optional<Value> find_in(const std::vector<std::pair<Key, Value>>& map, Key key) {
+  const auto found = std::ranges::lower_bound(map, key, {}, &std::pair<Key, Value>::first);
+  if (found == map.end() || found->first != key) return std::nullopt;
   return found->second;
 }
 

@@ -97,9 +97,9 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
   const CellId id{static_cast<int>(out_.cells.size())};
   Cell cell{sign, body.volume(), is_convex, flag, node, feature, {}};
   const CornerLoops all_corners(body);
-  const std::vector<int> facets = body.living_facets();
+  const std::vector<BodyFacetId> facets = body.living_facets();
   cell.facets.reserve(facets.size());
-  for (const int f : facets) {
+  for (const BodyFacetId f : facets) {
     const auto& record = body.facet(f);
     const CellFacet here{id, static_cast<int>(cell.facets.size())};
     Facet& facet = cell.facets.emplace_back();

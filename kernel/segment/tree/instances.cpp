@@ -41,7 +41,7 @@ class Instances::SubtreeCopier {
   }
 
  private:
-  static void fill(StampMap& map, int size, const NumberMap& numbers) {
+  static void fill(StampMap<int>& map, int size, const NumberMap& numbers) {
     map.start(size);
     for (const auto& [one, other] : numbers) map.set(one, other);
   }
@@ -122,7 +122,8 @@ class Instances::SubtreeCopier {
   World& world_;
   CellWriter& cells_;
   Segmentation& out_;
-  StampMap &points_, &planes_;  ///< as `how` has them
+  StampMap<int>& points_;  ///< as `how` has them
+  StampMap<int>& planes_;  ///< likewise
   NodeId node_;
   FeatureId feature_;
   int new_node_ = 0, new_feature_ = 0, new_cell_ = 0;

@@ -36,7 +36,7 @@ TEST_SUITE("kernel/segment") {
     for (const int most : {0, 1, 5}) {
       std::vector<int> rooms(20);
       for (int& room : rooms) room = static_cast<int>(random() % static_cast<unsigned>(most + 1));
-      detail::GrowingLists lists;
+      detail::GrowingLists<int> lists;
       lists.make(rooms);
       std::vector<std::vector<int>> plain(rooms.size());
       for (int number = 0; number < 1000; ++number) {
@@ -49,7 +49,7 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("a number is put into a run of lists at once") {
-    detail::GrowingLists lists;
+    detail::GrowingLists<int> lists;
     lists.make(std::vector<int>{2, 0, 1, 0});
     for (int number = 0; number < 7; ++number) lists.push_back(1, 2, number);
     const std::vector<int> all{0, 1, 2, 3, 4, 5, 6};
@@ -60,7 +60,7 @@ TEST_SUITE("kernel/segment") {
   }
 
   TEST_CASE("lists with room for what they get are filled in place") {
-    detail::GrowingLists lists;
+    detail::GrowingLists<int> lists;
     lists.make(std::vector<int>{1, 3, 2});
     lists.push_back_in_room(1, 2, 5);
     lists.push_back_in_room(0, 1, 6);
