@@ -4,7 +4,6 @@
 #include "kernel/base/log.h"
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/rings/ring_features.h"
-#include "kernel/segment/segment_open.h"
 #include "kernel/solidify/noise.h"
 #include "kernel/solidify/open_shell.h"
 #include "kernel/solidify/solidify.h"

@@ -1,4 +1,4 @@
-#include "kernel/segment/boundary/flat_body.h"
+#include "kernel/segment/boundary/boundary.h"
 
 #include "tests/support/houses.h"
 #include "tests/support/shapes.h"
@@ -20,7 +20,7 @@ using detail::World;
 
 std::vector<std::pair<int, int>> living_edges_of(const Boundary& body) {
   std::vector<std::pair<int, int>> edges;
-  for (int e = 0; e < body.half_edge_count(); ++e)
+  for (const EdgeId e : body.half_edge_ids())
     if (body.is_alive_edge(e)) edges.emplace_back(std::minmax(body.origin(e), body.target(e)));
   std::ranges::sort(edges);
   return edges;
@@ -29,13 +29,13 @@ std::vector<std::pair<int, int>> living_edges_of(const Boundary& body) {
 void check_lists(const Boundary& body) {
   FlatBody flat(body);
   std::vector<std::pair<int, int>> twice;
-  for (const FlatBody::Edge& edge : flat.edges())
+  for (const FlatBody::EdgePoints& edge : flat.edges())
     twice.insert(twice.end(), 2, std::minmax(edge.from, edge.to));
   std::ranges::sort(twice);
   CHECK(twice == living_edges_of(body));
-  std::vector<int> facets;
+  std::vector<detail::BodyFacetId> facets;
   const detail::PlaneTable& planes = body.world().planes;
-  for (const FlatBody::Facet& facet : flat.facets()) {
+  for (const FlatBody::RankedFacet& facet : flat.facets()) {
     facets.push_back(facet.number);
     const int plane = body.facet(facet.number).side >> 1;
     CHECK(facet.normal_class == planes.class_of(plane));
@@ -46,13 +46,13 @@ void check_lists(const Boundary& body) {
 
 /// Fills the first hole of a facet; what lay inside goes. False if there is none.
 bool fill_a_hole(Boundary& body) {
-  for (const int f : body.living_facets())
-    for (const int l : body.facet(f).loops) {
+  for (const detail::BodyFacetId f : body.living_facets())
+    for (const LoopId l : body.facet(f).loops) {
       if (!body.loop(l).is_hole) continue;
-      std::vector<int> inside{body.facet_of(body.twin(body.loop(l).first))};
+      std::vector<detail::BodyFacetId> inside{body.facet_of(body.twin(body.loop(l).first))};
       for (std::size_t i = 0; i < inside.size(); ++i)
-        body.for_each_edge(inside[i], [&](int e) {
-          const int g = body.facet_of(body.twin(e));
+        body.for_each_edge(inside[i], [&](EdgeId e) {
+          const detail::BodyFacetId g = body.facet_of(body.twin(e));
           if (g != f && std::ranges::find(inside, g) == inside.end()) inside.push_back(g);
         });
       const double area = -body.loop(l).area;

@@ -1,4 +1,4 @@
-#include "kernel/segment/instances/instances.h"
+#include "kernel/segment/tree/instances.h"
 
 #include "kernel/base/index.h"
 #include "kernel/base/issue.h"
@@ -41,7 +41,7 @@ class Instances::SubtreeCopier {
   }
 
  private:
-  static void fill(StampMap& map, int size, const NumberMap& numbers) {
+  static void fill(StampMap<int>& map, int size, const NumberMap& numbers) {
     map.start(size);
     for (const auto& [one, other] : numbers) map.set(one, other);
   }
@@ -58,7 +58,7 @@ class Instances::SubtreeCopier {
     return CellId{id.value - model_.first_cell.value + new_cell_};
   }
   PlaneId moved(PlaneId id) {
-    const Side side = cells_.side_of(id);
+    const PlaneSide side = cells_.side_of(id);
     if (planes_.find(side >> 1) < 0) throw GeometryError("a copy of a pocket has lost planes");
     return cells_.plane_id(2 * planes_.find(side >> 1) + (side & 1));
   }
@@ -122,7 +122,8 @@ class Instances::SubtreeCopier {
   World& world_;
   CellWriter& cells_;
   Segmentation& out_;
-  StampMap &points_, &planes_;  ///< as `how` has them
+  StampMap<int>& points_;  ///< as `how` has them
+  StampMap<int>& planes_;  ///< likewise
   NodeId node_;
   FeatureId feature_;
   int new_node_ = 0, new_feature_ = 0, new_cell_ = 0;

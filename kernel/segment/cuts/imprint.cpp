@@ -11,12 +11,12 @@ namespace {
 /// A corner of a facet on the section plane: the half-edge that comes to it and the one that
 /// leaves, as they were before any chord was put in.
 struct ChordStop {
-  int in = -1, out = -1;
+  EdgeId in = {}, out = {};
   double along = 0;
 };
 
 class Imprinter {
-  using Rim = boost::container::small_vector<int, 32>;  ///< half-edges
+  using Rim = boost::container::small_vector<EdgeId, 32>;
 
  public:
   Imprinter(Boundary& body, const Section& section, const Lump& lump, std::vector<int>& touched)
@@ -28,13 +28,13 @@ class Imprinter {
         plane_rank_(body.world().planes.rank_of(section.plane)),
         axis_(body.world().planes.normal(section.looking())) {}
 
-  std::vector<Cap> run() {
+  std::vector<CutCap> run() {
     split_edges();
     collect_corners();
-    std::vector<Cap> caps;
+    std::vector<CutCap> caps;
     for (const int r : lump_.regions) {
       const Region& region = section_.regions[at(r)];
-      Cap cap{section_.split_side(region), {}, region.covered};
+      CutCap cap{section_.split_side(region), {}, region.covered};
       for (const int l : region.loops) {
         CapLoop loop{rim_of(l)};
         if (!loop.edges.empty()) cap.loops.push_back(std::move(loop));
@@ -67,7 +67,7 @@ class Imprinter {
   /// Edges that cross the plane between their ends get a vertex there.
   void split_edges() {
     for_each_crossing([&](int c) {
-      const int e = section_.crossings[at(c)].edge;
+      const EdgeId e = section_.crossings[at(c)].edge;
       const int high = body_.origin(e), low = body_.target(e);
       if (level(low) == 0) return;
       const int f = body_.side_of_edge(e) >> 1, g = body_.side_of_edge(body_.twin(e)) >> 1;
@@ -78,29 +78,29 @@ class Imprinter {
   }
 
   /// The edge that a chord is already: it leads from one end of it to the other, and its facet
-  /// meets the plane nowhere else, as those of a window do. -1: none.
-  [[nodiscard]] int edge_of(int c) const {
-    const int begin = section_.crossings[at(c)].edge;
-    const int end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
-    const int e = body_.next(begin);
-    if (body_.next(e) != end) return -1;
+  /// meets the plane nowhere else, as those of a window do. Invalid: none.
+  [[nodiscard]] EdgeId edge_of(int c) const {
+    const EdgeId begin = section_.crossings[at(c)].edge;
+    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+    const EdgeId e = body_.next(begin);
+    if (body_.next(e) != end) return {};
     int on_plane = 0;
     body_.for_each_edge(body_.facet_of(begin),
-                        [&](int f) { on_plane += level(body_.origin(f)) == 0 ? 1 : 0; });
-    return on_plane == 2 ? e : -1;
+                        [&](EdgeId f) { on_plane += level(body_.origin(f)) == 0 ? 1 : 0; });
+    return on_plane == 2 ? e : EdgeId{};
   }
 
   /// For every facet that a chord may split: its corners on the plane that touch it from the other
   /// side, along the line.
   void collect_corners() {
     for_each_crossing([&](int c) {
-      if (edge_of(c) >= 0) return;
-      const int f = body_.facet_of(section_.crossings[at(c)].edge);
+      if (edge_of(c).is_valid()) return;
+      const BodyFacetId f = body_.facet_of(section_.crossings[at(c)].edge);
       const auto [entry, is_new] = corners_.try_emplace(f);
       if (!is_new) return;
       const Vec3 line = line_in(f);
-      body_.for_each_edge(f, [&](int e) {
-        const int out = body_.next(e);
+      body_.for_each_edge(f, [&](EdgeId e) {
+        const EdgeId out = body_.next(e);
         if (level(body_.target(e)) != 0 || level(body_.origin(e)) > 0 ||
             level(body_.target(out)) > 0)
           return;
@@ -111,7 +111,7 @@ class Imprinter {
     });
   }
 
-  [[nodiscard]] Vec3 line_in(int f) const {
+  [[nodiscard]] Vec3 line_in(BodyFacetId f) const {
     return cross(axis_, body_.world().planes.normal(body_.facet(f).side));
   }
 
@@ -120,7 +120,7 @@ class Imprinter {
     Rim rim;
     int c = section_.loops[at(l)].first;
     do {
-      if (const int e = edge_of(c); e >= 0)
+      if (const EdgeId e = edge_of(c); e.is_valid())
         rim.push_back(e);
       else
         add_chord(c, rim);
@@ -129,7 +129,7 @@ class Imprinter {
     cancel_spikes(rim);
     std::vector<CapEdge> edges;
     edges.reserve(rim.size());
-    for (const int e : rim) edges.push_back({e, body_.origin(e), body_.target(e)});
+    for (const EdgeId e : rim) edges.push_back({e, body_.origin(e), body_.target(e)});
     return edges;
   }
 
@@ -137,11 +137,11 @@ class Imprinter {
   /// The chord goes from corner to corner; where an existing edge leads from one to the next it is
   /// that edge.
   void add_chord(int c, Rim& rim) {
-    const int begin = section_.crossings[at(c)].edge;
-    const int end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
-    const int f = body_.facet_of(begin);
+    const EdgeId begin = section_.crossings[at(c)].edge;
+    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+    const BodyFacetId f = body_.facet_of(begin);
     const Vec3 line = line_in(f);
-    const int last_in = body_.prev(end);
+    const EdgeId last_in = body_.prev(end);
     boost::container::small_vector<ChordStop, 4> stops{
         {begin, body_.next(begin), dot(line, body_.world().points.at(body_.target(begin)))}};
     const double goal = dot(line, body_.at(end));
@@ -150,13 +150,13 @@ class Imprinter {
     stops.push_back({last_in, end, goal});
     if (body_.target(begin) == body_.origin(end)) stops.pop_back();
 
-    int tail = begin;
+    EdgeId tail = begin;
     if (stops.size() == 1 && stops[0].out != end) {
       // The facet touches the plane in a point: its parts on the two sides come apart there.
       relink(f, last_in, stops[0].out);
     }
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      const int old_out = stops[i].out, old_in = stops[i + 1].in;
+      const EdgeId old_out = stops[i].out, old_in = stops[i + 1].in;
       if (old_out == old_in) {
         relink(f, tail, old_out);
         tail = old_out;
@@ -168,7 +168,7 @@ class Imprinter {
     relink(f, tail, end);
   }
 
-  void relink(int f, int e, int after) {
+  void relink(BodyFacetId f, EdgeId e, EdgeId after) {
     if (body_.next(e) == after) return;
     body_.link(e, after);
     fresh_[f].push_back(after);
@@ -176,9 +176,9 @@ class Imprinter {
 
   /// A new edge from where `tail` ends to `to`: the upper half-edge continues the tail, the lower
   /// one leads from `old_in` to `old_out`. Returns the upper one.
-  int add_piece(int f, int tail, int old_out, int old_in, int to) {
+  EdgeId add_piece(BodyFacetId f, EdgeId tail, EdgeId old_out, EdgeId old_in, int to) {
     const int from = body_.origin(old_out);
-    const int upper = body_.add_edge(from), lower = body_.add_edge(to);
+    const EdgeId upper = body_.add_edge(from), lower = body_.add_edge(to);
     body_.pair(upper, lower);
     body_.link(tail, upper);
     body_.link(old_in, lower);
@@ -194,7 +194,7 @@ class Imprinter {
     for (std::size_t i = 0; i < rim.size(); ++i) has_spike = has_spike || is_back(i);
     if (!has_spike) return;
     Rim out;
-    for (const int e : rim) {
+    for (const EdgeId e : rim) {
       if (!out.empty() && body_.twin(out.back()) == e)
         out.pop_back();
       else
@@ -214,15 +214,15 @@ class Imprinter {
   int normal_class_;
   int plane_rank_;
   Vec3 axis_;
-  std::map<int, boost::container::small_vector<ChordStop, 4>> corners_;
-  std::map<int, boost::container::small_vector<int, 8>>
+  std::map<BodyFacetId, boost::container::small_vector<ChordStop, 4>> corners_;
+  std::map<BodyFacetId, boost::container::small_vector<EdgeId, 8>>
       fresh_;  ///< half-edges whose cycles have changed, by facet
 };
 
 }  // namespace
 
-std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lump,
-                         std::vector<int>& touched) {
+std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
+                            std::vector<int>& touched) {
   return Imprinter(body, section, lump, touched).run();
 }
 

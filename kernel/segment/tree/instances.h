@@ -1,7 +1,5 @@
 #pragma once
 
-#include "kernel/segment/boundary/leaf.h"
-#include "kernel/segment/instances/congruence.h"
 #include "kernel/segment/tree/cells.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "kernel/segment/cuts/cap_areas.h"
+#include "kernel/segment/cuts/capping.h"
 
 #include <array>
 #include <cmath>
