@@ -8,8 +8,7 @@ namespace oriel {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Surface = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
 
 bool is_of_triangles(const Mesh& mesh) {
   for (int f = 0; f < mesh.faces(); ++f)

@@ -38,7 +38,7 @@ class OpenMeshBuilder {
 
  private:
   /// A half-edge with the ends of its edge.
-  struct Entry {
+  struct HalfEdgeEnds {
     int low, high, half_edge;
     [[nodiscard]] std::pair<int, int> ends() const { return {low, high}; }
   };
@@ -92,7 +92,7 @@ class OpenMeshBuilder {
     for (int h = 0; h < soup_.corner_count(); ++h)
       edges_.push_back({std::min(from(h), to(h)), std::max(from(h), to(h)), h});
     std::ranges::sort(edges_, {},
-                      [](const Entry& e) { return std::tuple(e.low, e.high, e.half_edge); });
+                      [](const HalfEdgeEnds& e) { return std::tuple(e.low, e.high, e.half_edge); });
   }
   /// Visits the half-edges of each edge, as [first, past) of `edges_`.
   template <class Visit>
@@ -185,7 +185,7 @@ class OpenMeshBuilder {
 
   Soup& soup_;
   ShellMesh mesh_;
-  std::vector<Entry> edges_;  ///< sorted
+  std::vector<HalfEdgeEnds> edges_;  ///< sorted
   std::vector<Vec3> area_, outward_;
   std::vector<char> is_turned_;
 };

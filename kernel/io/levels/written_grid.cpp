@@ -14,12 +14,12 @@ constexpr double kMicrometres = 1e6;
 /// A micrometre has so many decimals of a metre.
 constexpr int kDecimals = 6;
 
-struct Grid {
+struct DocumentGrid {
   detail::Transform transform;
   bool is_fixed = false;  ///< by the header of a stream
 };
 
-Grid grid_of(const Document& document) {
+DocumentGrid grid_of(const Document& document) {
   if (document.source) return {document.source->transform, document.source->is_feature};
   return {detail::fresh_cityjson(document.buildings).transform, false};
 }
@@ -48,7 +48,7 @@ void note_decimals(const MicrometreRing& ring, int& decimals) {
 
 WrittenGrid::WrittenGrid(const Document& document,
                          const std::vector<const LabelledBuilding*>& labelled) {
-  const Grid grid = grid_of(document);
+  const DocumentGrid grid = grid_of(document);
   std::vector<detail::PlacedSolid> solids;
   for (const LabelledBuilding* building : labelled)
     if (!grid.is_fixed) digits_ = std::max(digits_, building->digits);
@@ -63,7 +63,7 @@ WrittenGrid::WrittenGrid(const Document& document,
 }
 
 WrittenGrid::WrittenGrid(const Document& document, const std::vector<LevelState>& states) {
-  const Grid grid = grid_of(document);
+  const DocumentGrid grid = grid_of(document);
   int decimals = 0;
   for (const LevelState& state : states)
     for (const auto& [outer, facet] : state.facets) {

@@ -49,7 +49,7 @@ class CsvReader {
     if (read_plain_line(cells)) return true;
     bool is_more = true;
     while (is_more && !fault) {
-      const Cell cell = read_cell(fault);
+      const CsvCell cell = read_cell(fault);
       cells.push_back(cell.text);
       is_more = cell.is_more;
     }
@@ -60,7 +60,7 @@ class CsvReader {
   [[nodiscard]] std::size_t start() const { return start_; }
 
  private:
-  struct Cell {
+  struct CsvCell {
     std::string_view text;
     /// A comma ends it.
     bool is_more = false;
@@ -82,8 +82,8 @@ class CsvReader {
     }
   }
 
-  Cell read_cell(std::optional<std::string>& fault) {
-    Cell cell;
+  CsvCell read_cell(std::optional<std::string>& fault) {
+    CsvCell cell;
     if (at_ < text_.size() && text_[at_] == '"') {
       cell.text = read_quoted(fault);
     } else {

@@ -45,7 +45,7 @@ class ContactCutter {
     EdgeGroups(soup_, mesh).for_each([&](EdgeGroup group) {
       if (group.size() != 1) return;
       const int own = mesh.polygon_of[at(group[0])];
-      const Edge edge =
+      const PointPair edge =
           std::minmax({soup_.corners[at(group[0])], soup_.corners[at(mesh.next[at(group[0])])]});
       const Vec3 from = place(edge.first), to = place(edge.second);
       tree.search([&](const Box& box) { return comes_near(box, from, to, reach_); },
@@ -68,7 +68,7 @@ class ContactCutter {
   const Soup& soup_;
   const std::vector<PolygonShape>& shapes_;
   double reach_;
-  std::map<int, std::vector<Edge>> contacts_;  ///< by polygon
+  std::map<int, std::vector<PointPair>> contacts_;  ///< by polygon
   int cut_ = 0;
 };
 

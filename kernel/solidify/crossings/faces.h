@@ -15,7 +15,7 @@ namespace oriel::detail {
 inline constexpr double kSameArea = 1e-3;
 
 /// Two points of a soup, the smaller first.
-using Edge = std::pair<int, int>;
+using PointPair = std::pair<int, int>;
 
 /// A polygon of a soup and what cuts it.
 struct CutPolygon {
@@ -24,7 +24,7 @@ struct CutPolygon {
   std::vector<std::vector<int>> rings;
   /// Edges on the polygon, none of them one of the rings', that meet each other and the rings in
   /// common points only.
-  std::vector<Edge> edges;
+  std::vector<PointPair> edges;
 };
 
 /// A ring of a polygon as points of the soup.
@@ -38,7 +38,7 @@ using Loops = std::vector<std::vector<int>>;
 /// What half-edges in a plane part it into. They must meet in common points only.
 struct Faces {
   /// Walks them, turning as far to the left as there is a way.
-  Faces(const Soup& soup, Vec3 normal, const std::vector<Edge>& half_edges);
+  Faces(const Soup& soup, Vec3 normal, const std::vector<PointPair>& half_edges);
 
   /// The outer loop of a face and those of its holes.
   [[nodiscard]] std::vector<std::size_t> rings_of(std::size_t face) const;

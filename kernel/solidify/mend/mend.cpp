@@ -162,12 +162,12 @@ constexpr double kCapReach = 5;
 constexpr int kCapSource = -1;
 
 /// A soup with what is known of it.
-struct Stage {
+struct MendStage {
   Soup soup;
   std::vector<PolygonShape> shapes;
   PolygonCells cells;
 
-  explicit Stage(Soup polygons)
+  explicit MendStage(Soup polygons)
       : soup(std::move(polygons)), shapes(shapes_of(soup)), cells(find_cells(soup, shapes)) {}
 
   /// Less is enclosed than is left over.
@@ -196,7 +196,7 @@ Soup without_duplicates(const Soup& soup, std::vector<int>& duplicates) {
 }
 
 /// The soup with caps for its plane holes, each behind the polygons of its body.
-Soup with_caps(const Stage& stage, double reach, double max_area) {
+Soup with_caps(const MendStage& stage, double reach, double max_area) {
   const Soup& soup = stage.soup;
   std::vector<CapDraft> caps = find_caps(soup, stage.shapes, reach, max_area);
   const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
@@ -217,11 +217,11 @@ Soup with_caps(const Stage& stage, double reach, double max_area) {
 }
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
-Stage close_holes(Stage stage, const Tolerances& tolerances, double cap_area_m2) {
+MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2) {
   if (cap_area_m2 <= 0 || !stage.is_open()) return stage;
   const double grid_m = stage.soup.grid_m;
   const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
-  return Stage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
+  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
 }
 
 /// The polygons cut where others run through them or lie on them.
@@ -236,16 +236,16 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
 
 /// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
 /// the options allow. Each only if what came before was not enough.
-Stage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
+MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
             RepairReport& report) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
-  Stage stage = close_holes(Stage(soup), tolerances, area_m2);
+  MendStage stage = close_holes(MendStage(soup), tolerances, area_m2);
   if (stage.is_open() && options.crossings != Crossings::leave) {
     soup = without_crossings(soup, tolerances, report);
-    stage = close_holes(Stage(soup), tolerances, area_m2);
+    stage = close_holes(MendStage(soup), tolerances, area_m2);
   }
   if (options.close != Closing::any || !stage.is_open()) return stage;
-  return close_holes(Stage(std::move(soup)), tolerances, std::numeric_limits<double>::infinity());
+  return close_holes(MendStage(std::move(soup)), tolerances, std::numeric_limits<double>::infinity());
 }
 
 std::vector<OpenEdge> open_edges_of(const Soup& soup) {
@@ -261,7 +261,7 @@ std::vector<OpenEdge> open_edges_of(const Soup& soup) {
   return open;
 }
 
-Cap cap_of(const Stage& stage, int polygon) {
+Cap cap_of(const MendStage& stage, int polygon) {
   const double grid_m = stage.soup.grid_m;
   Cap cap{stage.shapes[at(polygon)].area * grid_m * grid_m, {}};
   const auto corners = stage.soup.corners_of(polygon);
@@ -282,7 +282,7 @@ void drop_kept(const Soup& soup, std::vector<int>& polygons) {
 }
 
 /// Fills the soup and the rest of the report.
-void keep_boundary(const Stage& stage, bool is_solid, Mended& mended) {
+void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended) {
   const auto& [soup, shapes, cells] = stage;
   const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid);
   RepairReport& report = mended.report;
@@ -329,7 +329,7 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
       cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
-  Stage stage = close(std::move(whole), tolerances, options, report);
+  MendStage stage = close(std::move(whole), tolerances, options, report);
   mended.is_open = stage.is_open();
   if (mended.is_open)
     report.open_edges = std::move(open);

@@ -36,32 +36,32 @@ struct WaysRound {
   int standing = 0;
 };
 
-using Edge = std::pair<int, int>;  ///< points, the smaller one first
+using PointPair = std::pair<int, int>;  ///< points, the smaller one first
 
 template <class Visit>
 void for_each_edge(const Soup& soup, int polygon, Visit visit) {
   for (const int r : soup.rings_of(polygon)) {
     const auto ring = soup.ring(r);
     for (std::size_t k = 0; k < ring.size(); ++k)
-      visit(Edge(std::minmax({ring[k], ring[(k + 1) % ring.size()]})));
+      visit(PointPair(std::minmax({ring[k], ring[(k + 1) % ring.size()]})));
   }
 }
 
-double edge_length(const Soup& soup, Edge edge) {
+double edge_length(const Soup& soup, PointPair edge) {
   const auto &p = soup.points[at(edge.first)], &q = soup.points[at(edge.second)];
   return length({static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]),
                  static_cast<double>(p[2] - q[2])});
 }
 
 /// The polygons at the edges of those that are undecided.
-std::map<Edge, std::vector<int>> polygons_beside(const Soup& soup,
+std::map<PointPair, std::vector<int>> polygons_beside(const Soup& soup,
                                                  const std::vector<int>& undecided) {
   std::vector<char> is_near(soup.points.size(), 0);
   for (const int i : undecided)
     for (const int v : soup.corners_of(i)) is_near[at(v)] = 1;
-  std::map<Edge, std::vector<int>> polygons_at;
+  std::map<PointPair, std::vector<int>> polygons_at;
   for (int i = 0; i < soup.polygon_count(); ++i)
-    for_each_edge(soup, i, [&](Edge edge) {
+    for_each_edge(soup, i, [&](PointPair edge) {
       if (is_near[at(edge.first)] && is_near[at(edge.second)]) polygons_at[edge].push_back(i);
     });
   return polygons_at;
@@ -72,7 +72,7 @@ void decide_standing(const Soup& soup, std::span<const double> cosines, std::spa
   const auto polygons_at = polygons_beside(soup, undecided);
   std::vector<double> votes(soup.polygons.size(), 0);
   for (const int i : undecided)
-    for_each_edge(soup, i, [&](Edge edge) {
+    for_each_edge(soup, i, [&](PointPair edge) {
       for (const int j : polygons_at.at(edge))
         if (j != i && planes[at(j)] == planes[at(i)] && !is_standing(cosines[at(j)]))
           votes[at(i)] += (is_turned[at(j)] ? -1 : 1) * edge_length(soup, edge);
@@ -179,14 +179,14 @@ class Clusterer {
   [[nodiscard]] int exact_place(int polygon) const {
     const PolygonShape& shape = shapes_[at(polygon)];
     if (!shape.normal) return -1;
-    const Normal normal = unoriented(*shape.normal);
+    const IntegerNormal normal = unoriented(*shape.normal);
     const auto offset = offset_if_flat(soup_, polygon, normal);
     return offset ? planes_.exact_place(normal, *offset) : -1;
   }
 
   /// `uncertainty` is the polygon's.
   [[nodiscard]] bool is_tilted_too_far(const PolygonShape& shape, double uncertainty,
-                                       const NormalClass& c) const {
+                                       const ParallelPlanes& c) const {
     const double allowed = angle_tolerance_ + uncertainty;
     if (!shape.normal || allowed >= std::numbers::pi / 2) return false;
     return is_arcsine_above(length(cross(shape.unit, c.unit)), allowed);
@@ -194,9 +194,9 @@ class Clusterer {
 
   /// The best place for the polygon in one class, if there is one.
   [[nodiscard]] std::optional<PlaneFit> fit(int polygon, double uncertainty, int k) const {
-    const NormalClass& c = planes_.classes()[at(k)];
+    const ParallelPlanes& c = planes_.classes()[at(k)];
     if (is_tilted_too_far(shapes_[at(polygon)], uncertainty, c)) return std::nullopt;
-    const Span span = span_along(soup_, polygon, c.normal);
+    const OffsetSpan span = span_along(soup_, polygon, c.normal);
     if (const auto known = planes_.known_fit(k, span, offset_tolerance_)) return known;
     const std::int64_t middle = middle_along(polygon, c.normal, span);
     const double residual = residual_of(span, middle);
@@ -205,8 +205,8 @@ class Clusterer {
   }
 
   /// The offset of the polygon's own plane of that normal.
-  [[nodiscard]] std::int64_t middle_along(int polygon, const Normal& normal,
-                                          const Span& span) const {
+  [[nodiscard]] std::int64_t middle_along(int polygon, const IntegerNormal& normal,
+                                          const OffsetSpan& span) const {
     return is_united_.empty() || !is_united_[at(polygon)] ? span.mean
                                                           : median_along(soup_, polygon, normal);
   }
@@ -231,7 +231,7 @@ class Clusterer {
   }
 
   int place_in_own_class(int polygon) {
-    const Normal normal = unoriented(shapes_[at(polygon)].normal.value_or(Normal{0, 0, 1}));
+    const IntegerNormal normal = unoriented(shapes_[at(polygon)].normal.value_or(IntegerNormal{0, 0, 1}));
     const int k = planes_.add_class(normal);
     return planes_.number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
   }
@@ -291,9 +291,9 @@ class Clusterer {
   [[nodiscard]] int class_of(int place) const { return planes_.places()[at(place)].normal_class; }
 
   [[nodiscard]] bool own_class_exists(int polygon, int k) const {
-    const Normal& own = *shapes_[at(polygon)].normal;
-    const Normal& n = planes_.classes()[at(k)].normal;
-    return own == n || own == Normal{-n[0], -n[1], -n[2]};
+    const IntegerNormal& own = *shapes_[at(polygon)].normal;
+    const IntegerNormal& n = planes_.classes()[at(k)].normal;
+    return own == n || own == IntegerNormal{-n[0], -n[1], -n[2]};
   }
 
   /// The place of a larger polygon at a vertex of `polygon`, on another plane of its class; or -1.

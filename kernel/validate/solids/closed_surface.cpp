@@ -87,9 +87,9 @@ bool ClosedSurface::contains(const MicrometrePoint& point) const {
   }
 }
 
-Relation relate(const ClosedSurface& first, const ClosedSurface& second) {
+SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second) {
   bool do_pierce = false;
-  Relation out;
+  SurfaceRelation out;
   for (const MicrometreTriangle& triangle : second.triangles()) {
     if (do_pierce) break;
     first.tree().for_each_overlap(box_of(triangle), [&](int i) {

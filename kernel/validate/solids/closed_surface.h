@@ -36,7 +36,7 @@ class ClosedSurface {
 };
 
 /// How two bodies lie to each other.
-struct Relation {
+struct SurfaceRelation {
   /// The same set of points.
   bool are_alike = false;
   /// Their interiors have points in common.
@@ -51,7 +51,7 @@ struct Relation {
 
 /// Exact. Bodies whose surfaces do not meet, or pierce each other, take near-linear time; those
 /// that touch are put to CGAL's Nef polyhedra, which take about a millisecond a triangle.
-Relation relate(const ClosedSurface& first, const ClosedSurface& second);
+SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second);
 
 /// The number of pieces of the interior of `outer` without `cavities`, which lie inside it and
 /// share no area with it or each other.

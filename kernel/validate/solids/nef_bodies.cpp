@@ -10,9 +10,9 @@ namespace oriel::detail {
 
 namespace {
 
-using Kernel = CGAL::Homogeneous<CGAL::Exact_integer>;
-using Polyhedron = CGAL::Polyhedron_3<Kernel>;
-using Nef = CGAL::Nef_polyhedron_3<Kernel>;
+using NefKernel = CGAL::Homogeneous<CGAL::Exact_integer>;
+using Polyhedron = CGAL::Polyhedron_3<NefKernel>;
+using Nef = CGAL::Nef_polyhedron_3<NefKernel>;
 
 /// Puts a closed surface into a half-edge structure.
 class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
@@ -23,7 +23,7 @@ class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
     CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(structure, true);
     builder.begin_surface(surface_.points().size(), surface_.corners().size());
     for (const MicrometrePoint& p : surface_.points())
-      builder.add_vertex(Kernel::Point_3(CGAL::Exact_integer(static_cast<double>(p[0])),
+      builder.add_vertex(NefKernel::Point_3(CGAL::Exact_integer(static_cast<double>(p[0])),
                                          CGAL::Exact_integer(static_cast<double>(p[1])),
                                          CGAL::Exact_integer(static_cast<double>(p[2]))));
     for (const auto& corners : surface_.corners())
@@ -44,10 +44,10 @@ Nef nef_of(const ClosedSurface& surface) {
 
 }  // namespace
 
-Relation relate_by_nef(const ClosedSurface& first, const ClosedSurface& second) {
+SurfaceRelation relate_by_nef(const ClosedSurface& first, const ClosedSurface& second) {
   const Nef p = nef_of(first);
   const Nef q = nef_of(second);
-  Relation out;
+  SurfaceRelation out;
   out.do_touch = true;
   out.do_overlap = !(p.interior() * q.interior()).is_empty();
   out.is_second_inside = (q.interior() - p).is_empty();

@@ -5,7 +5,7 @@
 namespace oriel::detail {
 
 /// relate() of bodies whose surfaces touch, by Nef polyhedra.
-Relation relate_by_nef(const ClosedSurface& first, const ClosedSurface& second);
+SurfaceRelation relate_by_nef(const ClosedSurface& first, const ClosedSurface& second);
 
 /// count_pieces() by Nef polyhedra.
 int count_pieces_by_nef(const ClosedSurface& outer,
