@@ -129,7 +129,7 @@ struct MeshedSoup {
 
 /// The shells of a building whose polygons are no closed shell as they came.
 MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
-                     const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
+                         const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
   std::vector<Issue> told_before;
   const Soup soup = detail::weld(building, tolerances, told_before);
   detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair);
@@ -158,7 +158,7 @@ MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
 /// The boundary of the inside of closed surfaces; nothing if they are none, or if what is cut does
 /// not close.
 std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Tolerances& tolerances,
-                                       const Soup& soup, Solidified& out) {
+                                           const Soup& soup, Solidified& out) {
   auto uncrossed = detail::uncross(soup, tolerances);
   if (!uncrossed) return std::nullopt;
   // Which shell a piece is of is seen only now.
@@ -177,7 +177,7 @@ std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Toler
 }
 
 MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
-                 const RepairOptions& repair, Solidified& out) {
+                     const RepairOptions& repair, Solidified& out) {
   MeshedSoup shells{detail::weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
     out.issues.push_back(error(building, Code::E301,
@@ -194,7 +194,7 @@ MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
 }
 
 MeshedSoup closed_shells(const Building& building, const Tolerances& tolerances,
-                     const RepairOptions& repair, Solidified& out) {
+                         const RepairOptions& repair, Solidified& out) {
   const bool cuts_closed = repair.crossings == Crossings::cut_closed;
   if (cuts_closed) {
     std::vector<Issue> issues;

@@ -29,7 +29,7 @@ bool is_judged_as_solid(const Building& building, ValidateOptions::Primitive pri
 using JudgedShells = std::map<std::pair<int, int>, std::optional<JudgedShell>>;
 
 JudgedShells judge_polygons(const SnappedBuilding& building, const ValidateOptions& options,
-                      FindingList& findings) {
+                            FindingList& findings) {
   // Findings come in the order of shells, whatever order the polygons are listed in.
   std::map<std::pair<int, int>, std::vector<const detail::SnappedPolygon*>> members;
   for (const detail::SnappedPolygon& polygon : building.polygons)

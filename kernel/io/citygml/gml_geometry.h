@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernel/io/citygml/xml_links.h"
 #include "kernel/io/citygml/xml_node.h"
 #include "kernel/model/vec3.h"
 

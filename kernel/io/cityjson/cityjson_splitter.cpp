@@ -1,8 +1,7 @@
 #include "kernel/io/cityjson/cityjson_splitter.h"
 
+#include "kernel/io/cityjson/cityjson_objects.h"
 #include "kernel/io/cityjson/cityjson_source.h"
-#include "kernel/io/cityjson/families.h"
-#include "kernel/io/cityjson/write/appearance_text.h"
 #include "kernel/io/cityjson/write/fresh_cityjson.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
 #include "kernel/io/json/json_text.h"

@@ -71,10 +71,11 @@ class LevelReader {
 
   /// Calls visit(polygon, its value) with each polygon under `boundaries`, nested `depth` deep.
   template <class Visit>
-  static void for_each_polygon(const ordered_json& boundaries, const ordered_json* values, int depth,
-                               const Visit& visit) {
+  static void for_each_polygon(const ordered_json& boundaries, const ordered_json* values,
+                               int depth, const Visit& visit) {
     for (std::size_t i = 0; i < boundaries.size(); ++i) {
-      const ordered_json* value = values != nullptr && values->is_array() ? &values->at(i) : nullptr;
+      const ordered_json* value =
+          values != nullptr && values->is_array() ? &values->at(i) : nullptr;
       if (depth == 0)
         visit(boundaries[i], value);
       else

@@ -1,12 +1,30 @@
 #include "kernel/io/json/json_text.h"
-#include "kernel/io/json/record_text.h"
-#include "kernel/io/records/csv_line.h"
+#include "kernel/io/records/feature_records.h"
+#include "kernel/io/records/record_text.h"
 
 #include <algorithm>
 #include <deque>
 #include <utility>
 
 #include <fmt/format.h>
+
+namespace oriel {
+
+void append_csv_line(std::string& out, const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) out += ',';
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+      out += cell;
+      continue;
+    }
+    out += '"';
+    for (const char c : cell) out.append(c == '"' ? 2 : 1, c);
+    out += '"';
+  }
+  out += '\n';
+}
+
+}  // namespace oriel
 
 namespace oriel::detail {
 

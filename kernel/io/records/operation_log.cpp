@@ -111,7 +111,8 @@ std::vector<MicrometreRing> rings_of(const ordered_json& json, const char* key) 
   return rings;
 }
 
-std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const ordered_json& json, const char* key) {
+std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const ordered_json& json,
+                                                             const char* key) {
   std::vector<std::pair<MicrometreRing, LevelFacet>> facets;
   const auto found = json.find(key);
   if (found == json.end()) return facets;
@@ -193,7 +194,7 @@ std::string operation_line(const SeriesOperation& operation) {
   if (!operation.with.empty()) out["with"] = operation.with;
   const Box& box = operation.aabb_m;
   out["aabb"] = box.is_empty() ? ordered_json() : ordered_json{box.min.x, box.min.y, box.min.z,
-                                               box.max.x, box.max.y, box.max.z};
+                                                               box.max.x, box.max.y, box.max.z};
   out["forward"] = json_of(operation.forward);
   out["inverse"] = json_of(operation.inverse);
   return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

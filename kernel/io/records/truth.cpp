@@ -1,7 +1,7 @@
 #include "kernel/io/records/truth.h"
 
 #include "kernel/io/files/input.h"
-#include "kernel/io/json/slow_json.h"
+#include "kernel/io/json/json_check.h"
 
 #include <algorithm>
 #include <array>

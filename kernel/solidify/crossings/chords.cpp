@@ -227,8 +227,8 @@ GrowingPoints::GridCell GrowingPoints::cell_of(Vec3 where) const {
 void GrowingPoints::enter(int point) { cells_[cell_of(place(point))].push_back(point); }
 
 std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
-                                           const std::vector<PolygonShape>& shapes, double reach,
-                                           GrowingPoints& points) {
+                                                const std::vector<PolygonShape>& shapes,
+                                                double reach, GrowingPoints& points) {
   return ChordFinder(soup, shapes, reach, points).run();
 }
 

@@ -34,7 +34,7 @@ class GrowingPoints {
 /// Of every polygon the edges on it along which others of its body run through it or lie on it, as
 /// pairs of points: not yet cut where they meet.
 std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
-                                           const std::vector<PolygonShape>& shapes, double reach,
-                                           GrowingPoints& points);
+                                                const std::vector<PolygonShape>& shapes,
+                                                double reach, GrowingPoints& points);
 
 }  // namespace oriel::detail

@@ -3,7 +3,6 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
-#include "kernel/solidify/soup/soup_builder.h"
 
 #include <span>
 #include <utility>
@@ -13,9 +12,6 @@ namespace oriel::detail {
 
 /// Areas that differ by less than this part are the same: points lie beside the plane.
 inline constexpr double kSameArea = 1e-3;
-
-/// Two points of a soup, the smaller first.
-using PointPair = std::pair<int, int>;
 
 /// A polygon of a soup and what cuts it.
 struct CutPolygon {

@@ -1,7 +1,7 @@
 #include "kernel/solidify/mend/caps.h"
 
 #include "kernel/base/index.h"
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 #include "kernel/solidify/shells/edge_groups.h"
 
 #include <algorithm>

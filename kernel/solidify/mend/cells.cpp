@@ -42,9 +42,10 @@ Int128 cosine(const IntegerNormal& m, const IntegerNormal& n, const GridPoint& a
 
 struct SpokeDirection {
   Spoke spoke;
-  IntegerNormal normal;  ///< that a half-edge that runs up would have: it follows the ray round the edge
-  int half = 0;   ///< 0: at an angle in [0, π) to the first ray, 1: in [π, 2π)
-  int rank = 0;   ///< among rays of the same direction
+  IntegerNormal
+      normal;    ///< that a half-edge that runs up would have: it follows the ray round the edge
+  int half = 0;  ///< 0: at an angle in [0, π) to the first ray, 1: in [π, 2π)
+  int rank = 0;  ///< among rays of the same direction
 };
 
 /// The half-edges of one edge counter-clockwise round it, by where their polygons lie. Decided
@@ -64,8 +65,8 @@ std::vector<Spoke> sort_round(const Soup& soup, const ShellMesh& mesh, const Edg
     const int polygon = mesh.polygon_of[at(h)];
     const auto& own = shapes[at(polygon)].normal;
     const IntegerNormal normal = !own      ? rays.empty() ? IntegerNormal{} : rays[0].normal
-                          : runs_up ? *own
-                                    : negated(*own);
+                                 : runs_up ? *own
+                                           : negated(*own);
     // Behind its like if it shows the larger of its two normals, before it if not.
     const bool is_larger = normal > negated(normal);
     rays.push_back({{h, runs_up}, normal, 0, is_larger ? polygon : -polygon});

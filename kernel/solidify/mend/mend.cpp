@@ -3,7 +3,6 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/solidify/crossings/contacts.h"
 #include "kernel/solidify/crossings/crossings.h"
 #include "kernel/solidify/mend/caps.h"
 #include "kernel/solidify/mend/cells.h"
@@ -12,7 +11,6 @@
 #include "kernel/solidify/shells/edge_groups.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
-#include "kernel/solidify/soup/soup_builder.h"
 
 #include <algorithm>
 #include <limits>
@@ -237,7 +235,7 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
 /// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
 /// the options allow. Each only if what came before was not enough.
 MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
-            RepairReport& report) {
+                RepairReport& report) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
   MendStage stage = close_holes(MendStage(soup), tolerances, area_m2);
   if (stage.is_open() && options.crossings != Crossings::leave) {
@@ -245,7 +243,8 @@ MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& op
     stage = close_holes(MendStage(soup), tolerances, area_m2);
   }
   if (options.close != Closing::any || !stage.is_open()) return stage;
-  return close_holes(MendStage(std::move(soup)), tolerances, std::numeric_limits<double>::infinity());
+  return close_holes(MendStage(std::move(soup)), tolerances,
+                     std::numeric_limits<double>::infinity());
 }
 
 std::vector<OpenEdge> open_edges_of(const Soup& soup) {

@@ -3,7 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/solidify/shells/edge_groups.h"
-#include "kernel/solidify/soup/soup_builder.h"
+#include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
 #include <map>

@@ -203,7 +203,8 @@ class Grouper {
   }
 
   /// True if both groups fit the plane of what they make together; sets its residual.
-  [[nodiscard]] bool fits(const PlaneGroup& large, const PlaneGroup& small, PlaneGroup& united) const {
+  [[nodiscard]] bool fits(const PlaneGroup& large, const PlaneGroup& small,
+                          PlaneGroup& united) const {
     const RoughPlane& plane = united.plane;
     if (is_tilted_too_far(large, united) || is_tilted_too_far(small, united)) return false;
     const double of_small = residual_of(small, plane);
@@ -331,7 +332,7 @@ class Grouper {
   double reach_;  ///< grid units
   double angle_;
   DisjointSets sets_;
-  Vec3 origin_;                ///< of the sums over points: near them
+  Vec3 origin_;                     ///< of the sums over points: near them
   std::vector<PlaneGroup> groups_;  ///< by the set's smallest member
 };
 

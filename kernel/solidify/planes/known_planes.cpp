@@ -64,7 +64,8 @@ std::vector<int> KnownPlanes::near_classes(Vec3 u) const {
   return found;
 }
 
-std::optional<PlaneFit> KnownPlanes::known_fit(int k, const OffsetSpan& span, double tolerance) const {
+std::optional<PlaneFit> KnownPlanes::known_fit(int k, const OffsetSpan& span,
+                                               double tolerance) const {
   const ParallelPlanes& c = classes_[at(k)];
   const double reach = tolerance * c.size;
   std::optional<PlaneFit> best;

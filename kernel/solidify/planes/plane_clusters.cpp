@@ -36,8 +36,6 @@ struct WaysRound {
   int standing = 0;
 };
 
-using PointPair = std::pair<int, int>;  ///< points, the smaller one first
-
 template <class Visit>
 void for_each_edge(const Soup& soup, int polygon, Visit visit) {
   for (const int r : soup.rings_of(polygon)) {
@@ -55,7 +53,7 @@ double edge_length(const Soup& soup, PointPair edge) {
 
 /// The polygons at the edges of those that are undecided.
 std::map<PointPair, std::vector<int>> polygons_beside(const Soup& soup,
-                                                 const std::vector<int>& undecided) {
+                                                      const std::vector<int>& undecided) {
   std::vector<char> is_near(soup.points.size(), 0);
   for (const int i : undecided)
     for (const int v : soup.corners_of(i)) is_near[at(v)] = 1;
@@ -231,7 +229,8 @@ class Clusterer {
   }
 
   int place_in_own_class(int polygon) {
-    const IntegerNormal normal = unoriented(shapes_[at(polygon)].normal.value_or(IntegerNormal{0, 0, 1}));
+    const IntegerNormal normal =
+        unoriented(shapes_[at(polygon)].normal.value_or(IntegerNormal{0, 0, 1}));
     const int k = planes_.add_class(normal);
     return planes_.number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
   }

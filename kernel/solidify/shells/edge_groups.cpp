@@ -33,7 +33,8 @@ struct EdgeNeighbour {
 };
 
 /// By polygon those beyond its edges with two half-edges.
-std::vector<std::vector<EdgeNeighbour>> neighbours_of(const Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups) {
+std::vector<std::vector<EdgeNeighbour>> neighbours_of(const Soup& soup, const ShellMesh& mesh,
+                                                      const EdgeGroups& groups) {
   std::vector<std::vector<EdgeNeighbour>> neighbours(soup.polygons.size());
   groups.for_each([&](EdgeGroup group) {
     if (group.size() != 2) return;
@@ -49,7 +50,8 @@ std::vector<std::vector<EdgeNeighbour>> neighbours_of(const Soup& soup, const Sh
 constexpr char kUnseen = 2;
 
 /// Decides for all polygons connected with `start`; false if there is no choice.
-bool turn_patch(const std::vector<std::vector<EdgeNeighbour>>& neighbours, int start, std::vector<char>& turned) {
+bool turn_patch(const std::vector<std::vector<EdgeNeighbour>>& neighbours, int start,
+                std::vector<char>& turned) {
   turned[at(start)] = 0;
   std::vector<int> patch{start};
   std::ptrdiff_t turns = 0;

@@ -16,8 +16,8 @@ Vec3 unit(const IntegerNormal& normal);
 /// What clustering needs to know of a polygon.
 struct PolygonShape {
   std::optional<IntegerNormal> normal;  ///< of its own, missing for a polygon without area
-  Vec3 unit;                     ///< the unit vector of `normal`
-  double area = 0;               ///< grid units squared
+  Vec3 unit;                            ///< the unit vector of `normal`
+  double area = 0;                      ///< grid units squared
 };
 
 /// A polygon's area by its longest reach from its first corner, grid units.

@@ -44,8 +44,8 @@ bool are_shells_turned_well(const JudgedSolid& solid, const std::deque<ClosedSur
 }
 
 /// How a cavity lies to the exterior shell.
-bool lies_inside(const JudgedShell& exterior, const JudgedShell& cavity, const SurfaceRelation& relation,
-                 FindingList& findings) {
+bool lies_inside(const JudgedShell& exterior, const JudgedShell& cavity,
+                 const SurfaceRelation& relation, FindingList& findings) {
   const std::string names = fmt::format("{} and {}", name_of(exterior), name_of(cavity));
   if (!relation.do_overlap)
     findings.add(Defect::cavity_outside, subject_of(cavity),

@@ -26,7 +26,8 @@ struct Recall {
 
 /// Looks for every object that is in the shell (openings: and recessed) among all features of its
 /// building.
-void count(const test::Segmented& s, const GroundTruth& truth, std::map<std::string, Recall>& recalls) {
+void count(const test::Segmented& s, const GroundTruth& truth,
+           std::map<std::string, Recall>& recalls) {
   for (const TruthObject& object : truth.objects) {
     if (object.faces.empty() || object.is_detectable == false) continue;
     const Box box = object.feature_aabb.value_or(object.aabb);
