@@ -49,7 +49,8 @@ Subject subject_of(const JudgedShell& shell, int polygon) {
 }
 
 /// "3, 4 and 7": at most four, then how many more.
-std::string numbers_of(const JudgedShell& shell, const ShellEdges& all, const CoincidentEdges& group) {
+std::string numbers_of(const JudgedShell& shell, const ShellEdges& all,
+                       const CoincidentEdges& group) {
   constexpr std::size_t kShown = 4;
   std::string text;
   for (std::size_t i = group.from; i < std::min(group.to, group.from + kShown); ++i)
@@ -291,10 +292,11 @@ bool intersect(const SnappedBuilding& building, TriangleCorners a, TriangleCorne
   return meets(one[1], one[2], other) || meets(other[1], other[2], one);
 }
 
-/// val3dity 306: polygons meet in their common vertices and edges only. Reported once for each
-/// polygon.
-bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
-                          FindingList& findings) {
+/// For each polygon of a shell one that it meets elsewhere than in common vertices and edges, if
+/// there is any: the first in the order of pairs of triangles, so that it is named whatever tree
+/// finds it.
+std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding& building,
+                                                          const JudgedShell& shell) {
   std::vector<ShellTriangle> triangles;
   std::vector<Box> boxes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
@@ -304,16 +306,30 @@ bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& sh
     }
   const BoxTree tree(boxes);
   std::vector<std::optional<std::size_t>> crossed_by(shell.polygons.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
+  std::vector<std::size_t> later;  // whose boxes overlap that of triangle i
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    later.clear();
     tree.for_each_overlap(boxes[i], [&](int number) {
-      const std::size_t j = at(number);
-      const std::size_t p = triangles[i].polygon;
+      if (const std::size_t j = at(number); j > i) later.push_back(j);
+    });
+    std::ranges::sort(later);
+    const std::size_t p = triangles[i].polygon;
+    for (const std::size_t j : later) {
       const std::size_t q = triangles[j].polygon;
-      if (j <= i || p == q || (crossed_by[p] && crossed_by[q])) return;
-      if (!intersect(building, triangles[i].corners, triangles[j].corners)) return;
+      if (p == q || (crossed_by[p] && crossed_by[q])) continue;
+      if (!intersect(building, triangles[i].corners, triangles[j].corners)) continue;
       if (!crossed_by[p]) crossed_by[p] = q;
       if (!crossed_by[q]) crossed_by[q] = p;
-    });
+    }
+  }
+  return crossed_by;
+}
+
+/// val3dity 306: polygons meet in their common vertices and edges only. Reported once for each
+/// polygon.
+bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
+                          FindingList& findings) {
+  const auto crossed_by = crossing_partners(building, shell);
   bool is_good = true;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p) {
     if (!crossed_by[p]) continue;
