@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -133,7 +134,7 @@ class OpenMeshBuilder {
       if (is_turned_[at(p)]) turn_round(p);
   }
 
-  [[nodiscard]] bool looks_inward(const std::vector<int>& patch) const {
+  [[nodiscard]] bool looks_inward(std::span<const int> patch) const {
     double away = 0, all = 0, as_it_was = 0;
     for (const int p : patch) {
       const double sign = is_turned_[at(p)] ? -1 : 1;

@@ -94,7 +94,7 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
 }
 
 /// How many connected pieces the open edges make.
-int count_loops(const std::vector<OpenEdge>& edges) {
+int count_loops(std::span<const OpenEdge> edges) {
   std::map<std::tuple<double, double, double>, int> number;
   detail::DisjointSets sets(0);
   const auto number_of = [&](Vec3 p) {
@@ -110,7 +110,7 @@ int count_loops(const std::vector<OpenEdge>& edges) {
 }
 
 /// The building stays open: how far, and the first few places.
-Issue not_closed(const Building& building, const std::vector<OpenEdge>& edges) {
+Issue not_closed(const Building& building, std::span<const OpenEdge> edges) {
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(edges.size(), 3); ++i) {
     const Vec3 p = edges[i].from;

@@ -1,5 +1,6 @@
 #include "kernel/validate/part_folded.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/mesh/triangulate.h"
@@ -65,7 +66,7 @@ std::array<DirectedEdge, 3> edges_of(const Triangle& t) {
 }
 
 /// For each triangle 1 if it hangs together with the largest one and none between is tilted.
-std::vector<char> find_main(const WrittenFacet& facet, const std::vector<Triangle>& triangles) {
+std::vector<char> find_main(const WrittenFacet& facet, std::span<const Triangle> triangles) {
   std::vector<Vec3> normals;
   for (const Triangle& t : triangles) normals.push_back(normal_of(facet, t));
   std::map<DirectedEdge, int> owner;
@@ -92,8 +93,7 @@ std::vector<char> find_main(const WrittenFacet& facet, const std::vector<Triangl
 }
 
 /// The loops round the main triangles; none if they touch themselves in a point.
-std::vector<Loop> loops_round(const std::vector<Triangle>& triangles,
-                              const std::vector<char>& is_main) {
+std::vector<Loop> loops_round(std::span<const Triangle> triangles, std::span<const char> is_main) {
   std::set<DirectedEdge> rim;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (is_main[t])
@@ -223,7 +223,8 @@ class Parter {
 }  // namespace
 
 std::optional<PartedSolid> part_folded(const Solid& solid, const Building& written,
-                                       const std::vector<Finding>& findings) {
+                                       std::span<const Finding> findings) {
+  ORIEL_ASSERT(written.polygons.size() == solid.facets.size(), "one polygon for each facet");
   Parter parter(solid);
   bool has_parted = false;
   for (const Finding& finding : findings) {

@@ -1,5 +1,6 @@
 #include "kernel/solidify/crossings/chords.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/boxes.h"
@@ -28,7 +29,7 @@ struct Stretch {
 
 class ChordFinder {
  public:
-  ChordFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, double reach,
+  ChordFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach,
               GrowingPoints& points)
       : soup_(soup), shapes_(shapes), reach_(reach), points_(points) {
     const std::size_t count = soup.polygons.size();
@@ -147,8 +148,8 @@ class ChordFinder {
   }
 
   /// What stretches of one line have in common with others.
-  [[nodiscard]] static std::vector<Stretch> common(const std::vector<Stretch>& first,
-                                                   const std::vector<Stretch>& second) {
+  [[nodiscard]] static std::vector<Stretch> common(std::span<const Stretch> first,
+                                                   std::span<const Stretch> second) {
     std::vector<Stretch> found;
     for (const Stretch& a : first)
       for (const Stretch& b : second) {
@@ -182,7 +183,7 @@ class ChordFinder {
   }
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   double reach_;
   GrowingPoints& points_;
   std::vector<Box> boxes_;
@@ -227,8 +228,9 @@ GrowingPoints::GridCell GrowingPoints::cell_of(Vec3 where) const {
 void GrowingPoints::enter(int point) { cells_[cell_of(place(point))].push_back(point); }
 
 std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
-                                                const std::vector<PolygonShape>& shapes,
-                                                double reach, GrowingPoints& points) {
+                                                std::span<const PolygonShape> shapes, double reach,
+                                                GrowingPoints& points) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   return ChordFinder(soup, shapes, reach, points).run();
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -34,7 +35,7 @@ class GrowingPoints {
 /// Of every polygon the edges on it along which others of its body run through it or lie on it, as
 /// pairs of points: not yet cut where they meet.
 std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
-                                                const std::vector<PolygonShape>& shapes,
-                                                double reach, GrowingPoints& points);
+                                                std::span<const PolygonShape> shapes, double reach,
+                                                GrowingPoints& points);
 
 }  // namespace oriel::detail

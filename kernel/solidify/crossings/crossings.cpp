@@ -1,5 +1,6 @@
 #include "kernel/solidify/crossings/crossings.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/planar.h"
@@ -20,7 +21,7 @@ namespace {
 
 class ContactCutter {
  public:
-  ContactCutter(const Soup& soup, const std::vector<PolygonShape>& shapes, double reach)
+  ContactCutter(const Soup& soup, std::span<const PolygonShape> shapes, double reach)
       : soup_(soup), shapes_(shapes), reach_(reach) {}
 
   SoupWithContacts run() {
@@ -70,7 +71,7 @@ class ContactCutter {
   }
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   double reach_;
   std::map<int, std::vector<PointPair>> contacts_;  ///< by polygon
   int cut_ = 0;
@@ -78,8 +79,9 @@ class ContactCutter {
 
 }  // namespace
 
-SoupWithContacts cut_at_contacts(const Soup& soup, const std::vector<PolygonShape>& shapes,
+SoupWithContacts cut_at_contacts(const Soup& soup, std::span<const PolygonShape> shapes,
                                  double reach) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   return ContactCutter(soup, shapes, reach).run();
 }
 
@@ -224,7 +226,7 @@ bool add_signed_faces(const Soup& soup, const PolygonShape& shape, const CutPoly
 class ChordSubdivision {
  public:
   ChordSubdivision(const Soup& soup, const PolygonShape& shape, int polygon,
-                   const std::vector<PointPair>& chords, GrowingPoints& points, double weld,
+                   std::span<const PointPair> chords, GrowingPoints& points, double weld,
                    RingKind kind)
       : shape_(shape),
         polygon_(polygon),
@@ -371,6 +373,7 @@ class ChordSubdivision {
 }  // namespace
 
 SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, RingKind rings) {
+  ORIEL_ASSERT(reach >= 0 && weld > 0);
   const std::vector<PolygonShape> shapes = shapes_of(soup);
   GrowingPoints points(soup.points, weld);
   const auto chords = find_chords(soup, shapes, reach, points);

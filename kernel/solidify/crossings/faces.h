@@ -34,7 +34,7 @@ using Loops = std::vector<std::vector<int>>;
 /// What half-edges in a plane part it into. They must meet in common points only.
 struct Faces {
   /// Walks them, turning as far to the left as there is a way.
-  Faces(const Soup& soup, Vec3 normal, const std::vector<PointPair>& half_edges);
+  Faces(const Soup& soup, Vec3 normal, std::span<const PointPair> half_edges);
 
   /// The outer loop of a face and those of its holes.
   [[nodiscard]] std::vector<std::size_t> rings_of(std::size_t face) const;

@@ -1,5 +1,6 @@
 #include "kernel/solidify/mend/caps.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/model/vec3.h"
 #include "kernel/solidify/shells/edge_groups.h"
@@ -26,8 +27,7 @@ struct OpenHalfEdge {
 
 class CapFinder {
  public:
-  CapFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, double reach,
-            double max_area)
+  CapFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach, double max_area)
       : soup_(soup), shapes_(shapes), reach_(reach), max_area_(max_area) {
     collect_edges();
   }
@@ -243,7 +243,7 @@ class CapFinder {
   };
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   double reach_, max_area_;
   std::vector<OpenHalfEdge> open_;
   std::vector<std::vector<int>> neighbours_, open_at_;  ///< by point
@@ -255,8 +255,9 @@ class CapFinder {
 
 }  // namespace
 
-std::vector<CapDraft> find_caps(const Soup& soup, const std::vector<PolygonShape>& shapes,
+std::vector<CapDraft> find_caps(const Soup& soup, std::span<const PolygonShape> shapes,
                                 double reach, double max_area) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   return CapFinder(soup, shapes, reach, max_area).run();
 }
 

@@ -1,11 +1,13 @@
 #include "kernel/solidify/mend/cells.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/solidify/shells/edge_groups.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -54,7 +56,7 @@ struct SpokeDirection {
 /// order of their numbers whichever edge is looked at, so that the order of two such polygons is
 /// the same at all their edges. Polygons without area count as lying along the first one.
 std::vector<Spoke> sort_round(const Soup& soup, const ShellMesh& mesh, const EdgeGroup& group,
-                              const std::vector<PolygonShape>& shapes) {
+                              std::span<const PolygonShape> shapes) {
   const std::size_t first = at(group[0]);
   const EdgeEnds ends(soup.corners[first], soup.corners[at(mesh.next[first])]);
   const auto &low = soup.points[at(ends.low)], &high = soup.points[at(ends.high)];
@@ -94,7 +96,7 @@ int back_of(int polygon) { return 2 * polygon + 1; }
 /// Sides and pieces as they are united edge by edge.
 class Uniter {
  public:
-  Uniter(const Soup& soup, const std::vector<PolygonShape>& shapes)
+  Uniter(const Soup& soup, std::span<const PolygonShape> shapes)
       : soup_(soup),
         shapes_(shapes),
         mesh_(linked_rings(soup)),
@@ -129,7 +131,7 @@ class Uniter {
   }
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   ShellMesh mesh_;
 
  public:
@@ -146,7 +148,8 @@ double volume_part(const Soup& soup, const PolygonShape& shape, int polygon) {
 
 }  // namespace
 
-PolygonCells find_cells(const Soup& soup, const std::vector<PolygonShape>& shapes) {
+PolygonCells find_cells(const Soup& soup, std::span<const PolygonShape> shapes) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   Uniter uniter(soup, shapes);
   uniter.run();
   PolygonCells cells;

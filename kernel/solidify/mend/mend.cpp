@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -38,7 +39,7 @@ struct PieceBoundary {
 
 class RoleFinder {
  public:
-  RoleFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, const PolygonCells& cells,
+  RoleFinder(const Soup& soup, std::span<const PolygonShape> shapes, const PolygonCells& cells,
              bool is_solid)
       : soup_(soup), shapes_(shapes), cells_(cells), is_solid_(is_solid) {}
 
@@ -91,7 +92,7 @@ class RoleFinder {
 
   /// Of every piece that encloses something the others of its body whose boundary it lies in: a ray
   /// from its first point crosses that an odd number of times.
-  [[nodiscard]] std::vector<Numbers> pieces_around(const std::vector<PieceBoundary>& pieces) const {
+  [[nodiscard]] std::vector<Numbers> pieces_around(std::span<const PieceBoundary> pieces) const {
     Numbers polygons;
     std::vector<Box> boxes;
     Box all;
@@ -140,7 +141,7 @@ class RoleFinder {
   static constexpr Vec3 kRay{0.3127716, 0.5418393, 0.7801215};
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   const PolygonCells& cells_;
   bool is_solid_;
 };
@@ -148,7 +149,7 @@ class RoleFinder {
 /// The role of every piece of the soup. A piece in the material of others of the same body is a
 /// cavity if the input says so (an inner shell of a solid, or, of loose surfaces, one whose
 /// boundary faces inward), else it is within. `is_solid`: what the input says of shells counts.
-std::vector<PieceRole> find_roles(const Soup& soup, const std::vector<PolygonShape>& shapes,
+std::vector<PieceRole> find_roles(const Soup& soup, std::span<const PolygonShape> shapes,
                                   const PolygonCells& cells, bool is_solid) {
   return RoleFinder(soup, shapes, cells, is_solid).run();
 }

@@ -1,5 +1,6 @@
 #include "kernel/solidify/planes/coplanar_groups.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/disjoint_sets.h"
 
@@ -79,7 +80,7 @@ struct PlaneGroup {
 
 class Grouper {
  public:
-  Grouper(const Soup& soup, const std::vector<PolygonShape>& shapes, const ShellMesh& mesh,
+  Grouper(const Soup& soup, std::span<const PolygonShape> shapes, const ShellMesh& mesh,
           const Tolerances& tolerances)
       : soup_(soup),
         shapes_(shapes),
@@ -327,7 +328,7 @@ class Grouper {
   }
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   const ShellMesh& mesh_;
   double reach_;  ///< grid units
   double angle_;
@@ -338,13 +339,15 @@ class Grouper {
 
 }  // namespace
 
-std::optional<CoplanarGroups> group_coplanar(const Soup& soup,
-                                             const std::vector<PolygonShape>& shapes,
+std::optional<CoplanarGroups> group_coplanar(const Soup& soup, std::span<const PolygonShape> shapes,
                                              const ShellMesh& mesh, const Tolerances& tolerances) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
+  ORIEL_ASSERT(mesh.twin.size() == soup.corners.size(), "the mesh is of another soup");
   return Grouper(soup, shapes, mesh, tolerances).run();
 }
 
 Soup soup_of_groups(const Soup& soup, const CoplanarGroups& groups) {
+  ORIEL_ASSERT(groups.group_of.size() == soup.polygons.size());
   std::vector<std::vector<int>> members(at(groups.count));
   for (int p = 0; p < soup.polygon_count(); ++p) members[at(groups.group_of[at(p)])].push_back(p);
   Soup out;

@@ -1,5 +1,6 @@
 #include "kernel/solidify/planes/plane_clusters.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/model/description/counting_sort.h"
 #include "kernel/solidify/planes/coplanar_groups.h"
@@ -53,7 +54,7 @@ double edge_length(const Soup& soup, PointPair edge) {
 
 /// The polygons at the edges of those that are undecided.
 std::map<PointPair, std::vector<int>> polygons_beside(const Soup& soup,
-                                                      const std::vector<int>& undecided) {
+                                                      std::span<const int> undecided) {
   std::vector<char> is_near(soup.points.size(), 0);
   for (const int i : undecided)
     for (const int v : soup.corners_of(i)) is_near[at(v)] = 1;
@@ -66,7 +67,7 @@ std::map<PointPair, std::vector<int>> polygons_beside(const Soup& soup,
 }
 
 void decide_standing(const Soup& soup, std::span<const double> cosines, std::span<const int> planes,
-                     const std::vector<int>& undecided, std::vector<char>& is_turned) {
+                     std::span<const int> undecided, std::vector<char>& is_turned) {
   const auto polygons_at = polygons_beside(soup, undecided);
   std::vector<double> votes(soup.polygons.size(), 0);
   for (const int i : undecided)
@@ -238,7 +239,7 @@ class Clusterer {
   /// The polygons that meet another one of their class at a point: only they can be too many there,
   /// as no polygon joins a class later. Classes are told apart by their numbers' last bits: a
   /// polygon too many does no harm.
-  [[nodiscard]] std::vector<int> crowded_polygons(const std::vector<int>& by_area) const {
+  [[nodiscard]] std::vector<int> crowded_polygons(std::span<const int> by_area) const {
     const auto bit_of = [&](int polygon) {
       constexpr int kBits = 64;
       return std::uint64_t{1} << (class_of(place_of_[at(polygon)]) % kBits);
@@ -269,7 +270,7 @@ class Clusterer {
   /// Two parallel planes cannot share a vertex. Where polygons of one class but of two planes do,
   /// the smaller one takes its own normal, or the larger one's plane if that is no other. True if
   /// something changed. `crowded`: the largest first.
-  bool separate_parallels(const std::vector<int>& crowded) {
+  bool separate_parallels(std::span<const int> crowded) {
     if (crowded.empty()) return false;
     PlacesAtPoints of_larger(soup_);
     bool has_changed = false;
@@ -370,7 +371,7 @@ class Clusterer {
 
 /// Members of groups that are at more than 45° to their group's plane: all there is to tell of a
 /// recess or a rise that went into its wall.
-int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups& groups,
+int count_standing(std::span<const PolygonShape> shapes, const CoplanarGroups& groups,
                    const PlaneClusters& of_groups) {
   int standing = 0;
   for (std::size_t p = 0; p < shapes.size(); ++p) {
@@ -386,6 +387,7 @@ int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups
 
 PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
                              const Tolerances& tolerances) {
+  ORIEL_ASSERT(mesh.twin.size() == soup.corners.size(), "the mesh is of another soup");
   std::vector<PolygonShape> shapes = shapes_of(soup);
   const std::optional<CoplanarGroups> found = group_coplanar(soup, shapes, mesh, tolerances);
   if (!found) return Clusterer(soup, std::move(shapes), tolerances).run();

@@ -1,5 +1,6 @@
 #include "kernel/solidify/planes/snap.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/axis_corners.h"
 #include "kernel/geometry/disjoint_sets.h"
@@ -35,6 +36,7 @@ Vec3 least_squares_shift(const std::vector<Plane>& planes, Vec3 start, double pu
 }  // namespace
 
 Vec3 nearest_point(const std::vector<Plane>& planes, Vec3 start, double reach) {
+  ORIEL_ASSERT(reach >= 0);
   // Tolerances of nothing: they only keep the system regular along free directions.
   constexpr double kWeakest = 1e-4, kStrongest = 1;
   for (double pull = kWeakest; pull <= kStrongest; pull *= 10) {
@@ -422,6 +424,8 @@ class Snapper {
 
 SnappedSolid snap_vertices(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
                            FacetDraft draft, const Tolerances& tolerances) {
+  ORIEL_ASSERT(clusters.plane_of.size() == soup.polygons.size());
+  ORIEL_ASSERT(draft.facet_of.size() == soup.polygons.size());
   return Snapper(soup, clusters, mesh, std::move(draft), tolerances).run();
 }
 

@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/edge_groups.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <cmath>
@@ -50,7 +51,7 @@ std::vector<std::vector<EdgeNeighbour>> neighbours_of(const Soup& soup, const Sh
 constexpr char kUnseen = 2;
 
 /// Decides for all polygons connected with `start`; false if there is no choice.
-bool turn_patch(const std::vector<std::vector<EdgeNeighbour>>& neighbours, int start,
+bool turn_patch(std::span<const std::vector<EdgeNeighbour>> neighbours, int start,
                 std::vector<char>& turned) {
   turned[at(start)] = 0;
   std::vector<int> patch{start};
@@ -94,6 +95,7 @@ std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const ShellM
 }
 
 bool pair_around(const Soup& soup, const EdgeGroup& group, ShellMesh& mesh) {
+  ORIEL_ASSERT(!group.empty());
   const std::size_t first = at(group[0]);
   const auto [low, high] = EdgeEnds(soup.corners[first], soup.corners[at(mesh.next[first])]);
   const Vec3 axis = normalised(difference(soup, high, low));

@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/facets.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/model/description/counting_sort.h"
 
@@ -244,6 +245,8 @@ class Drafter {
 }  // namespace
 
 FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh) {
+  ORIEL_ASSERT(clusters.plane_of.size() == soup.polygons.size());
+  ORIEL_ASSERT(mesh.half_edge_count() == soup.corners.size(), "the mesh is of another soup");
   return Drafter(soup, clusters, mesh).run();
 }
 

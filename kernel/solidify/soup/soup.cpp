@@ -1,5 +1,6 @@
 #include "kernel/solidify/soup/soup.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/description/counting_sort.h"
@@ -288,12 +289,15 @@ SoupBuilder::SoupBuilder(const Soup& like) : place_(like.points.size(), -1) {
 }
 
 void SoupBuilder::begin_polygon(const SoupPolygon& said) {
+  ORIEL_ASSERT(soup_.polygons.empty() || soup_.polygons.back().body <= said.body,
+               "polygons come by body");
   close_polygon();
   soup_.polygons.push_back(said);
   is_begun_ = true;
 }
 
 void SoupBuilder::add_ring(std::span<const int> ring) {
+  ORIEL_ASSERT(is_begun_, "a ring is of a polygon");
   for (const int v : ring) {
     const int place = place_[at(v)];
     if (place >= 0) {
@@ -335,6 +339,7 @@ void SoupBuilder::close_polygon() {
 }
 
 void SoupBuilder::append(std::span<const int> simple_ring) {
+  ORIEL_ASSERT(simple_ring.size() >= 3);
   const auto begin =
       soup_.corners.insert(soup_.corners.end(), simple_ring.begin(), simple_ring.end());
   std::rotate(begin, std::min_element(begin, soup_.corners.end()), soup_.corners.end());

@@ -1,5 +1,6 @@
 #include "kernel/validate/polygons/ring_checks.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -35,7 +37,7 @@ Vec3 unit(std::size_t axis, bool is_positive) {
 
 /// The neighbours of `point` on a ring through it: the ends of the edge that it lies in, or of the
 /// two edges that it joins.
-std::array<FlatPoint, 2> neighbours(const FlatPoint& point, const std::vector<FlatPoint>& ring) {
+std::array<FlatPoint, 2> neighbours(const FlatPoint& point, std::span<const FlatPoint> ring) {
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i)
     if (ring[i] == point) return {ring[(i + n - 1) % n], ring[(i + 1) % n]};
@@ -55,7 +57,7 @@ bool is_between(const FlatPoint& p, const FlatPoint& from, const FlatPoint& to,
 }
 
 /// +1 if the ring runs counter-clockwise, -1 if clockwise, 0 if it has no area.
-int orientation(const std::vector<FlatPoint>& ring) {
+int orientation(std::span<const FlatPoint> ring) {
   exact::Int128 twice_area = 0;
   const FlatPoint& o = ring[0];
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -68,7 +70,7 @@ int orientation(const std::vector<FlatPoint>& ring) {
 }
 
 /// +1 if the point is inside the ring, -1 outside, 0 on it. The ring must not cross itself.
-int place_in(const FlatPoint& point, const std::vector<FlatPoint>& ring) {
+int place_in(const FlatPoint& point, std::span<const FlatPoint> ring) {
   bool is_inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const FlatPoint& a = ring[i];
@@ -82,8 +84,7 @@ int place_in(const FlatPoint& point, const std::vector<FlatPoint>& ring) {
 }
 
 /// True if rings p and q, which touch in `point` and nowhere overlap, run through each other there.
-bool cross_at(const FlatPoint& point, const std::vector<FlatPoint>& p,
-              const std::vector<FlatPoint>& q) {
+bool cross_at(const FlatPoint& point, std::span<const FlatPoint> p, std::span<const FlatPoint> q) {
   const auto [from, to] = neighbours(point, p);
   const auto [one, other] = neighbours(point, q);
   const auto is_left = [&](const FlatPoint& d) { return is_between(point, from, to, d); };
@@ -99,7 +100,7 @@ struct FlatEdge {
   FlatPoint to;
 };
 
-inline std::vector<FlatEdge> edges_of(const std::vector<FlatPoint>& ring, std::size_t number) {
+inline std::vector<FlatEdge> edges_of(std::span<const FlatPoint> ring, std::size_t number) {
   std::vector<FlatEdge> edges;
   edges.reserve(ring.size());
   for (std::size_t i = 0; i < ring.size(); ++i)
@@ -117,7 +118,7 @@ inline Box flat_box(const std::vector<FlatPoint>& points) {
 
 /// Calls visit(i, j), i < j, for all boxes that overlap, until it returns false.
 template <class Visit>
-void for_each_pair(const std::vector<Box>& boxes, const Visit& visit) {
+void for_each_pair(std::span<const Box> boxes, const Visit& visit) {
   // Below this trying all pairs takes less than making a tree.
   constexpr std::size_t kFew = 24;
   if (boxes.size() <= kFew) {
@@ -150,7 +151,7 @@ std::vector<int> ends_of(const SnappedPolygon& polygon, const FlatEdge& edge) {
   return {ring[edge.at], ring[(edge.at + 1) % ring.size()]};
 }
 
-std::vector<Box> boxes_of(const std::vector<FlatEdge>& edges) {
+std::vector<Box> boxes_of(std::span<const FlatEdge> edges) {
   std::vector<Box> boxes;
   boxes.reserve(edges.size());
   for (const FlatEdge& edge : edges) boxes.push_back(flat_box({edge.from, edge.to}));
@@ -296,7 +297,7 @@ std::vector<FlatPoint> doubled(std::vector<FlatPoint> ring) {
 
 /// Where ring p, which does not cross q, lies: +1 inside q, -1 outside. Middles of edges decide, as
 /// points may lie on q; no middle of p can if q's points lie on p only in points.
-int side_of_ring(const std::vector<FlatPoint>& p, const std::vector<FlatPoint>& twice_q) {
+int side_of_ring(std::span<const FlatPoint> p, std::span<const FlatPoint> twice_q) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const FlatPoint& a = p[i];
     const FlatPoint& b = p[(i + 1) % p.size()];
@@ -343,6 +344,7 @@ bool are_holes_placed_well(const SnappedPolygon& polygon, const FlatPolygon& fla
 
 FlatPolygon flat_polygon(const SnappedBuilding& building, const SnappedPolygon& polygon,
                          Vec3 normal) {
+  ORIEL_ASSERT(!polygon.rings.empty() && !polygon.rings[0].empty());
   const std::size_t axis = nearest_axis(normal);
   const auto seen = [&](bool is_positive) {
     FlatPolygon flat;

@@ -1,5 +1,6 @@
 #include "kernel/validate/solids/closed_surface.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ SurfaceRelation relate_by_nef(const ClosedSurface& first, const ClosedSurface& s
 
 /// count_pieces() by Nef polyhedra.
 int count_pieces_by_nef(const ClosedSurface& outer,
-                        const std::vector<const ClosedSurface*>& cavities) {
+                        std::span<const ClosedSurface* const> cavities) {
   Nef rest = nef_of(outer).interior();
   for (const ClosedSurface* cavity : cavities) rest -= nef_of(*cavity);
   // Volumes are the pieces of space: those of the rest are marked.
@@ -86,15 +87,15 @@ Int128 volume_under(const MicrometreTriangle& t, const MicrometrePoint& o) {
          v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
 }
 
-std::vector<Box> boxes_of(const std::vector<MicrometreTriangle>& triangles) {
+std::vector<Box> boxes_of(std::span<const MicrometreTriangle> triangles) {
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (const MicrometreTriangle& triangle : triangles) boxes.push_back(box_of(triangle));
   return boxes;
 }
 
-std::vector<MicrometreTriangle> triangles_of(const std::vector<MicrometrePoint>& points,
-                                             const std::vector<std::array<int, 3>>& corners) {
+std::vector<MicrometreTriangle> triangles_of(std::span<const MicrometrePoint> points,
+                                             std::span<const std::array<int, 3>> corners) {
   std::vector<MicrometreTriangle> triangles;
   triangles.reserve(corners.size());
   const auto point = [&](int i) { return points[static_cast<std::size_t>(i)]; };
@@ -116,6 +117,7 @@ ClosedSurface::ClosedSurface(const SnappedBuilding& building, const JudgedShell&
       }
       corners_.push_back(corners);
     }
+  ORIEL_ASSERT(!points_.empty(), "a shell that passed has triangles");
   Int128 volume = 0;
   for (const MicrometreTriangle& triangle : triangles_of(points_, corners_))
     volume += volume_under(triangle, points_[0]);
@@ -171,7 +173,7 @@ SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second) 
   return out;
 }
 
-int count_pieces(const ClosedSurface& outer, const std::vector<const ClosedSurface*>& cavities) {
+int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities) {
   return count_pieces_by_nef(outer, cavities);
 }
 

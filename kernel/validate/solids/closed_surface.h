@@ -4,6 +4,7 @@
 #include "kernel/validate/solids/shell_checks.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -55,6 +56,6 @@ SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second);
 
 /// The number of pieces of the interior of `outer` without `cavities`, which lie inside it and
 /// share no area with it or each other.
-int count_pieces(const ClosedSurface& outer, const std::vector<const ClosedSurface*>& cavities);
+int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities);
 
 }  // namespace oriel::detail

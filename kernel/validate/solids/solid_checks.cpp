@@ -1,5 +1,6 @@
 #include "kernel/validate/solids/solid_checks.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/validate/solids/closed_surface.h"
 
@@ -137,13 +138,14 @@ bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface
 }  // namespace
 
 bool judge(const SnappedBuilding& building, const JudgedSolid& solid, FindingList& findings) {
+  ORIEL_ASSERT(!solid.shells.empty());
   std::deque<ClosedSurface> surfaces;
   for (const JudgedShell* shell : solid.shells) surfaces.emplace_back(building, *shell);
   if (!are_shells_turned_well(solid, surfaces, findings)) return false;
   return surfaces.size() == 1 || do_shells_lie_well(solid, surfaces, findings);
 }
 
-bool judge_composite(const SnappedBuilding& building, const std::vector<JudgedSolid>& solids,
+bool judge_composite(const SnappedBuilding& building, std::span<const JudgedSolid> solids,
                      FindingList& findings) {
   std::deque<ClosedSurface> surfaces;
   for (const JudgedSolid& solid : solids) surfaces.emplace_back(building, *solid.shells[0]);
