@@ -9,7 +9,6 @@
 #include "interpret/plan/plan.h"
 #include "kernel/base/index.h"
 #include "kernel/io/reader.h"
-#include "kernel/mesh/hausdorff.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
 #include "oriel/label.h"

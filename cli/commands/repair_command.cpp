@@ -4,7 +4,7 @@
 #include "cli/output/output_sink.h"
 #include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/records/repair_json.h"
+#include "kernel/io/records/stage_json.h"
 #include "oriel/repair.h"
 
 #include <algorithm>

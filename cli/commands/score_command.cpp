@@ -79,7 +79,7 @@ void append(Compared& all, std::vector<FeatureRecord> records) {
   }
 }
 
-void append(Compared& all, const Truth& truth) {
+void append(Compared& all, const GroundTruth& truth) {
   FacesOfBuilding& faces = all.faces[truth.building];
   faces.left_out = truth.capped_faces;
   for (const TruthObject& o : truth.objects) {
@@ -108,7 +108,7 @@ Compared read(const Arguments& arguments, Report& report, ExitCode& code) {
     report.add(truths.issues);
     if (has_errors(truths.issues)) code = graver(code, ExitCode::input);
     if (truths.value)
-      for (const Truth& truth : *truths.value) append(all, truth);
+      for (const GroundTruth& truth : *truths.value) append(all, truth);
   }
   return all;
 }

@@ -3,7 +3,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/tree_report.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/records/segmentation_json.h"
+#include "kernel/io/records/stage_json.h"
 #include "kernel/segment/complex/cell_complex.h"
 #include "oriel/write.h"
 

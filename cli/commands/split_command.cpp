@@ -4,8 +4,8 @@
 #include "cli/streams/common_header.h"
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
+#include "kernel/io/cityjson/stream_header.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/records/feature_place.h"
 
 #include <cmath>
 #include <deque>

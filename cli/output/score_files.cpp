@@ -1,6 +1,6 @@
 #include "cli/output/score_files.h"
 
-#include "kernel/io/records/csv_line.h"
+#include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
 #include <cmath>

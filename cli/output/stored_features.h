@@ -4,7 +4,7 @@
 #include "cli/terminal/report.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/score/label_diff.h"
-#include "kernel/model/described_building.h"
+#include "kernel/model/description/feature_graph.h"
 #include "kernel/model/interpretation.h"
 
 #include <string>

@@ -3,7 +3,7 @@
 #include "generalise/invariants/party_walls.h"
 #include "generalise/invariants/roof_lines.h"
 #include "kernel/base/code.h"
-#include "kernel/model/limits.h"
+#include "kernel/model/plan.h"
 #include "kernel/model/solid.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "interpret/pack/pack.h"
 #include "interpret/plan/profile.h"
 #include "kernel/base/index.h"
-#include "kernel/model/wall_lean.h"
+#include "kernel/model/tolerances.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "kernel/base/issue.h"
 #include "kernel/model/description/feature_table.h"
 #include "kernel/model/interpretation.h"
-#include "kernel/model/limits.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/segmentation.h"
 

@@ -1,6 +1,6 @@
 #include "interpret/surfaces/polygon_shape.h"
 
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -122,7 +122,7 @@ namespace {
 
 constexpr double kLeastClear_m = 0.001;
 
-using Segment = std::pair<Vec3, Vec3>;
+using LineSegment = std::pair<Vec3, Vec3>;
 
 class Attacher {
  public:
@@ -231,7 +231,7 @@ class Attacher {
       for_each_edge(contacts_[contact], [&](int a, int b) {
         const bool is_cut = std::pair{a, b} == edge_ || std::pair{b, a} == edge_;
         if (is_cut && (is_of_notch(p) || is_of_notch(q))) return;
-        const Segment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
+        const LineSegment edge{solid_.vertices[at(a)].point, solid_.vertices[at(b)].point};
         is_clear = is_clear && detail::distance({corner(p), corner(q)}, edge) >= clear_m_;
       });
     }

@@ -1,8 +1,12 @@
 #include "kernel/attach/clearance.h"
 
+#include "kernel/base/index.h"
+#include "kernel/geometry/area_within.h"
 #include "kernel/geometry/planar.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -18,6 +22,51 @@ double distance(std::pair<Vec3, Vec3> p, std::pair<Vec3, Vec3> q) {
                    distance_to_segment(p.second, q.first, q.second),
                    distance_to_segment(q.first, p.first, p.second),
                    distance_to_segment(q.second, p.first, p.second)});
+}
+
+namespace {
+
+/// The box that the facet passes through, in its own axes.
+std::vector<HalfSpaceM> passage(const Solid& solid, FacetId facet, const Moves& moves) {
+  const Vec3 n = solid.planes[solid.facets[facet.index()].plane.index()].normal;
+  const Vec3 u = normalised(std::abs(n.z) < 0.9 ? cross({0, 0, 1}, n) : cross({1, 0, 0}, n));
+  std::vector<HalfSpaceM> limits;
+  for (const Vec3 direction : {u, -u, cross(n, u), -cross(n, u), n, -n}) {
+    HalfSpaceM limit{direction, -Box::kInfinity};
+    for (const auto& [v, to] : moves)
+      limit.offset_m = std::max(
+          {limit.offset_m, dot(direction, solid.vertices[at(v)].point), dot(direction, to)});
+    limits.push_back(limit);
+  }
+  for (std::size_t along = 4; along < limits.size(); ++along)
+    limits[along].offset_m += kLeastEdge_m;
+  return limits;
+}
+
+}  // namespace
+
+bool is_in_the_way(const Solid& solid, FacetId facet, const Moves& moves) {
+  const auto limits = passage(solid, facet, moves);
+  const auto is_within = [&](int v) {
+    return std::ranges::all_of(limits, [&](const HalfSpaceM& limit) {
+      return dot(limit.normal, solid.vertices[at(v)].point) <= limit.offset_m;
+    });
+  };
+  for (int f = 0; f < std::ssize(solid.facets); ++f) {
+    if (FacetId{f} == facet) continue;
+    const Facet& other = solid.facets[at(f)];
+    bool is_beside = false;
+    for (const Loop& loop : other.loops)
+      for (const int v : loop) {
+        if (moves.contains(v))
+          is_beside = true;
+        else if (is_within(v))
+          return true;
+      }
+    const Vec3 normal = solid.planes[other.plane.index()].normal;
+    if (!is_beside && area_within(solid.vertices, other, normal, limits) > kTouch_m2) return true;
+  }
+  return false;
 }
 
 }  // namespace oriel::detail

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "kernel/model/solid.h"
 #include "kernel/model/vec3.h"
 
+#include <map>
 #include <utility>
 
 namespace oriel::detail {
@@ -11,5 +13,16 @@ inline constexpr double kTouch_m2 = 1e-9;
 
 /// How near two segments come to each other.
 double distance(std::pair<Vec3, Vec3> p, std::pair<Vec3, Vec3> q);
+
+/// Edges of a result are no shorter: what is nearer becomes one vertex when it is read again.
+inline constexpr double kLeastEdge_m = 0.001;
+
+/// By vertex of a facet where it goes.
+using Moves = std::map<int, Vec3>;
+
+/// Something lies in the way of a facet whose vertices move: another vertex, or a part of a facet
+/// that has none of them, in the box in the facet's own axes around where they are and where they
+/// go.
+bool is_in_the_way(const Solid& solid, FacetId facet, const Moves& moves);
 
 }  // namespace oriel::detail

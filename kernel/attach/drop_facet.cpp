@@ -1,6 +1,6 @@
 #include "kernel/attach/drop_facet.h"
 
-#include "kernel/attach/passage.h"
+#include "kernel/attach/clearance.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 

@@ -183,16 +183,16 @@ using detail::Arrangement;
 using detail::PlanView;
 
 /// A corner of a triangle seen from above, with the height of the roof over it.
-struct Corner {
+struct RoofCorner {
   Vec3 plan;
   double z = 0;
 };
 
 /// The area of a triangle, seen from above, in which it lies lower than `z`. Signed, so that the
 /// fans of any outline add up.
-double area_below(std::array<Corner, 3> t, double z) {
+double area_below(std::array<RoofCorner, 3> t, double z) {
   const double area = cross(t[1].plan - t[0].plan, t[2].plan - t[0].plan).z / 2;
-  std::ranges::sort(t, {}, &Corner::z);
+  std::ranges::sort(t, {}, &RoofCorner::z);
   const double low = t[0].z, mid = t[1].z, high = t[2].z;
   if (z >= high) return area;
   if (z <= low) return 0;
@@ -244,11 +244,11 @@ class BlockBuilder {
   }
 
  private:
-  [[nodiscard]] const std::vector<PlanView::Region>& regions() const { return view_.regions(); }
+  [[nodiscard]] const std::vector<PlanView::PlanRegion>& regions() const { return view_.regions(); }
 
   [[nodiscard]] bool is_ground_too_small() const {
     double ground_m2 = 0, all_m2 = 0;
-    for (const PlanView::Region& region : regions()) {
+    for (const PlanView::PlanRegion& region : regions()) {
       if (region.top < 0) continue;
       all_m2 += region.area_m2;
       if (region.is_on_ground) ground_m2 += region.area_m2;
@@ -407,9 +407,9 @@ class BlockBuilder {
 
   /// Tops are whole millimetres: what is no measure of the building need not look like one.
   void find_heights() {
-    std::vector<std::vector<std::array<Corner, 3>>> fans(heights_m_.size());
+    std::vector<std::vector<std::array<RoofCorner, 3>>> fans(heights_m_.size());
     for (std::size_t r = 1; r < regions().size(); ++r) {
-      const PlanView::Region& region = regions()[r];
+      const PlanView::PlanRegion& region = regions()[r];
       if (part_of_[r] < 0 || region.top < 0 || region.is_thin) continue;
       for (const detail::Outline& outline : region.outlines)
         for (std::size_t i = 2; i < outline.size(); ++i)
@@ -421,15 +421,15 @@ class BlockBuilder {
       heights_m_[p] = std::round(quantile_m(fans[p]) * 1000) / 1000;
   }
 
-  [[nodiscard]] Corner corner(int facet, Vec3 point) const {
+  [[nodiscard]] RoofCorner corner(int facet, Vec3 point) const {
     return {point, view_.height_m(facet, point)};
   }
 
   /// The height below which the wanted share of the area lies.
-  [[nodiscard]] double quantile_m(const std::vector<std::array<Corner, 3>>& fan) const {
+  [[nodiscard]] double quantile_m(const std::vector<std::array<RoofCorner, 3>>& fan) const {
     double low = Box::kInfinity, high = -Box::kInfinity, all_m2 = 0;
     for (const auto& triangle : fan) {
-      for (const Corner& c : triangle) {
+      for (const RoofCorner& c : triangle) {
         low = std::min(low, c.z);
         high = std::max(high, c.z);
       }

@@ -79,7 +79,7 @@ void PlanView::trace_regions() {
 void PlanView::find_tops() {
   const auto labels = arrangement_->labels();
   for (std::size_t r = 1; r < regions_.size(); ++r) {
-    Region& region = regions_[r];
+    PlanRegion& region = regions_[r];
     const auto inside = interior_point(region.outlines, kUp);
     double best_m = -Box::kInfinity;
     for (const int facet : labels[r]) {

@@ -18,7 +18,7 @@ class PlanView {
   /// Points of the plan nearer than `reach_m` are one.
   PlanView(const Solid& solid, double ground_reach_m, double reach_m);
 
-  struct Region {
+  struct PlanRegion {
     /// The facet seen in it; -1: none.
     int top = -1;
     bool is_on_ground = false;  ///< a ground facet lies under it
@@ -28,7 +28,7 @@ class PlanView {
     std::vector<Outline> outlines;
   };
 
-  [[nodiscard]] const std::vector<Region>& regions() const { return regions_; }
+  [[nodiscard]] const std::vector<PlanRegion>& regions() const { return regions_; }
   [[nodiscard]] const Arrangement& arrangement() const { return *arrangement_; }
   /// A vertex of the arrangement, z = 0.
   [[nodiscard]] Vec3 point(int vertex) const { return pool_.at(vertex); }
@@ -48,7 +48,7 @@ class PlanView {
   double ground_m_ = 0;
   std::vector<PlanarEdge> edges_;
   std::unique_ptr<Arrangement> arrangement_;
-  std::vector<Region> regions_;
+  std::vector<PlanRegion> regions_;
 };
 
 }  // namespace oriel::detail

@@ -10,7 +10,7 @@
 #include "kernel/model/building.h"
 #include "kernel/model/description/feature_table.h"
 #include "kernel/model/segmentation.h"
-#include "kernel/model/wall_lean.h"
+#include "kernel/model/tolerances.h"
 
 #include <algorithm>
 #include <array>

@@ -40,4 +40,11 @@ std::vector<FeatureEdge> feature_edges(const Mesh& mesh, double angle_deg = 0.5)
 /// crossing a feature edge of `crease_deg`. So walls stay flat and round towers look round.
 std::vector<std::vector<Vec3>> corner_normals(const Mesh& mesh, double crease_deg = 30);
 
+/// The symmetric Hausdorff distance of two surfaces in m: how far a point of either lies at most
+/// from the other surface. No further off than `error_m` (CGAL, bounded error: Tang et al. 2009,
+/// refined where a triangle may still hold the maximum). Both are in one frame; none is empty.
+/// Faces that are no triangles are triangulated.
+double hausdorff_m(const Mesh& a, const Mesh& b, double error_m = 0.001);
+double hausdorff_m(const Solid& a, const Solid& b, double error_m = 0.001);
+
 }  // namespace oriel

@@ -14,25 +14,28 @@ namespace oriel::detail {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using TriangulationKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, TriangulationKernel>;
 /// The info of a face is how many edges of rings lie between it and the outside, -1 if unknown.
-using FaceBase =
-    CGAL::Triangulation_face_base_with_info_2<int, Kernel,
-                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<
+    int, TriangulationKernel, CGAL::Constrained_triangulation_face_base_2<TriangulationKernel>>;
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    TriangulationKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 /// The point seen along the axis nearest to the normal, against it, so that orientation is kept.
-Kernel::Point_2 projected(Vec3 p, Vec3 normal) {
+TriangulationKernel::Point_2 projected(Vec3 p, Vec3 normal) {
   const double x = std::abs(normal.x);
   const double y = std::abs(normal.y);
   const double z = std::abs(normal.z);
   if (z >= x && z >= y)
-    return normal.z >= 0 ? Kernel::Point_2(p.x, p.y) : Kernel::Point_2(p.y, p.x);
-  if (x >= y) return normal.x >= 0 ? Kernel::Point_2(p.y, p.z) : Kernel::Point_2(p.z, p.y);
-  return normal.y >= 0 ? Kernel::Point_2(p.z, p.x) : Kernel::Point_2(p.x, p.z);
+    return normal.z >= 0 ? TriangulationKernel::Point_2(p.x, p.y)
+                         : TriangulationKernel::Point_2(p.y, p.x);
+  if (x >= y)
+    return normal.x >= 0 ? TriangulationKernel::Point_2(p.y, p.z)
+                         : TriangulationKernel::Point_2(p.z, p.y);
+  return normal.y >= 0 ? TriangulationKernel::Point_2(p.z, p.x)
+                       : TriangulationKernel::Point_2(p.x, p.z);
 }
 
 /// Inserts the rings; false if two of their edges cross.

@@ -1,7 +1,7 @@
 #include "kernel/model/solid.h"
 
-#include "kernel/model/area_vector.h"
 #include "kernel/model/description/counting_sort.h"
+#include "kernel/model/vec3.h"
 
 #include <cstddef>
 

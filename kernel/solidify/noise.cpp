@@ -22,15 +22,15 @@ constexpr double kOffsetPerNoise = 2.75;
 constexpr double kLargestOffset_m = 0.01;
 
 /// Along which axes all corners have the same coordinate.
-struct Across {
+struct ConstantAxes {
   bool x = true, y = true, z = true;
 };
 
 /// In one go and without a branch: which axis it is no one can guess.
-Across axes_across(const Building& building, const Polygon& polygon) {
+ConstantAxes axes_across(const Building& building, const Polygon& polygon) {
   const Vec3* const corners = building.vertices.data();
   const Vec3 first = corners[polygon.rings[0][0]];
-  Across across;
+  ConstantAxes across;
   for (const auto& ring : polygon.rings)
     for (const int v : ring) {
       const Vec3& p = corners[v];
@@ -66,7 +66,7 @@ double out_of_plane_m(const Building& building, const Polygon& polygon) {
     const double area = area_across(building, polygon, u, v);
     return std::abs(area) > 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
   };
-  const Across across = axes_across(building, polygon);
+  const ConstantAxes across = axes_across(building, polygon);
   if (across.x) return flat_m(&Vec3::y, &Vec3::z);
   if (across.y) return flat_m(&Vec3::z, &Vec3::x);
   if (across.z) return flat_m(&Vec3::x, &Vec3::y);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -38,7 +39,7 @@ class OpenMeshBuilder {
 
  private:
   /// A half-edge with the ends of its edge.
-  struct Entry {
+  struct HalfEdgeEnds {
     int low, high, half_edge;
     [[nodiscard]] std::pair<int, int> ends() const { return {low, high}; }
   };
@@ -92,7 +93,7 @@ class OpenMeshBuilder {
     for (int h = 0; h < soup_.corner_count(); ++h)
       edges_.push_back({std::min(from(h), to(h)), std::max(from(h), to(h)), h});
     std::ranges::sort(edges_, {},
-                      [](const Entry& e) { return std::tuple(e.low, e.high, e.half_edge); });
+                      [](const HalfEdgeEnds& e) { return std::tuple(e.low, e.high, e.half_edge); });
   }
   /// Visits the half-edges of each edge, as [first, past) of `edges_`.
   template <class Visit>
@@ -133,7 +134,7 @@ class OpenMeshBuilder {
       if (is_turned_[at(p)]) turn_round(p);
   }
 
-  [[nodiscard]] bool looks_inward(const std::vector<int>& patch) const {
+  [[nodiscard]] bool looks_inward(std::span<const int> patch) const {
     double away = 0, all = 0, as_it_was = 0;
     for (const int p : patch) {
       const double sign = is_turned_[at(p)] ? -1 : 1;
@@ -185,7 +186,7 @@ class OpenMeshBuilder {
 
   Soup& soup_;
   ShellMesh mesh_;
-  std::vector<Entry> edges_;  ///< sorted
+  std::vector<HalfEdgeEnds> edges_;  ///< sorted
   std::vector<Vec3> area_, outward_;
   std::vector<char> is_turned_;
 };

@@ -94,7 +94,7 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
 }
 
 /// How many connected pieces the open edges make.
-int count_loops(const std::vector<OpenEdge>& edges) {
+int count_loops(std::span<const OpenEdge> edges) {
   std::map<std::tuple<double, double, double>, int> number;
   detail::DisjointSets sets(0);
   const auto number_of = [&](Vec3 p) {
@@ -110,7 +110,7 @@ int count_loops(const std::vector<OpenEdge>& edges) {
 }
 
 /// The building stays open: how far, and the first few places.
-Issue not_closed(const Building& building, const std::vector<OpenEdge>& edges) {
+Issue not_closed(const Building& building, std::span<const OpenEdge> edges) {
   std::string places;
   for (std::size_t i = 0; i < std::min<std::size_t>(edges.size(), 3); ++i) {
     const Vec3 p = edges[i].from;
@@ -122,20 +122,20 @@ Issue not_closed(const Building& building, const std::vector<OpenEdge>& edges) {
 }
 
 /// A soup and its mesh: closed, or issues have an error.
-struct Shells {
+struct MeshedSoup {
   Soup soup;
   ShellMesh mesh;
 };
 
 /// The shells of a building whose polygons are no closed shell as they came.
-Shells mended_shells(const Building& building, const Tolerances& tolerances,
-                     const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
+MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
+                         const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
   std::vector<Issue> told_before;
   const Soup soup = detail::weld(building, tolerances, told_before);
   detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair);
   out.report = std::move(mended.report);
   tell_repairs(building, out.report, mended.is_open, out.issues);
-  Shells shells;
+  MeshedSoup shells;
   if (mended.is_open) {
     // Without open edges it is not a hole that keeps it from being a solid.
     if (!out.report.open_edges.empty())
@@ -157,13 +157,13 @@ Shells mended_shells(const Building& building, const Tolerances& tolerances,
 
 /// The boundary of the inside of closed surfaces; nothing if they are none, or if what is cut does
 /// not close.
-std::optional<Shells> uncrossed_shells(const Building& building, const Tolerances& tolerances,
-                                       const Soup& soup, Solidified& out) {
+std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Tolerances& tolerances,
+                                           const Soup& soup, Solidified& out) {
   auto uncrossed = detail::uncross(soup, tolerances);
   if (!uncrossed) return std::nullopt;
   // Which shell a piece is of is seen only now.
   for (detail::SoupPolygon& polygon : uncrossed->soup.polygons) polygon.shell = -1;
-  Shells whole{std::move(uncrossed->soup), {}};
+  MeshedSoup whole{std::move(uncrossed->soup), {}};
   std::vector<Issue> issues;
   whole.mesh = detail::build_shell_mesh(whole.soup, building.id, issues);
   if (has_errors(issues) || !is_closed(whole.mesh)) return std::nullopt;
@@ -176,9 +176,9 @@ std::optional<Shells> uncrossed_shells(const Building& building, const Tolerance
   return whole;
 }
 
-Shells shells_of(const Building& building, const Tolerances& tolerances,
-                 const RepairOptions& repair, Solidified& out) {
-  Shells shells{detail::weld(building, tolerances, out.issues), {}};
+MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
+                     const RepairOptions& repair, Solidified& out) {
+  MeshedSoup shells{detail::weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
     out.issues.push_back(error(building, Code::E301,
                                fmt::format("{} polygons cannot enclose a volume (val3dity 301)",
@@ -193,8 +193,8 @@ Shells shells_of(const Building& building, const Tolerances& tolerances,
   return shells;
 }
 
-Shells closed_shells(const Building& building, const Tolerances& tolerances,
-                     const RepairOptions& repair, Solidified& out) {
+MeshedSoup closed_shells(const Building& building, const Tolerances& tolerances,
+                         const RepairOptions& repair, Solidified& out) {
   const bool cuts_closed = repair.crossings == Crossings::cut_closed;
   if (cuts_closed) {
     std::vector<Issue> issues;
@@ -204,7 +204,7 @@ Shells closed_shells(const Building& building, const Tolerances& tolerances,
       return std::move(*whole);
     }
   }
-  Shells shells = shells_of(building, tolerances, repair, out);
+  MeshedSoup shells = shells_of(building, tolerances, repair, out);
   if (!cuts_closed || has_errors(out.issues)) return shells;
   auto whole = uncrossed_shells(building, tolerances, shells.soup, out);
   return whole ? std::move(*whole) : std::move(shells);

@@ -11,45 +11,45 @@ namespace oriel {
 
 namespace {
 
-struct Name {
+struct DefectName {
   int number;
   std::string_view text;
 };
 
 constexpr std::array kNames{
-    Name{101, "TOO_FEW_POINTS"},
-    Name{102, "CONSECUTIVE_POINTS_SAME"},
-    Name{103, "RING_NOT_CLOSED"},
-    Name{104, "RING_SELF_INTERSECTION"},
-    Name{201, "INTERSECTION_RINGS"},
-    Name{202, "DUPLICATED_RINGS"},
-    Name{203, "NON_PLANAR_POLYGON_DISTANCE_PLANE"},
-    Name{204, "NON_PLANAR_POLYGON_NORMALS_DEVIATION"},
-    Name{205, "POLYGON_INTERIOR_DISCONNECTED"},
-    Name{206, "INNER_RING_OUTSIDE"},
-    Name{207, "INNER_RINGS_NESTED"},
-    Name{208, "ORIENTATION_RINGS_SAME"},
-    Name{301, "TOO_FEW_POLYGONS"},
-    Name{302, "SHELL_NOT_CLOSED"},
-    Name{303, "NON_MANIFOLD_CASE"},
-    Name{305, "MULTIPLE_CONNECTED_COMPONENTS"},
-    Name{306, "SHELL_SELF_INTERSECTION"},
-    Name{307, "POLYGON_WRONG_ORIENTATION"},
-    Name{401, "INTERSECTION_SHELLS"},
-    Name{402, "DUPLICATED_SHELLS"},
-    Name{403, "INNER_SHELL_OUTSIDE"},
-    Name{404, "SOLID_INTERIOR_DISCONNECTED"},
-    Name{405, "WRONG_ORIENTATION_SHELL"},
-    Name{501, "INTERSECTION_SOLIDS"},
-    Name{502, "DUPLICATED_SOLIDS"},
-    Name{503, "DISCONNECTED_SOLIDS"},
-    Name{902, "EMPTY_PRIMITIVE"},
+    DefectName{101, "TOO_FEW_POINTS"},
+    DefectName{102, "CONSECUTIVE_POINTS_SAME"},
+    DefectName{103, "RING_NOT_CLOSED"},
+    DefectName{104, "RING_SELF_INTERSECTION"},
+    DefectName{201, "INTERSECTION_RINGS"},
+    DefectName{202, "DUPLICATED_RINGS"},
+    DefectName{203, "NON_PLANAR_POLYGON_DISTANCE_PLANE"},
+    DefectName{204, "NON_PLANAR_POLYGON_NORMALS_DEVIATION"},
+    DefectName{205, "POLYGON_INTERIOR_DISCONNECTED"},
+    DefectName{206, "INNER_RING_OUTSIDE"},
+    DefectName{207, "INNER_RINGS_NESTED"},
+    DefectName{208, "ORIENTATION_RINGS_SAME"},
+    DefectName{301, "TOO_FEW_POLYGONS"},
+    DefectName{302, "SHELL_NOT_CLOSED"},
+    DefectName{303, "NON_MANIFOLD_CASE"},
+    DefectName{305, "MULTIPLE_CONNECTED_COMPONENTS"},
+    DefectName{306, "SHELL_SELF_INTERSECTION"},
+    DefectName{307, "POLYGON_WRONG_ORIENTATION"},
+    DefectName{401, "INTERSECTION_SHELLS"},
+    DefectName{402, "DUPLICATED_SHELLS"},
+    DefectName{403, "INNER_SHELL_OUTSIDE"},
+    DefectName{404, "SOLID_INTERIOR_DISCONNECTED"},
+    DefectName{405, "WRONG_ORIENTATION_SHELL"},
+    DefectName{501, "INTERSECTION_SOLIDS"},
+    DefectName{502, "DUPLICATED_SOLIDS"},
+    DefectName{503, "DISCONNECTED_SOLIDS"},
+    DefectName{902, "EMPTY_PRIMITIVE"},
 };
 
 }  // namespace
 
 std::string_view val3dity_name(int number) {
-  const auto found = std::ranges::find(kNames, number, &Name::number);
+  const auto found = std::ranges::find(kNames, number, &DefectName::number);
   return found == kNames.end() ? std::string_view() : found->text;
 }
 

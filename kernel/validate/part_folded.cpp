@@ -1,5 +1,6 @@
 #include "kernel/validate/part_folded.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/mesh/triangulate.h"
@@ -18,7 +19,7 @@ namespace oriel {
 namespace {
 
 using Triangle = std::array<int, 3>;
-using HalfEdge = std::pair<int, int>;
+using DirectedEdge = std::pair<int, int>;
 
 /// Half of what validate() takes for folded: what stays together is triangulated anew, otherwise
 /// maybe.
@@ -60,17 +61,17 @@ Vec3 normal_of(const WrittenFacet& facet, const Triangle& t) {
 }
 
 /// The edges of a triangle as it runs.
-std::array<HalfEdge, 3> edges_of(const Triangle& t) {
+std::array<DirectedEdge, 3> edges_of(const Triangle& t) {
   return {{{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}}};
 }
 
 /// For each triangle 1 if it hangs together with the largest one and none between is tilted.
-std::vector<char> find_main(const WrittenFacet& facet, const std::vector<Triangle>& triangles) {
+std::vector<char> find_main(const WrittenFacet& facet, std::span<const Triangle> triangles) {
   std::vector<Vec3> normals;
   for (const Triangle& t : triangles) normals.push_back(normal_of(facet, t));
-  std::map<HalfEdge, int> owner;
+  std::map<DirectedEdge, int> owner;
   for (int t = 0; t < std::ssize(triangles); ++t)
-    for (const HalfEdge& e : edges_of(triangles[at(t)])) owner[e] = t;
+    for (const DirectedEdge& e : edges_of(triangles[at(t)])) owner[e] = t;
   const auto largest = std::ranges::max_element(normals, {}, length) - normals.begin();
   std::vector<char> is_main(triangles.size(), 0);
   std::vector<int> reached{static_cast<int>(largest)};
@@ -92,12 +93,11 @@ std::vector<char> find_main(const WrittenFacet& facet, const std::vector<Triangl
 }
 
 /// The loops round the main triangles; none if they touch themselves in a point.
-std::vector<Loop> loops_round(const std::vector<Triangle>& triangles,
-                              const std::vector<char>& is_main) {
-  std::set<HalfEdge> rim;
+std::vector<Loop> loops_round(std::span<const Triangle> triangles, std::span<const char> is_main) {
+  std::set<DirectedEdge> rim;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (is_main[t])
-      for (const HalfEdge& e : edges_of(triangles[t]))
+      for (const DirectedEdge& e : edges_of(triangles[t]))
         if (rim.erase({e.second, e.first}) == 0) rim.insert(e);
   std::map<int, int> next;
   for (const auto& [from, to] : rim)
@@ -223,7 +223,8 @@ class Parter {
 }  // namespace
 
 std::optional<PartedSolid> part_folded(const Solid& solid, const Building& written,
-                                       const std::vector<Finding>& findings) {
+                                       std::span<const Finding> findings) {
+  ORIEL_ASSERT(written.polygons.size() == solid.facets.size(), "one polygon for each facet");
   Parter parter(solid);
   bool has_parted = false;
   for (const Finding& finding : findings) {

@@ -5,6 +5,7 @@
 #include "kernel/validate/validate.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel {
@@ -24,6 +25,6 @@ struct PartedSolid {
 /// `written` is what as_written() makes of the solid, `findings` what validate() finds in that.
 /// Nothing if there is a finding of another kind, or if no facet could be parted.
 std::optional<PartedSolid> part_folded(const Solid& solid, const Building& written,
-                                       const std::vector<Finding>& findings);
+                                       std::span<const Finding> findings);
 
 }  // namespace oriel

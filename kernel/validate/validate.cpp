@@ -26,15 +26,15 @@ bool is_judged_as_solid(const Building& building, ValidateOptions::Primitive pri
 }
 
 /// The shells of a building in order, by body and shell; nothing for one with a bad polygon.
-using Shells = std::map<std::pair<int, int>, std::optional<JudgedShell>>;
+using JudgedShells = std::map<std::pair<int, int>, std::optional<JudgedShell>>;
 
-Shells judge_polygons(const SnappedBuilding& building, const ValidateOptions& options,
-                      FindingList& findings) {
+JudgedShells judge_polygons(const SnappedBuilding& building, const ValidateOptions& options,
+                            FindingList& findings) {
   // Findings come in the order of shells, whatever order the polygons are listed in.
   std::map<std::pair<int, int>, std::vector<const detail::SnappedPolygon*>> members;
   for (const detail::SnappedPolygon& polygon : building.polygons)
     members[{polygon.body, polygon.shell}].push_back(&polygon);
-  Shells shells;
+  JudgedShells shells;
   for (const auto& [place, polygons] : members) {
     JudgedShell shell{place.first, place.second, {}};
     bool is_good = true;
@@ -54,7 +54,7 @@ struct JudgedSolids {
   bool are_all_good = true;
 };
 
-JudgedSolids judge_shells(const SnappedBuilding& building, const Shells& shells,
+JudgedSolids judge_shells(const SnappedBuilding& building, const JudgedShells& shells,
                           FindingList& findings) {
   JudgedSolids out;
   for (auto at = shells.begin(); at != shells.end();) {
@@ -90,7 +90,7 @@ std::vector<Finding> validate(const Building& building, const ValidateOptions& o
   if (!snapped) return {out_of_range(building)};
   FindingList findings(*snapped);
   if (building.polygons.empty()) findings.add(detail::Defect::empty, {}, "it has no polygons");
-  const Shells shells = judge_polygons(*snapped, options, findings);
+  const JudgedShells shells = judge_polygons(*snapped, options, findings);
   if (is_judged_as_solid(building, options.primitive)) {
     const JudgedSolids judged = judge_shells(*snapped, shells, findings);
     if (judged.are_all_good && building.is_composite)

@@ -1,5 +1,6 @@
 #include "kernel/validate/weld_written.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/solidify/shells/shells.h"
@@ -28,7 +29,7 @@ std::vector<int> first_of_each_point(const Solid& solid, const Building& written
 }
 
 /// Empty if less than a triangle is left.
-Loop welded(const Loop& loop, const std::vector<int>& first) {
+Loop welded(const Loop& loop, std::span<const int> first) {
   Loop out;
   for (const int v : loop)
     if (out.empty() || out.back() != first[at(v)]) out.push_back(first[at(v)]);
@@ -37,7 +38,7 @@ Loop welded(const Loop& loop, const std::vector<int>& first) {
 }
 
 /// Facets whose outer loop is gone leave, with what was in them.
-std::vector<int> weld_facets(Solid& solid, const std::vector<int>& first) {
+std::vector<int> weld_facets(Solid& solid, std::span<const int> first) {
   std::vector<int> whole_of, number_of(solid.facets.size(), -1);
   std::vector<Facet> facets;
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -61,7 +62,8 @@ std::vector<int> weld_facets(Solid& solid, const std::vector<int>& first) {
 }  // namespace
 
 std::optional<PartedSolid> weld_written(const Solid& solid, const Building& written,
-                                        const std::vector<Finding>& findings) {
+                                        std::span<const Finding> findings) {
+  ORIEL_ASSERT(written.polygons.size() == solid.facets.size(), "one polygon for each facet");
   if (std::ranges::find(findings, Code::E312, &Finding::code) == findings.end())
     return std::nullopt;
   PartedSolid out{solid, {}};

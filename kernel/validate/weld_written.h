@@ -5,6 +5,7 @@
 #include "kernel/validate/part_folded.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel {
@@ -15,6 +16,6 @@ namespace oriel {
 /// `written` is what as_written() makes of the solid, `findings` what validate() finds in that.
 /// Nothing if there is no such edge. Whether the rest is valid has to be judged.
 std::optional<PartedSolid> weld_written(const Solid& solid, const Building& written,
-                                        const std::vector<Finding>& findings);
+                                        std::span<const Finding> findings);
 
 }  // namespace oriel

@@ -1,7 +1,7 @@
 #include "oriel/pipeline/output_check.h"
 
 #include "kernel/base/index.h"
-#include "kernel/io/levels/as_written.h"
+#include "kernel/io/levels/written_grid.h"
 #include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 #include "kernel/validate/weld_written.h"

@@ -1,5 +1,5 @@
 #include "kernel/geometry/planar.h"
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 #include "oriel/explain.h"
 
 #include <cmath>

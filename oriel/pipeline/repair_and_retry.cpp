@@ -1,6 +1,6 @@
 #include "oriel/pipeline/repair_and_retry.h"
 
-#include "kernel/io/levels/as_written.h"
+#include "kernel/io/levels/written_grid.h"
 #include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/output_check.h"

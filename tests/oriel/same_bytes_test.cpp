@@ -1,5 +1,5 @@
 #include "kernel/io/records/operation_log.h"
-#include "kernel/io/records/repair_json.h"
+#include "kernel/io/records/stage_json.h"
 #include "oriel/oriel.h"
 #include "tests/cli/command.h"
 #include "tests/support/shared.h"

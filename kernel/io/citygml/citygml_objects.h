@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernel/io/citygml/gml_geometry.h"
-#include "kernel/io/citygml/xml_links.h"
 #include "kernel/io/citygml/xml_node.h"
 
 #include <map>

@@ -4,7 +4,7 @@
 #include "kernel/io/citygml/citygml_stream.h"
 #include "kernel/io/citygml/citygml_text.h"
 #include "kernel/io/citygml/gml_geometry.h"
-#include "kernel/io/citygml/xml_links.h"
+#include "kernel/io/citygml/xml_node.h"
 #include "kernel/io/cityjson/cityjson_reader.h"
 
 #include <algorithm>

@@ -19,12 +19,12 @@ constexpr std::size_t kMaxDepth = 1000;
 /// one would cost the square of its length.
 constexpr XML_Index kMaxToken = 16 << 20;
 
-struct Name {
+struct QualifiedName {
   std::string_view space;
   std::string_view local;
 };
 
-Name split(const XML_Char* text) {
+QualifiedName split(const XML_Char* text) {
   const std::string_view name(text);
   const std::size_t at = name.rfind(kSeparator);
   if (at == std::string_view::npos) return {{}, name};
@@ -47,7 +47,7 @@ Vocabulary vocabulary_of(std::string_view space) {
 }
 
 /// The key under which an attribute is kept; empty for those that are not.
-std::string_view kept_key(const Name& name) {
+std::string_view kept_key(const QualifiedName& name) {
   constexpr std::array<std::string_view, 4> kPlain{"srsName", "srsDimension", "orientation",
                                                    "name"};
   if (name.space.empty() && std::ranges::find(kPlain, name.local) != kPlain.end())
@@ -68,9 +68,9 @@ struct CityGmlStream::State {
   static void on_doctype(void* data, const XML_Char* name, const XML_Char* system_id,
                          const XML_Char* public_id, int has_subset);
 
-  void start(const Name& name, const XML_Char** attributes);
+  void start(const QualifiedName& name, const XML_Char** attributes);
   void end();
-  void check_root(const Name& name);
+  void check_root(const QualifiedName& name);
   void note_envelope(const XmlNode& bounds);
   void feed();
   void refuse(Fault fault);
@@ -124,7 +124,7 @@ void CityGmlStream::State::on_doctype(void* data, const XML_Char* /*name*/,
        "has a document type declaration (DOCTYPE); expected none: entities are not read"});
 }
 
-void CityGmlStream::State::start(const Name& element, const XML_Char** attributes) {
+void CityGmlStream::State::start(const QualifiedName& element, const XML_Char** attributes) {
   if (issue) return;
   if (++depth > kMaxDepth)
     return refuse({Code::E503, fmt::format("elements are nested deeper than {}", kMaxDepth)});
@@ -168,7 +168,7 @@ void CityGmlStream::State::end() {
     ready.push_back(std::move(root));
 }
 
-void CityGmlStream::State::check_root(const Name& element) {
+void CityGmlStream::State::check_root(const QualifiedName& element) {
   has_root = true;
   if (element.local != "CityModel" || element.space.find("citygml") == std::string_view::npos)
     return refuse({Code::E107, fmt::format("is XML, but not CityGML: its root is {}; expected a "

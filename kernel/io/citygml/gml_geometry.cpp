@@ -143,7 +143,7 @@ std::optional<GmlGeometry> GmlReader::read(const XmlNode& property) {
 }
 
 std::vector<GmlPolygon> GmlReader::read_polygons(const XmlNode& property) {
-  Shell shell;
+  GmlShell shell;
   for_each_value(property, [&](const XmlNode& value) { return read_surfaces(value, {}, shell); });
   return shell;
 }
@@ -156,7 +156,7 @@ bool GmlReader::read_solids(const XmlNode& node, Context context, Bodies& bodies
                 fmt::format("a solid is {}; expected Solid, MultiSolid or "
                             "CompositeSolid",
                             in_quotes(node.name)));
-  std::vector<Shell> shells;
+  std::vector<GmlShell> shells;
   for (const XmlNode& property : node.children) {
     if (!is_part(property)) continue;
     const bool is_good = for_each_value(property, [&](const XmlNode& value) {
@@ -170,7 +170,7 @@ bool GmlReader::read_solids(const XmlNode& node, Context context, Bodies& bodies
   return true;
 }
 
-bool GmlReader::read_surfaces(const XmlNode& node, Context context, Shell& shell) {
+bool GmlReader::read_surfaces(const XmlNode& node, Context context, GmlShell& shell) {
   if (const auto own = as_whole(node.attribute("srsDimension")))
     context.dimension = static_cast<int>(*own);
   if (is_polygon(node)) return read_polygon(node, context, shell);
@@ -189,7 +189,7 @@ bool GmlReader::read_surfaces(const XmlNode& node, Context context, Shell& shell
   return true;
 }
 
-bool GmlReader::read_polygon(const XmlNode& node, Context context, Shell& shell) {
+bool GmlReader::read_polygon(const XmlNode& node, Context context, GmlShell& shell) {
   const auto [found, is_new] = rings_of_.try_emplace(&node);
   if (is_new && !read_rings(node, context, found->second)) return false;
   GmlPolygon polygon{&node, found->second};

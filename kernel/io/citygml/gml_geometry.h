@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernel/io/citygml/xml_links.h"
 #include "kernel/io/citygml/xml_node.h"
 #include "kernel/model/vec3.h"
 
@@ -78,8 +77,8 @@ class GmlReader {
   [[nodiscard]] const XmlNode* open_ring() const { return open_ring_; }
 
  private:
-  using Shell = std::vector<GmlPolygon>;
-  using Bodies = std::vector<std::vector<Shell>>;
+  using GmlShell = std::vector<GmlPolygon>;
+  using Bodies = std::vector<std::vector<GmlShell>>;
   /// What elements have from those around them.
   struct Context {
     bool is_turned = false;
@@ -87,8 +86,8 @@ class GmlReader {
   };
 
   bool read_solids(const XmlNode& node, Context context, Bodies& bodies);
-  bool read_surfaces(const XmlNode& node, Context context, Shell& shell);
-  bool read_polygon(const XmlNode& node, Context context, Shell& shell);
+  bool read_surfaces(const XmlNode& node, Context context, GmlShell& shell);
+  bool read_polygon(const XmlNode& node, Context context, GmlShell& shell);
   bool read_rings(const XmlNode& node, Context context, std::vector<std::vector<int>>& rings);
   bool read_ring(const XmlNode& ring, Context context, std::vector<int>& vertices);
   bool read_positions(const XmlNode& node, Context context, std::vector<int>& vertices);

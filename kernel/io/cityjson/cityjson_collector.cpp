@@ -1,6 +1,5 @@
 #include "kernel/io/cityjson/cityjson_collector.h"
 
-#include "kernel/io/cityjson/write/appearance_text.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
 #include "kernel/io/cityjson/write/vertex_pool.h"
 #include "kernel/io/json/json_text.h"

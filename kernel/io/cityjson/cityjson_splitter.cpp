@@ -1,8 +1,7 @@
 #include "kernel/io/cityjson/cityjson_splitter.h"
 
+#include "kernel/io/cityjson/cityjson_objects.h"
 #include "kernel/io/cityjson/cityjson_source.h"
-#include "kernel/io/cityjson/families.h"
-#include "kernel/io/cityjson/write/appearance_text.h"
 #include "kernel/io/cityjson/write/fresh_cityjson.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
 #include "kernel/io/json/json_text.h"
@@ -103,11 +102,11 @@ struct CityJsonSplitter::State {
   std::vector<std::string_view> vertices;
   bool has_appearance = false;
   std::array<std::vector<std::string_view>, kLists.size()> lists;  ///< as kLists
-  struct Feature {
+  struct CityFeature {
     std::size_t root = 0;
     std::vector<std::size_t> members;
   };
-  std::vector<Feature> features;
+  std::vector<CityFeature> features;
 };
 
 void CityJsonSplitter::State::list_features() {
@@ -132,7 +131,7 @@ void CityJsonSplitter::State::list_features() {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const auto [found, is_new] = feature_of.try_emplace(family_of[i], features.size());
     if (is_new) features.push_back({i, {}});
-    Feature& feature = features[found->second];
+    CityFeature& feature = features[found->second];
     // The feature is named by its first object without parents.
     if (has_parents[feature.root] && !has_parents[i]) feature.root = i;
     feature.members.push_back(i);
@@ -164,7 +163,7 @@ CityJsonSplitter::~CityJsonSplitter() = default;
 std::size_t CityJsonSplitter::size() const { return state_->features.size(); }
 
 std::vector<std::string> CityJsonSplitter::ids(std::size_t i) const {
-  const State::Feature& feature = state_->features[i];
+  const State::CityFeature& feature = state_->features[i];
   std::vector<std::string> ids{state_->objects.key(feature.root)};
   for (const std::size_t member : feature.members)
     if (member != feature.root) ids.push_back(state_->objects.key(member));

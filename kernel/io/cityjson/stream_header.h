@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernel/model/vec3.h"
+
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,5 +16,18 @@ std::string stream_header_facts(std::string_view header);
 /// What files depend on that become one file, whatever their grids: version, reference system, and
 /// a hash of the geometry templates if there are any.
 std::string file_facts(std::string_view header);
+
+/// Where the features of a CityJSONSeq stand.
+class FeaturePlace {
+ public:
+  /// `header` is the stream's header line as Reader has read it.
+  explicit FeaturePlace(std::string_view header);
+  /// The middle of the box of a feature's vertices, in the input's coordinates; nothing without
+  /// vertices. `feature` is a line that Reader has read.
+  [[nodiscard]] std::optional<Vec3> middle_of(std::string_view feature) const;
+
+ private:
+  Vec3 scale_, translate_;
+};
 
 }  // namespace oriel

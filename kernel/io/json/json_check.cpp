@@ -1,7 +1,6 @@
 #include "kernel/io/json/json_check.h"
 
 #include "kernel/io/json/raw_json.h"
-#include "kernel/io/json/slow_json.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,9 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace oriel::detail {
 
@@ -15,5 +18,11 @@ constexpr std::size_t kMaxDepth = 1000;
 /// number that no double or 64-bit integer holds. Always an error with its place; nothing if the
 /// text is a JSON object after all.
 std::optional<Issue> find_json_error(const TextName& name, std::string_view text);
+
+/// The parsed text, for small files off the hot path. Nothing and an issue if it is not JSON: E102
+/// empty, E103 not UTF-8, E104 not JSON, E105 truncated, E503 nested too deep, E504 a number out of
+/// range, each with its place.
+std::optional<nlohmann::json> parse_slowly(const TextName& name, std::string_view text,
+                                           std::vector<Issue>& issues);
 
 }  // namespace oriel::detail

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "kernel/model/vec3.h"
+
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -36,5 +39,42 @@ void append_json_key(std::string& out, std::string_view key);
 
 /// `number` with the fewest digits that read back to the same double; "nan", "inf" as such.
 std::string shortest(double number);
+
+/// `key:value`, a member of the object that is being written (append_json_key).
+template <class Value>
+void append_field(std::string& out, std::string_view key, const Value& value) {
+  append_json_key(out, key);
+  append_json(out, value);
+}
+
+/// `key:[x,y,z]`.
+inline void append_vector(std::string& out, std::string_view key, Vec3 v) {
+  append_json_key(out, key);
+  append_json_array(out, std::array{v.x, v.y, v.z});
+}
+
+/// `key:[…]`, each element of `values` as `append(value)` writes it.
+template <class Values, class Append>
+void append_list(std::string& out, std::string_view key, const Values& values,
+                 const Append& append) {
+  append_json_key(out, key);
+  out += '[';
+  for (const auto& value : values) {
+    if (&value != &*values.begin()) out += ',';
+    append(value);
+  }
+  out += ']';
+}
+
+/// `key:[{…},…]`, each element of `values` an object with the members that `append(value)` writes.
+template <class Values, class Append>
+void append_objects(std::string& out, std::string_view key, const Values& values,
+                    const Append& append) {
+  append_list(out, key, values, [&](const auto& value) {
+    out += '{';
+    append(value);
+    out += '}';
+  });
+}
 
 }  // namespace oriel::detail

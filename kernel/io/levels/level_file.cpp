@@ -14,13 +14,13 @@ namespace oriel {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
-Vec3 vector_of(const Json& json) {
+Vec3 vector_of(const ordered_json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-MemberValue value_of(const Json& json) {
+MemberValue value_of(const ordered_json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
@@ -28,7 +28,7 @@ MemberValue value_of(const Json& json) {
 }
 
 /// The members of an object but some.
-Members members_of(const Json& json, const std::set<std::string>& but) {
+Members members_of(const ordered_json& json, const std::set<std::string>& but) {
   Members out;
   for (const auto& [name, value] : json.items())
     if (!but.contains(name)) out.emplace_back(name, value_of(value));
@@ -37,9 +37,9 @@ Members members_of(const Json& json, const std::set<std::string>& but) {
 
 class LevelReader {
  public:
-  LevelReader(const Json& root, const Json& header, const std::string& lod)
+  LevelReader(const ordered_json& root, const ordered_json& header, const std::string& lod)
       : objects_(root.at("CityObjects")), vertices_(root.at("vertices")), lod_(lod) {
-    const Json& transform = header.at("transform");
+    const ordered_json& transform = header.at("transform");
     scale_ = vector_of(transform.at("scale"));
     translate_ = vector_of(transform.at("translate"));
   }
@@ -47,20 +47,20 @@ class LevelReader {
   LevelState state(const std::string& id) {
     LevelState state;
     state.building = id;
-    const Json& object = objects_.at(id);
+    const ordered_json& object = objects_.at(id);
     add_geometry(chosen_geometry(object.at("geometry")), state);
     if (const auto found = object.find("attributes"); found != object.end())
       for (const auto& [name, value] : found->items())
         if (name.starts_with("oriel_removed_")) state.attributes[name] = value_of(value);
     if (const auto children = object.find("children"); children != object.end())
-      for (const Json& child : *children) add_installation(child.get<std::string>(), state);
+      for (const ordered_json& child : *children) add_installation(child.get<std::string>(), state);
     return state;
   }
 
  private:
-  [[nodiscard]] MicrometreRing ring_of(const Json& numbers) const {
+  [[nodiscard]] MicrometreRing ring_of(const ordered_json& numbers) const {
     MicrometreRing ring;
-    for (const Json& number : numbers)
+    for (const ordered_json& number : numbers)
       ring.push_back(
           grid_point(vertices_.at(number.get<std::size_t>()).get<std::array<std::int64_t, 3>>(),
                      scale_, translate_));
@@ -71,10 +71,11 @@ class LevelReader {
 
   /// Calls visit(polygon, its value) with each polygon under `boundaries`, nested `depth` deep.
   template <class Visit>
-  static void for_each_polygon(const Json& boundaries, const Json* values, int depth,
-                               const Visit& visit) {
+  static void for_each_polygon(const ordered_json& boundaries, const ordered_json* values,
+                               int depth, const Visit& visit) {
     for (std::size_t i = 0; i < boundaries.size(); ++i) {
-      const Json* value = values != nullptr && values->is_array() ? &values->at(i) : nullptr;
+      const ordered_json* value =
+          values != nullptr && values->is_array() ? &values->at(i) : nullptr;
       if (depth == 0)
         visit(boundaries[i], value);
       else
@@ -83,9 +84,9 @@ class LevelReader {
   }
 
   /// Of the solids the first of the level of detail, or of the highest, as the Reader chooses.
-  [[nodiscard]] const Json& chosen_geometry(const Json& geometries) const {
-    const Json* chosen = nullptr;
-    for (const Json& geometry : geometries) {
+  [[nodiscard]] const ordered_json& chosen_geometry(const ordered_json& geometries) const {
+    const ordered_json* chosen = nullptr;
+    for (const ordered_json& geometry : geometries) {
       const std::string type = geometry.at("type").get<std::string>();
       if (type != "Solid" && type != "MultiSolid") continue;
       if (!lod_.empty() && geometry.at("lod") != lod_) continue;
@@ -95,18 +96,18 @@ class LevelReader {
     return *chosen;
   }
 
-  void add_geometry(const Json& geometry, LevelState& state) const {
+  void add_geometry(const ordered_json& geometry, LevelState& state) const {
     const std::string type = geometry.at("type").get<std::string>();
     const auto semantics = geometry.find("semantics");
-    const Json* values = semantics == geometry.end() ? nullptr : &semantics->at("values");
+    const ordered_json* values = semantics == geometry.end() ? nullptr : &semantics->at("values");
     for_each_polygon(geometry.at("boundaries"), values, type == "Solid" ? 1 : 2,
-                     [&](const Json& polygon, const Json* value) {
+                     [&](const ordered_json& polygon, const ordered_json* value) {
                        LevelFacet facet;
                        for (std::size_t i = 1; i < polygon.size(); ++i)
                          facet.holes.push_back(ring_of(polygon[i]));
                        std::ranges::sort(facet.holes);
                        if (value != nullptr && value->is_number()) {
-                         const Json& surface =
+                         const ordered_json& surface =
                              semantics->at("surfaces").at(value->get<std::size_t>());
                          facet.type = surface.at("type").get<std::string>();
                          facet.members = members_of(surface, {"type", "parent", "children"});
@@ -122,7 +123,7 @@ class LevelReader {
         !object->at("attributes").contains("oriel_geometry"))
       return;
     state.installations[id] = members_of(object->at("attributes"), {"oriel_geometry"});
-    for (const Json& polygon : object->at("geometry").at(0).at("boundaries")) {
+    for (const ordered_json& polygon : object->at("geometry").at(0).at("boundaries")) {
       const auto facet = state.facets.find(ring_of(polygon.at(0)));
       if (facet == state.facets.end()) throw std::runtime_error("'" + id + "' has its own facets");
       auto& ids = facet->second.installations;
@@ -130,8 +131,8 @@ class LevelReader {
     }
   }
 
-  const Json& objects_;
-  const Json& vertices_;
+  const ordered_json& objects_;
+  const ordered_json& vertices_;
   const std::string& lod_;
   Vec3 scale_, translate_;
 };
@@ -145,8 +146,8 @@ Checked<std::vector<LevelState>> read_level(std::string_view text, const std::st
   std::vector<LevelState> states;
   std::string building;
   try {
-    const Json root = Json::parse(text);
-    const Json above = header.empty() ? Json() : Json::parse(header);
+    const ordered_json root = ordered_json::parse(text);
+    const ordered_json above = header.empty() ? ordered_json() : ordered_json::parse(header);
     LevelReader reader(root, header.empty() ? root : above, lod);
     for (const std::string& id : ids) {
       building = id;

@@ -1,5 +1,5 @@
 #include "kernel/io/mesh/mesh_writer.h"
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 
 #include <algorithm>
 #include <cctype>

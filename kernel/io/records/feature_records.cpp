@@ -2,9 +2,8 @@
 
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/json_text.h"
-#include "kernel/io/json/record_text.h"
 #include "kernel/io/json/words.h"
-#include "kernel/io/records/csv_line.h"
+#include "kernel/io/records/record_text.h"
 
 #include <algorithm>
 #include <limits>

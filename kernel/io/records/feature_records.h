@@ -98,4 +98,8 @@ Checked<std::vector<FeatureRecord>> read_feature_records(const std::string& path
 std::vector<Issue> visit_feature_records(const std::string& path,
                                          const std::function<void(FeatureRecord)>& visit);
 
+/// Appends a line of CSV (RFC 4180) with an LF at its end: cells with commas, quotes or line ends
+/// stand in quotes.
+void append_csv_line(std::string& out, const std::vector<std::string>& cells);
+
 }  // namespace oriel

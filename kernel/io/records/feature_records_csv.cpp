@@ -1,12 +1,30 @@
 #include "kernel/io/json/json_text.h"
-#include "kernel/io/json/record_text.h"
-#include "kernel/io/records/csv_line.h"
+#include "kernel/io/records/feature_records.h"
+#include "kernel/io/records/record_text.h"
 
 #include <algorithm>
 #include <deque>
 #include <utility>
 
 #include <fmt/format.h>
+
+namespace oriel {
+
+void append_csv_line(std::string& out, const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) out += ',';
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+      out += cell;
+      continue;
+    }
+    out += '"';
+    for (const char c : cell) out.append(c == '"' ? 2 : 1, c);
+    out += '"';
+  }
+  out += '\n';
+}
+
+}  // namespace oriel
 
 namespace oriel::detail {
 
@@ -49,7 +67,7 @@ class CsvReader {
     if (read_plain_line(cells)) return true;
     bool is_more = true;
     while (is_more && !fault) {
-      const Cell cell = read_cell(fault);
+      const CsvCell cell = read_cell(fault);
       cells.push_back(cell.text);
       is_more = cell.is_more;
     }
@@ -60,7 +78,7 @@ class CsvReader {
   [[nodiscard]] std::size_t start() const { return start_; }
 
  private:
-  struct Cell {
+  struct CsvCell {
     std::string_view text;
     /// A comma ends it.
     bool is_more = false;
@@ -82,8 +100,8 @@ class CsvReader {
     }
   }
 
-  Cell read_cell(std::optional<std::string>& fault) {
-    Cell cell;
+  CsvCell read_cell(std::optional<std::string>& fault) {
+    CsvCell cell;
     if (at_ < text_.size() && text_[at_] == '"') {
       cell.text = read_quoted(fault);
     } else {

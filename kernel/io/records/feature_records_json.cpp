@@ -1,6 +1,6 @@
+#include "kernel/io/json/json_check.h"
 #include "kernel/io/json/json_text.h"
-#include "kernel/io/json/record_text.h"
-#include "kernel/io/json/slow_json.h"
+#include "kernel/io/records/record_text.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "kernel/io/records/feature_tables.h"
 
-#include "kernel/io/json/record_text.h"
 #include "kernel/io/json/words.h"
+#include "kernel/io/records/record_text.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
-#include "kernel/model/described_building.h"
+#include "kernel/model/description/feature_graph.h"
 
 #include <string>
 #include <vector>

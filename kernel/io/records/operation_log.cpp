@@ -13,41 +13,41 @@ namespace oriel {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 constexpr double kMicrometres = 1e6;
 
-Json json_of(const MemberValue& value) {
-  return std::visit([](const auto& known) { return Json(known); }, value);
+ordered_json json_of(const MemberValue& value) {
+  return std::visit([](const auto& known) { return ordered_json(known); }, value);
 }
 
-Json json_of(const Members& members) {
-  Json out = Json::object();
+ordered_json json_of(const Members& members) {
+  ordered_json out = ordered_json::object();
   for (const auto& [name, value] : members) out[name] = json_of(value);
   return out;
 }
 
-Json json_of(const MicrometreRing& ring) {
-  Json out = Json::array();
+ordered_json json_of(const MicrometreRing& ring) {
+  ordered_json out = ordered_json::array();
   for (const MicrometrePoint& p : ring) {
-    Json point = Json::array();
+    ordered_json point = ordered_json::array();
     for (const std::int64_t number : p) point.push_back(static_cast<double>(number) / kMicrometres);
     out.push_back(std::move(point));
   }
   return out;
 }
 
-Json json_of(const std::vector<MicrometreRing>& rings) {
-  Json out = Json::array();
+ordered_json json_of(const std::vector<MicrometreRing>& rings) {
+  ordered_json out = ordered_json::array();
   for (const MicrometreRing& ring : rings) out.push_back(json_of(ring));
   return out;
 }
 
-Json json_of(const std::vector<std::pair<MicrometreRing, LevelFacet>>& facets) {
-  Json out = Json::array();
+ordered_json json_of(const std::vector<std::pair<MicrometreRing, LevelFacet>>& facets) {
+  ordered_json out = ordered_json::array();
   for (const auto& [outer, facet] : facets) {
-    Json one;
-    one["rings"] = Json::array({json_of(outer)});
+    ordered_json one;
+    one["rings"] = ordered_json::array({json_of(outer)});
     for (const MicrometreRing& hole : facet.holes) one["rings"].push_back(json_of(hole));
     one["type"] = facet.type;
     if (!facet.members.empty()) one["members"] = json_of(facet.members);
@@ -58,18 +58,18 @@ Json json_of(const std::vector<std::pair<MicrometreRing, LevelFacet>>& facets) {
 }
 
 template <class Map>
-Json json_of_changed(const Map& changed) {
-  Json out = Json::object();
-  for (const auto& [key, value] : changed) out[key] = value ? json_of(*value) : Json();
+ordered_json json_of_changed(const Map& changed) {
+  ordered_json out = ordered_json::object();
+  for (const auto& [key, value] : changed) out[key] = value ? json_of(*value) : ordered_json();
   return out;
 }
 
-Json json_of(const Change& change) {
-  Json out = Json::object();
+ordered_json json_of(const Change& change) {
+  ordered_json out = ordered_json::object();
   if (!change.removed.empty()) out["remove"] = json_of(change.removed);
   if (!change.added.empty()) out["add"] = json_of(change.added);
   for (const auto& [outer, holes] : change.holes) {
-    Json one{{"of", json_of(outer)}};
+    ordered_json one{{"of", json_of(outer)}};
     if (!holes.removed.empty()) one["remove"] = json_of(holes.removed);
     if (!holes.added.empty()) one["add"] = json_of(holes.added);
     out["holes"].push_back(std::move(one));
@@ -79,22 +79,22 @@ Json json_of(const Change& change) {
   return out;
 }
 
-MemberValue member_value(const Json& json) {
+MemberValue member_value(const ordered_json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
   return json.get<std::string>();
 }
 
-Members read_members(const Json& json) {
+Members read_members(const ordered_json& json) {
   Members out;
   for (const auto& [name, value] : json.items()) out.emplace_back(name, member_value(value));
   return out;
 }
 
-MicrometreRing ring_of(const Json& json) {
+MicrometreRing ring_of(const ordered_json& json) {
   MicrometreRing ring;
-  for (const Json& point : json) {
+  for (const ordered_json& point : json) {
     MicrometrePoint p{};
     for (std::size_t i = 0; i < p.size(); ++i)
       p[i] = std::llround(point.at(i).get<double>() * kMicrometres);
@@ -104,18 +104,19 @@ MicrometreRing ring_of(const Json& json) {
   return ring;
 }
 
-std::vector<MicrometreRing> rings_of(const Json& json, const char* key) {
+std::vector<MicrometreRing> rings_of(const ordered_json& json, const char* key) {
   std::vector<MicrometreRing> rings;
   if (const auto found = json.find(key); found != json.end())
-    for (const Json& ring : *found) rings.push_back(ring_of(ring));
+    for (const ordered_json& ring : *found) rings.push_back(ring_of(ring));
   return rings;
 }
 
-std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const Json& json, const char* key) {
+std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const ordered_json& json,
+                                                             const char* key) {
   std::vector<std::pair<MicrometreRing, LevelFacet>> facets;
   const auto found = json.find(key);
   if (found == json.end()) return facets;
-  for (const Json& one : *found) {
+  for (const ordered_json& one : *found) {
     std::vector<MicrometreRing> rings = rings_of(one, "rings");
     if (rings.empty()) throw std::runtime_error("a facet has no rings");
     LevelFacet facet;
@@ -129,7 +130,7 @@ std::vector<std::pair<MicrometreRing, LevelFacet>> facets_of(const Json& json, c
 }
 
 template <class Value, class Read>
-void read_changed(const Json& json, const char* key,
+void read_changed(const ordered_json& json, const char* key,
                   std::map<std::string, std::optional<Value>>& changed, const Read& read) {
   const auto found = json.find(key);
   if (found == json.end()) return;
@@ -137,19 +138,19 @@ void read_changed(const Json& json, const char* key,
     changed[name] = value.is_null() ? std::nullopt : std::optional<Value>(read(value));
 }
 
-Change change_of(const Json& json) {
+Change change_of(const ordered_json& json) {
   Change change;
   change.removed = facets_of(json, "remove");
   change.added = facets_of(json, "add");
   if (const auto holes = json.find("holes"); holes != json.end())
-    for (const Json& one : *holes)
+    for (const ordered_json& one : *holes)
       change.holes[ring_of(one.at("of"))] = {rings_of(one, "remove"), rings_of(one, "add")};
   read_changed(json, "installations", change.installations, read_members);
   read_changed(json, "attributes", change.attributes, member_value);
   return change;
 }
 
-SeriesOperation operation_of(const Json& json) {
+SeriesOperation operation_of(const ordered_json& json) {
   SeriesOperation operation;
   json.at("building").get_to(operation.building);
   if (json.contains("lod")) json.at("lod").get_to(operation.lod);
@@ -159,7 +160,7 @@ SeriesOperation operation_of(const Json& json) {
   json.at("rule").get_to(operation.rule);
   json.at("scale").get_to(operation.scale);
   if (json.contains("with")) json.at("with").get_to(operation.with);
-  const Json& box = json.at("aabb");
+  const ordered_json& box = json.at("aabb");
   if (!box.is_null()) {
     operation.aabb_m.min = {box.at(0), box.at(1), box.at(2)};
     operation.aabb_m.max = {box.at(3), box.at(4), box.at(5)};
@@ -171,7 +172,7 @@ SeriesOperation operation_of(const Json& json) {
 
 SeriesOperation operation_in(std::string_view line, const detail::TextName& name) {
   try {
-    return operation_of(Json::parse(line));
+    return operation_of(ordered_json::parse(line));
   } catch (const std::exception& fault) {
     std::string sentence = "is no operation of a series: ";
     sentence += fault.what();
@@ -182,7 +183,7 @@ SeriesOperation operation_in(std::string_view line, const detail::TextName& name
 }  // namespace
 
 std::string operation_line(const SeriesOperation& operation) {
-  Json out;
+  ordered_json out;
   out["building"] = operation.building;
   if (!operation.lod.empty()) out["lod"] = operation.lod;
   out["oriel_id"] = operation.oriel_id;
@@ -192,11 +193,11 @@ std::string operation_line(const SeriesOperation& operation) {
   out["scale"] = operation.scale;
   if (!operation.with.empty()) out["with"] = operation.with;
   const Box& box = operation.aabb_m;
-  out["aabb"] = box.is_empty() ? Json() : Json{box.min.x, box.min.y, box.min.z,
-                                               box.max.x, box.max.y, box.max.z};
+  out["aabb"] = box.is_empty() ? ordered_json() : ordered_json{box.min.x, box.min.y, box.min.z,
+                                                               box.max.x, box.max.y, box.max.z};
   out["forward"] = json_of(operation.forward);
   out["inverse"] = json_of(operation.inverse);
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 Checked<std::vector<SeriesOperation>> read_operations(std::string_view text,

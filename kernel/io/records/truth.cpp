@@ -1,7 +1,7 @@
 #include "kernel/io/records/truth.h"
 
 #include "kernel/io/files/input.h"
-#include "kernel/io/json/slow_json.h"
+#include "kernel/io/json/json_check.h"
 
 #include <algorithm>
 #include <array>
@@ -97,7 +97,7 @@ std::optional<std::string> read_object(const json& value, std::size_t number, Tr
   return reader.fault();
 }
 
-std::optional<std::string> read_root(const json& root, Truth& truth) {
+std::optional<std::string> read_root(const json& root, GroundTruth& truth) {
   if (!root.is_object() || !root.contains("objects") || !root["objects"].is_array())
     return "expected an object with the array 'objects'";
   MemberReader reader(root, "the file");
@@ -111,11 +111,11 @@ std::optional<std::string> read_root(const json& root, Truth& truth) {
   return std::nullopt;
 }
 
-Checked<Truth> truth_of(const detail::TextName& name, std::string_view text) {
-  Checked<Truth> result;
+Checked<GroundTruth> truth_of(const detail::TextName& name, std::string_view text) {
+  Checked<GroundTruth> result;
   const auto root = detail::parse_slowly(name, text, result.issues);
   if (!root) return result;
-  Truth truth;
+  GroundTruth truth;
   if (const auto fault = read_root(*root, truth))
     result.issues.push_back(detail::error_in(name, {Code::E112, *fault}));
   else
@@ -125,14 +125,14 @@ Checked<Truth> truth_of(const detail::TextName& name, std::string_view text) {
 
 }  // namespace
 
-Checked<Truth> read_truth(const std::string& path) {
+Checked<GroundTruth> read_truth(const std::string& path) {
   const std::string text = detail::Input(path).read_all();
   return truth_of({path, 0}, detail::without_bom(text));
 }
 
-Checked<std::vector<Truth>> read_truths(const std::string& path) {
-  Checked<std::vector<Truth>> result;
-  const auto add = [&](Checked<Truth> truth) {
+Checked<std::vector<GroundTruth>> read_truths(const std::string& path) {
+  Checked<std::vector<GroundTruth>> result;
+  const auto add = [&](Checked<GroundTruth> truth) {
     result.issues.insert(result.issues.end(), truth.issues.begin(), truth.issues.end());
     if (!truth.value) return;
     if (!result.value) result.value.emplace();

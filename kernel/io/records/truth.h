@@ -26,7 +26,7 @@ struct TruthObject {
 };
 
 /// What is known of one building (`*.truth.json`).
-struct Truth {
+struct GroundTruth {
   std::string building;
   std::string dataset;
   std::vector<TruthObject> objects;
@@ -37,10 +37,10 @@ struct Truth {
 /// Reads a file of true objects. E112 names the object and the member that is missing or of the
 /// wrong type, and there is no value then; E102 to E105, E503, E504 if the file is not JSON. Throws
 /// InputError E101 if it cannot be read.
-Checked<Truth> read_truth(const std::string& path);
+Checked<GroundTruth> read_truth(const std::string& path);
 
 /// Reads the truth of many buildings: one per line of a `.jsonl` file, any other file as read_truth
 /// does. A line that does not fit costs that line; no value if none is left.
-Checked<std::vector<Truth>> read_truths(const std::string& path);
+Checked<std::vector<GroundTruth>> read_truths(const std::string& path);
 
 }  // namespace oriel

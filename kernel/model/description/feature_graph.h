@@ -2,6 +2,7 @@
 
 #include "kernel/base/ids.h"
 #include "kernel/model/description/feature_links.h"
+#include "kernel/model/description/feature_table.h"
 
 #include <map>
 #include <string>
@@ -35,6 +36,12 @@ class FeatureGraph {
 
  private:
   std::map<std::string, FeatureLinks, std::less<>> relations_;
+};
+
+/// A building as rules see it.
+struct DescribedBuilding {
+  FeatureTable table;
+  FeatureGraph graph;
 };
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #include "kernel/solidify/crossings/chords.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/boxes.h"
@@ -28,7 +29,7 @@ struct Stretch {
 
 class ChordFinder {
  public:
-  ChordFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, double reach,
+  ChordFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach,
               GrowingPoints& points)
       : soup_(soup), shapes_(shapes), reach_(reach), points_(points) {
     const std::size_t count = soup.polygons.size();
@@ -39,7 +40,7 @@ class ChordFinder {
     for (int p = 0; p < soup.polygon_count(); ++p) measure(p);
   }
 
-  std::vector<std::vector<Edge>> run() {
+  std::vector<std::vector<PointPair>> run() {
     add_edges_on_planes();
     add_crossings();
     for (auto& chords : chords_) {
@@ -118,7 +119,7 @@ class ChordFinder {
     if (found.empty()) return;
     if (own_[at(large)].size() <= kFewCorners) found = common(found, stretches(large, small, line));
     for (const Stretch& stretch : found) {
-      const Edge chord = std::minmax(stretch.from_point, stretch.to_point);
+      const PointPair chord = std::minmax(stretch.from_point, stretch.to_point);
       if (is_ring_edge(small, chord) || !reaches(large, chord)) continue;
       add_chord(small, chord.first, chord.second);
       add_chord(large, chord.first, chord.second);
@@ -131,7 +132,7 @@ class ChordFinder {
     for (const int r : soup_.rings_of(p)) {
       const auto ring = soup_.ring(r);
       for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Edge edge = std::minmax(ring[i], ring[(i + 1) % ring.size()]);
+        const PointPair edge = std::minmax(ring[i], ring[(i + 1) % ring.size()]);
         const double low = height(edge.first, q), high = height(edge.second, q);
         if ((low >= 0) == (high >= 0)) continue;
         const int point = crossing(edge, low, high);
@@ -147,8 +148,8 @@ class ChordFinder {
   }
 
   /// What stretches of one line have in common with others.
-  [[nodiscard]] static std::vector<Stretch> common(const std::vector<Stretch>& first,
-                                                   const std::vector<Stretch>& second) {
+  [[nodiscard]] static std::vector<Stretch> common(std::span<const Stretch> first,
+                                                   std::span<const Stretch> second) {
     std::vector<Stretch> found;
     for (const Stretch& a : first)
       for (const Stretch& b : second) {
@@ -161,34 +162,34 @@ class ChordFinder {
   }
 
   /// The point of an edge at which the height is zero: an end of it if that is within reach.
-  int crossing(const Edge& edge, double low, double high) {
+  int crossing(const PointPair& edge, double low, double high) {
     if (std::abs(low) <= reach_ && std::abs(low) <= std::abs(high)) return edge.first;
     if (std::abs(high) <= reach_) return edge.second;
     const Vec3 from = points_.place(edge.first), to = points_.place(edge.second);
     return points_.point_at(from + (low / (low - high)) * (to - from));
   }
 
-  [[nodiscard]] bool is_ring_edge(int p, const Edge& edge) const {
+  [[nodiscard]] bool is_ring_edge(int p, const PointPair& edge) const {
     for (const int r : soup_.rings_of(p)) {
       const auto ring = soup_.ring(r);
       for (std::size_t i = 0; i < ring.size(); ++i)
-        if (Edge(std::minmax(ring[i], ring[(i + 1) % ring.size()])) == edge) return true;
+        if (PointPair(std::minmax(ring[i], ring[(i + 1) % ring.size()])) == edge) return true;
     }
     return false;
   }
 
-  [[nodiscard]] bool reaches(int p, const Edge& edge) const {
+  [[nodiscard]] bool reaches(int p, const PointPair& edge) const {
     return comes_near(boxes_[at(p)], points_.place(edge.first), points_.place(edge.second), reach_);
   }
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   double reach_;
   GrowingPoints& points_;
   std::vector<Box> boxes_;
   std::vector<Vec3> middles_;
   std::vector<std::vector<int>> own_;  ///< by polygon its corners, sorted
-  std::vector<std::vector<Edge>> chords_;
+  std::vector<std::vector<PointPair>> chords_;
 };
 
 }  // namespace
@@ -199,7 +200,7 @@ GrowingPoints::GrowingPoints(std::vector<exact::GridPoint> points, double weld)
 }
 
 int GrowingPoints::point_at(Vec3 where) {
-  const Cell middle = cell_of(where);
+  const GridCell middle = cell_of(where);
   int best = -1;
   double least = weld_;
   for (int i = 0; i < 27; ++i) {
@@ -219,16 +220,17 @@ int GrowingPoints::point_at(Vec3 where) {
   return static_cast<int>(points_.size()) - 1;
 }
 
-GrowingPoints::Cell GrowingPoints::cell_of(Vec3 where) const {
+GrowingPoints::GridCell GrowingPoints::cell_of(Vec3 where) const {
   const auto number = [&](double c) { return static_cast<std::int64_t>(std::floor(c / weld_)); };
   return {number(where.x), number(where.y), number(where.z)};
 }
 
 void GrowingPoints::enter(int point) { cells_[cell_of(place(point))].push_back(point); }
 
-std::vector<std::vector<Edge>> find_chords(const Soup& soup,
-                                           const std::vector<PolygonShape>& shapes, double reach,
-                                           GrowingPoints& points) {
+std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
+                                                std::span<const PolygonShape> shapes, double reach,
+                                                GrowingPoints& points) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   return ChordFinder(soup, shapes, reach, points).run();
 }
 

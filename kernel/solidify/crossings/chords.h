@@ -7,6 +7,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -22,19 +23,19 @@ class GrowingPoints {
   [[nodiscard]] std::vector<exact::GridPoint> take() { return std::move(points_); }
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
-  [[nodiscard]] Cell cell_of(Vec3 place) const;
+  using GridCell = std::array<std::int64_t, 3>;
+  [[nodiscard]] GridCell cell_of(Vec3 place) const;
   void enter(int point);
 
   std::vector<exact::GridPoint> points_;
   double weld_;
-  std::map<Cell, std::vector<int>> cells_;
+  std::map<GridCell, std::vector<int>> cells_;
 };
 
 /// Of every polygon the edges on it along which others of its body run through it or lie on it, as
 /// pairs of points: not yet cut where they meet.
-std::vector<std::vector<Edge>> find_chords(const Soup& soup,
-                                           const std::vector<PolygonShape>& shapes, double reach,
-                                           GrowingPoints& points);
+std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
+                                                std::span<const PolygonShape> shapes, double reach,
+                                                GrowingPoints& points);
 
 }  // namespace oriel::detail

@@ -1,18 +1,89 @@
 #include "kernel/solidify/crossings/crossings.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/solidify/crossings/chords.h"
 #include "kernel/solidify/crossings/faces.h"
+#include "kernel/solidify/shells/edge_groups.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace oriel::detail {
+
+namespace {
+
+class ContactCutter {
+ public:
+  ContactCutter(const Soup& soup, std::span<const PolygonShape> shapes, double reach)
+      : soup_(soup), shapes_(shapes), reach_(reach) {}
+
+  SoupWithContacts run() {
+    find_contacts();
+    SoupBuilder builder(soup_);
+    for (int p = 0; p < soup_.polygon_count(); ++p) {
+      const auto found = contacts_.find(p);
+      if (found == contacts_.end())
+        builder.add_polygon(soup_, p);
+      else
+        cut_ += add_faces(soup_, shapes_[at(p)], {p, rings_of(soup_, p), found->second},
+                          kSameArea * shapes_[at(p)].area, builder);
+    }
+    return {builder.finish(), cut_};
+  }
+
+ private:
+  [[nodiscard]] Vec3 place(int point) const { return exact::to_metres(soup_.points[at(point)], 1); }
+
+  void find_contacts() {
+    std::vector<Box> boxes(soup_.polygons.size());
+    for (int p = 0; p < soup_.polygon_count(); ++p)
+      for (const int v : soup_.corners_of(p)) boxes[at(p)].grow(place(v));
+    const BoxTree tree(std::move(boxes));
+    const ShellMesh mesh = linked_rings(soup_);
+    EdgeGroups(soup_, mesh).for_each([&](EdgeGroup group) {
+      if (group.size() != 1) return;
+      const int own = mesh.polygon_of[at(group[0])];
+      const PointPair edge =
+          std::minmax({soup_.corners[at(group[0])], soup_.corners[at(mesh.next[at(group[0])])]});
+      const Vec3 from = place(edge.first), to = place(edge.second);
+      tree.search([&](const Box& box) { return comes_near(box, from, to, reach_); },
+                  [&](int p) {
+                    const bool is_same_body =
+                        soup_.polygons[at(p)].body == soup_.polygons[at(own)].body;
+                    if (p != own && is_same_body && lies_on(from, to, p))
+                      contacts_[p].push_back(edge);
+                  });
+    });
+  }
+
+  [[nodiscard]] bool lies_on(Vec3 from, Vec3 to, int p) const {
+    const Vec3 normal = shapes_[at(p)].unit, base = place(soup_.corners_of(p).front());
+    if (std::abs(dot(normal, from - base)) > reach_ || std::abs(dot(normal, to - base)) > reach_)
+      return false;
+    return contains_clearly(outlines_of(soup_, p), normal, 0.5 * (from + to), reach_);
+  }
+
+  const Soup& soup_;
+  std::span<const PolygonShape> shapes_;
+  double reach_;
+  std::map<int, std::vector<PointPair>> contacts_;  ///< by polygon
+  int cut_ = 0;
+};
+
+}  // namespace
+
+SoupWithContacts cut_at_contacts(const Soup& soup, std::span<const PolygonShape> shapes,
+                                 double reach) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
+  return ContactCutter(soup, shapes, reach).run();
+}
 
 namespace {
 
@@ -28,7 +99,7 @@ class FaceWindings {
         --runs_[{to, from}];
       }
     for (int l = 0; l < std::ssize(faces.loops); ++l)
-      for_each_edge(l, [&](const Edge& edge) { left_of_[edge] = l; });
+      for_each_edge(l, [&](const PointPair& edge) { left_of_[edge] = l; });
   }
 
   /// By loop: of what is to its left. Nothing if the rings are contradictory.
@@ -48,12 +119,12 @@ class FaceWindings {
   }
 
  private:
-  static std::vector<Edge> both_ways(const CutPolygon& cut) {
-    std::set<Edge> edges(cut.edges.begin(), cut.edges.end());
+  static std::vector<PointPair> both_ways(const CutPolygon& cut) {
+    std::set<PointPair> edges(cut.edges.begin(), cut.edges.end());
     for (const auto& ring : cut.rings)
       for (std::size_t i = 0; i < ring.size(); ++i)
         edges.insert(std::minmax(ring[i], ring[(i + 1) % ring.size()]));
-    std::vector<Edge> half_edges;
+    std::vector<PointPair> half_edges;
     for (const auto& [low, high] : edges) {
       half_edges.emplace_back(low, high);
       half_edges.emplace_back(high, low);
@@ -65,7 +136,7 @@ class FaceWindings {
   void for_each_edge(int loop, Visit visit) const {
     const auto& points = faces.loops[at(loop)];
     for (std::size_t i = 0; i < points.size(); ++i)
-      visit(Edge(points[i], points[(i + 1) % points.size()]));
+      visit(PointPair(points[i], points[(i + 1) % points.size()]));
   }
 
   void reach(int loop, int winding) {
@@ -85,7 +156,7 @@ class FaceWindings {
     if (faces.face_of[at(loop)] >= 0) reach(faces.face_of[at(loop)], winding);
     for (int l = 0; l < std::ssize(faces.loops); ++l)
       if (faces.face_of[at(l)] == loop) reach(l, winding);
-    for_each_edge(loop, [&](const Edge& edge) {
+    for_each_edge(loop, [&](const PointPair& edge) {
       const auto other = left_of_.find({edge.second, edge.first});
       const auto run = runs_.find(edge);
       if (other != left_of_.end())
@@ -97,8 +168,9 @@ class FaceWindings {
   const Faces faces;
 
  private:
-  std::map<Edge, int> runs_;  ///< how often rings run along a half-edge, less how often against it
-  std::map<Edge, int> left_of_;  ///< by half-edge the loop that it is of
+  std::map<PointPair, int>
+      runs_;  ///< how often rings run along a half-edge, less how often against it
+  std::map<PointPair, int> left_of_;  ///< by half-edge the loop that it is of
   std::vector<std::optional<int>> windings_;
   Numbers reached_;
   bool is_contradictory_ = false;
@@ -151,10 +223,11 @@ bool add_signed_faces(const Soup& soup, const PolygonShape& shape, const CutPoly
 }
 
 /// The edges of a polygon's rings and the chords on it, cut where they meet.
-class Subdivision {
+class ChordSubdivision {
  public:
-  Subdivision(const Soup& soup, const PolygonShape& shape, int polygon,
-              const std::vector<Edge>& chords, GrowingPoints& points, double weld, RingKind kind)
+  ChordSubdivision(const Soup& soup, const PolygonShape& shape, int polygon,
+                   std::span<const PointPair> chords, GrowingPoints& points, double weld,
+                   RingKind kind)
       : shape_(shape),
         polygon_(polygon),
         rings_(rings_of(soup, polygon)),
@@ -165,9 +238,9 @@ class Subdivision {
       for (std::size_t i = 0; i < ring.size(); ++i)
         edges_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
     ring_edges_ = edges_.size();
-    std::set<Edge> rim;
-    for (const Edge& e : edges_) rim.insert(std::minmax(e.first, e.second));
-    for (const Edge& e : chords)
+    std::set<PointPair> rim;
+    for (const PointPair& e : edges_) rim.insert(std::minmax(e.first, e.second));
+    for (const PointPair& e : chords)
       if (!rim.contains(e)) edges_.push_back(e);
     on_.resize(edges_.size());
   }
@@ -177,22 +250,22 @@ class Subdivision {
   CutPolygon run() {
     find_meetings();
     CutPolygon cut{polygon_, {}, {}};
-    std::set<Edge> rim;
+    std::set<PointPair> rim;
     std::size_t e = 0;
     for (const auto& ring : rings_) {
       cut.rings.emplace_back();
       for (std::size_t i = 0; i < ring.size(); ++i, ++e) {
         const auto pieces = pieces_of(e);
-        for (const Edge& piece : pieces) {
+        for (const PointPair& piece : pieces) {
           cut.rings.back().push_back(piece.first);
           rim.insert(std::minmax(piece.first, piece.second));
         }
       }
     }
-    std::set<Edge> inside;
+    std::set<PointPair> inside;
     for (; e < edges_.size(); ++e)
-      for (const Edge& piece : pieces_of(e)) {
-        const Edge edge = std::minmax(piece.first, piece.second);
+      for (const PointPair& piece : pieces_of(e)) {
+        const PointPair edge = std::minmax(piece.first, piece.second);
         const bool is_wanted = kind_ == RingKind::crossing || lies_within(edge);
         if (!rim.contains(edge) && is_wanted) inside.insert(edge);
       }
@@ -247,7 +320,7 @@ class Subdivision {
   }
 
   /// Where two edges cross between their ends, on the first one.
-  [[nodiscard]] std::optional<Vec3> crossing(const Edge& e, const Edge& f) const {
+  [[nodiscard]] std::optional<Vec3> crossing(const PointPair& e, const PointPair& f) const {
     const Vec3 a = points_.place(e.first), b = points_.place(e.second);
     const Vec3 c = points_.place(f.first), d = points_.place(f.second);
     const auto side = [&](Vec3 from, Vec3 to, Vec3 p) {
@@ -259,14 +332,14 @@ class Subdivision {
   }
 
   /// An edge as it runs, cut at the points on it.
-  [[nodiscard]] std::vector<Edge> pieces_of(std::size_t e) const {
+  [[nodiscard]] std::vector<PointPair> pieces_of(std::size_t e) const {
     const Vec3 from = points_.place(edges_[e].first);
     const Vec3 way = points_.place(edges_[e].second) - from;
     std::vector<std::pair<double, int>> stops;
     for (const int v : on_[e]) stops.emplace_back(dot(points_.place(v) - from, way), v);
     std::ranges::sort(stops);
     stops.emplace_back(0, edges_[e].second);
-    std::vector<Edge> pieces;
+    std::vector<PointPair> pieces;
     int last = edges_[e].first;
     for (const auto& [along, v] : stops) {
       if (v != last) pieces.emplace_back(last, v);
@@ -275,7 +348,7 @@ class Subdivision {
     return pieces;
   }
 
-  [[nodiscard]] bool lies_within(const Edge& edge) {
+  [[nodiscard]] bool lies_within(const PointPair& edge) {
     if (outlines_.empty())
       for (const auto& ring : rings_) {
         outlines_.emplace_back();
@@ -291,7 +364,7 @@ class Subdivision {
   GrowingPoints& points_;
   double weld_;
   RingKind kind_;
-  std::vector<Edge> edges_;  ///< of the rings as they run, then the chords
+  std::vector<PointPair> edges_;  ///< of the rings as they run, then the chords
   std::size_t ring_edges_ = 0;
   std::vector<std::vector<int>> on_;  ///< by edge the points between its ends
   std::vector<Outline> outlines_;
@@ -300,12 +373,13 @@ class Subdivision {
 }  // namespace
 
 SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, RingKind rings) {
+  ORIEL_ASSERT(reach >= 0 && weld > 0);
   const std::vector<PolygonShape> shapes = shapes_of(soup);
   GrowingPoints points(soup.points, weld);
   const auto chords = find_chords(soup, shapes, reach, points);
   std::vector<std::optional<CutPolygon>> cuts(soup.polygons.size());
   for (int p = 0; p < soup.polygon_count(); ++p) {
-    Subdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings);
+    ChordSubdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings);
     if (rings == RingKind::crossing || subdivision.has_chords()) cuts[at(p)] = subdivision.run();
   }
   Soup grown = soup;

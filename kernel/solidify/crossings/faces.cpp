@@ -1,5 +1,6 @@
 #include "kernel/solidify/crossings/faces.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 
@@ -17,17 +18,17 @@ namespace {
 /// Walks the faces that half-edges make, the same way round every time.
 class FaceWalk {
  public:
-  FaceWalk(const Soup& soup, Vec3 normal, const std::vector<Edge>& half_edges)
+  FaceWalk(const Soup& soup, Vec3 normal, std::span<const PointPair> half_edges)
       : soup_(soup), normal_(normal), half_edges_(half_edges) {
     for (const auto& [from, to] : half_edges) ways_[from].push_back(to);
   }
 
   [[nodiscard]] Loops loops() const {
     Loops loops;
-    std::set<Edge> walked;
-    for (const Edge& start : half_edges_) {
+    std::set<PointPair> walked;
+    for (const PointPair& start : half_edges_) {
       std::vector<int> loop;
-      for (Edge e = start; walked.insert(e).second;) {
+      for (PointPair e = start; walked.insert(e).second;) {
         loop.push_back(e.first);
         e = {e.second, leftmost(e, ways_.at(e.second))};
       }
@@ -40,7 +41,7 @@ class FaceWalk {
   [[nodiscard]] Vec3 place(int point) const { return exact::to_metres(soup_.points[at(point)], 1); }
 
   /// Of the ways on from the end of an edge the first clockwise from where it came from.
-  [[nodiscard]] int leftmost(const Edge& edge, const std::vector<int>& ways) const {
+  [[nodiscard]] int leftmost(const PointPair& edge, std::span<const int> ways) const {
     const Vec3 back = normalised(place(edge.first) - place(edge.second));
     int best = -1;
     double least = 0;
@@ -57,13 +58,13 @@ class FaceWalk {
 
   const Soup& soup_;
   Vec3 normal_;
-  const std::vector<Edge>& half_edges_;
+  std::span<const PointPair> half_edges_;
   std::map<int, std::vector<int>> ways_;  ///< by point where they lead
 };
 
 /// Every ring edge once, every other edge both ways.
-std::vector<Edge> half_edges_of(const CutPolygon& cut) {
-  std::vector<Edge> half_edges;
+std::vector<PointPair> half_edges_of(const CutPolygon& cut) {
+  std::vector<PointPair> half_edges;
   for (const auto& ring : cut.rings)
     for (std::size_t i = 0; i < ring.size(); ++i)
       half_edges.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
@@ -76,7 +77,7 @@ std::vector<Edge> half_edges_of(const CutPolygon& cut) {
 
 }  // namespace
 
-Faces::Faces(const Soup& soup, Vec3 normal, const std::vector<Edge>& half_edges)
+Faces::Faces(const Soup& soup, Vec3 normal, std::span<const PointPair> half_edges)
     : loops(FaceWalk(soup, normal, half_edges).loops()) {
   for (const auto& loop : loops) {
     outlines.emplace_back();
@@ -132,6 +133,7 @@ std::vector<Outline> outlines_of(const Soup& soup, int polygon) {
 
 bool add_faces(const Soup& soup, const PolygonShape& shape, const CutPolygon& cut, double slack,
                SoupBuilder& builder) {
+  ORIEL_ASSERT(!cut.rings.empty());
   const Faces found(soup, shape.unit, half_edges_of(cut));
   const double sum = std::accumulate(found.areas.begin(), found.areas.end(), 0.0);
   const auto faces = std::ranges::count_if(found.areas, [](double area) { return area > 0; });

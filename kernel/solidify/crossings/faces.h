@@ -3,7 +3,6 @@
 #include "kernel/geometry/planar.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
-#include "kernel/solidify/soup/soup_builder.h"
 
 #include <span>
 #include <utility>
@@ -14,9 +13,6 @@ namespace oriel::detail {
 /// Areas that differ by less than this part are the same: points lie beside the plane.
 inline constexpr double kSameArea = 1e-3;
 
-/// Two points of a soup, the smaller first.
-using Edge = std::pair<int, int>;
-
 /// A polygon of a soup and what cuts it.
 struct CutPolygon {
   int polygon = -1;
@@ -24,7 +20,7 @@ struct CutPolygon {
   std::vector<std::vector<int>> rings;
   /// Edges on the polygon, none of them one of the rings', that meet each other and the rings in
   /// common points only.
-  std::vector<Edge> edges;
+  std::vector<PointPair> edges;
 };
 
 /// A ring of a polygon as points of the soup.
@@ -38,7 +34,7 @@ using Loops = std::vector<std::vector<int>>;
 /// What half-edges in a plane part it into. They must meet in common points only.
 struct Faces {
   /// Walks them, turning as far to the left as there is a way.
-  Faces(const Soup& soup, Vec3 normal, const std::vector<Edge>& half_edges);
+  Faces(const Soup& soup, Vec3 normal, std::span<const PointPair> half_edges);
 
   /// The outer loop of a face and those of its holes.
   [[nodiscard]] std::vector<std::size_t> rings_of(std::size_t face) const;

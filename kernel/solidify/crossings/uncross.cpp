@@ -10,7 +10,6 @@
 #include "kernel/solidify/shells/edge_groups.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
-#include "kernel/solidify/soup/soup_builder.h"
 
 #include <algorithm>
 #include <cmath>

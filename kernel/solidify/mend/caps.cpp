@@ -1,7 +1,8 @@
 #include "kernel/solidify/mend/caps.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 #include "kernel/solidify/shells/edge_groups.h"
 
 #include <algorithm>
@@ -26,8 +27,7 @@ struct OpenHalfEdge {
 
 class CapFinder {
  public:
-  CapFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, double reach,
-            double max_area)
+  CapFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach, double max_area)
       : soup_(soup), shapes_(shapes), reach_(reach), max_area_(max_area) {
     collect_edges();
   }
@@ -132,7 +132,7 @@ class CapFinder {
     caps_.push_back({std::move(ring), area, polygon});
   }
 
-  using Ring = std::vector<int>;
+  using HoleLoop = std::vector<int>;
 
   /// Loops of open edges that no cap has.
   void close_bent_loops() {
@@ -150,7 +150,7 @@ class CapFinder {
     }
     std::set<int> seen;
     for (const auto& [start, ends] : open_at) {
-      Ring loop;
+      HoleLoop loop;
       int before = -1, v = start;
       while (seen.insert(v).second && open_at.at(v).size() == 2) {
         loop.push_back(v);
@@ -162,11 +162,11 @@ class CapFinder {
     }
   }
 
-  void keep_pieces(Ring loop, int polygon) {
+  void keep_pieces(HoleLoop loop, int polygon) {
     std::vector<CapDraft> pieces;
     double area = 0;
     while (!loop.empty()) {
-      Ring piece = take_plane_piece(loop);
+      HoleLoop piece = take_plane_piece(loop);
       const Vec3 vector = area_of(piece);
       const Vec3 normal = normalised(vector);
       area += length(vector);
@@ -183,35 +183,35 @@ class CapFinder {
 
   /// Takes the largest plane piece off a loop: of those with the most points the one with the
   /// shortest chord. What is left of the loop stays; nothing if all of it is plane.
-  Ring take_plane_piece(Ring& loop) const {
+  HoleLoop take_plane_piece(HoleLoop& loop) const {
     const std::size_t size = loop.size();
     if (is_plane(loop)) return std::exchange(loop, {});
-    Ring best;
+    HoleLoop best;
     std::size_t best_start = 0;
     for (std::size_t count = size - 1; count >= 3 && best.empty(); --count)
       for (std::size_t start = 0; start < size; ++start) {
-        Ring piece;
+        HoleLoop piece;
         for (std::size_t i = 0; i < count; ++i) piece.push_back(loop[(start + i) % size]);
         if (!is_plane(piece) || (!best.empty() && chord(best) <= chord(piece))) continue;
         best = std::move(piece);
         best_start = start;
       }
-    Ring rest;
+    HoleLoop rest;
     for (std::size_t i = best.size() - 1; i <= size; ++i)
       rest.push_back(loop[(best_start + i) % size]);
     loop = std::move(rest);
     return best;
   }
 
-  [[nodiscard]] double chord(const Ring& piece) const {
+  [[nodiscard]] double chord(const HoleLoop& piece) const {
     return length(place(piece.back()) - place(piece.front()));
   }
 
-  [[nodiscard]] Vec3 area_of(const Ring& ring) const {
+  [[nodiscard]] Vec3 area_of(const HoleLoop& ring) const {
     return area_vector(ring.size(), [&](std::size_t i) { return place(ring[i]); });
   }
 
-  [[nodiscard]] bool is_plane(const Ring& ring) const {
+  [[nodiscard]] bool is_plane(const HoleLoop& ring) const {
     const Vec3 normal = normalised(area_of(ring));
     return std::ranges::all_of(
         ring, [&](int v) { return std::abs(dot(normal, place(v) - place(ring[0]))) <= reach_; });
@@ -237,17 +237,17 @@ class CapFinder {
         .second;
   }
 
-  struct Incidence {
+  struct PolygonAtEdge {
     int polygon;
     bool runs_up;  ///< from the smaller point to the larger one
   };
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   double reach_, max_area_;
   std::vector<OpenHalfEdge> open_;
   std::vector<std::vector<int>> neighbours_, open_at_;  ///< by point
-  std::map<std::pair<int, int>, std::vector<Incidence>> polygons_at_;
+  std::map<std::pair<int, int>, std::vector<PolygonAtEdge>> polygons_at_;
   std::set<std::array<int, 5>> visited_;
   std::set<std::vector<int>> known_;  ///< the points of caps, sorted
   std::vector<CapDraft> caps_;
@@ -255,8 +255,9 @@ class CapFinder {
 
 }  // namespace
 
-std::vector<CapDraft> find_caps(const Soup& soup, const std::vector<PolygonShape>& shapes,
+std::vector<CapDraft> find_caps(const Soup& soup, std::span<const PolygonShape> shapes,
                                 double reach, double max_area) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   return CapFinder(soup, shapes, reach, max_area).run();
 }
 

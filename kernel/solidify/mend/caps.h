@@ -3,6 +3,7 @@
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -25,7 +26,7 @@ struct CapDraft {
 /// What open edges are left then are followed from point to point, as long as there are two at
 /// each; a loop of them that is not plane is cut into plane pieces by the chords that part the
 /// largest of them (a strip of wall that is missing round a corner).
-std::vector<CapDraft> find_caps(const Soup& soup, const std::vector<PolygonShape>& shapes,
+std::vector<CapDraft> find_caps(const Soup& soup, std::span<const PolygonShape> shapes,
                                 double reach, double max_area);
 
 }  // namespace oriel::detail

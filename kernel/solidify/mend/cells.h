@@ -5,6 +5,7 @@
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -38,6 +39,6 @@ struct PolygonCells {
 
 /// `shapes` are those of the soup's polygons. The outer cell is the one of least volume, as its
 /// boundary runs the wrong way round: minus all the others together.
-PolygonCells find_cells(const Soup& soup, const std::vector<PolygonShape>& shapes);
+PolygonCells find_cells(const Soup& soup, std::span<const PolygonShape> shapes);
 
 }  // namespace oriel::detail

@@ -3,7 +3,6 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/solidify/crossings/contacts.h"
 #include "kernel/solidify/crossings/crossings.h"
 #include "kernel/solidify/mend/caps.h"
 #include "kernel/solidify/mend/cells.h"
@@ -12,12 +11,12 @@
 #include "kernel/solidify/shells/edge_groups.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
-#include "kernel/solidify/soup/soup_builder.h"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -40,7 +39,7 @@ struct PieceBoundary {
 
 class RoleFinder {
  public:
-  RoleFinder(const Soup& soup, const std::vector<PolygonShape>& shapes, const PolygonCells& cells,
+  RoleFinder(const Soup& soup, std::span<const PolygonShape> shapes, const PolygonCells& cells,
              bool is_solid)
       : soup_(soup), shapes_(shapes), cells_(cells), is_solid_(is_solid) {}
 
@@ -93,7 +92,7 @@ class RoleFinder {
 
   /// Of every piece that encloses something the others of its body whose boundary it lies in: a ray
   /// from its first point crosses that an odd number of times.
-  [[nodiscard]] std::vector<Numbers> pieces_around(const std::vector<PieceBoundary>& pieces) const {
+  [[nodiscard]] std::vector<Numbers> pieces_around(std::span<const PieceBoundary> pieces) const {
     Numbers polygons;
     std::vector<Box> boxes;
     Box all;
@@ -142,7 +141,7 @@ class RoleFinder {
   static constexpr Vec3 kRay{0.3127716, 0.5418393, 0.7801215};
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   const PolygonCells& cells_;
   bool is_solid_;
 };
@@ -150,7 +149,7 @@ class RoleFinder {
 /// The role of every piece of the soup. A piece in the material of others of the same body is a
 /// cavity if the input says so (an inner shell of a solid, or, of loose surfaces, one whose
 /// boundary faces inward), else it is within. `is_solid`: what the input says of shells counts.
-std::vector<PieceRole> find_roles(const Soup& soup, const std::vector<PolygonShape>& shapes,
+std::vector<PieceRole> find_roles(const Soup& soup, std::span<const PolygonShape> shapes,
                                   const PolygonCells& cells, bool is_solid) {
   return RoleFinder(soup, shapes, cells, is_solid).run();
 }
@@ -162,12 +161,12 @@ constexpr double kCapReach = 5;
 constexpr int kCapSource = -1;
 
 /// A soup with what is known of it.
-struct Stage {
+struct MendStage {
   Soup soup;
   std::vector<PolygonShape> shapes;
   PolygonCells cells;
 
-  explicit Stage(Soup polygons)
+  explicit MendStage(Soup polygons)
       : soup(std::move(polygons)), shapes(shapes_of(soup)), cells(find_cells(soup, shapes)) {}
 
   /// Less is enclosed than is left over.
@@ -196,7 +195,7 @@ Soup without_duplicates(const Soup& soup, std::vector<int>& duplicates) {
 }
 
 /// The soup with caps for its plane holes, each behind the polygons of its body.
-Soup with_caps(const Stage& stage, double reach, double max_area) {
+Soup with_caps(const MendStage& stage, double reach, double max_area) {
   const Soup& soup = stage.soup;
   std::vector<CapDraft> caps = find_caps(soup, stage.shapes, reach, max_area);
   const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
@@ -217,11 +216,11 @@ Soup with_caps(const Stage& stage, double reach, double max_area) {
 }
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
-Stage close_holes(Stage stage, const Tolerances& tolerances, double cap_area_m2) {
+MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2) {
   if (cap_area_m2 <= 0 || !stage.is_open()) return stage;
   const double grid_m = stage.soup.grid_m;
   const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
-  return Stage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
+  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
 }
 
 /// The polygons cut where others run through them or lie on them.
@@ -236,16 +235,17 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
 
 /// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
 /// the options allow. Each only if what came before was not enough.
-Stage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
-            RepairReport& report) {
+MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
+                RepairReport& report) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
-  Stage stage = close_holes(Stage(soup), tolerances, area_m2);
+  MendStage stage = close_holes(MendStage(soup), tolerances, area_m2);
   if (stage.is_open() && options.crossings != Crossings::leave) {
     soup = without_crossings(soup, tolerances, report);
-    stage = close_holes(Stage(soup), tolerances, area_m2);
+    stage = close_holes(MendStage(soup), tolerances, area_m2);
   }
   if (options.close != Closing::any || !stage.is_open()) return stage;
-  return close_holes(Stage(std::move(soup)), tolerances, std::numeric_limits<double>::infinity());
+  return close_holes(MendStage(std::move(soup)), tolerances,
+                     std::numeric_limits<double>::infinity());
 }
 
 std::vector<OpenEdge> open_edges_of(const Soup& soup) {
@@ -261,7 +261,7 @@ std::vector<OpenEdge> open_edges_of(const Soup& soup) {
   return open;
 }
 
-Cap cap_of(const Stage& stage, int polygon) {
+Cap cap_of(const MendStage& stage, int polygon) {
   const double grid_m = stage.soup.grid_m;
   Cap cap{stage.shapes[at(polygon)].area * grid_m * grid_m, {}};
   const auto corners = stage.soup.corners_of(polygon);
@@ -282,7 +282,7 @@ void drop_kept(const Soup& soup, std::vector<int>& polygons) {
 }
 
 /// Fills the soup and the rest of the report.
-void keep_boundary(const Stage& stage, bool is_solid, Mended& mended) {
+void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended) {
   const auto& [soup, shapes, cells] = stage;
   const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid);
   RepairReport& report = mended.report;
@@ -329,7 +329,7 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
       cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
-  Stage stage = close(std::move(whole), tolerances, options, report);
+  MendStage stage = close(std::move(whole), tolerances, options, report);
   mended.is_open = stage.is_open();
   if (mended.is_open)
     report.open_edges = std::move(open);

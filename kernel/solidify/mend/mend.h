@@ -19,11 +19,11 @@ struct Mended {
 /// Makes the boundary of a solid of polygons that are no closed shell:
 /// 1. one of equal polygons stays (duplicates.h);
 /// 2. vertices on the edge of a neighbour are put into it (t_vertices.h);
-/// 3. polygons are cut where the edges of others lie on them (contacts.h);
+/// 3. polygons are cut where the edges of others lie on them (crossings.h);
 /// 4. the cells between the polygons are found, polygons sorted round the edges (cells.h);
 /// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h); before larger
 ///    ones, polygons are cut where they run through each other, if asked for (crossings.h);
-/// 6. shells in the material of others are dropped or become cavities (nesting.h);
+/// 6. shells in the material of others are dropped or become cavities;
 /// 7. what has the outer cell on one side only stays.
 /// `is_solid`: Building::is_solid.
 Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,

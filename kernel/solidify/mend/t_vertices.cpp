@@ -1,9 +1,10 @@
 #include "kernel/solidify/mend/t_vertices.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/solidify/shells/edge_groups.h"
-#include "kernel/solidify/soup/soup_builder.h"
+#include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
 #include <map>
@@ -74,6 +75,7 @@ Between find_between(const Soup& soup, double reach, Inserted inserted) {
 }  // namespace
 
 SoupWithTVertices insert_t_vertices(const Soup& soup, double reach, Inserted which) {
+  ORIEL_ASSERT(reach >= 0);
   const Between between = find_between(soup, reach, which);
   SoupBuilder builder(soup);
   int inserted = 0;

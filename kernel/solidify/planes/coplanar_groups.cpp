@@ -1,5 +1,6 @@
 #include "kernel/solidify/planes/coplanar_groups.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/disjoint_sets.h"
 
@@ -60,7 +61,7 @@ RoughPlane least_squares(const PointSums& sums, Vec3 normal, Vec3 origin) {
 }
 
 /// What is known of a group, in grid units.
-struct Group {
+struct PlaneGroup {
   Vec3 area_vector;        ///< the normal times the area, summed over its polygons
   double area = 0;         ///< of its polygons, added up
   Vec3 moment;             ///< area times centre, added up
@@ -79,7 +80,7 @@ struct Group {
 
 class Grouper {
  public:
-  Grouper(const Soup& soup, const std::vector<PolygonShape>& shapes, const ShellMesh& mesh,
+  Grouper(const Soup& soup, std::span<const PolygonShape> shapes, const ShellMesh& mesh,
           const Tolerances& tolerances)
       : soup_(soup),
         shapes_(shapes),
@@ -90,7 +91,7 @@ class Grouper {
         origin_(soup.points.empty() ? Vec3{} : point(soup.points.front())) {}
 
   std::optional<CoplanarGroups> run() {
-    std::vector<Pair> pairs = likely_pairs();
+    std::vector<NeighbourPair> pairs = likely_pairs();
     if (pairs.empty()) return std::nullopt;
     for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
     unite_all(pairs, Fitting::areas);
@@ -114,7 +115,7 @@ class Grouper {
   /// little area for its reach, the corners of all of them by least squares.
   enum class Fitting { areas, corners };
 
-  struct Pair {
+  struct NeighbourPair {
     double smaller_area;
     int first, second;
   };
@@ -129,8 +130,8 @@ class Grouper {
 
   /// Neighbours with area whose normals may be those of one plane, the largest first. None if all
   /// such normals are equal: then there is nothing to fit.
-  [[nodiscard]] std::vector<Pair> likely_pairs() const {
-    std::vector<Pair> pairs;
+  [[nodiscard]] std::vector<NeighbourPair> likely_pairs() const {
+    std::vector<NeighbourPair> pairs;
     bool is_exact = true;
     const int count = soup_.corner_count();
     const int *const twin_of = mesh_.twin.data(), *const polygon_of = mesh_.polygon_of.data();
@@ -147,16 +148,16 @@ class Grouper {
       is_exact &= *a.normal == *b.normal;
     }
     if (is_exact) return {};
-    std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
+    std::ranges::sort(pairs, [](const NeighbourPair& x, const NeighbourPair& y) {
       return std::tuple(-x.smaller_area, x.first, x.second) <
              std::tuple(-y.smaller_area, y.first, y.second);
     });
     return pairs;
   }
 
-  [[nodiscard]] Group group_of(int polygon) const {
+  [[nodiscard]] PlaneGroup group_of(int polygon) const {
     const PolygonShape& shape = shapes_[at(polygon)];
-    Group group;
+    PlaneGroup group;
     const auto corners = soup_.corners_of(polygon);
     group.points.assign(corners.begin(), corners.end());
     group.area = shape.area;
@@ -175,7 +176,7 @@ class Grouper {
     return group;
   }
 
-  [[nodiscard]] double residual_of(const Group& group, const RoughPlane& plane) const {
+  [[nodiscard]] double residual_of(const PlaneGroup& group, const RoughPlane& plane) const {
     double residual = 0;
     for (const int v : group.points) residual = std::max(residual, plane.distance(point(v)));
     return residual;
@@ -183,7 +184,7 @@ class Grouper {
 
   /// No smaller than the residual: that of the group's own plane, and how far the two planes are
   /// apart in its box.
-  [[nodiscard]] static double residual_bound(const Group& group, const RoughPlane& plane) {
+  [[nodiscard]] static double residual_bound(const PlaneGroup& group, const RoughPlane& plane) {
     const RoughPlane& own = group.plane;
     const Vec3 turn = plane.normal - own.normal, half = 0.5 * (group.box.max - group.box.min),
                middle = group.box.min + half;
@@ -196,14 +197,15 @@ class Grouper {
     return dot(p, q) <= 0 || is_arcsine_above(length(cross(p, q)), limit);
   }
 
-  [[nodiscard]] bool is_tilted_too_far(const Group& group, const Group& united) const {
+  [[nodiscard]] bool is_tilted_too_far(const PlaneGroup& group, const PlaneGroup& united) const {
     const double most = united.is_fitted ? kMostOfCorners : kMost;
     return is_angle_above(normalised(group.area_vector), united.plane.normal,
                           std::min(angle_ + group.uncertainty, most));
   }
 
   /// True if both groups fit the plane of what they make together; sets its residual.
-  [[nodiscard]] bool fits(const Group& large, const Group& small, Group& united) const {
+  [[nodiscard]] bool fits(const PlaneGroup& large, const PlaneGroup& small,
+                          PlaneGroup& united) const {
     const RoughPlane& plane = united.plane;
     if (is_tilted_too_far(large, united) || is_tilted_too_far(small, united)) return false;
     const double of_small = residual_of(small, plane);
@@ -216,8 +218,8 @@ class Grouper {
 
   /// Unites what goes together and drops those pairs. What two groups refuse may suit them when
   /// they have grown and their normals are surer.
-  void unite_all(std::vector<Pair>& pairs, Fitting fitting) {
-    const auto is_united = [&](const Pair& pair) {
+  void unite_all(std::vector<NeighbourPair>& pairs, Fitting fitting) {
+    const auto is_united = [&](const NeighbourPair& pair) {
       return unite(pair.first, pair.second, fitting);
     };
     while (std::erase_if(pairs, is_united) > 0) {
@@ -228,10 +230,10 @@ class Grouper {
   bool unite(int p, int q, Fitting fitting) {
     const int first = sets_.find(p), second = sets_.find(q);
     if (first == second) return true;
-    Group *large = &groups_[at(first)], *small = &groups_[at(second)];
+    PlaneGroup *large = &groups_[at(first)], *small = &groups_[at(second)];
     if (large->points.size() < small->points.size()) std::swap(large, small);
 
-    Group united;
+    PlaneGroup united;
     united.area_vector = large->area_vector + small->area_vector;
     if (length(united.area_vector) <= 0) return false;
     united.area = large->area + small->area;
@@ -273,8 +275,8 @@ class Grouper {
   bool take_in(int p) {
     const int group = group_around(p);
     if (group < 0) return false;
-    const Group& sliver = groups_[at(p)];
-    Group grown = groups_[at(group)];
+    const PlaneGroup& sliver = groups_[at(p)];
+    PlaneGroup grown = groups_[at(group)];
     const double residual = residual_of(sliver, grown.plane);
     if (residual > reach_) return false;
     grown.points.insert(grown.points.end(), sliver.points.begin(), sliver.points.end());
@@ -326,24 +328,26 @@ class Grouper {
   }
 
   const Soup& soup_;
-  const std::vector<PolygonShape>& shapes_;
+  std::span<const PolygonShape> shapes_;
   const ShellMesh& mesh_;
   double reach_;  ///< grid units
   double angle_;
   DisjointSets sets_;
-  Vec3 origin_;                ///< of the sums over points: near them
-  std::vector<Group> groups_;  ///< by the set's smallest member
+  Vec3 origin_;                     ///< of the sums over points: near them
+  std::vector<PlaneGroup> groups_;  ///< by the set's smallest member
 };
 
 }  // namespace
 
-std::optional<CoplanarGroups> group_coplanar(const Soup& soup,
-                                             const std::vector<PolygonShape>& shapes,
+std::optional<CoplanarGroups> group_coplanar(const Soup& soup, std::span<const PolygonShape> shapes,
                                              const ShellMesh& mesh, const Tolerances& tolerances) {
+  ORIEL_ASSERT(shapes.size() == soup.polygons.size());
+  ORIEL_ASSERT(mesh.twin.size() == soup.corners.size(), "the mesh is of another soup");
   return Grouper(soup, shapes, mesh, tolerances).run();
 }
 
 Soup soup_of_groups(const Soup& soup, const CoplanarGroups& groups) {
+  ORIEL_ASSERT(groups.group_of.size() == soup.polygons.size());
   std::vector<std::vector<int>> members(at(groups.count));
   for (int p = 0; p < soup.polygon_count(); ++p) members[at(groups.group_of[at(p)])].push_back(p);
   Soup out;

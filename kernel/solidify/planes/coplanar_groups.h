@@ -6,6 +6,7 @@
 #include "kernel/solidify/soup/soup.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -31,8 +32,7 @@ struct CoplanarGroups {
 ///
 /// With noise the normal of a triangle says little about the wall that it is a piece of; the area
 /// vectors of all pieces add up to the wall's own, however it was cut.
-std::optional<CoplanarGroups> group_coplanar(const Soup& soup,
-                                             const std::vector<PolygonShape>& shapes,
+std::optional<CoplanarGroups> group_coplanar(const Soup& soup, std::span<const PolygonShape> shapes,
                                              const ShellMesh& mesh, const Tolerances& tolerances);
 
 /// The soup in which each group is one polygon with the rings of all its members. Neither sources

@@ -20,7 +20,7 @@ bool is_next_to(const NormalCell& a, const NormalCell& b) {
 
 }  // namespace
 
-double residual_of(const Span& span, std::int64_t offset) {
+double residual_of(const OffsetSpan& span, std::int64_t offset) {
   return std::max(std::abs(static_cast<double>(span.high - offset)),
                   std::abs(static_cast<double>(offset - span.low)));
 }
@@ -28,7 +28,7 @@ double residual_of(const Span& span, std::int64_t offset) {
 KnownPlanes::KnownPlanes(double angle_tolerance, std::size_t most)
     : cell_size_(std::max(2 * std::sin(angle_tolerance / 2), kLeastCell)), exact_places_(most) {}
 
-const NormalClass& KnownPlanes::class_at(int place) const {
+const ParallelPlanes& KnownPlanes::class_at(int place) const {
   return classes_[at(places_[at(place)].normal_class)];
 }
 
@@ -37,7 +37,7 @@ NormalCell KnownPlanes::cell_of(Vec3 u) const {
   return {cell(u.x), cell(u.y), cell(u.z)};
 }
 
-int KnownPlanes::exact_place(const Normal& normal, std::int64_t offset) const {
+int KnownPlanes::exact_place(const IntegerNormal& normal, std::int64_t offset) const {
   return exact_places_.find(table_key(normal, offset), [&](int place) {
     return places_[at(place)].offset == offset && class_at(place).normal == normal;
   });
@@ -64,12 +64,13 @@ std::vector<int> KnownPlanes::near_classes(Vec3 u) const {
   return found;
 }
 
-std::optional<PlaneFit> KnownPlanes::known_fit(int k, const Span& span, double tolerance) const {
-  const NormalClass& c = classes_[at(k)];
+std::optional<PlaneFit> KnownPlanes::known_fit(int k, const OffsetSpan& span,
+                                               double tolerance) const {
+  const ParallelPlanes& c = classes_[at(k)];
   const double reach = tolerance * c.size;
   std::optional<PlaneFit> best;
   const auto from = static_cast<std::int64_t>(std::ceil(static_cast<double>(span.high) - reach));
-  auto o = std::ranges::lower_bound(c.offsets, from, {}, &NormalClass::Offset::offset);
+  auto o = std::ranges::lower_bound(c.offsets, from, {}, &ParallelPlanes::Offset::offset);
   for (; o != c.offsets.end(); ++o) {
     if (residual_of(span, o->offset) > reach) break;
     const double residual = residual_of(span, o->offset) / c.size;
@@ -79,8 +80,8 @@ std::optional<PlaneFit> KnownPlanes::known_fit(int k, const Span& span, double t
 }
 
 int KnownPlanes::number_of(int k, std::int64_t offset) {
-  NormalClass& c = classes_[at(k)];
-  const auto o = std::ranges::lower_bound(c.offsets, offset, {}, &NormalClass::Offset::offset);
+  ParallelPlanes& c = classes_[at(k)];
+  const auto o = std::ranges::lower_bound(c.offsets, offset, {}, &ParallelPlanes::Offset::offset);
   if (o != c.offsets.end() && o->offset == offset) return o->place;
   const int place = static_cast<int>(places_.size());
   c.offsets.insert(o, {offset, place});
@@ -93,8 +94,8 @@ int KnownPlanes::number_of(int k, std::int64_t offset) {
   return place;
 }
 
-int KnownPlanes::add_class(const Normal& normal) {
-  NormalClass c;
+int KnownPlanes::add_class(const IntegerNormal& normal) {
+  ParallelPlanes c;
   c.normal = normal;
   c.unit = unit(normal);
   c.size = length({static_cast<double>(normal[0]), static_cast<double>(normal[1]),

@@ -14,18 +14,18 @@
 namespace oriel::detail {
 
 /// The normal or its negative: its first component that is not zero is positive.
-inline Normal unoriented(const Normal& normal) {
+inline IntegerNormal unoriented(const IntegerNormal& normal) {
   const bool is_against =
       normal[0] < 0 || (normal[0] == 0 && (normal[1] < 0 || (normal[1] == 0 && normal[2] < 0)));
-  return is_against ? Normal{-normal[0], -normal[1], -normal[2]} : normal;
+  return is_against ? IntegerNormal{-normal[0], -normal[1], -normal[2]} : normal;
 }
 
 /// A cell of the grid in which unit normals lie.
 using NormalCell = std::array<int, 3>;
 
 /// Planes of one direction.
-struct NormalClass {
-  Normal normal{};
+struct ParallelPlanes {
+  IntegerNormal normal{};
   Vec3 unit;
   NormalCell cell{};
   double size = 0;  ///< length of `normal`
@@ -46,7 +46,7 @@ struct PlaneFit {
 };
 
 /// How far a polygon is from an offset, in lengths of the normal.
-double residual_of(const Span& span, std::int64_t offset);
+double residual_of(const OffsetSpan& span, std::int64_t offset);
 
 /// The planes that polygons were put on so far: classes of one normal each, found by direction, and
 /// their offsets.
@@ -57,26 +57,26 @@ class KnownPlanes {
   KnownPlanes(double angle_tolerance, std::size_t most);
 
   /// A plane that polygons were put on.
-  struct Place {
+  struct KnownPlane {
     int normal_class = -1;
     std::int64_t offset = 0;
   };
-  [[nodiscard]] const std::vector<NormalClass>& classes() const { return classes_; }
-  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
-  [[nodiscard]] const NormalClass& class_at(int place) const;
+  [[nodiscard]] const std::vector<ParallelPlanes>& classes() const { return classes_; }
+  [[nodiscard]] const std::vector<KnownPlane>& places() const { return places_; }
+  [[nodiscard]] const ParallelPlanes& class_at(int place) const;
 
   /// The place of the first class with exactly that normal, at that offset; or -1.
-  [[nodiscard]] int exact_place(const Normal& normal, std::int64_t offset) const;
+  [[nodiscard]] int exact_place(const IntegerNormal& normal, std::int64_t offset) const;
   /// Classes whose normal may be within the tolerance of ±`u`.
   [[nodiscard]] std::vector<int> near_classes(Vec3 u) const;
   /// The place of a class that a polygon fits best, if it fits one within `tolerance` grid units.
-  [[nodiscard]] std::optional<PlaneFit> known_fit(int normal_class, const Span& span,
+  [[nodiscard]] std::optional<PlaneFit> known_fit(int normal_class, const OffsetSpan& span,
                                                   double tolerance) const;
 
   /// The number of a place; it is made if there is none yet.
   int number_of(int normal_class, std::int64_t offset);
   /// A new class; returns its number.
-  int add_class(const Normal& normal);
+  int add_class(const IntegerNormal& normal);
 
  private:
   /// Keys for hashing.
@@ -94,8 +94,8 @@ class KnownPlanes {
   [[nodiscard]] NormalCell cell_of(Vec3 u) const;
 
   double cell_size_;
-  std::vector<NormalClass> classes_;
-  std::vector<Place> places_;
+  std::vector<ParallelPlanes> classes_;
+  std::vector<KnownPlane> places_;
   std::unordered_map<NormalCell, std::vector<int>, Hash> cells_;  ///< classes by unit normal
   NumberTable exact_places_;
 };

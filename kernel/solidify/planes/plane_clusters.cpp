@@ -1,5 +1,6 @@
 #include "kernel/solidify/planes/plane_clusters.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/model/description/counting_sort.h"
 #include "kernel/solidify/planes/coplanar_groups.h"
@@ -36,43 +37,41 @@ struct WaysRound {
   int standing = 0;
 };
 
-using Edge = std::pair<int, int>;  ///< points, the smaller one first
-
 template <class Visit>
 void for_each_edge(const Soup& soup, int polygon, Visit visit) {
   for (const int r : soup.rings_of(polygon)) {
     const auto ring = soup.ring(r);
     for (std::size_t k = 0; k < ring.size(); ++k)
-      visit(Edge(std::minmax({ring[k], ring[(k + 1) % ring.size()]})));
+      visit(PointPair(std::minmax({ring[k], ring[(k + 1) % ring.size()]})));
   }
 }
 
-double edge_length(const Soup& soup, Edge edge) {
+double edge_length(const Soup& soup, PointPair edge) {
   const auto &p = soup.points[at(edge.first)], &q = soup.points[at(edge.second)];
   return length({static_cast<double>(p[0] - q[0]), static_cast<double>(p[1] - q[1]),
                  static_cast<double>(p[2] - q[2])});
 }
 
 /// The polygons at the edges of those that are undecided.
-std::map<Edge, std::vector<int>> polygons_beside(const Soup& soup,
-                                                 const std::vector<int>& undecided) {
+std::map<PointPair, std::vector<int>> polygons_beside(const Soup& soup,
+                                                      std::span<const int> undecided) {
   std::vector<char> is_near(soup.points.size(), 0);
   for (const int i : undecided)
     for (const int v : soup.corners_of(i)) is_near[at(v)] = 1;
-  std::map<Edge, std::vector<int>> polygons_at;
+  std::map<PointPair, std::vector<int>> polygons_at;
   for (int i = 0; i < soup.polygon_count(); ++i)
-    for_each_edge(soup, i, [&](Edge edge) {
+    for_each_edge(soup, i, [&](PointPair edge) {
       if (is_near[at(edge.first)] && is_near[at(edge.second)]) polygons_at[edge].push_back(i);
     });
   return polygons_at;
 }
 
 void decide_standing(const Soup& soup, std::span<const double> cosines, std::span<const int> planes,
-                     const std::vector<int>& undecided, std::vector<char>& is_turned) {
+                     std::span<const int> undecided, std::vector<char>& is_turned) {
   const auto polygons_at = polygons_beside(soup, undecided);
   std::vector<double> votes(soup.polygons.size(), 0);
   for (const int i : undecided)
-    for_each_edge(soup, i, [&](Edge edge) {
+    for_each_edge(soup, i, [&](PointPair edge) {
       for (const int j : polygons_at.at(edge))
         if (j != i && planes[at(j)] == planes[at(i)] && !is_standing(cosines[at(j)]))
           votes[at(i)] += (is_turned[at(j)] ? -1 : 1) * edge_length(soup, edge);
@@ -179,14 +178,14 @@ class Clusterer {
   [[nodiscard]] int exact_place(int polygon) const {
     const PolygonShape& shape = shapes_[at(polygon)];
     if (!shape.normal) return -1;
-    const Normal normal = unoriented(*shape.normal);
+    const IntegerNormal normal = unoriented(*shape.normal);
     const auto offset = offset_if_flat(soup_, polygon, normal);
     return offset ? planes_.exact_place(normal, *offset) : -1;
   }
 
   /// `uncertainty` is the polygon's.
   [[nodiscard]] bool is_tilted_too_far(const PolygonShape& shape, double uncertainty,
-                                       const NormalClass& c) const {
+                                       const ParallelPlanes& c) const {
     const double allowed = angle_tolerance_ + uncertainty;
     if (!shape.normal || allowed >= std::numbers::pi / 2) return false;
     return is_arcsine_above(length(cross(shape.unit, c.unit)), allowed);
@@ -194,9 +193,9 @@ class Clusterer {
 
   /// The best place for the polygon in one class, if there is one.
   [[nodiscard]] std::optional<PlaneFit> fit(int polygon, double uncertainty, int k) const {
-    const NormalClass& c = planes_.classes()[at(k)];
+    const ParallelPlanes& c = planes_.classes()[at(k)];
     if (is_tilted_too_far(shapes_[at(polygon)], uncertainty, c)) return std::nullopt;
-    const Span span = span_along(soup_, polygon, c.normal);
+    const OffsetSpan span = span_along(soup_, polygon, c.normal);
     if (const auto known = planes_.known_fit(k, span, offset_tolerance_)) return known;
     const std::int64_t middle = middle_along(polygon, c.normal, span);
     const double residual = residual_of(span, middle);
@@ -205,8 +204,8 @@ class Clusterer {
   }
 
   /// The offset of the polygon's own plane of that normal.
-  [[nodiscard]] std::int64_t middle_along(int polygon, const Normal& normal,
-                                          const Span& span) const {
+  [[nodiscard]] std::int64_t middle_along(int polygon, const IntegerNormal& normal,
+                                          const OffsetSpan& span) const {
     return is_united_.empty() || !is_united_[at(polygon)] ? span.mean
                                                           : median_along(soup_, polygon, normal);
   }
@@ -231,7 +230,8 @@ class Clusterer {
   }
 
   int place_in_own_class(int polygon) {
-    const Normal normal = unoriented(shapes_[at(polygon)].normal.value_or(Normal{0, 0, 1}));
+    const IntegerNormal normal =
+        unoriented(shapes_[at(polygon)].normal.value_or(IntegerNormal{0, 0, 1}));
     const int k = planes_.add_class(normal);
     return planes_.number_of(k, middle_along(polygon, normal, span_along(soup_, polygon, normal)));
   }
@@ -239,7 +239,7 @@ class Clusterer {
   /// The polygons that meet another one of their class at a point: only they can be too many there,
   /// as no polygon joins a class later. Classes are told apart by their numbers' last bits: a
   /// polygon too many does no harm.
-  [[nodiscard]] std::vector<int> crowded_polygons(const std::vector<int>& by_area) const {
+  [[nodiscard]] std::vector<int> crowded_polygons(std::span<const int> by_area) const {
     const auto bit_of = [&](int polygon) {
       constexpr int kBits = 64;
       return std::uint64_t{1} << (class_of(place_of_[at(polygon)]) % kBits);
@@ -270,7 +270,7 @@ class Clusterer {
   /// Two parallel planes cannot share a vertex. Where polygons of one class but of two planes do,
   /// the smaller one takes its own normal, or the larger one's plane if that is no other. True if
   /// something changed. `crowded`: the largest first.
-  bool separate_parallels(const std::vector<int>& crowded) {
+  bool separate_parallels(std::span<const int> crowded) {
     if (crowded.empty()) return false;
     PlacesAtPoints of_larger(soup_);
     bool has_changed = false;
@@ -291,9 +291,9 @@ class Clusterer {
   [[nodiscard]] int class_of(int place) const { return planes_.places()[at(place)].normal_class; }
 
   [[nodiscard]] bool own_class_exists(int polygon, int k) const {
-    const Normal& own = *shapes_[at(polygon)].normal;
-    const Normal& n = planes_.classes()[at(k)].normal;
-    return own == n || own == Normal{-n[0], -n[1], -n[2]};
+    const IntegerNormal& own = *shapes_[at(polygon)].normal;
+    const IntegerNormal& n = planes_.classes()[at(k)].normal;
+    return own == n || own == IntegerNormal{-n[0], -n[1], -n[2]};
   }
 
   /// The place of a larger polygon at a vertex of `polygon`, on another plane of its class; or -1.
@@ -371,7 +371,7 @@ class Clusterer {
 
 /// Members of groups that are at more than 45° to their group's plane: all there is to tell of a
 /// recess or a rise that went into its wall.
-int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups& groups,
+int count_standing(std::span<const PolygonShape> shapes, const CoplanarGroups& groups,
                    const PlaneClusters& of_groups) {
   int standing = 0;
   for (std::size_t p = 0; p < shapes.size(); ++p) {
@@ -387,6 +387,7 @@ int count_standing(const std::vector<PolygonShape>& shapes, const CoplanarGroups
 
 PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
                              const Tolerances& tolerances) {
+  ORIEL_ASSERT(mesh.twin.size() == soup.corners.size(), "the mesh is of another soup");
   std::vector<PolygonShape> shapes = shapes_of(soup);
   const std::optional<CoplanarGroups> found = group_coplanar(soup, shapes, mesh, tolerances);
   if (!found) return Clusterer(soup, std::move(shapes), tolerances).run();

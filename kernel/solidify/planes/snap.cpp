@@ -1,10 +1,10 @@
 #include "kernel/solidify/planes/snap.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/axis_corners.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/model/description/counting_sort.h"
-#include "kernel/solidify/planes/nearest_point.h"
 #include "kernel/solidify/planes/number_table.h"
 
 #include <algorithm>
@@ -13,6 +13,38 @@
 #include <utility>
 
 namespace oriel::detail {
+
+namespace {
+
+/// From `start` to the point with the least sum of squared distances to `planes`, drawn back by
+/// `pull` where they leave it free.
+Vec3 least_squares_shift(const std::vector<Plane>& planes, Vec3 start, double pull) {
+  double m[3][3] = {{pull, 0, 0}, {0, pull, 0}, {0, 0, pull}};
+  Vec3 right;
+  for (const Plane& plane : planes) {
+    const double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) m[i][j] += n[i] * n[j];
+    right = right + (plane.offset_m - dot(plane.normal, start)) * plane.normal;
+  }
+  const Vec3 r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]},
+      r2{m[2][0], m[2][1], m[2][2]};
+  const double det = dot(r0, cross(r1, r2));
+  return (1 / det) * (right.x * cross(r1, r2) + right.y * cross(r2, r0) + right.z * cross(r0, r1));
+}
+
+}  // namespace
+
+Vec3 nearest_point(const std::vector<Plane>& planes, Vec3 start, double reach) {
+  ORIEL_ASSERT(reach >= 0);
+  // Tolerances of nothing: they only keep the system regular along free directions.
+  constexpr double kWeakest = 1e-4, kStrongest = 1;
+  for (double pull = kWeakest; pull <= kStrongest; pull *= 10) {
+    const Vec3 shift = least_squares_shift(planes, start, pull);
+    if (length(shift) <= reach) return start + shift;
+  }
+  return start;
+}
 
 namespace {
 
@@ -392,6 +424,8 @@ class Snapper {
 
 SnappedSolid snap_vertices(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
                            FacetDraft draft, const Tolerances& tolerances) {
+  ORIEL_ASSERT(clusters.plane_of.size() == soup.polygons.size());
+  ORIEL_ASSERT(draft.facet_of.size() == soup.polygons.size());
   return Snapper(soup, clusters, mesh, std::move(draft), tolerances).run();
 }
 

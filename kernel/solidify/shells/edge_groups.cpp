@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/edge_groups.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <cmath>
@@ -27,16 +28,15 @@ Vec3 area_vector(const Soup& soup, int polygon) {
   return sum;
 }
 
-struct Neighbour {
+struct EdgeNeighbour {
   int polygon;
   bool is_against;  ///< they disagree as they are
 };
 
-using Neighbours = std::vector<std::vector<Neighbour>>;
-
 /// By polygon those beyond its edges with two half-edges.
-Neighbours neighbours_of(const Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups) {
-  Neighbours neighbours(soup.polygons.size());
+std::vector<std::vector<EdgeNeighbour>> neighbours_of(const Soup& soup, const ShellMesh& mesh,
+                                                      const EdgeGroups& groups) {
+  std::vector<std::vector<EdgeNeighbour>> neighbours(soup.polygons.size());
   groups.for_each([&](EdgeGroup group) {
     if (group.size() != 2) return;
     const std::size_t g = at(group[0]), h = at(group[1]);
@@ -51,7 +51,8 @@ Neighbours neighbours_of(const Soup& soup, const ShellMesh& mesh, const EdgeGrou
 constexpr char kUnseen = 2;
 
 /// Decides for all polygons connected with `start`; false if there is no choice.
-bool turn_patch(const Neighbours& neighbours, int start, std::vector<char>& turned) {
+bool turn_patch(std::span<const std::vector<EdgeNeighbour>> neighbours, int start,
+                std::vector<char>& turned) {
   turned[at(start)] = 0;
   std::vector<int> patch{start};
   std::ptrdiff_t turns = 0;
@@ -86,7 +87,7 @@ EdgeGroups::EdgeGroups(const Soup& soup, const ShellMesh& mesh)
 
 std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const ShellMesh& mesh,
                                                   const EdgeGroups& groups) {
-  const Neighbours neighbours = neighbours_of(soup, mesh, groups);
+  const std::vector<std::vector<EdgeNeighbour>> neighbours = neighbours_of(soup, mesh, groups);
   std::vector<char> turned(soup.polygons.size(), kUnseen);
   for (int start = 0; start < soup.polygon_count(); ++start)
     if (turned[at(start)] == kUnseen && !turn_patch(neighbours, start, turned)) return std::nullopt;
@@ -94,6 +95,7 @@ std::optional<std::vector<char>> polygons_to_turn(const Soup& soup, const ShellM
 }
 
 bool pair_around(const Soup& soup, const EdgeGroup& group, ShellMesh& mesh) {
+  ORIEL_ASSERT(!group.empty());
   const std::size_t first = at(group[0]);
   const auto [low, high] = EdgeEnds(soup.corners[first], soup.corners[at(mesh.next[first])]);
   const Vec3 axis = normalised(difference(soup, high, low));

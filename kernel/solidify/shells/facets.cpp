@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/facets.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/model/description/counting_sort.h"
 
@@ -53,11 +54,11 @@ class Drafter {
     const int end = soup_.first_corner[at(soup_.first_ring[at(polygon) + 1])];
     const int *const polygon_of = mesh_.polygon_of.data(), *const twin = mesh_.twin.data();
     const int* const plane_of = clusters_.plane_of.data();
-    Side* const side = side_.data();
+    HalfEdgeState* const side = side_.data();
     for (int h = begin; h < end; ++h) {
       const int q = polygon_of[twin[h]];
       const bool is_rim = plane_of[q] != plane;
-      side[h] = is_rim ? Side::rim : Side::interior;
+      side[h] = is_rim ? HalfEdgeState::rim : HalfEdgeState::interior;
       if (is_rim || draft_.facet_of[at(q)] >= 0) continue;
       draft_.facet_of[at(q)] = facet;
       patch.push_back(q);
@@ -99,12 +100,12 @@ class Drafter {
     vertices_.resize(mesh_.half_edge_count());
     first_vertex_.push_back(0);
     const int* const twin = mesh_.twin.data();
-    const Side* const side = side_.data();
+    const HalfEdgeState* const side = side_.data();
     const int count = static_cast<int>(mesh_.half_edge_count());
     for (int h = 0; h < count; ++h) {
-      if (twin[h] < h || side[h] == Side::interior) continue;
-      if (side[h] == Side::rim) walk_loop(h);
-      if (side[twin[h]] == Side::rim) walk_loop(twin[h]);
+      if (twin[h] < h || side[h] == HalfEdgeState::interior) continue;
+      if (side[h] == HalfEdgeState::rim) walk_loop(h);
+      if (side[twin[h]] == HalfEdgeState::rim) walk_loop(twin[h]);
     }
     vertices_.resize(at(first_vertex_.back()));
   }
@@ -112,14 +113,14 @@ class Drafter {
   void walk_loop(int start) {
     facet_of_loop_.push_back(facet_of(start));
     const int *const next = mesh_.next.data(), *const vertex_of = mesh_.vertex_of.data();
-    Side* const side = side_.data();
+    HalfEdgeState* const side = side_.data();
     int* vertex = vertices_.data() + first_vertex_.back();
     int h = start;
     do {
-      side[h] = Side::walked;
+      side[h] = HalfEdgeState::walked;
       *vertex++ = vertex_of[h];
       h = next[h];
-      while (side[h] == Side::interior) h = next[mesh_.twin[at(h)]];
+      while (side[h] == HalfEdgeState::interior) h = next[mesh_.twin[at(h)]];
     } while (h != start);
     first_vertex_.push_back(static_cast<int>(vertex - vertices_.data()));
   }
@@ -234,8 +235,8 @@ class Drafter {
   FacetDraft draft_;
   /// What lies on the other side of a half-edge: its own facet, or another one; whether a loop went
   /// along it.
-  enum class Side : char { interior, rim, walked };
-  std::vector<Side> side_;
+  enum class HalfEdgeState : char { interior, rim, walked };
+  std::vector<HalfEdgeState> side_;
   // The loops as found: of each its facet, its first vertex (one entry more), all vertices.
   Numbers facet_of_loop_, first_vertex_, vertices_;
   std::vector<char> is_kept_;  ///< 1 for those on no loop, too
@@ -244,6 +245,8 @@ class Drafter {
 }  // namespace
 
 FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh) {
+  ORIEL_ASSERT(clusters.plane_of.size() == soup.polygons.size());
+  ORIEL_ASSERT(mesh.half_edge_count() == soup.corners.size(), "the mesh is of another soup");
   return Drafter(soup, clusters, mesh).run();
 }
 

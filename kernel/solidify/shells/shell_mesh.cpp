@@ -104,7 +104,7 @@ bool orient_alike(Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups,
 }
 
 /// Fills `twin` at the other edges.
-void pair_crowded(const Soup& soup, const EdgeGroups& groups, const std::vector<EdgeGroup>& crowded,
+void pair_crowded(const Soup& soup, const EdgeGroups& groups, std::span<const EdgeGroup> crowded,
                   const std::string& building, ShellMesh& mesh, std::vector<Issue>& issues) {
   EdgeGroup unpaired;  // the first one by body
   for (const EdgeGroup& group : crowded) {
@@ -153,7 +153,7 @@ void tell_vertices_apart(const Soup& soup, ShellMesh& mesh) {
 
 /// Two edges between the same two vertices, each with its own pair of polygons: an edge is known by
 /// its ends, so all but the first get a point in their middle. False if there are none.
-bool part_double_edges(Soup& soup, const ShellMesh& mesh, const std::vector<EdgeGroup>& crowded) {
+bool part_double_edges(Soup& soup, const ShellMesh& mesh, std::span<const EdgeGroup> crowded) {
   Numbers paired;
   for (const EdgeGroup& group : crowded)
     for (const int h : group)

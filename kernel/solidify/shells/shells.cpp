@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/shells.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
@@ -91,9 +92,12 @@ void order_loops(Solid& solid) {
 
 }  // namespace
 
-void arrange_shells(Solid& solid, const std::vector<int>& component,
-                    const std::vector<ComponentHint>& hints, const std::string& building,
+void arrange_shells(Solid& solid, std::span<const int> component,
+                    std::span<const ComponentHint> hints, const std::string& building,
                     std::vector<Issue>& issues) {
+  ORIEL_ASSERT(component.size() == solid.facets.size());
+  ORIEL_ASSERT(std::ranges::all_of(
+      component, [&](int c) { return c >= 0 && c < static_cast<int>(hints.size()); }));
   std::vector<Shell> shells(hints.size());
   for (int f = 0; f < std::ssize(solid.facets); ++f)
     shells[at(component[at(f)])].facets.push_back(FacetId{f});

@@ -3,6 +3,7 @@
 #include "kernel/base/issue.h"
 #include "kernel/model/solid.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ struct ComponentHint {
 /// component that is turned round is a warning (E308); one without volume an error (E310, val3dity
 /// 401…405 have none that fits); a cavity outside every lump of its body an error (E305, val3dity
 /// 403).
-void arrange_shells(Solid& solid, const std::vector<int>& component,
-                    const std::vector<ComponentHint>& hints, const std::string& building,
+void arrange_shells(Solid& solid, std::span<const int> component,
+                    std::span<const ComponentHint> hints, const std::string& building,
                     std::vector<Issue>& issues);
 
 /// Drops planes without a facet and sorts the others and the loops, as a Solid has them.

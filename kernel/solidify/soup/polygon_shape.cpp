@@ -56,7 +56,7 @@ PolygonShape shape_in(const Soup& soup, int polygon) {
 
 }  // namespace
 
-Vec3 unit(const Normal& n) {
+Vec3 unit(const IntegerNormal& n) {
   return normalised(
       {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
 }
@@ -95,9 +95,9 @@ std::vector<PolygonShape> shapes_of(const Soup& soup) {
   return shapes;
 }
 
-Span span_along(const Soup& soup, int polygon, const Normal& normal) {
+OffsetSpan span_along(const Soup& soup, int polygon, const IntegerNormal& normal) {
   const auto corners = soup.corners_of(polygon);
-  Span span;
+  OffsetSpan span;
   span.low = span.high = along(normal, soup.points[at(corners.front())]);
   Int128 sum = 0;
   for (const int v : corners) {
@@ -111,7 +111,7 @@ Span span_along(const Soup& soup, int polygon, const Normal& normal) {
   return span;
 }
 
-std::int64_t median_along(const Soup& soup, int polygon, const Normal& normal) {
+std::int64_t median_along(const Soup& soup, int polygon, const IntegerNormal& normal) {
   std::vector<std::int64_t> values;
   for (const int v : soup.corners_of(polygon)) values.push_back(along(normal, soup.points[at(v)]));
   const auto middle = values.begin() + std::ssize(values) / 2;

@@ -9,15 +9,15 @@
 namespace oriel::detail {
 
 /// An integer normal.
-using Normal = std::array<std::int64_t, 3>;
+using IntegerNormal = std::array<std::int64_t, 3>;
 
-Vec3 unit(const Normal& normal);
+Vec3 unit(const IntegerNormal& normal);
 
 /// What clustering needs to know of a polygon.
 struct PolygonShape {
-  std::optional<Normal> normal;  ///< of its own, missing for a polygon without area
-  Vec3 unit;                     ///< the unit vector of `normal`
-  double area = 0;               ///< grid units squared
+  std::optional<IntegerNormal> normal;  ///< of its own, missing for a polygon without area
+  Vec3 unit;                            ///< the unit vector of `normal`
+  double area = 0;                      ///< grid units squared
 };
 
 /// A polygon's area by its longest reach from its first corner, grid units.
@@ -31,20 +31,20 @@ double uncertainty_rad(double height, double offset);
 std::vector<PolygonShape> shapes_of(const Soup& soup);
 
 /// Where a polygon's vertices lie along a normal: normal · vertex.
-struct Span {
+struct OffsetSpan {
   std::int64_t low = 0, high = 0, mean = 0;
 };
 
-Span span_along(const Soup& soup, int polygon, const Normal& normal);
+OffsetSpan span_along(const Soup& soup, int polygon, const IntegerNormal& normal);
 
 /// normal · point: below 2^62, as normals have 28 bits and coordinates 32.
-inline std::int64_t along(const Normal& normal, const exact::GridPoint& point) {
+inline std::int64_t along(const IntegerNormal& normal, const exact::GridPoint& point) {
   return normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
 }
 
 /// normal · vertex if it is the same for all vertices.
 inline std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon,
-                                                  const Normal& normal) {
+                                                  const IntegerNormal& normal) {
   const auto corners = soup.corners_of(polygon);
   const exact::GridPoint* const points = soup.points.data();
   // Most are across an axis: one coordinate tells.
@@ -63,7 +63,7 @@ inline std::optional<std::int64_t> offset_if_flat(const Soup& soup, int polygon,
 
 /// The upper median of normal · vertex over all corners: of a wall with a recess thinner than the
 /// tolerance that of the wall, as at most half of the corners lie deeper.
-std::int64_t median_along(const Soup& soup, int polygon, const Normal& normal);
+std::int64_t median_along(const Soup& soup, int polygon, const IntegerNormal& normal);
 
 /// True if asin(sine) > limit; the arcsine is taken only where its bounds do not decide.
 inline bool is_arcsine_above(double sine, double limit) {

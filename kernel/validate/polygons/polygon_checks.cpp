@@ -135,7 +135,7 @@ std::vector<std::array<int, 3>> triangles_of(const SnappedBuilding& building,
 
 /// val3dity 204: the normals of the triangles, against that of the largest one.
 bool is_unfolded(const SnappedBuilding& building, const SnappedPolygon& polygon,
-                 const std::vector<std::array<int, 3>>& triangles, double tolerance_deg,
+                 std::span<const std::array<int, 3>> triangles, double tolerance_deg,
                  FindingList& findings) {
   std::vector<Vec3> normals;
   for (const auto& [a, b, c] : triangles)

@@ -1,14 +1,16 @@
 #include "kernel/validate/polygons/ring_checks.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
-#include "kernel/validate/polygons/flat_polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,6 +21,77 @@ namespace oriel::detail {
 
 namespace {
 
+/// As triangulate() chooses it: the largest component of the normal, z before x before y.
+std::size_t nearest_axis(Vec3 normal) {
+  const double x = std::abs(normal.x);
+  const double y = std::abs(normal.y);
+  const double z = std::abs(normal.z);
+  if (z >= x && z >= y) return 2;
+  return x >= y ? 0 : 1;
+}
+
+Vec3 unit(std::size_t axis, bool is_positive) {
+  const double one = is_positive ? 1 : -1;
+  return {axis == 0 ? one : 0, axis == 1 ? one : 0, axis == 2 ? one : 0};
+}
+
+/// The neighbours of `point` on a ring through it: the ends of the edge that it lies in, or of the
+/// two edges that it joins.
+std::array<FlatPoint, 2> neighbours(const FlatPoint& point, std::span<const FlatPoint> ring) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (ring[i] == point) return {ring[(i + n - 1) % n], ring[(i + 1) % n]};
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_on(point, ring[i], ring[(i + 1) % n])) return {ring[i], ring[(i + 1) % n]};
+  return {point, point};
+}
+
+/// True if the direction to `d` lies strictly between those to `from` and `to`, counter-clockwise
+/// about `p`.
+bool is_between(const FlatPoint& p, const FlatPoint& from, const FlatPoint& to,
+                const FlatPoint& d) {
+  const int whole = turn(p, from, to);
+  if (whole > 0) return turn(p, from, d) > 0 && turn(p, d, to) > 0;
+  if (whole == 0) return turn(p, from, d) > 0;
+  return !(turn(p, to, d) >= 0 && turn(p, d, from) >= 0);
+}
+
+/// +1 if the ring runs counter-clockwise, -1 if clockwise, 0 if it has no area.
+int orientation(std::span<const FlatPoint> ring) {
+  exact::Int128 twice_area = 0;
+  const FlatPoint& o = ring[0];
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const FlatPoint& a = ring[i];
+    const FlatPoint& b = ring[(i + 1) % ring.size()];
+    twice_area += exact::Int128{a[0] - o[0]} * (b[1] - o[1]);
+    twice_area -= exact::Int128{a[1] - o[1]} * (b[0] - o[0]);
+  }
+  return twice_area > 0 ? 1 : twice_area < 0 ? -1 : 0;
+}
+
+/// +1 if the point is inside the ring, -1 outside, 0 on it. The ring must not cross itself.
+int place_in(const FlatPoint& point, std::span<const FlatPoint> ring) {
+  bool is_inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const FlatPoint& a = ring[i];
+    const FlatPoint& b = ring[(i + 1) % ring.size()];
+    if (is_on(point, a, b)) return 0;
+    if ((a[1] > point[1]) == (b[1] > point[1])) continue;
+    const int side = turn(a, b, point);
+    if ((b[1] > a[1]) == (side > 0)) is_inside = !is_inside;
+  }
+  return is_inside ? 1 : -1;
+}
+
+/// True if rings p and q, which touch in `point` and nowhere overlap, run through each other there.
+bool cross_at(const FlatPoint& point, std::span<const FlatPoint> p, std::span<const FlatPoint> q) {
+  const auto [from, to] = neighbours(point, p);
+  const auto [one, other] = neighbours(point, q);
+  const auto is_left = [&](const FlatPoint& d) { return is_between(point, from, to, d); };
+  const auto is_right = [&](const FlatPoint& d) { return is_between(point, to, from, d); };
+  return (is_left(one) && is_right(other)) || (is_right(one) && is_left(other));
+}
+
 /// An edge of a ring, from its point `at` to the next.
 struct FlatEdge {
   std::size_t ring;
@@ -27,7 +100,7 @@ struct FlatEdge {
   FlatPoint to;
 };
 
-inline std::vector<FlatEdge> edges_of(const std::vector<FlatPoint>& ring, std::size_t number) {
+inline std::vector<FlatEdge> edges_of(std::span<const FlatPoint> ring, std::size_t number) {
   std::vector<FlatEdge> edges;
   edges.reserve(ring.size());
   for (std::size_t i = 0; i < ring.size(); ++i)
@@ -45,7 +118,7 @@ inline Box flat_box(const std::vector<FlatPoint>& points) {
 
 /// Calls visit(i, j), i < j, for all boxes that overlap, until it returns false.
 template <class Visit>
-void for_each_pair(const std::vector<Box>& boxes, const Visit& visit) {
+void for_each_pair(std::span<const Box> boxes, const Visit& visit) {
   // Below this trying all pairs takes less than making a tree.
   constexpr std::size_t kFew = 24;
   if (boxes.size() <= kFew) {
@@ -78,7 +151,7 @@ std::vector<int> ends_of(const SnappedPolygon& polygon, const FlatEdge& edge) {
   return {ring[edge.at], ring[(edge.at + 1) % ring.size()]};
 }
 
-std::vector<Box> boxes_of(const std::vector<FlatEdge>& edges) {
+std::vector<Box> boxes_of(std::span<const FlatEdge> edges) {
   std::vector<Box> boxes;
   boxes.reserve(edges.size());
   for (const FlatEdge& edge : edges) boxes.push_back(flat_box({edge.from, edge.to}));
@@ -224,7 +297,7 @@ std::vector<FlatPoint> doubled(std::vector<FlatPoint> ring) {
 
 /// Where ring p, which does not cross q, lies: +1 inside q, -1 outside. Middles of edges decide, as
 /// points may lie on q; no middle of p can if q's points lie on p only in points.
-int side_of_ring(const std::vector<FlatPoint>& p, const std::vector<FlatPoint>& twice_q) {
+int side_of_ring(std::span<const FlatPoint> p, std::span<const FlatPoint> twice_q) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const FlatPoint& a = p[i];
     const FlatPoint& b = p[(i + 1) % p.size()];
@@ -268,6 +341,22 @@ bool are_holes_placed_well(const SnappedPolygon& polygon, const FlatPolygon& fla
 }
 
 }  // namespace
+
+FlatPolygon flat_polygon(const SnappedBuilding& building, const SnappedPolygon& polygon,
+                         Vec3 normal) {
+  ORIEL_ASSERT(!polygon.rings.empty() && !polygon.rings[0].empty());
+  const std::size_t axis = nearest_axis(normal);
+  const auto seen = [&](bool is_positive) {
+    FlatPolygon flat;
+    flat.axis = unit(axis, is_positive);
+    for (const auto& ring : polygon.rings)
+      for (auto& points = flat.rings.emplace_back(); const int vertex : ring)
+        points.push_back(flattened(building.point(vertex), axis, is_positive));
+    return flat;
+  };
+  FlatPolygon flat = seen(true);
+  return orientation(flat.rings[0]) >= 0 ? flat : seen(false);
+}
 
 bool have_good_points(const SnappedPolygon& polygon, FindingList& findings) {
   if (polygon.rings.empty()) {

@@ -1,16 +1,79 @@
 #include "kernel/validate/solids/closed_surface.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
-#include "kernel/validate/solids/nef_bodies.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
 
+#include <CGAL/Exact_integer.h>
+#include <CGAL/Homogeneous.h>
+#include <CGAL/Nef_polyhedron_3.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Polyhedron_incremental_builder_3.h>
+
 namespace oriel::detail {
 
 namespace {
+
+using NefKernel = CGAL::Homogeneous<CGAL::Exact_integer>;
+using Polyhedron = CGAL::Polyhedron_3<NefKernel>;
+using Nef = CGAL::Nef_polyhedron_3<NefKernel>;
+
+/// Puts a closed surface into a half-edge structure.
+class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
+ public:
+  explicit Build(const ClosedSurface& surface) : surface_(surface) {}
+
+  void operator()(Polyhedron::HalfedgeDS& structure) override {
+    CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(structure, true);
+    builder.begin_surface(surface_.points().size(), surface_.corners().size());
+    for (const MicrometrePoint& p : surface_.points())
+      builder.add_vertex(NefKernel::Point_3(CGAL::Exact_integer(static_cast<double>(p[0])),
+                                            CGAL::Exact_integer(static_cast<double>(p[1])),
+                                            CGAL::Exact_integer(static_cast<double>(p[2]))));
+    for (const auto& corners : surface_.corners())
+      builder.add_facet(corners.begin(), corners.end());
+    builder.end_surface();
+  }
+
+ private:
+  const ClosedSurface& surface_;
+};
+
+Nef nef_of(const ClosedSurface& surface) {
+  Polyhedron polyhedron;
+  Build build(surface);
+  polyhedron.delegate(build);
+  return Nef(polyhedron);
+}
+
+/// relate() of bodies whose surfaces touch, by Nef polyhedra.
+SurfaceRelation relate_by_nef(const ClosedSurface& first, const ClosedSurface& second) {
+  const Nef p = nef_of(first);
+  const Nef q = nef_of(second);
+  SurfaceRelation out;
+  out.do_touch = true;
+  out.do_overlap = !(p.interior() * q.interior()).is_empty();
+  out.is_second_inside = (q.interior() - p).is_empty();
+  out.are_alike = out.is_second_inside && (p.interior() - q).is_empty();
+  out.share_a_face = (p.boundary() * q.boundary()).number_of_facets() > 0;
+  return out;
+}
+
+/// count_pieces() by Nef polyhedra.
+int count_pieces_by_nef(const ClosedSurface& outer,
+                        std::span<const ClosedSurface* const> cavities) {
+  Nef rest = nef_of(outer).interior();
+  for (const ClosedSurface* cavity : cavities) rest -= nef_of(*cavity);
+  // Volumes are the pieces of space: those of the rest are marked.
+  int count = 0;
+  for (auto volume = rest.volumes_begin(); volume != rest.volumes_end(); ++volume)
+    if (volume->mark()) ++count;
+  return count;
+}
 
 using exact::Int128;
 
@@ -24,15 +87,15 @@ Int128 volume_under(const MicrometreTriangle& t, const MicrometrePoint& o) {
          v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
 }
 
-std::vector<Box> boxes_of(const std::vector<MicrometreTriangle>& triangles) {
+std::vector<Box> boxes_of(std::span<const MicrometreTriangle> triangles) {
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (const MicrometreTriangle& triangle : triangles) boxes.push_back(box_of(triangle));
   return boxes;
 }
 
-std::vector<MicrometreTriangle> triangles_of(const std::vector<MicrometrePoint>& points,
-                                             const std::vector<std::array<int, 3>>& corners) {
+std::vector<MicrometreTriangle> triangles_of(std::span<const MicrometrePoint> points,
+                                             std::span<const std::array<int, 3>> corners) {
   std::vector<MicrometreTriangle> triangles;
   triangles.reserve(corners.size());
   const auto point = [&](int i) { return points[static_cast<std::size_t>(i)]; };
@@ -54,6 +117,7 @@ ClosedSurface::ClosedSurface(const SnappedBuilding& building, const JudgedShell&
       }
       corners_.push_back(corners);
     }
+  ORIEL_ASSERT(!points_.empty(), "a shell that passed has triangles");
   Int128 volume = 0;
   for (const MicrometreTriangle& triangle : triangles_of(points_, corners_))
     volume += volume_under(triangle, points_[0]);
@@ -87,9 +151,9 @@ bool ClosedSurface::contains(const MicrometrePoint& point) const {
   }
 }
 
-Relation relate(const ClosedSurface& first, const ClosedSurface& second) {
+SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second) {
   bool do_pierce = false;
-  Relation out;
+  SurfaceRelation out;
   for (const MicrometreTriangle& triangle : second.triangles()) {
     if (do_pierce) break;
     first.tree().for_each_overlap(box_of(triangle), [&](int i) {
@@ -109,7 +173,7 @@ Relation relate(const ClosedSurface& first, const ClosedSurface& second) {
   return out;
 }
 
-int count_pieces(const ClosedSurface& outer, const std::vector<const ClosedSurface*>& cavities) {
+int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities) {
   return count_pieces_by_nef(outer, cavities);
 }
 

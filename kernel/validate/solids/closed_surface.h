@@ -4,6 +4,7 @@
 #include "kernel/validate/solids/shell_checks.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -36,7 +37,7 @@ class ClosedSurface {
 };
 
 /// How two bodies lie to each other.
-struct Relation {
+struct SurfaceRelation {
   /// The same set of points.
   bool are_alike = false;
   /// Their interiors have points in common.
@@ -51,10 +52,10 @@ struct Relation {
 
 /// Exact. Bodies whose surfaces do not meet, or pierce each other, take near-linear time; those
 /// that touch are put to CGAL's Nef polyhedra, which take about a millisecond a triangle.
-Relation relate(const ClosedSurface& first, const ClosedSurface& second);
+SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second);
 
 /// The number of pieces of the interior of `outer` without `cavities`, which lie inside it and
 /// share no area with it or each other.
-int count_pieces(const ClosedSurface& outer, const std::vector<const ClosedSurface*>& cavities);
+int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities);
 
 }  // namespace oriel::detail

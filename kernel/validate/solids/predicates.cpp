@@ -1,5 +1,7 @@
 #include "kernel/validate/solids/predicates.h"
 
+#include "kernel/base/assert.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -99,6 +101,7 @@ std::size_t main_axis(const MicrometreTriangle& triangle) {
 }
 
 FlatPoint flattened(const MicrometrePoint& point, std::size_t axis, bool is_positive) {
+  ORIEL_ASSERT(axis < 3);
   const std::int64_t x = point[(axis + 1) % 3];
   const std::int64_t y = point[(axis + 2) % 3];
   return is_positive ? FlatPoint{x, y} : FlatPoint{y, x};

@@ -28,7 +28,7 @@ struct ShellEdge {
 };
 
 /// Edges of a shell between the same two vertices: [from, to) of ShellEdges::edges.
-struct EdgeGroup {
+struct CoincidentEdges {
   std::size_t from;
   std::size_t to;
   [[nodiscard]] std::size_t size() const { return to - from; }
@@ -37,7 +37,7 @@ struct EdgeGroup {
 /// All edges of the polygons of a shell, sorted, and their groups.
 struct ShellEdges {
   std::vector<ShellEdge> edges;
-  std::vector<EdgeGroup> groups;
+  std::vector<CoincidentEdges> groups;
 };
 
 int number_of(const JudgedShell& shell, int polygon) {
@@ -49,7 +49,8 @@ Subject subject_of(const JudgedShell& shell, int polygon) {
 }
 
 /// "3, 4 and 7": at most four, then how many more.
-std::string numbers_of(const JudgedShell& shell, const ShellEdges& all, const EdgeGroup& group) {
+std::string numbers_of(const JudgedShell& shell, const ShellEdges& all,
+                       const CoincidentEdges& group) {
   constexpr std::size_t kShown = 4;
   std::string text;
   for (std::size_t i = group.from; i < std::min(group.to, group.from + kShown); ++i)
@@ -61,7 +62,7 @@ std::string numbers_of(const JudgedShell& shell, const ShellEdges& all, const Ed
 /// Polygons joined by edges, each known by its least polygon.
 DisjointSets pieces_of(const JudgedShell& shell, const ShellEdges& all) {
   DisjointSets pieces(shell.polygons.size());
-  for (const EdgeGroup& group : all.groups)
+  for (const CoincidentEdges& group : all.groups)
     for (std::size_t i = group.from + 1; i < group.to; ++i)
       pieces.unite(all.edges[group.from].polygon, all.edges[i].polygon);
   return pieces;
@@ -71,7 +72,7 @@ DisjointSets pieces_of(const JudgedShell& shell, const ShellEdges& all) {
 /// against each other agree as they are.
 DisjointSets turns_of(const JudgedShell& shell, const ShellEdges& all) {
   DisjointSets turns(2 * shell.polygons.size());
-  for (const EdgeGroup& group : all.groups) {
+  for (const CoincidentEdges& group : all.groups) {
     if (group.size() != 2) continue;
     const ShellEdge& p = all.edges[group.from];
     const ShellEdge& q = all.edges[group.from + 1];
@@ -110,7 +111,7 @@ ShellEdges edges_of(const JudgedShell& shell) {
 /// val3dity 303: no more than two polygons meet at an edge.
 bool are_edges_manifold(const JudgedShell& shell, const ShellEdges& all, FindingList& findings) {
   bool is_good = true;
-  for (const EdgeGroup& group : all.groups) {
+  for (const CoincidentEdges& group : all.groups) {
     if (group.size() <= 2) continue;
     const ShellEdge& edge = all.edges[group.from];
     findings.add(Defect::many_at_edge, subject_of(shell, edge.polygon),
@@ -125,7 +126,7 @@ bool are_edges_manifold(const JudgedShell& shell, const ShellEdges& all, Finding
 /// val3dity 307, of edges of at most two polygons: neighbours run along their edge in opposite
 /// directions. Reported of the polygons that are fewer in their piece, or once if no turning helps.
 bool are_turned_alike(const JudgedShell& shell, const ShellEdges& all, FindingList& findings) {
-  const auto runs_along = [&](const EdgeGroup& group) {
+  const auto runs_along = [&](const CoincidentEdges& group) {
     return group.size() == 2 &&
            all.edges[group.from].is_rising == all.edges[group.from + 1].is_rising;
   };
@@ -229,7 +230,7 @@ bool is_one_piece(const JudgedShell& shell, const ShellEdges& all, FindingList& 
 /// together.
 bool is_closed(const JudgedShell& shell, const ShellEdges& all, FindingList& findings) {
   std::vector<const ShellEdge*> open;
-  for (const EdgeGroup& group : all.groups)
+  for (const CoincidentEdges& group : all.groups)
     if (group.size() == 1) open.push_back(&all.edges[group.from]);
   if (open.empty()) return true;
   std::map<int, int> first_at;  // the first open edge at a vertex
@@ -249,19 +250,19 @@ bool is_closed(const JudgedShell& shell, const ShellEdges& all, FindingList& fin
   return false;
 }
 
-using Corners = std::array<int, 3>;
+using TriangleCorners = std::array<int, 3>;
 
 struct ShellTriangle {
-  Corners corners;
+  TriangleCorners corners;
   std::size_t polygon;
 };
 
-MicrometreTriangle points_of(const SnappedBuilding& building, const Corners& corners) {
+MicrometreTriangle points_of(const SnappedBuilding& building, const TriangleCorners& corners) {
   return {building.point(corners[0]), building.point(corners[1]), building.point(corners[2])};
 }
 
 /// `corners` turned so that those shared with `other` come first; how many there are.
-std::size_t shared_first(Corners& corners, const Corners& other) {
+std::size_t shared_first(TriangleCorners& corners, const TriangleCorners& other) {
   const auto is_shared = [&](int corner) {
     return std::ranges::find(other, corner) != other.end();
   };
@@ -270,7 +271,7 @@ std::size_t shared_first(Corners& corners, const Corners& other) {
 }
 
 /// True if triangles that share an edge, p and q their other corners, lie on each other.
-bool fold_back(const SnappedBuilding& building, const Corners& a, int p, int q) {
+bool fold_back(const SnappedBuilding& building, const TriangleCorners& a, int p, int q) {
   const MicrometreTriangle triangle = points_of(building, a);
   if (side_of(triangle[0], triangle[1], triangle[2], building.point(q)) != 0) return false;
   const std::size_t axis = main_axis(triangle);
@@ -279,7 +280,7 @@ bool fold_back(const SnappedBuilding& building, const Corners& a, int p, int q) 
 }
 
 /// True if two triangles have more in common than their common corners and edges.
-bool intersect(const SnappedBuilding& building, Corners a, Corners b) {
+bool intersect(const SnappedBuilding& building, TriangleCorners a, TriangleCorners b) {
   const std::size_t shared = shared_first(a, b);
   shared_first(b, a);
   if (shared == 3) return true;
@@ -291,29 +292,44 @@ bool intersect(const SnappedBuilding& building, Corners a, Corners b) {
   return meets(one[1], one[2], other) || meets(other[1], other[2], one);
 }
 
-/// val3dity 306: polygons meet in their common vertices and edges only. Reported once for each
-/// polygon.
-bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
-                          FindingList& findings) {
+/// For each polygon of a shell one that it meets elsewhere than in common vertices and edges, if
+/// there is any: the first in the order of pairs of triangles, so that it is named whatever tree
+/// finds it.
+std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding& building,
+                                                          const JudgedShell& shell) {
   std::vector<ShellTriangle> triangles;
   std::vector<Box> boxes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
-    for (const Corners& corners : shell.polygons[p].triangles) {
+    for (const TriangleCorners& corners : shell.polygons[p].triangles) {
       triangles.push_back({corners, p});
       boxes.push_back(box_of(points_of(building, corners)));
     }
   const BoxTree tree(boxes);
   std::vector<std::optional<std::size_t>> crossed_by(shell.polygons.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
+  std::vector<std::size_t> later;  // whose boxes overlap that of triangle i
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    later.clear();
     tree.for_each_overlap(boxes[i], [&](int number) {
-      const std::size_t j = at(number);
-      const std::size_t p = triangles[i].polygon;
+      if (const std::size_t j = at(number); j > i) later.push_back(j);
+    });
+    std::ranges::sort(later);
+    const std::size_t p = triangles[i].polygon;
+    for (const std::size_t j : later) {
       const std::size_t q = triangles[j].polygon;
-      if (j <= i || p == q || (crossed_by[p] && crossed_by[q])) return;
-      if (!intersect(building, triangles[i].corners, triangles[j].corners)) return;
+      if (p == q || (crossed_by[p] && crossed_by[q])) continue;
+      if (!intersect(building, triangles[i].corners, triangles[j].corners)) continue;
       if (!crossed_by[p]) crossed_by[p] = q;
       if (!crossed_by[q]) crossed_by[q] = p;
-    });
+    }
+  }
+  return crossed_by;
+}
+
+/// val3dity 306: polygons meet in their common vertices and edges only. Reported once for each
+/// polygon.
+bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
+                          FindingList& findings) {
+  const auto crossed_by = crossing_partners(building, shell);
   bool is_good = true;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p) {
     if (!crossed_by[p]) continue;

@@ -1,5 +1,6 @@
 #include "kernel/validate/solids/solid_checks.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/validate/solids/closed_surface.h"
 
@@ -44,8 +45,8 @@ bool are_shells_turned_well(const JudgedSolid& solid, const std::deque<ClosedSur
 }
 
 /// How a cavity lies to the exterior shell.
-bool lies_inside(const JudgedShell& exterior, const JudgedShell& cavity, const Relation& relation,
-                 FindingList& findings) {
+bool lies_inside(const JudgedShell& exterior, const JudgedShell& cavity,
+                 const SurfaceRelation& relation, FindingList& findings) {
   const std::string names = fmt::format("{} and {}", name_of(exterior), name_of(cavity));
   if (!relation.do_overlap)
     findings.add(Defect::cavity_outside, subject_of(cavity),
@@ -62,7 +63,7 @@ bool lies_inside(const JudgedShell& exterior, const JudgedShell& cavity, const R
 }
 
 /// How two cavities lie to each other.
-bool lie_apart(const JudgedShell& p, const JudgedShell& q, const Relation& relation,
+bool lie_apart(const JudgedShell& p, const JudgedShell& q, const SurfaceRelation& relation,
                FindingList& findings) {
   const std::string names = fmt::format("{} and {}", name_of(p), name_of(q));
   if (relation.are_alike)
@@ -103,7 +104,7 @@ bool are_given_once(const std::deque<ClosedSurface>& surfaces, std::size_t from,
 bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface>& surfaces,
                         FindingList& findings) {
   const bool are_once = are_given_once(surfaces, 1, [&](std::size_t i, std::size_t j) {
-    Relation alike;
+    SurfaceRelation alike;
     alike.are_alike = true;
     lie_apart(*solid.shells[i], *solid.shells[j], alike, findings);
   });
@@ -111,14 +112,14 @@ bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface
   const std::size_t before = findings.size();
   bool do_touch = false;
   for (std::size_t i = 1; i < surfaces.size(); ++i) {
-    const Relation relation = relate(surfaces[0], surfaces[i]);
+    const SurfaceRelation relation = relate(surfaces[0], surfaces[i]);
     do_touch = do_touch || relation.do_touch;
     lies_inside(*solid.shells[0], *solid.shells[i], relation, findings);
   }
   for (std::size_t i = 1; i < surfaces.size(); ++i)
     for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
       if (!overlap(surfaces[i].box(), surfaces[j].box())) continue;
-      const Relation relation = relate(surfaces[i], surfaces[j]);
+      const SurfaceRelation relation = relate(surfaces[i], surfaces[j]);
       do_touch = do_touch || relation.do_touch;
       lie_apart(*solid.shells[i], *solid.shells[j], relation, findings);
     }
@@ -137,13 +138,14 @@ bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface
 }  // namespace
 
 bool judge(const SnappedBuilding& building, const JudgedSolid& solid, FindingList& findings) {
+  ORIEL_ASSERT(!solid.shells.empty());
   std::deque<ClosedSurface> surfaces;
   for (const JudgedShell* shell : solid.shells) surfaces.emplace_back(building, *shell);
   if (!are_shells_turned_well(solid, surfaces, findings)) return false;
   return surfaces.size() == 1 || do_shells_lie_well(solid, surfaces, findings);
 }
 
-bool judge_composite(const SnappedBuilding& building, const std::vector<JudgedSolid>& solids,
+bool judge_composite(const SnappedBuilding& building, std::span<const JudgedSolid> solids,
                      FindingList& findings) {
   std::deque<ClosedSurface> surfaces;
   for (const JudgedSolid& solid : solids) surfaces.emplace_back(building, *solid.shells[0]);
@@ -157,23 +159,23 @@ bool judge_composite(const SnappedBuilding& building, const std::vector<JudgedSo
     tell(Defect::solids_alike, i, j, "are the same");
   });
   if (!are_once) return false;
-  struct Pair {
+  struct BodyPair {
     std::size_t p, q;
-    Relation relation;
+    SurfaceRelation relation;
   };
-  std::vector<Pair> pairs;
+  std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     for (std::size_t j = i + 1; j < surfaces.size(); ++j)
       if (overlap(surfaces[i].box(), surfaces[j].box()))
         pairs.push_back({i, j, relate(surfaces[i], surfaces[j])});
-  for (const Pair& pair : pairs)
+  for (const BodyPair& pair : pairs)
     if (pair.relation.are_alike) tell(Defect::solids_alike, pair.p, pair.q, "are the same");
   if (findings.size() > before) return false;
-  for (const Pair& pair : pairs)
+  for (const BodyPair& pair : pairs)
     if (pair.relation.do_overlap) tell(Defect::solids_cross, pair.p, pair.q, "overlap");
   if (findings.size() > before) return false;
   DisjointSets joined(solids.size());
-  for (const Pair& pair : pairs)
+  for (const BodyPair& pair : pairs)
     if (pair.relation.share_a_face)
       joined.unite(static_cast<int>(pair.p), static_cast<int>(pair.q));
   for (std::size_t i = 1; i < solids.size(); ++i)

@@ -3,6 +3,7 @@
 #include "kernel/validate/defects.h"
 #include "kernel/validate/solids/shell_checks.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -19,7 +20,7 @@ bool judge(const SnappedBuilding& building, const JudgedSolid& solid, FindingLis
 
 /// Judges the solids of a CompositeSolid, all good: none twice (502), interiors apart (501), all
 /// joined by faces (503); the first of these that fails ends it.
-bool judge_composite(const SnappedBuilding& building, const std::vector<JudgedSolid>& solids,
+bool judge_composite(const SnappedBuilding& building, std::span<const JudgedSolid> solids,
                      FindingList& findings);
 
 }  // namespace oriel::detail

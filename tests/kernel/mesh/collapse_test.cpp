@@ -1,6 +1,5 @@
 #include "kernel/mesh/collapse.h"
 
-#include "kernel/mesh/hausdorff.h"
 #include "kernel/mesh/measures.h"
 #include "tests/kernel/mesh/meshes.h"
 

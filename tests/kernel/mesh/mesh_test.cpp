@@ -1,7 +1,6 @@
 #include "kernel/mesh/mesh.h"
 
 #include "kernel/mesh/measures.h"
-#include "kernel/mesh/to_solid.h"
 #include "tests/kernel/mesh/meshes.h"
 
 #include <algorithm>

@@ -100,7 +100,7 @@ struct NoisyRecall {
 
 /// The windows and doors that are recessed and that a feature has the box of, at IoU 0.8.
 std::set<std::string> openings_found(const Building& building, const Tolerances& tolerances,
-                                     const Truth& truth, const Solid& solid) {
+                                     const GroundTruth& truth, const Solid& solid) {
   SegmentOptions options;
   options.tolerances = tolerances;
   const Segmentation segmentation = segment(building, solid, options);
@@ -117,7 +117,7 @@ std::set<std::string> openings_found(const Building& building, const Tolerances&
   return found;
 }
 
-void count(const Building& building, const Truth& truth, double noise_m,
+void count(const Building& building, const GroundTruth& truth, double noise_m,
            const Tolerances& tolerances, NoisyRecall& recall) {
   const auto clean = solidify(building, {});
   if (!clean.value) return;
@@ -137,10 +137,10 @@ void count(const Building& building, const Truth& truth, double noise_m,
 }
 
 /// Of all buildings of the files whose truth is there.
-NoisyRecall recall_of(const std::vector<std::string>& files, const std::vector<Truth>& truths,
+NoisyRecall recall_of(const std::vector<std::string>& files, const std::vector<GroundTruth>& truths,
                       double noise_m, const Tolerances& tolerances) {
-  std::map<std::string, const Truth*> truth_of;
-  for (const Truth& truth : truths) truth_of[truth.building] = &truth;
+  std::map<std::string, const GroundTruth*> truth_of;
+  for (const GroundTruth& truth : truths) truth_of[truth.building] = &truth;
   NoisyRecall recall;
   for (const std::string& file : files) {
     Reader reader(file);
@@ -157,7 +157,7 @@ NoisyRecall recall_of(const std::vector<std::string>& files, const std::vector<T
 
 NoisyRecall recall_of(const std::filesystem::path& folder, double noise_m,
                       const Tolerances& tolerances) {
-  std::vector<Truth> truths;
+  std::vector<GroundTruth> truths;
   for (const std::string& file : test::files_in(folder, ".truth.json"))
     truths.push_back(read_truth(file).value.value());
   return recall_of(test::files_in(folder, ".stripped.city.json"), truths, noise_m, tolerances);

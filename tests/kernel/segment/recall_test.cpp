@@ -26,7 +26,8 @@ struct Recall {
 
 /// Looks for every object that is in the shell (openings: and recessed) among all features of its
 /// building.
-void count(const test::Segmented& s, const Truth& truth, std::map<std::string, Recall>& recalls) {
+void count(const test::Segmented& s, const GroundTruth& truth,
+           std::map<std::string, Recall>& recalls) {
   for (const TruthObject& object : truth.objects) {
     if (object.faces.empty() || object.is_detectable == false) continue;
     const Box box = object.feature_aabb.value_or(object.aabb);
@@ -42,7 +43,7 @@ TEST_SUITE("kernel/segment") {
     std::map<std::string, Recall> recalls;
     for (const std::string& file :
          test::files_in(shared / "data" / "random3dcity", ".truth.json")) {
-      const Truth truth = read_truth(file).value.value();
+      const GroundTruth truth = read_truth(file).value.value();
       Reader reader(file.substr(0, file.size() - std::string(".truth.json").size()) +
                     ".stripped.city.json");
       const test::Segmented s = test::segmented(reader.next()->value->buildings.at(0));

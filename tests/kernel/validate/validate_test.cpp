@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -29,6 +31,35 @@ Building square_with_hole(const std::vector<Vec3>& hole) {
   Building building = surfaces({square(0), hole});
   building.polygons[0].rings.push_back(building.polygons[1].rings[0]);
   building.polygons.pop_back();
+  return building;
+}
+
+/// Polygon 0 is the floor, a triangle; shafts at these x go down from the roof and through it, the
+/// walls of the first from polygon 5 on.
+Building prism_with_shafts(const std::vector<double>& xs) {
+  const Vec3 a{0, 0, 0}, b{24, 0, 0}, c{0, 12, 0}, up{0, 0, 4};
+  std::vector<std::vector<Vec3>> polygons{{a, c, b}, {a + up, b + up, c + up}};
+  for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+    polygons.push_back({p, q, q + up, p + up});
+  std::vector<std::vector<Vec3>> holes;
+  for (const double x : xs) {
+    const std::vector<Vec3> hole{{x, 1, 4}, {x, 2, 4}, {x + 1, 2, 4}, {x + 1, 1, 4}};
+    const Vec3 down{0, 0, -5};
+    std::vector<Vec3> bottom;
+    for (std::size_t i = 0; i < hole.size(); ++i) {
+      const Vec3 from = hole[i], to = hole[(i + 1) % hole.size()];
+      polygons.push_back({to, from, from + down, to + down});
+      bottom.insert(bottom.begin(), from + down);
+    }
+    polygons.push_back(bottom);
+    holes.push_back(hole);
+  }
+  const auto count = static_cast<std::ptrdiff_t>(polygons.size());
+  polygons.insert(polygons.end(), holes.begin(), holes.end());
+  Building building = test::building_of(polygons);
+  for (auto hole = building.polygons.begin() + count; hole != building.polygons.end(); ++hole)
+    building.polygons[1].rings.push_back(hole->rings[0]);
+  building.polygons.erase(building.polygons.begin() + count, building.polygons.end());
   return building;
 }
 
@@ -113,6 +144,18 @@ TEST_SUITE("kernel/validate") {
         if (building.repeats.empty()) CHECK(codes_of(other) == codes);
       }
     }
+  }
+
+  TEST_CASE("of the polygons that one runs through the first is named wherever they stand") {
+    std::vector<double> xs{2, 5, 8, 11, 14, 17};
+    do {
+      const auto findings = validate(prism_with_shafts(xs));
+      REQUIRE_FALSE(findings.empty());
+      CHECK(findings[0].code == Code::E352);
+      CHECK(findings[0].polygon == 0);
+      CHECK(findings[0].sentence.starts_with("polygon 0 meets polygon 5 "));
+      std::ranges::rotate(xs, xs.begin() + 1);
+    } while (xs[0] != 2);
   }
 
   TEST_CASE("coordinates that are none or far away are one finding") {

@@ -8,7 +8,7 @@
 namespace oriel {
 namespace {
 
-Checked<Truth> read(const std::string& text) {
+Checked<GroundTruth> read(const std::string& text) {
   const test::TemporaryFolder folder;
   return read_truth(folder.write("a.truth.json", text));
 }

@@ -480,7 +480,7 @@ TEST_SUITE("kernel/segment") {
     for (const auto& [set, least] : {std::pair{"random3dcity", 1.0}, {"ingolstadt", 0.93}}) {
       std::size_t windows = 0, found = 0;
       for (const std::string& file : test::files_in(shared / "data" / set, ".truth.json")) {
-        const Truth truth = read_truth(file).value.value();
+        const GroundTruth truth = read_truth(file).value.value();
         Reader reader(file.substr(0, file.size() - std::string(".truth.json").size()) +
                       ".stripped.city.json");
         const Building building = reader.next()->value->buildings.at(0);

@@ -47,7 +47,7 @@ TEST_SUITE("kernel/solidify") {
       const Soup soup = soup_of(points, {outer, hole});
       const PolygonShape shape = shapes_of(soup).front();
       REQUIRE(shape.normal);
-      CHECK(*shape.normal == Normal{0, 0, 1});
+      CHECK(*shape.normal == IntegerNormal{0, 0, 1});
       CHECK(shape.area == 77);
       CHECK(height_of(soup, 0, shape.area) == doctest::Approx(77 / std::sqrt(162.0)));
       CHECK(offset_if_flat(soup, 0, *shape.normal) == 5);
@@ -57,7 +57,7 @@ TEST_SUITE("kernel/solidify") {
   TEST_CASE("a polygon with a vertex off its plane is not flat, and one on a line has no normal") {
     const Soup warped = soup_of({{0, 0, 0}, {0, 9, 0}, {9, 0, 0}, {9, 9, 1}}, {{0, 2, 3, 1}});
     CHECK_FALSE(offset_if_flat(warped, 0, {0, 0, 1}));
-    const Span span = span_along(warped, 0, {0, 0, 1});
+    const OffsetSpan span = span_along(warped, 0, {0, 0, 1});
     CHECK(span.low == 0);
     CHECK(span.high == 1);
     const Soup line = soup_of({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}, {{0, 1, 2}});

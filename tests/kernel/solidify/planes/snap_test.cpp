@@ -1,4 +1,4 @@
-#include "kernel/solidify/planes/nearest_point.h"
+#include "kernel/solidify/planes/snap.h"
 
 #include "kernel/geometry/exact.h"
 

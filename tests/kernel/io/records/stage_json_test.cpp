@@ -1,4 +1,4 @@
-#include "kernel/io/records/segmentation_json.h"
+#include "kernel/io/records/stage_json.h"
 
 #include "tests/kernel/io/segmentations.h"
 

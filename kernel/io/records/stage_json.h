@@ -1,11 +1,14 @@
 #pragma once
 
+#include "kernel/base/issue.h"
 #include "kernel/model/building.h"
 #include "kernel/model/cell_complex.h"
 #include "kernel/model/description/feature_table.h"
+#include "kernel/model/repair.h"
 #include "kernel/model/segmentation.h"
 
 #include <string>
+#include <vector>
 
 namespace oriel {
 
@@ -16,5 +19,11 @@ namespace oriel {
 /// the frame, those that faces use), faces and contacts.
 std::string segmentation_json(const Building& building, const Segmentation& segmentation,
                               const FeatureTable& table, const CellComplex* complex = nullptr);
+
+/// What became of one building as a line of JSON, with its line end (docs/formats.md, "Repair
+/// report"). Places are in the input's coordinates, polygons numbers in reading order from 0.
+/// `is_solid`: a solid could be made. `issues` are those of solidify.
+std::string repair_json(const Building& building, bool is_solid, const RepairReport& report,
+                        const std::vector<Issue>& issues);
 
 }  // namespace oriel

@@ -1,4 +1,4 @@
-#include "kernel/io/citygml/xml_links.h"
+#include "kernel/io/citygml/xml_node.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "kernel/model/area_vector.h"
+#include "kernel/model/vec3.h"
 
 #include <vector>
 
