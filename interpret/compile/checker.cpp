@@ -127,7 +127,7 @@ ExprId Checker::constant(const Syntax& syntax, std::optional<Dimension> dimensio
 }
 
 /// Reports it once; whatever is looked at afterwards fails in silence.
-bool Checker::is_too_much(Span where) {
+bool Checker::is_too_much(SourceSpan where) {
   ++in_expression_;
   ++in_pack_;
   if (in_pack_ == kMostInPack)
@@ -201,7 +201,7 @@ ExprId Checker::add(Expr expr) {
   return static_cast<ExprId>(pack_->code.size()) - 1;
 }
 
-ExprId Checker::fail(Code code, Span where, std::string sentence) {
+ExprId Checker::fail(Code code, SourceSpan where, std::string sentence) {
   findings_->error(code, where, std::move(sentence));
   return kNoExpr;
 }
@@ -519,7 +519,7 @@ ExprId Checker::check_aggregate(const Syntax& syntax) {
 ExprId Checker::make_quantifier(Expr expr, ExprId where) {
   const unsigned self = 1U << static_cast<unsigned>(expr.level);
   const unsigned other = self << 1U;
-  const Span span = expr.span;
+  const SourceSpan span = expr.span;
   expr.levels = self;
   std::vector<ExprId> filters, joins;
   std::vector<ExprId> conditions;

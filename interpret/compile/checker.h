@@ -52,7 +52,7 @@ class Checker {
  private:
   ExprId check(const Syntax& syntax);
   ExprId check_by_kind(const Syntax& syntax);
-  bool is_too_much(Span where);
+  bool is_too_much(SourceSpan where);
 
   [[nodiscard]] const std::vector<AttributeInfo>& schema() const;
   [[nodiscard]] std::vector<std::string> words_for(std::size_t column) const;
@@ -98,7 +98,7 @@ class Checker {
     return pack_->code[static_cast<std::size_t>(id)];
   }
   [[nodiscard]] std::string_view text_of(const Syntax& syntax) const;
-  ExprId fail(Code code, Span where, std::string sentence);
+  ExprId fail(Code code, SourceSpan where, std::string sentence);
   int word_number(const std::string& word);
 
   Pack* pack_;

@@ -13,12 +13,11 @@ namespace oriel::rules {
 
 namespace {
 
-using Column = std::span<const double>;
-
 /// What a key says of every feature: a column of the table as it stands, or evaluated into
 /// `evaluated`.
-Column numbers_of(const Pack& pack, const EvaluationContext& context, Evaluator& evaluator,
-                  ExprId id, std::vector<double>& evaluated) {
+std::span<const double> numbers_of(const Pack& pack, const EvaluationContext& context,
+                                   Evaluator& evaluator, ExprId id,
+                                   std::vector<double>& evaluated) {
   const Expr& key = pack.code[at(id)];
   if (key.op == Op::attribute) return context.columns[at(key.index)];
   evaluated.resize(context.rows);
@@ -31,7 +30,7 @@ Column numbers_of(const Pack& pack, const EvaluationContext& context, Evaluator&
 
 /// By value; rows of one value, which ascend, stay in their order. Leaves the values in `keys`.
 /// Most stand where they belong, as features are found row by row.
-void sort_members(std::span<int> members, Column values, std::span<double> keys) {
+void sort_members(std::span<int> members, std::span<const double> values, std::span<double> keys) {
   constexpr std::size_t kMany = 64;
   const auto value_of = [&](int row) { return values[at(row)]; };
   if (members.size() > kMany) {
@@ -54,7 +53,8 @@ void sort_members(std::span<int> members, Column values, std::span<double> keys)
 
 /// Cuts the classes of `from` where their members differ in `values`; those that do not fit are
 /// left out.
-FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Column values) {
+FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits,
+                    std::span<const double> values) {
   FeatureLinks parts;
   parts.are_classes = true;
   parts.list_of.assign(fits.size(), -1);
@@ -81,7 +81,8 @@ FeatureLinks parted(const FeatureLinks& from, const std::vector<Truth>& fits, Co
 }
 
 /// Whether a row that may fit has no value.
-bool is_missing_in(Column values, std::span<const int> rows, const std::vector<Truth>& fits) {
+bool is_missing_in(std::span<const double> values, std::span<const int> rows,
+                   const std::vector<Truth>& fits) {
   bool is_missing = false;
   for (const int row : rows) {
     const bool may_fit = fits[at(row)] != Truth::no, has_none = std::isnan(values[at(row)]);
@@ -121,14 +122,14 @@ std::optional<Narrowed> refined_classes(const Pack& pack, const EvaluationContex
     for (std::size_t row = 0; row < context.rows; ++row)
       fits[row] = std::min(fits[row], from.certain_rows[row]);
   std::vector<std::vector<double>> evaluated(keys.size());
-  std::vector<Column> columns;
+  std::vector<std::span<const double>> columns;
   for (std::size_t i = 0; i < keys.size(); ++i)
     columns.push_back(numbers_of(pack, context, evaluator, keys[i], evaluated[i]));
-  for (const Column& values : columns)
+  for (const std::span<const double>& values : columns)
     if (is_missing_in(values, from.lists->others, fits)) return std::nullopt;
   Narrowed result;
   if (columns.empty()) result.lists = parted(*from.lists, fits, std::vector<double>(context.rows));
-  for (const Column& values : columns)
+  for (const std::span<const double>& values : columns)
     result.lists = parted(&values == columns.data() ? *from.lists : result.lists, fits, values);
   if (has_unknown(fits)) result.links.certain_rows = std::move(fits);
   return result;

@@ -76,7 +76,7 @@ struct EvaluationContext {
   /// By column of feature_schema(): its numbers, or its texts as numbers of words (Pack::words,
   /// further numbers for other texts); NaN where missing. Empty where no rule asks for it.
   std::vector<std::span<const double>> columns;
-  /// By number (Relation); without lists for relations that nothing leads over.
+  /// By number (RelationDefinition); without lists for relations that nothing leads over.
   std::vector<Links> relations;
   /// Whether a feature is of a class, by class and row, as far as it is known so far.
   std::vector<std::vector<Truth>> membership;

@@ -116,7 +116,7 @@ class Narrowing {
 
 }  // namespace
 
-RelationSides sides_of(const Pack& pack, const Relation& relation) {
+RelationSides sides_of(const Pack& pack, const RelationDefinition& relation) {
   RelationSides sides;
   const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
   const std::vector<ExprId> whole{relation.where};
@@ -131,7 +131,8 @@ RelationSides sides_of(const Pack& pack, const Relation& relation) {
   return sides;
 }
 
-Narrowed narrowed(const Pack& pack, const EvaluationContext& context, const Relation& relation) {
+Narrowed narrowed(const Pack& pack, const EvaluationContext& context,
+                  const RelationDefinition& relation) {
   const Links& from = context.relations[static_cast<std::size_t>(relation.within)];
   const RelationSides& sides = relation.sides;
   Evaluator evaluator(pack, context);

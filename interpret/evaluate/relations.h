@@ -5,7 +5,7 @@
 
 namespace oriel::rules {
 
-RelationSides sides_of(const Pack& pack, const Relation& relation);
+RelationSides sides_of(const Pack& pack, const RelationDefinition& relation);
 
 /// A relation that the pack declares; `links` is to refer to `lists`.
 struct Narrowed {
@@ -16,6 +16,7 @@ struct Narrowed {
 /// The pairs of the relation it narrows, which must be linked in `context`, for which its condition
 /// holds or is unknown. Where that one relates all of a class, and the condition asks both of them
 /// for the same and for equal values, classes are parted and no pair is looked at.
-Narrowed narrowed(const Pack& pack, const EvaluationContext& context, const Relation& relation);
+Narrowed narrowed(const Pack& pack, const EvaluationContext& context,
+                  const RelationDefinition& relation);
 
 }  // namespace oriel::rules

@@ -121,7 +121,7 @@ std::string Prover::show_relation(const Expr& expr) const {
   const std::size_t built_in = relation_schema().size();
   const auto number = static_cast<std::size_t>(expr.index);
   if (number < built_in) return "";
-  const Relation& relation = pack_->relations[number - built_in];
+  const RelationDefinition& relation = pack_->relations[number - built_in];
   return fmt::format("{}: {} where {}", relation.name,
                      relation_names(*pack_)[static_cast<std::size_t>(relation.within)],
                      text_of(relation.where));

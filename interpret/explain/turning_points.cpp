@@ -37,7 +37,7 @@ class TurnFinder {
       for (const ExprId id : rule.unless) visit(id);
       for (const ScoreTerm& term : rule.score) visit(term);
     }
-    for (const Relation& relation : pack_.relations) {
+    for (const RelationDefinition& relation : pack_.relations) {
       relations_[0] = root_of(relation.within);
       visit(relation.where);
     }
@@ -207,7 +207,7 @@ class Differences {
 
  private:
   using Block = std::array<double, kBlock>;
-  struct Segment {
+  struct Chord {
     double x, dx, y, dy;
   };
 
@@ -235,9 +235,9 @@ class Differences {
     return out[0];
   }
 
-  /// Where the difference is 0 between the ends of the segment: exactly where a side is the param
+  /// Where the difference is 0 between the ends of the chord: exactly where a side is the param
   /// itself, else as a straight line goes, else by halving.
-  std::optional<double> root_of(const Turn& turn, const Slots& slots, std::size_t slot, Segment s) {
+  std::optional<double> root_of(const Turn& turn, const Slots& slots, std::size_t slot, Chord s) {
     if (s.x == s.y || std::isnan(s.dx) || std::isnan(s.dy) || s.dx == s.dy) return std::nullopt;
     if ((s.dx < 0) == (s.dy < 0) && s.dx != 0 && s.dy != 0) return std::nullopt;
     const Expr& left = pack_.code[static_cast<std::size_t>(turn.left)];

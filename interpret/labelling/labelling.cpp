@@ -69,7 +69,7 @@ std::vector<int> Labelling::unsettled() const {
 }
 
 void Labelling::run_round() {
-  for (const Step& step : pack_->steps) {
+  for (const RuleStep& step : pack_->steps) {
     if (step.is_decision)
       run_decision(step);
     else
@@ -79,7 +79,7 @@ void Labelling::run_round() {
 
 /// Predicates that need each other start from "no" everywhere and are raised until nothing changes:
 /// their least fixpoint, whatever the order.
-void Labelling::run_predicates(const Step& step) {
+void Labelling::run_predicates(const RuleStep& step) {
   bool has_changed = true;
   while (has_changed) {
     has_changed = false;
@@ -111,7 +111,7 @@ void Labelling::raise_membership(ClassId id, std::size_t row, Truth truth) {
   }
 }
 
-void Labelling::run_decision(const Step& step) {
+void Labelling::run_decision(const RuleStep& step) {
   evaluator_.forget();
   candidate_count_ = rows_at_hand_count_ = 0;
   are_in_order_ = !step.is_scored && pack_->decide.min_score <= 1;
@@ -278,7 +278,7 @@ void Labelling::decide(std::size_t row) {
 }
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.
-void Labelling::settle_unknown(const Step& step) {
+void Labelling::settle_unknown(const RuleStep& step) {
   for (const int id : step.rules) {
     const ClassId label = rule(id).label;
     for (const int row : unknown_rows_[oriel::at(label)])

@@ -74,9 +74,9 @@ class Labelling {
     double score = 0;
   };
 
-  void run_predicates(const Step& step);
+  void run_predicates(const RuleStep& step);
   bool apply_predicate(const Rule& rule);
-  void run_decision(const Step& step);
+  void run_decision(const RuleStep& step);
   void collect(int rule);
   void add_candidates(int rule, Conjunction& held, std::span<const double> scores);
   void add_winners(int rule, Conjunction& held);
@@ -87,7 +87,7 @@ class Labelling {
   void decide(std::size_t row);
   void note_unknown(int rule, Conjunction& held);
   void note_decision(std::size_t row);
-  void settle_unknown(const Step& step);
+  void settle_unknown(const RuleStep& step);
   [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
   void raise_membership(ClassId id, std::size_t row, Truth truth);
 

@@ -104,7 +104,7 @@ std::string attribute_lines(const SurfaceTable& table, std::size_t row) {
 }
 
 /// The place of an expression as messages show it.
-std::string place_of(const Pack& pack, rules::Span span) {
+std::string place_of(const Pack& pack, rules::SourceSpan span) {
   const Place place = pack.source.place(span.begin);
   return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
@@ -127,7 +127,7 @@ std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, 
       const char* outcome = truth == Truth::yes  ? "holds"
                             : truth == Truth::no ? "fails"
                                                  : "unknown";
-      const rules::Span span = surfaces.pack.code[static_cast<std::size_t>(id)].span;
+      const rules::SourceSpan span = surfaces.pack.code[static_cast<std::size_t>(id)].span;
       text += fmt::format("    {:<8} {}   {}\n", outcome, surfaces.pack.source.text_of(span),
                           place_of(surfaces.pack, span));
     }
@@ -178,7 +178,7 @@ std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t r
   std::string text = fmt::format("{} by {}", verdict.type, verdict.rule);
   const char* separator = ": ";
   for (const rules::ExprId id : rule->when) {
-    const rules::Span span = pack.surfaces->pack.code[static_cast<std::size_t>(id)].span;
+    const rules::SourceSpan span = pack.surfaces->pack.code[static_cast<std::size_t>(id)].span;
     text += separator;
     text += pack.surfaces->pack.source.text_of(span);
     separator = "; ";
