@@ -366,7 +366,7 @@ ExprId Checker::check_distance(const Syntax& syntax) {
   return add({.op = Op::square_root, .dimension = {1, 0}, .args = {squares}, .span = syntax.span});
 }
 
-/// A column behind those of the schema, which plan() fills (group_gap.h).
+/// A column behind those of the schema, which plan() fills (groups.h).
 ExprId Checker::check_group_gap(const Syntax& syntax) {
   if (!is_of_group_)
     return fail(Code::R271, syntax.span,

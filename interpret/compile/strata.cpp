@@ -178,16 +178,6 @@ std::vector<int> find_levels(const Pack& pack, std::vector<Question> questions,
 
 /// One step for each component of predicates, in their order, and after those of a stratum one for
 /// its decision.
-/// The greatest priority first, then the smallest id.
-void sort_by_rank(const Pack& pack, RuleStep& step) {
-  const auto rule = [&](int id) -> const Rule& { return pack.rules[oriel::at(id)]; };
-  std::ranges::sort(step.rules, [&](int p, int q) {
-    return rule(p).priority != rule(q).priority ? rule(p).priority > rule(q).priority
-                                                : rule(p).id < rule(q).id;
-  });
-  step.is_scored = std::ranges::any_of(step.rules, [&](int id) { return !rule(id).score.empty(); });
-}
-
 void make_steps(Pack& pack, const std::vector<Question>& questions, const Components& components) {
   const std::vector<int> levels = find_levels(pack, questions, components);
   const int last = levels.empty() ? -1 : *std::ranges::max_element(levels);
@@ -206,7 +196,6 @@ void make_steps(Pack& pack, const std::vector<Question>& questions, const Compon
     const int c = components.of_node[oriel::at(q.reader)];
     if (c == components.of_node[oriel::at(q.read)]) predicates[oriel::at(c)].is_recursive = true;
   }
-  for (RuleStep& step : decisions) sort_by_rank(pack, step);
   const auto add = [&](RuleStep& step) {
     if (!step.rules.empty()) pack.steps.push_back(std::move(step));
   };

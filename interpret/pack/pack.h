@@ -99,9 +99,7 @@ struct RuleStep {
   bool is_decision = false;
   /// Predicates that need each other run to their least fixpoint.
   bool is_recursive = false;
-  /// A rule of a decision has a score.
-  bool is_scored = false;
-  /// Indices into Pack::rules; of a decision in the order in which they win where scores are equal.
+  /// Indices into Pack::rules.
   std::vector<int> rules;
 };
 
@@ -195,8 +193,6 @@ struct Reads {
   /// Columns of texts and of numbers, yes/no included.
   std::vector<std::size_t> texts;
   std::vector<std::size_t> numbers;
-  /// By HostKind: whether it asks that of host facets.
-  std::array<bool, 4> host_kinds{};
   /// By number: whether an expression or a group leads over the relation, or one that narrows it.
   std::vector<bool> relations;
   /// Pack::words, each with its number.

@@ -1,14 +1,12 @@
 #include "interpret/plan/plan.h"
 
 #include "interpret/compile/fold.h"
-#include "interpret/labelling/group_gap.h"
+#include "interpret/labelling/groups.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/names.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,7 +18,6 @@ namespace {
 using rules::ClassId;
 using rules::ExprId;
 using rules::GeneraliseEntry;
-using rules::kBlock;
 using rules::Truth;
 
 InputError bad_scale(double scale) {
@@ -84,15 +81,9 @@ void mark_targets(const rules::Pack& pack, const GeneraliseEntry& entry,
 void judge_condition(ExprId when, const rules::EvaluationContext& context,
                      rules::Evaluator& evaluator, std::vector<Truth>& fits) {
   if (when == rules::kNoExpr) return;
-  std::array<Truth, kBlock> answers;
-  for (std::size_t begin = 0; begin < context.rows; begin += kBlock) {
-    rules::Frame frame;
-    frame.size = std::min(kBlock, context.rows - begin);
-    frame.rows[0] = context.row_numbers.data() + begin;
-    frame.needed = fits.data() + begin;
-    evaluator.truths(when, frame, std::span(answers).first(frame.size));
-    for (std::size_t i = 0; i < frame.size; ++i)
-      fits[begin + i] = std::min(fits[begin + i], answers[i]);
+  for (const int row : context.row_numbers) {
+    Truth& fit = fits[static_cast<std::size_t>(row)];
+    if (fit != Truth::no) fit = std::min(fit, evaluator.truth(when, rules::rows_of(row)));
   }
 }
 

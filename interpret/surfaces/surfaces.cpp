@@ -17,7 +17,6 @@ namespace oriel {
 
 namespace {
 
-using rules::Frame;
 using rules::HostKind;
 using rules::Pack;
 using rules::SurfaceRule;
@@ -113,17 +112,13 @@ std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, 
                        int last) {
   const rules::EvaluationContext context(surfaces.pack, table);
   rules::Evaluator evaluator(surfaces.pack, context);
-  const int number = static_cast<int>(row);
-  Frame frame;
-  frame.size = 1;
-  frame.rows[0] = &number;
+  const rules::FeatureRows rows = rules::rows_of(static_cast<int>(row));
   std::string text;
   for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
     const SurfaceRule& rule = surfaces.rules[r];
     text += fmt::format("  {} -> {}\n", rule.id, rule.type);
     for (const rules::ExprId id : rule.when) {
-      Truth truth = Truth::unknown;
-      evaluator.truths(id, frame, std::span(&truth, 1));
+      const Truth truth = evaluator.truth(id, rows);
       const char* outcome = truth == Truth::yes  ? "holds"
                             : truth == Truth::no ? "fails"
                                                  : "unknown";
