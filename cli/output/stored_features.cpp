@@ -4,13 +4,11 @@
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/feature_tables.h"
 
-#include <algorithm>
 #include <iterator>
 #include <map>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -79,20 +77,11 @@ StoredFeatures::StoredFeatures(std::vector<std::string> files, Report& report)
 
 std::vector<Interpretation> StoredFeatures::interpret(const RuleBase& rules, int jobs) const {
   std::vector<Interpretation> run(buildings_.size());
-  std::vector<FeaturesOfBuilding> features;
-  features.reserve(buildings_.size());
-  for (const DescribedBuilding& building : buildings_)
-    features.push_back({&building.table, &building.graph});
-  constexpr std::size_t kShare = 64;
-  const auto interpret_share = [&](std::size_t number) {
-    const std::size_t begin = number * kShare;
-    const auto share =
-        std::span(features).subspan(begin, std::min(kShare, features.size() - begin));
-    std::ranges::move(oriel::interpret(rules, share), run.begin() + static_cast<long>(begin));
-  };
   tbb::task_arena arena(jobs);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, (features.size() + kShare - 1) / kShare, interpret_share);
+    tbb::parallel_for(std::size_t{0}, buildings_.size(), [&](std::size_t i) {
+      run[i] = oriel::interpret(rules, buildings_[i].table, buildings_[i].graph);
+    });
   });
   for (const Interpretation& interpretation : run) report_.add(interpretation.issues);
   return run;
