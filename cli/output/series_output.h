@@ -1,9 +1,9 @@
 #pragma once
 
-#include "cli/commands/labelling.h"
+#include "cli/output/label_outputs.h"
 #include "cli/terminal/exit_code.h"
-#include "interpret/pack/rule_base.h"
-#include "interpret/plan/profile.h"
+#include "cli/terminal/logging.h"
+#include "oriel/rules.h"
 
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@ namespace oriel::cli {
 
 /// `generalise --series`: NAME.1-N.city.json, of streams NAME.1-N.city.jsonl, for each scale, which
 /// ascend, and NAME.oplog.jsonl, for all inputs (SeriesFiles).
-ExitCode write_series(const LabelArguments& arguments, const std::vector<double>& scales,
+ExitCode write_series(const LabellingArguments& arguments, const std::vector<double>& scales,
                       std::optional<Profile> profile, const RuleBase& rules, Report& report);
 
 /// `generalise --at 1:N --from NAME`: the level at a scale, from the stored level that is nearest

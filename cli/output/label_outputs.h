@@ -1,10 +1,9 @@
 #pragma once
 
-#include "cli/batch/batch_runner.h"
 #include "cli/batch/outcome.h"
-#include "cli/commands/options.h"
+#include "cli/batch/run_options.h"
 #include "cli/output/output_sink.h"
-#include "interpret/pack/rule_base.h"
+#include "oriel/rules.h"
 #include "oriel/write.h"
 
 #include <memory>
@@ -15,7 +14,7 @@
 namespace oriel::cli {
 
 /// Arguments of the commands that label buildings and write them.
-struct LabelArguments : RunOptions {
+struct LabellingArguments : RunOptions {
   std::string rules = "residential";
   std::string out;
   std::string to;
@@ -30,17 +29,12 @@ struct LabelArguments : RunOptions {
   [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
 };
 
-void add_label_arguments(CLI::App& command, LabelArguments& arguments);
-
-/// The pack, with its findings reported; nothing if it cannot be used.
-std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
-
 /// What those commands write: the buildings (-o) and the records of features (--features), each if
 /// asked for.
 class LabelOutputs {
  public:
   /// Throws CLI::ValidationError if the arguments make no sense together.
-  LabelOutputs(const LabelArguments& arguments, const RuleBase& rules);
+  LabelOutputs(const LabellingArguments& arguments, const RuleBase& rules);
 
   [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
@@ -63,8 +57,7 @@ class LabelOutputs {
   [[nodiscard]] std::string recipe() const;
   /// Adds to `product` what the labelled buildings of a record, and the features of a building,
   /// become in the outputs. Several threads may call them.
-  void make_buildings(std::size_t input, const Document& document,
-                      std::vector<LabelledBuilding> labelled, const WriteOptions& options,
+  void make_buildings(std::size_t input, const Document& document, OutputRecord output,
                       Product& product) const;
   void make_features(const Building& building, const PipelineResult& line, Product& product) const;
   /// Puts a product into the outputs.
@@ -77,7 +70,7 @@ class LabelOutputs {
  private:
   void open_features();
 
-  const LabelArguments& arguments_;
+  const LabellingArguments& arguments_;
   const RuleBase& rules_;
   /// Of the arguments as they are when the outputs are made.
   LabelOptions options_;

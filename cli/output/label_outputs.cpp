@@ -1,4 +1,4 @@
-#include "cli/commands/labelling.h"
+#include "cli/output/label_outputs.h"
 
 #include "cli/terminal/logging.h"
 
@@ -13,37 +13,14 @@
 
 namespace oriel::cli {
 
-void add_label_arguments(CLI::App& command, LabelArguments& a) {
-  add_line_arguments(command, a, true);
-  add_rules_argument(command, a.rules);
-  command.add_option("-o,--output", a.out,
-                     "File, - for stdout, or a folder (with a / at its end) for several inputs");
-  command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
-  add_features_argument(command, a.features);
-  add_resume_argument(command, a);
-  add_reuse_argument(command, a);
-  add_isolate_argument(command, a);
-  command
-      .add_option("--codelist", a.codelist,
-                  "Code list of installations that the pack has codes for")
-      ->capture_default_str();
-}
-
-std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {
-  auto loaded = load_pack_file(pack);
-  report.add(loaded.issues);
-  return loaded.value;
-}
-
-LabelOptions LabelArguments::label_options(StageObserver observer) const {
+LabelOptions LabellingArguments::label_options(StageObserver observer) const {
   LabelOptions options = RunOptions::label_options(std::move(observer));
   options.codelist = codelist;
   options.has_reasons = has_reasons;
   return options;
 }
 
-LabelOutputs::LabelOutputs(const LabelArguments& arguments, const RuleBase& rules)
+LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& rules)
     : arguments_(arguments), rules_(rules), options_(arguments.label_options()) {
   const auto codelists = rules.codelists();
   if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
@@ -85,9 +62,10 @@ void LabelOutputs::open_features() {
 
 PartPlaces LabelOutputs::places() const {
   PartPlaces places;
-  if (sink_) places[static_cast<std::size_t>(Part::buildings)] = sink_->place();
+  if (sink_) places[static_cast<std::size_t>(OutputPart::buildings)] = sink_->place();
   if (features_)
-    places[static_cast<std::size_t>(Part::features)] = {arguments_.features, features_->size()};
+    places[static_cast<std::size_t>(OutputPart::features)] = {arguments_.features,
+                                                              features_->size()};
   return places;
 }
 
@@ -99,28 +77,27 @@ std::string LabelOutputs::recipe() const {
                      arguments_.ignores_semantics);
 }
 
-void LabelOutputs::make_buildings(std::size_t input, const Document& document,
-                                  std::vector<LabelledBuilding> labelled,
-                                  const WriteOptions& options, Product& product) const {
+void LabelOutputs::make_buildings(std::size_t input, const Document& document, OutputRecord output,
+                                  Product& product) const {
   if (!sink_) return;
-  product[Part::buildings] = sink_->text(input, document, labelled, options);
-  if (sink_->is_gathering(input)) product.labelled = std::move(labelled);
+  product[OutputPart::buildings] = sink_->text(input, document, output);
+  if (sink_->is_gathering(input)) product.labelled = std::move(output.buildings);
 }
 
 void LabelOutputs::make_features(const Building& building, const PipelineResult& line,
                                  Product& product) const {
   if (arguments_.features.empty()) return;
   const RecordFormat format = *record_format_of(arguments_.features);
-  std::string& text = product[Part::features];
+  std::string& text = product[OutputPart::features];
   const std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
   if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
   text += more;
 }
 
 void LabelOutputs::take(const Document& document, const Product& product) {
-  if (sink_) sink_->take(document, product.labelled, product[Part::buildings]);
-  if (features_) features_->append(product[Part::features]);
-  std::fputs(product[Part::listing].c_str(), stdout);
+  if (sink_) sink_->take(document, product.labelled, product[OutputPart::buildings]);
+  if (features_) features_->append(product[OutputPart::features]);
+  std::fputs(product[OutputPart::listing].c_str(), stdout);
 }
 
 void LabelOutputs::end() {
