@@ -1,9 +1,17 @@
 #include "oriel/generalise.h"
 
-#include "oriel/pipeline/building_drawer.h"
+#include "generalise/invariants/fineness.h"
+#include "generalise/to_lod.h"
+#include "interpret/plan/plan.h"
+#include "kernel/mesh/hausdorff.h"
+#include "kernel/validate/validate.h"
+#include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
+#include "oriel/pipeline/repair_and_retry.h"
+#include "oriel/pipeline/targets.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +19,283 @@
 namespace oriel {
 
 namespace {
+
+/// A repaired solid of more facets is drawn without its steps being judged: with all that lies
+/// within millimetres of each other in it, that takes minutes and helps little.
+constexpr std::size_t kIntricateFacets = 1000;
+
+/// False if there is an error: the building is rejected.
+bool keep(const std::vector<Issue>& issues, GeneralisedBuilding& out) {
+  out.issues.insert(out.issues.end(), issues.begin(), issues.end());
+  return !has_errors(issues);
+}
+
+bool is_given_up(const GeneralisedBuilding& drawn) {
+  return std::ranges::find(drawn.issues, Code::G410, &Issue::code) != drawn.issues.end();
+}
+
+/// How what is cut is judged on the way, by how it would be written.
+enum class Judging {
+  none,      ///< not at all: it would take too long
+  refused,   ///< where features do not come off, what is left instead
+  thorough,  ///< every step (SolidValidator::is_thorough)
+};
+
+/// Draws one building for its targets, so that it is valid as it is written. Refers to all that it
+/// is made of.
+class BuildingDrawer {
+ public:
+  BuildingDrawer(const Document& document, const Building& building, const RuleBase& rules,
+                 const Targets& targets, const GeneraliseOptions& options)
+      : document_(document),
+        building_(building),
+        rules_(rules),
+        targets_(targets),
+        options_(options) {}
+
+  /// `result` has a solid that is closed.
+  [[nodiscard]] GeneralisedBuilding draw(const PipelineResult& result,
+                                         Judging judging = Judging::refused) const;
+
+  /// Says how fine the file has to be for the building to be valid in it. What is valid at no scale
+  /// is drawn again with each step judged; if that is valid at none either it stays unchanged,
+  /// levels of detail are rejected (G410).
+  void keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const;
+
+  /// Draws a building that is not valid, or was given up, from its repair_and_retry(), which
+  /// becomes drawn.repaired; nothing is done if there is none, or if what was given up is so again.
+  void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
+
+ private:
+  struct LabelledResult {
+    const PipelineResult& result;
+    const LabelledBuilding& labelled;
+  };
+
+  [[nodiscard]] std::optional<Redrawn> draw_for(const Profile* profile, const LabelledResult& of,
+                                                Judging judging, GeneralisedBuilding& out) const;
+  [[nodiscard]] Plan plan_for(const Profile* profile, const PipelineResult& result,
+                              GeneralisedBuilding& out) const;
+  [[nodiscard]] Invariants invariants_for(const Profile* profile, const PipelineResult& result,
+                                          Judging judging) const;
+  [[nodiscard]] Checked<Generalised> carried_out(const Profile* profile,
+                                                 const PipelineResult& result,
+                                                 const Invariants& invariants, Plan& plan) const;
+  [[nodiscard]] std::optional<Issue> check(const PipelineResult& result,
+                                           GeneralisedBuilding& drawn) const;
+  void redraw_unchanged(const PipelineResult& result, Generalised& generalised,
+                        GeneralisedBuilding& out) const;
+  void keep_figures(const Profile* profile, const PipelineResult& result,
+                    const Generalised& changes, const Redrawn& redrawn,
+                    GeneralisedBuilding& out) const;
+  void give_up(const PipelineResult& result, Issue fault, GeneralisedBuilding& drawn) const;
+  [[nodiscard]] Redrawn untouched(const PipelineResult& result, GeneralisedBuilding& out) const;
+  [[nodiscard]] std::string target_text(const Profile* profile) const;
+
+  const Document& document_;
+  const Building& building_;
+  const RuleBase& rules_;
+  const Targets& targets_;
+  const GeneraliseOptions& options_;
+};
+
+GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging judging) const {
+  GeneralisedBuilding drawn;
+  drawn.building = building_.id;
+  const LabelledBuilding labelled = annotate(building_, result, rules_, options_);
+  const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
+    auto redrawn = draw_for(profile, {result, labelled}, judging, drawn);
+    if (!redrawn) {
+      drawn.levels.clear();
+      break;
+    }
+    drawn.levels.push_back(std::move(*redrawn));
+  }
+  return drawn;
+}
+
+void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const {
+  std::optional<Issue> fault = check(result, drawn);
+  if (!fault) return;
+  GeneralisedBuilding again = draw(result, Judging::thorough);
+  if (!again.levels.empty() && !check(result, again)) {
+    drawn = std::move(again);
+    return;
+  }
+  give_up(result, std::move(*fault), drawn);
+}
+
+void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
+  auto repaired = repair_and_retry(document_, building_, result, rules_, options_);
+  if (!repaired) return;
+  const bool is_intricate = repaired->solid->facets.size() > kIntricateFacets;
+  GeneralisedBuilding again = measure(options_.observer, Stage::generalise, [&] {
+    return draw(*repaired, is_intricate ? Judging::none : Judging::refused);
+  });
+  measure(options_.observer, Stage::write, [&] {
+    for (Redrawn& redrawn : again.levels) part_written(document_, building_, redrawn.labelled);
+    if (!is_intricate) return keep_valid(*repaired, again);
+    if (auto fault = check(*repaired, again)) give_up(*repaired, std::move(*fault), again);
+  });
+  if (is_given_up(drawn) && is_given_up(again)) return;
+  drawn = std::move(again);
+  drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
+  drawn.repaired = std::move(repaired);
+}
+
+/// Of each target how fine the file has to be; what is valid at no scale is the fault.
+std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
+                                           GeneralisedBuilding& drawn) const {
+  std::optional<Issue> fault;
+  for (Redrawn& redrawn : drawn.levels) {
+    if (!redrawn.labelled.geometry) continue;
+    OutputCheck found =
+        check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry);
+    redrawn.labelled.digits = found.digits;
+    if (found.fault) fault = std::move(found.fault);
+    if (found.excuse) drawn.issues.push_back(std::move(*found.excuse));
+  }
+  return fault;
+}
+
+void BuildingDrawer::give_up(const PipelineResult& result, Issue fault,
+                             GeneralisedBuilding& drawn) const {
+  drawn.levels.clear();
+  if (targets_.has_lods()) {
+    drawn.issues.push_back(fault);
+    return;
+  }
+  fault.severity = Severity::warning;
+  fault.sentence += "; it stays unchanged";
+  drawn.issues.push_back(fault);
+  drawn.levels.push_back(untouched(result, drawn));
+}
+
+/// What nothing was done to stays unchanged, unless it came as no valid solid and its solid is
+/// valid: then that is drawn.
+void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised& generalised,
+                                      GeneralisedBuilding& out) const {
+  if (!generalised.removed.empty() || !generalised.changed.empty()) return;
+  const auto findings = validate(building_);
+  if (findings.empty()) return;
+  if (check_output(document_, building_, *result.solid).fault) {
+    if (building_.is_solid)
+      out.issues.push_back(invalid_before(
+          building_, fmt::format("{} {}", to_string(findings[0].code), findings[0].sentence)));
+    return;
+  }
+  generalised.is_drawn_anew = true;
+  out.issues.push_back(building_issue(
+      Severity::note, Code::G419, building_.id,
+      fmt::format("was not valid in the input ({}) and is redrawn", to_string(findings[0].code))));
+}
+
+/// The building without any operation.
+Redrawn BuildingDrawer::untouched(const PipelineResult& result, GeneralisedBuilding& out) const {
+  LabelledBuilding labelled = annotate(building_, result, rules_, options_);
+  Generalised whole{*result.solid, {}};
+  redraw_unchanged(result, whole, out);
+  if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
+  Redrawn redrawn = redraw(building_, labelled, *result.segmentation, result.description.table,
+                           result.interpretation, std::move(whole), result.tolerances);
+  redrawn.labelled.digits = check_output(document_, building_, *redrawn.labelled.geometry).digits;
+  return redrawn;
+}
+
+std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const LabelledResult& of,
+                                                Judging judging, GeneralisedBuilding& out) const {
+  const PipelineResult& result = of.result;
+  const FeatureTable& table = result.description.table;
+  Plan plan = plan_for(profile, result, out);
+  auto made = carried_out(profile, result, invariants_for(profile, result, judging), plan);
+  if (!keep(made.issues, out) || !made.value) return std::nullopt;
+  // Levels of detail are drawn in any case, and judged as they are drawn.
+  if (!targets_.has_lods()) redraw_unchanged(result, *made.value, out);
+  TargetReport& report = out.reports.emplace_back();
+  report.target = target_text(profile);
+  if (options_.reports_changes)
+    report.changes = feature_outcomes(plan, *made.value, table, result.interpretation);
+  // What is kept of it is not known any more once it is redrawn.
+  const Generalised changes{{},    made.value->removed, made.value->refused,
+                            false, made.value->changed, made.value->uncleared};
+  std::optional<Redrawn> redrawn;
+  if (targets_.has_lods()) {
+    auto level = to_lod(building_, of.labelled, *result.segmentation, table, result.interpretation,
+                        *profile, std::move(*made.value), result.tolerances);
+    if (!keep(level.issues, out)) return std::nullopt;
+    redrawn = std::move(level.value);
+  } else {
+    redrawn = redraw(building_, of.labelled, *result.segmentation, table, result.interpretation,
+                     std::move(*made.value), result.tolerances);
+  }
+  keep_figures(profile, result, changes, *redrawn, out);
+  return redrawn;
+}
+
+Plan BuildingDrawer::plan_for(const Profile* profile, const PipelineResult& result,
+                              GeneralisedBuilding& out) const {
+  const auto& [table, graph] = result.description;
+  Plan asked;
+  if (targets_.scale) asked = plan(rules_, table, graph, result.interpretation, *targets_.scale);
+  if (profile != nullptr)
+    asked = plan_by_profile(std::move(asked), *profile, rules_, *result.segmentation, table,
+                            result.interpretation, targets_.scale);
+  keep(asked.issues, out);
+  return asked;
+}
+
+Invariants BuildingDrawer::invariants_for(const Profile* profile, const PipelineResult& result,
+                                          Judging judging) const {
+  Invariants invariants = with_party_walls(invariants_of(profile, rules_, targets_.scale),
+                                           document_, building_, *result.solid);
+  if (judging != Judging::none)
+    invariants.validator =
+        judge_as_written(document_, building_, *result.solid, judging == Judging::thorough);
+  return invariants;
+}
+
+/// With what has too fine edges taken off, if the profile asks for that; its steps are added to the
+/// plan.
+Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile,
+                                                 const PipelineResult& result,
+                                                 const Invariants& invariants, Plan& plan) const {
+  const FeatureTable& table = result.description.table;
+  const auto carry_out = [&] {
+    return oriel::generalise(*result.solid, *result.segmentation, table, result.interpretation,
+                             plan, segment_options(options_, result.tolerances), invariants);
+  };
+  auto made = carry_out();
+  if (profile == nullptr || !profile->edge_min_m || !profile->edge_owner_b_m) return made;
+  while (made.value &&
+         add_fine_owners(*made.value, *result.segmentation, table, *profile->edge_min_m,
+                         *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
+    made = carry_out();
+  return made;
+}
+
+void BuildingDrawer::keep_figures(const Profile* profile, const PipelineResult& result,
+                                  const Generalised& changes, const Redrawn& redrawn,
+                                  GeneralisedBuilding& out) const {
+  const double least_m = least_edge_m(profile, targets_.scale);
+  const Solid& before = *result.solid;
+  const Solid& after = redrawn.labelled.geometry ? *redrawn.labelled.geometry : before;
+  Fineness asked{least_m, profile != nullptr && profile->edge_min_m.has_value()};
+  if (profile != nullptr && profile->form != Profile::Form::as_is)
+    asked.why_not_tried = "blocks keep the footprint and the heights of the roof";
+  keep(fineness_issues(building_, before, after, *result.segmentation, result.description.table,
+                       changes, asked),
+       out);
+  if (options_.reports_figures)
+    out.reports.back().figures =
+        TargetFigures{least_m, figures_of(before, least_m), figures_of(after, least_m),
+                      hausdorff_m(before, after)};
+}
+
+std::string BuildingDrawer::target_text(const Profile* profile) const {
+  return targets_.has_lods() ? "LoD " + profile->level : targets_.text();
+}
 
 /// It could not be drawn as a valid solid of its own.
 bool is_invalid(const GeneralisedBuilding& drawn) {

@@ -137,8 +137,7 @@ void add_split(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<SplitArguments>();
   arguments->ends_at_reading = true;
   CLI::App* command = app.add_subcommand(
-      "split",
-      "OutputPart a stream into shards, each a CityJSONSeq with its header, and a list of them");
+      "split", "Part a stream into shards, each a CityJSONSeq with its header, and a list of them");
   add_input_arguments(*command, *arguments, true);
   command->add_option("-o,--output", arguments->folder, "Folder for the shards and split.json")
       ->required();

@@ -122,7 +122,9 @@ spdlog::level::level_enum level_of(const std::string& name,
 }  // namespace
 
 void add_log_arguments(CLI::App& command, LogOptions& options) {
-  const auto below = command.get_subcommands([](const CLI::App*) { return true; });
+  // Groups of options are nameless subcommands to CLI11.
+  const auto below =
+      command.get_subcommands([](const CLI::App* one) { return !one->get_name().empty(); });
   for (CLI::App* one : below) add_log_arguments(*one, options);
   if (!below.empty()) return;
   command

@@ -91,6 +91,8 @@ TEST_SUITE("cli") {
   TEST_CASE("every command takes the options of logging") {
     CHECK(run({"rules", "check", "residential", "--log-level", "debug"}).exit == 0);
     CHECK(run({"validate", kHouse, "--log-json"}).exit == 0);
+    const Folder folder;
+    CHECK(run({"split", kHouse, "--count", "1", "-o", folder / "shards", "--log-json"}).exit == 0);
     CHECK(run({"label", kHouse, "--log-level", "loud"}).exit == 2);
   }
 }

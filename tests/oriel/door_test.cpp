@@ -1,3 +1,4 @@
+#include "kernel/base/log.h"
 #include "oriel/oriel.h"
 #include "tests/cli/command.h"
 
@@ -62,6 +63,13 @@ TEST_SUITE("oriel") {
     add(label(building, residential(), options).output, observed);
     CHECK(stages == std::set{Stage::solidify, Stage::segment, Stage::describe, Stage::interpret});
     CHECK(write(records[0], quiet) == write(records[0], observed));
+  }
+
+  TEST_CASE("the library logs nothing unless the program registers loggers") {
+    const auto records = records_of("house");
+    label(records[0].buildings.at(0), residential());
+    for (const char* room : {"kernel", "interpret", "generalise", "oriel"})
+      CHECK_FALSE(log(room).is_on(LogLevel::error));
   }
 
   TEST_CASE("output that is made later is that of label") {
