@@ -186,7 +186,7 @@ class FeatureRemover {
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
         return "its cut does not close any more";
       Boundary& trial = copy_of(body);
-      std::vector<int> touched;
+      std::vector<PointId> touched;
       const auto caps = imprint(trial, section, lump, touched);
       return take(body, trial, caps, f);
     }

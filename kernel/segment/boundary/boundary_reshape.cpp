@@ -117,7 +117,7 @@ void Boundary::split_at_corners(BodyFacetId f) {
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (const EdgeId corner : corners) {
       const EdgeId e = edges[i];
-      const int point = origin(corner);
+      const PointId point = origin(corner);
       const Vec3 p = world_->points.at(point), from = at(e), to = world_->points.at(target(e));
       if (p == from || p == to || distance_to_segment(p, from, to) > world_->points.grid_m())
         continue;
@@ -128,7 +128,7 @@ void Boundary::split_at_corners(BodyFacetId f) {
 
 void Boundary::zip(BodyFacetId f) {
   split_at_corners(f);
-  std::map<std::pair<int, int>, EdgeId> open;
+  std::map<std::pair<PointId, PointId>, EdgeId> open;
   std::vector<std::pair<EdgeId, EdgeId>> pairs;
   for_each_edge(f, [&](EdgeId e) {
     if (facet_of(twin(e)) == f) return;

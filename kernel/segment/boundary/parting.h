@@ -32,7 +32,7 @@ class FacetCopier {
   Scratch& scratch_;
   bool is_turned_;
   // Of the loop at hand.
-  std::vector<int> origins_;
+  std::vector<PointId> origins_;
   std::vector<std::pair<EdgeId, EdgeId>> pairs_;  ///< copies of both sides of edges
 };
 

@@ -53,11 +53,11 @@ class CornerCutter {
     const World& world = body_->world();
     constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before
     return std::ranges::all_of(component.rim, [&](EdgeId e) {
-      const int point = body_->origin(e);
+      const PointId point = body_->origin(e);
       const PlaneSide side = rim_side(*body_, sides_, e);
       const double distance =
           dot(world.planes.normal(side), world.points.at(point)) - world.planes.offset_m(side);
-      return point < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
+      return point.value < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
     });
   }
 
@@ -71,7 +71,7 @@ class CornerCutter {
     Lump all;
     for (int r = 0; r < std::ssize(section.regions); ++r)
       if (section.regions[at(r)].is_material) all.regions.push_back(r);
-    std::vector<int> touched;
+    std::vector<PointId> touched;
     imprint(*body_, section, all, touched);
     return true;
   }
@@ -238,7 +238,7 @@ class CornerHoleFinder {
     return edges;
   }
 
-  [[nodiscard]] int level(int point, PlaneSide side) const {
+  [[nodiscard]] int level(PointId point, PlaneSide side) const {
     return body_.world().points.level(point, side);
   }
 

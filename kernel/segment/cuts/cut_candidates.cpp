@@ -85,8 +85,8 @@ void CutCandidates::invalidate(std::size_t k, const RestChange& change) {
   const PlanesOfClass& c = classes_[k];
   const auto ranks = world_.points.ranks(c.number);
   RankRange touched, rim;
-  for (const int p : change.points) touched.grow(ranks[at(p)]);
-  for (const auto& [from, to] : change.rim) rim.grow(ranks[at(from)]);
+  for (const PointId p : change.points) touched.grow(ranks[p]);
+  for (const auto& [from, to] : change.rim) rim.grow(ranks[from]);
   const PlaneRanks& planes = edges_.ranks_of_class(k);
   const std::size_t last = 2 * (c.first + planes.before(touched.high + 1));
   for (std::size_t i = 2 * (c.first + planes.before(touched.low)); i < last; ++i) {

@@ -19,14 +19,14 @@ namespace oriel::detail {
 struct RestChange {
   /// The points of everything that has changed; an edge without any of them is unchanged. Sorted,
   /// each once.
-  std::vector<int> points = {};
+  std::vector<PointId> points = {};
   /// The edges around the part's cap, if it has a single one with a single outline that covers
   /// nothing; else none.
-  std::vector<std::pair<int, int>> rim = {};
+  std::vector<std::pair<PointId, PointId>> rim = {};
   /// The cut follows existing edges: nothing was split.
   bool is_natural = false;
   /// Edges that the body may have since.
-  std::vector<std::pair<int, int>> new_edges = {};
+  std::vector<std::pair<PointId, PointId>> new_edges = {};
   /// Facets were covered, so that more edges than those bound other facets since.
   bool has_covered = false;
 };

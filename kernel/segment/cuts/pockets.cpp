@@ -20,10 +20,10 @@ bool is_of_pocket(const Region& region) {
 
 void Pockets::changed(const std::vector<RestChange>& changes) {
   order_.pocket = -1;
-  StampSet<int>& is_touched = body_.world().scratch.met_points;
+  StampSet<PointId>& is_touched = body_.world().scratch.met_points;
   is_touched.start(body_.world().points.size());
   for (const RestChange& change : changes)
-    for (const int p : change.points) is_touched.insert(p);
+    for (const PointId p : change.points) is_touched.insert(p);
   const auto has_gone = [&](const Pocket& pocket) {
     const auto edges = edges_of(pocket);
     return std::ranges::any_of(kinds_[at(pocket.kind)].corners, [&](const PocketCorner& corner) {
@@ -91,7 +91,7 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
     const EdgeId e = body_.next(section.crossings[at(c)].edge);
     c = section.crossings[at(c)].next;
     if (body_.next(e) != body_.twin(section.crossings[at(c)].edge)) return false;
-    if (ranks[at(body_.origin(e))] != rank || ranks[at(body_.target(e))] != rank) return false;
+    if (ranks[body_.origin(e)] != rank || ranks[body_.target(e)] != rank) return false;
     const EdgeId beyond = body_.twin(e);
     if (!rim_.empty() && body_.next(beyond) != body_.twin(rim_.back())) return false;
     rim_.push_back(e);
@@ -123,7 +123,7 @@ bool Pockets::list_facets(const Section& section, PocketKind& kind) {
   for (std::size_t i = 0; i < walk_.size(); ++i) {
     const EdgeId e = walk_[i], twin = body_.twin(e);
     const BodyFacetId beyond = body_.facet_of(twin);
-    const int above = ranks[at(body_.origin(e))] * section.direction - limit;
+    const int above = ranks[body_.origin(e)] * section.direction - limit;
     if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
     if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
     if (!is_met.contains(beyond)) {
@@ -209,22 +209,23 @@ PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, boo
     face.loop.reserve(4);  // mostly
     EdgeId e = first;
     do {
-      face.loop.push_back(is_hole ? body_.target(e) : body_.origin(e));
+      face.loop.push_back((is_hole ? body_.target(e) : body_.origin(e)).value);
       e = is_hole ? body_.prev(e) : body_.next(e);
     } while (e != first);
   }
   const auto rim = std::span(rims_).subspan(at(pockets_[at(pocket)].first_rim), at(kind.rim));
   PocketLeaf::LeafFace& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
   cap.loop.reserve(rim.size());
-  for (const EdgeId e : rim) cap.loop.push_back(is_hole ? body_.origin(e) : body_.target(e));
+  for (const EdgeId e : rim)
+    cap.loop.push_back((is_hole ? body_.origin(e) : body_.target(e)).value);
   if (!is_hole) std::ranges::reverse(cap.loop);
   return leaf;
 }
 
-std::vector<int> Pockets::points_of(int pocket) const {
+std::vector<PointId> Pockets::points_of(int pocket) const {
   const auto edges = edges_of(pockets_[at(pocket)]);
   const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
-  std::vector<int> points;
+  std::vector<PointId> points;
   points.reserve(kind.corners.size());
   for (const PocketCorner& corner : kind.corners)
     points.push_back(body_.origin(edges[at(corner.edge)]));

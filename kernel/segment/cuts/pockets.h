@@ -56,7 +56,7 @@ class Pockets {
   [[nodiscard]] PocketLeaf leaf_of(int pocket, std::span<const BodyFacetId> facets,
                                    bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
-  [[nodiscard]] std::vector<int> points_of(int pocket) const;
+  [[nodiscard]] std::vector<PointId> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
   [[nodiscard]] CutCap cap_of(int pocket) const;
   /// Its facets, ascending.
@@ -96,8 +96,8 @@ class Pockets {
   /// The vertices, planes and sources of a pocket in the order in which maps from it list them.
   struct PocketOrder {
     int pocket = -1;
-    std::vector<std::pair<int, int>> points;  ///< with a half-edge that begins there
-    std::vector<std::pair<int, int>> planes;  ///< with a half-edge of a facet; -1: the cap's
+    std::vector<std::pair<PointId, int>> points;  ///< with a half-edge that begins there
+    std::vector<std::pair<int, int>> planes;      ///< with a half-edge of a facet; -1: the cap's
     std::vector<std::array<int, 3>> sources;  ///< with a half-edge of their facet, and their place
   };
 

@@ -65,7 +65,7 @@ void EdgeIndex::find_new_runs(const EdgesOfClass& c) {
   runs_.reserve(edges.size());
   const auto rank = body_.world().points.ranks(c.number);
   for (const IndexedEdge& edge : edges) {
-    const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
+    const auto [low, high] = std::minmax({rank[edge.from], rank[edge.to]});
     if (low == high) continue;
     runs_.push_back({edge.half, c.ranks.before(low + 1), c.ranks.before(high)});
   }

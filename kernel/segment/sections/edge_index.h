@@ -133,7 +133,7 @@ class EdgeIndex {
   /// A living half-edge that speaks for its edge.
   struct IndexedEdge {
     EdgeId half;
-    int from, to;
+    PointId from, to;
   };
   struct EdgesOfClass {
     int number;

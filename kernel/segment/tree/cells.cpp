@@ -135,7 +135,7 @@ CellId CellWriter::add(PocketLeaf leaf, NodeId node, int sign, FeatureId feature
 
 void CellWriter::finish(const Building& building, const Solid& solid) {
   out_.vertices.reserve(at(world_.points.size()));
-  for (int p = 0; p < world_.points.size(); ++p)
+  for (const PointId p : world_.points.ids())
     out_.vertices.push_back({world_.points.at(p), world_.points.is_meeting(p)});
   attribute_polygons(building, solid);
 }

@@ -24,10 +24,10 @@ namespace oriel::detail {
 struct Congruence {
   std::array<std::int64_t, 3> shift{};  ///< in grid units
   Vec3 shift_m;
-  NumberMap points;   ///< of the model, of the other
-  NumberMap planes;   ///< likewise
-  NumberMap sources;  ///< of their facets, likewise
-  NumberMap marks;    ///< features with marks on their facets, likewise
+  std::vector<std::pair<PointId, PointId>> points;  ///< of the model, of the other
+  NumberMap planes;                                 ///< likewise
+  NumberMap sources;                                ///< of their facets, likewise
+  NumberMap marks;  ///< features with marks on their facets, likewise
 };
 
 /// A convex body that is told to be a leaf before it is made: all that its cell is written from.

@@ -22,8 +22,8 @@ class Instances::SubtreeCopier {
         planes_(world.scratch.moved_planes) {}
 
   void run(NodeId node, FeatureId feature) {
-    fill(points_, world_.points.size(), how_.points);
-    fill(planes_, world_.planes.size(), how_.planes);
+    fill<PointId, PointId>(points_, world_.points.size(), how_.points);
+    fill<int, int>(planes_, world_.planes.size(), how_.planes);
     node_ = node;
     feature_ = feature;
     new_node_ = static_cast<int>(out_.nodes.size());
@@ -41,7 +41,9 @@ class Instances::SubtreeCopier {
   }
 
  private:
-  static void fill(StampMap<int>& map, int size, const NumberMap& numbers) {
+  template <class Key, class Value>
+  static void fill(StampMap<Key, Value>& map, int size,
+                   std::span<const std::pair<Key, Value>> numbers) {
     map.start(size);
     for (const auto& [one, other] : numbers) map.set(one, other);
   }
@@ -64,9 +66,10 @@ class Instances::SubtreeCopier {
   }
 
   /// Vertices that cuts of the model have made are made again, once.
-  int moved(int point) {
-    if (const int own = points_.find(point); own >= 0) return own;
-    const auto place = std::ranges::lower_bound(made_, point, {}, &std::pair<int, int>::first);
+  PointId moved(PointId point) {
+    if (const PointId own = points_.find(point); own.is_valid()) return own;
+    const auto place =
+        std::ranges::lower_bound(made_, point, {}, &std::pair<PointId, PointId>::first);
     if (place != made_.end() && place->first == point) return place->second;
     return made_.insert(place, {point, world_.points.add_moved(point, how_.shift, how_.planes)})
         ->second;
@@ -91,7 +94,7 @@ class Instances::SubtreeCopier {
     for (PlaneId& plane : feature.planes) plane = moved(plane);
     feature.cap_point = feature.cap_point + how_.shift_m;
     feature.box = feature.box.moved(how_.shift_m);
-    for (int& v : feature.vertices) v = moved(v);
+    for (int& v : feature.vertices) v = moved(PointId{v}).value;
     std::ranges::sort(feature.vertices);
     out_.features.push_back(std::move(feature));
   }
@@ -112,7 +115,7 @@ class Instances::SubtreeCopier {
     for (Facet& facet : cell.facets) {
       facet.plane = moved(facet.plane);
       for (Loop& loop : facet.loops)
-        for (int& v : loop) v = moved(v);
+        for (int& v : loop) v = moved(PointId{v}).value;
     }
     out_.cells.push_back(std::move(cell));
   }
@@ -122,12 +125,12 @@ class Instances::SubtreeCopier {
   World& world_;
   CellWriter& cells_;
   Segmentation& out_;
-  StampMap<int>& points_;  ///< as `how` has them
-  StampMap<int>& planes_;  ///< likewise
+  StampMap<PointId, PointId>& points_;  ///< as `how` has them
+  StampMap<int>& planes_;               ///< likewise
   NodeId node_;
   FeatureId feature_;
   int new_node_ = 0, new_feature_ = 0, new_cell_ = 0;
-  NumberMap made_;
+  std::vector<std::pair<PointId, PointId>> made_;
 };
 
 void Instances::let_wait(std::vector<WaitingBody>& waiting, std::size_t first,
