@@ -9,6 +9,7 @@
 #include "kernel/segment/sections/edge_index.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <span>
@@ -176,7 +177,7 @@ class FeatureRemover {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
-      detail::EdgeIndex edges(body, {split >> 1});
+      detail::EdgeIndex edges(body, std::array{split >> 1});
       detail::Section section{split >> 1, looks_along_class ? 1 : -1};
       section_at(body, section, edges.edges_at(0, section.direction),
                  {-1, options_.tolerances.weld_m});

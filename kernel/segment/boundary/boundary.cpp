@@ -1,5 +1,6 @@
 #include "kernel/segment/boundary/boundary.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -142,6 +143,7 @@ int Boundary::number_side(PlaneSide side) {
 
 BodyFacetId Boundary::add_facet_on(int number, PlaneSide side, const Sources& sources,
                                    std::vector<CapMark> marks) {
+  ORIEL_ASSERT(side >= 0 && number == number_side(side));
   const BodyFacetId f = facets_.next_id();
   OnSide& on = on_side_[index(number)];
   on.facets.push_back(f);

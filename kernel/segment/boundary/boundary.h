@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/base/ids.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/boundary/boundary.h"
@@ -138,6 +139,7 @@ class Boundary {
     half_edges_[f].prev = e;
   }
   void pair(EdgeId e, EdgeId f) {
+    ORIEL_ASSERT(e != f);
     half_edges_[e].twin = f;
     half_edges_[f].twin = e;
     half_edges_[e].bend = half_edges_[f].bend = kUnknown;

@@ -1,4 +1,5 @@
 /// Re-shaping the facets of a boundary: loops made anew, facets merged and parted, seams healed.
+#include "kernel/base/assert.h"
 #include "kernel/segment/boundary/boundary.h"
 
 #include <algorithm>
@@ -101,6 +102,7 @@ void Boundary::add_sources(BodyFacetId f, const Sources& sources) {
 }
 
 void Boundary::cover(BodyFacetId cap, BodyFacetId covered) {
+  ORIEL_ASSERT(facet(cap).side == (facet(covered).side ^ 1), "they do not face each other");
   // What lay under the cap is inside the body now: neither its polygons nor its marks are on the
   // surface any more.
   facets_[covered].sources.clear();

@@ -147,8 +147,7 @@ bool fill_cavity(Boundary& body, const Box& box) {
   return false;
 }
 
-Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
-               const std::set<int>& gone) {
+Solid solid_of(std::span<const Boundary> bodies, const Solid& original, const std::set<int>& gone) {
   Solid solid;
   solid.grid_m = original.grid_m;
   solid.planes = original.planes;

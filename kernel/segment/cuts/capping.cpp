@@ -362,7 +362,7 @@ std::vector<PlaneSide> Patch::sides() const {
   return sides;
 }
 
-PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e) {
+PlaneSide rim_side(const Boundary& body, std::span<const PlaneSide> sides, EdgeId e) {
   const PlaneSide beyond = body.side_of_edge(body.twin(e));
   if (std::ranges::binary_search(sides, beyond)) return beyond;
   auto& points = body.world().points;

@@ -64,14 +64,14 @@ std::vector<std::size_t> models_of(const CutChoice& choice) {
 
 /// A lump of a choice is a pocket that comes off without a body, as the leaf that it is. `models`:
 /// those of the choice.
-bool is_leaf(const CutChoice& choice, const Lump& lump, const std::vector<std::size_t>& models) {
+bool is_leaf(const CutChoice& choice, const Lump& lump, std::span<const std::size_t> models) {
   return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
          choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
 }
 
 /// What a cut that took a part off has changed of the rest. `size`: about how many vertices the
 /// part has.
-RestChange change_of(const Carved& carved, const std::vector<CutCap>& caps, std::size_t size) {
+RestChange change_of(const Carved& carved, std::span<const CutCap> caps, std::size_t size) {
   RestChange change;
   change.points = sorted_uniquely(carved.touched, static_cast<int>(size), carved.lump.world());
   const bool is_simple =

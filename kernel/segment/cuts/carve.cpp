@@ -296,6 +296,7 @@ double area_of_loop(const Boundary& body, LoopId l, bool is_hole, Vec3 normal) {
 
 Filled fill_pocket(Boundary& body, const CutCap& cap, std::span<const BodyFacetId> facets,
                    bool is_hole, FeatureId mark) {
+  ORIEL_ASSERT(cap.loops.size() == 1 && !cap.loops[0].edges.empty() && cap.covered.empty());
   const PlaneTable& planes = body.world().planes;
   const PointTable& points = body.world().points;
   Outline& room = body.world().scratch.outline;

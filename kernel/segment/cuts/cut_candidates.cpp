@@ -11,7 +11,7 @@ namespace oriel::detail {
 namespace {
 
 /// Ascending.
-std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& own_planes) {
+std::vector<int> split_planes_of(const Boundary& body, std::span<const int> own_planes) {
   std::vector<int> planes;
   for (const PlaneSide side : body.sides())
     if (planes.empty() || planes.back() != side >> 1) planes.push_back(side >> 1);
@@ -42,7 +42,7 @@ bool is_without_cuts(const Section& section) {
 }  // namespace
 
 CutCandidates::CutCandidates(const Boundary& body, const SegmentOptions& options,
-                             PlaneSide free_side, const std::vector<int>& own_planes,
+                             PlaneSide free_side, std::span<const int> own_planes,
                              SegmentationStats& stats, std::int64_t& work)
     : body_(body),
       world_(body.world()),

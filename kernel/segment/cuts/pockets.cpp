@@ -1,5 +1,6 @@
 #include "kernel/segment/cuts/pockets.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ bool is_of_pocket(const Region& region) {
 
 }  // namespace
 
-void Pockets::changed(const std::vector<RestChange>& changes) {
+void Pockets::changed(std::span<const RestChange> changes) {
   order_.pocket = -1;
   StampSet<PointId>& is_touched = body_.world().scratch.met_points;
   is_touched.start(body_.world().points.size());
@@ -194,6 +195,7 @@ CutCap Pockets::cap_of(int pocket) const {
 }
 
 PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, bool is_hole) const {
+  ORIEL_ASSERT(is_leaf(kind_of(pocket)));
   // Facet by facet and edge by edge as take_off() makes a body of it.
   const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   const int flip = is_hole ? 1 : 0;
@@ -275,6 +277,7 @@ Pockets::PocketOrder Pockets::order_of(int pocket) const {
 }
 
 Congruence Pockets::congruence(int model, int other) const {
+  ORIEL_ASSERT(kind_of(model) == kind_of(other), "only pockets of one kind are congruent");
   if (order_.pocket != model) order_ = order_of(model);
   const Pocket &one = pockets_[at(model)], &two = pockets_[at(other)];
   Congruence how;

@@ -29,7 +29,7 @@ class Pockets {
 
   /// Tells that the body has changed in this way and no other: pockets that the changes have no
   /// point of stay known, with their numbers.
-  void changed(const std::vector<RestChange>& changes);
+  void changed(std::span<const RestChange> changes);
 
   /// The number of the pocket in front of a region; -1 if the lump there is none. Of one that
   /// `is_alone` it is not asked whether it is of a kind that is known.

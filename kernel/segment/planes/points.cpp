@@ -1,5 +1,6 @@
 #include "kernel/segment/planes/points.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/geometry/axis_corners.h"
 #include "kernel/model/description/counting_sort.h"
 
@@ -70,7 +71,7 @@ std::optional<Vec3> PointTable::meeting_of(const TablePoint& point) const {
 }
 
 /// Enters in every point its planes, sorted, each once: the facets come plane by plane.
-void PointTable::list_planes(const std::vector<Facet>& facets) {
+void PointTable::list_planes(std::span<const Facet> facets) {
   Numbers plane_of(facets.size());
   for (std::size_t f = 0; f < facets.size(); ++f)
     plane_of[f] = planes_.side_of(facets[f].plane) >> 1;
@@ -166,6 +167,7 @@ const Incidence& PointTable::incidence() {
 }
 
 PointId PointTable::cross_edge(int f, int g, PointId low, PointId high, int plane) {
+  ORIEL_ASSERT(side(low, plane) * side(high, plane) < 0, "the edge does not cross the plane");
   TablePoint point;
   point.planes = {f, g, plane};
   std::ranges::sort(point.planes);
@@ -227,6 +229,7 @@ std::optional<PointId> PointTable::meet(int p, int q, int r) {
 }
 
 void PointTable::forget_since(const PointMark& mark) {
+  ORIEL_ASSERT(mark.points <= size() && mark.met <= met_.size() && mark.widened <= widened_.size());
   for (; widened_.size() > mark.widened; widened_.pop_back()) {
     const auto [p, plane] = widened_.back();
     auto& own = points_[p].planes;

@@ -150,7 +150,7 @@ class PointTable {
   [[nodiscard]] std::optional<PointId> known_meeting(const std::array<int, 3>& planes);
   const Incidence& incidence();
   [[nodiscard]] std::optional<Vec3> meeting_of(const TablePoint& point) const;
-  void list_planes(const std::vector<Facet>& facets);
+  void list_planes(std::span<const Facet> facets);
   void rank_by_incidence(int k);
   [[nodiscard]] GridCell cell_of(Vec3 p) const;
   std::optional<PointId> met_near(const TablePoint& point, Vec3 where);

@@ -1,5 +1,6 @@
 #include "kernel/segment/sections/edge_index.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -7,7 +8,8 @@
 
 namespace oriel::detail {
 
-EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : body_(body) {
+EdgeIndex::EdgeIndex(const Boundary& body, std::span<const int> planes) : body_(body) {
+  ORIEL_ASSERT(std::ranges::is_sorted(planes));
   // Planes are numbered class by class, and in a class by rank.
   const PlaneTable& table = body.world().planes;
   places_.reserve(planes.size());

@@ -8,8 +8,7 @@
 
 namespace oriel::detail {
 
-NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes,
-                             PlaneSide free_side)
+NaturalChains::NaturalChains(const Boundary& body, std::span<const int> planes, PlaneSide free_side)
     : body_(body),
       world_(body.world()),
       planes_(planes),

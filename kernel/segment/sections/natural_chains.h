@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/segment/boundary/boundary.h"
 
 #include <cstddef>
@@ -21,7 +22,7 @@ namespace oriel::detail {
 class NaturalChains {
  public:
   /// `planes`: ascending. `free_side`: the ground, -1: none.
-  NaturalChains(const Boundary& body, const std::vector<int>& planes, PlaneSide free_side);
+  NaturalChains(const Boundary& body, std::span<const int> planes, PlaneSide free_side);
 
   /// The body has these edges since. Chains over others have not become more.
   void expect(std::span<const std::pair<PointId, PointId>> new_edges);
@@ -32,7 +33,10 @@ class NaturalChains {
 
   /// Slot 2·i is in front of the i-th plane, 2·i + 1 behind it. As of the last refresh(); where
   /// edges have gone since there may be less.
-  [[nodiscard]] bool may_be_natural(std::size_t slot) const { return answers_[slot] != 0; }
+  [[nodiscard]] bool may_be_natural(std::size_t slot) const {
+    ORIEL_ASSERT(slot < answers_.size());
+    return answers_[slot] != 0;
+  }
 
  private:
   /// A half-edge in a plane, of a facet that is on one side of it there.
@@ -70,7 +74,7 @@ class NaturalChains {
 
   const Boundary& body_;
   World& world_;
-  const std::vector<int>& planes_;
+  std::span<const int> planes_;
   PlaneSide free_side_;
   std::vector<ChainsOfClass> classes_;
   std::vector<char> answers_;  ///< by slot

@@ -1,5 +1,6 @@
 #include "kernel/segment/sections/section.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
 
@@ -492,6 +493,7 @@ class Sectioner {
 
 void section_at(const Boundary& body, Section& section, std::span<const EdgeId> edges,
                 const SectionOptions& options) {
+  ORIEL_ASSERT(section.plane >= 0 && std::abs(section.direction) == 1);
   section.crossings.clear();
   section.loops.clear();
   section.regions.clear();

@@ -41,7 +41,7 @@ bool misses(Vec3 p, Vec3 q, const Box& box, Vec3 normal) {
 
 /// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
 /// most of it lies.
-std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
+std::vector<Vec3> samples_of(std::span<const Outline> polygon, Vec3 normal) {
   Box box;
   for (const Vec3 p : polygon[0]) box.grow(p);
   const auto middle = interior_point(polygon, normal);
@@ -157,7 +157,7 @@ std::vector<CellWriter::FacetShape> CellWriter::shapes_of(
 
 /// The shape that holds most of a polygon.
 std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon,
-                                const std::vector<FacetShape>& shapes, Vec3 normal) const {
+                                std::span<const FacetShape> shapes, Vec3 normal) const {
   Box box;
   for (const int v : polygon.rings[0]) box.grow(building.vertices[at(v)]);
   // That of the corners on the grid: of two numbers the lesser one is not rounded to more.

@@ -88,7 +88,7 @@ class CellWriter {
   void attribute_polygons(const Building& building, const Solid& solid);
   [[nodiscard]] std::vector<FacetShape> shapes_of(std::span<const CellFacet> cell_facets) const;
   [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,
-                                    const std::vector<FacetShape>& shapes, Vec3 normal) const;
+                                    std::span<const FacetShape> shapes, Vec3 normal) const;
 
   World& world_;
   Segmentation& out_;

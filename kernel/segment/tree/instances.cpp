@@ -134,7 +134,7 @@ class Instances::SubtreeCopier {
 };
 
 void Instances::let_wait(std::vector<WaitingBody>& waiting, std::size_t first,
-                         const std::vector<std::size_t>& models) {
+                         std::span<const std::size_t> models) {
   for (std::size_t i = 0; i < models.size(); ++i)
     if (models[i] != i) {
       int& number = waiting[first + models[i]].model;
