@@ -285,8 +285,8 @@ class FeatureRemover {
   template <class Visit>
   void for_each_polygon(const Boundary& body, const Visit& visit) const {
     for (const detail::BodyFacetId facet : body.living_facets())
-      for (const int source : body.facet(facet).sources)
-        for (const int polygon : solid_.facets[at(source)].polygons) visit(polygon);
+      for (const FacetId source : body.facet(facet).sources)
+        for (const int polygon : solid_.facets[source.index()].polygons) visit(polygon);
   }
 
   /// A feature that is to stay would lose all its surface with the lump, or lies inside it.

@@ -52,7 +52,7 @@ class Boundary {
   };
   static constexpr signed char kUnknown = -1;
   /// Facets of the solid that a facet is made of, sorted.
-  using Sources = boost::container::small_vector<int, 2>;
+  using Sources = boost::container::small_vector<FacetId, 2>;
   struct LoopRecord {
     EdgeId first = {};
     BodyFacetId facet = {};  ///< invalid: dead

@@ -72,7 +72,7 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
       const Facet& facet = solid.facets[id.index()];
       const PlaneSide side = world.planes.side_of(facet.plane);
       const int number = numbers[static_cast<std::size_t>(side)];
-      const BodyFacetId f = boundary.add_facet_on(number, side, {id.value}, {});
+      const BodyFacetId f = boundary.add_facet_on(number, side, {id}, {});
       for (const Loop& loop : facet.loops) {
         origins.clear();
         for (const int v : loop) origins.push_back(PointId{v});

@@ -179,8 +179,8 @@ Solid solid_of(std::span<const Boundary> bodies, const Solid& original, const st
           Facet facet{plane(part.world(), part.facet(f).side), corners.loops(f), {}};
           for (Loop& loop : facet.loops)
             for (int& v : loop) v = vertex(part.world(), PointId{v});
-          for (const int source : part.facet(f).sources)
-            for (const int polygon : original.facets[at(source)].polygons)
+          for (const FacetId source : part.facet(f).sources)
+            for (const int polygon : original.facets[source.index()].polygons)
               if (!gone.contains(polygon)) facet.polygons.push_back(polygon);
           std::ranges::sort(facet.polygons);
           shell.facets.push_back(FacetId{static_cast<int>(solid.facets.size())});

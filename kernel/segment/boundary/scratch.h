@@ -140,7 +140,7 @@ struct Scratch {
   StampSet<EdgeId> rim_edges;
   StampMap<EdgeId> place_in_walk;
   StampMap<PointId> corner_at_point;
-  StampSet<int> met_sources;  ///< facets of the solid
+  StampSet<FacetId> met_sources;
 
   // Patches.
   StampMap<EdgeId> place_in_rim;

@@ -169,11 +169,11 @@ void Pockets::list_loop(PocketKind& kind, EdgeId first) {
 
 /// No two of its facets are made of one facet of the solid.
 bool Pockets::has_own_sources() {
-  StampSet<int>& is_met = body_.world().scratch.met_sources;
+  StampSet<FacetId>& is_met = body_.world().scratch.met_sources;
   is_met.start(0);
   for (const BodyFacetId f : facets_)
-    for (const int source : body_.facet(f).sources) {
-      is_met.make_room(source + 1);
+    for (const FacetId source : body_.facet(f).sources) {
+      is_met.make_room(source.value + 1);
       if (!is_met.insert(source)) return false;
     }
   return true;
@@ -204,7 +204,7 @@ PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, boo
   leaf.sources.reserve(kind.sizes.size());
   for (const BodyFacetId f : facets) {
     const auto& facet = body_.facet(f);
-    for (const int source : facet.sources)
+    for (const FacetId source : facet.sources)
       leaf.sources.push_back({source, static_cast<int>(leaf.faces.size())});
     PocketLeaf::LeafFace& face = leaf.faces.emplace_back(facet.side ^ flip, Loop{});
     const EdgeId first = body_.loop(facet.loops[0]).first;
@@ -265,7 +265,7 @@ Pockets::PocketOrder Pockets::order_of(int pocket) const {
     const auto& facet = body_.facet(body_.facet_of(edges[at(first)]));
     order.planes.emplace_back(facet.side >> 1, first);
     for (int i = 0; i < std::ssize(facet.sources); ++i)
-      order.sources.push_back({facet.sources[at(i)], first, i});
+      order.sources.emplace_back(facet.sources[at(i)], first, i);
     first += size;
   }
   std::ranges::sort(order.points);

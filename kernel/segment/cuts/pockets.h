@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -98,7 +99,8 @@ class Pockets {
     int pocket = -1;
     std::vector<std::pair<PointId, int>> points;  ///< with a half-edge that begins there
     std::vector<std::pair<int, int>> planes;      ///< with a half-edge of a facet; -1: the cap's
-    std::vector<std::array<int, 3>> sources;  ///< with a half-edge of their facet, and their place
+    std::vector<std::tuple<FacetId, int, int>>
+        sources;  ///< with a half-edge of their facet, and their place
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }

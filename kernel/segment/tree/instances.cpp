@@ -37,7 +37,6 @@ class Instances::SubtreeCopier {
     for (int f = model_.first_feature; f < model_.last_feature; ++f) copy_feature(FeatureId{f});
     for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c) copy_cell(CellId{c});
     cells_.copy_sources(how_.sources, model_.first_cell, model_.last_cell, new_cell_);
-    for (const auto& [marked, copy] : how_.marks) copy_host(FeatureId{marked}, FeatureId{copy});
   }
 
  private:
@@ -97,15 +96,6 @@ class Instances::SubtreeCopier {
     for (int& v : feature.vertices) v = moved(PointId{v}).value;
     std::ranges::sort(feature.vertices);
     out_.features.push_back(std::move(feature));
-  }
-
-  /// A feature that was cut from the model before hangs on one of its cells.
-  void copy_host(FeatureId of_model, FeatureId of_copy) {
-    const Feature& hung = out_.features[of_model.index()];
-    if (!hung.host_facet) return;
-    Feature& copy = out_.features[of_copy.index()];
-    copy.host = moved(hung.host);
-    copy.host_facet = CellFacet{moved(hung.host_facet->cell), hung.host_facet->facet};
   }
 
   void copy_cell(CellId id) {
