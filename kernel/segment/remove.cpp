@@ -9,6 +9,7 @@
 #include "kernel/segment/sections/edge_index.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <span>
@@ -176,7 +177,7 @@ class FeatureRemover {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
-      detail::EdgeIndex edges(body, {split >> 1});
+      detail::EdgeIndex edges(body, std::array{split >> 1});
       detail::Section section{split >> 1, looks_along_class ? 1 : -1};
       section_at(body, section, edges.edges_at(0, section.direction),
                  {-1, options_.tolerances.weld_m});
@@ -186,7 +187,7 @@ class FeatureRemover {
       if (!lump.is_finite || !lump.is_sound || lump.volume <= 0)
         return "its cut does not close any more";
       Boundary& trial = copy_of(body);
-      std::vector<int> touched;
+      std::vector<PointId> touched;
       const auto caps = imprint(trial, section, lump, touched);
       return take(body, trial, caps, f);
     }
@@ -284,8 +285,8 @@ class FeatureRemover {
   template <class Visit>
   void for_each_polygon(const Boundary& body, const Visit& visit) const {
     for (const detail::BodyFacetId facet : body.living_facets())
-      for (const int source : body.facet(facet).sources)
-        for (const int polygon : solid_.facets[at(source)].polygons) visit(polygon);
+      for (const FacetId source : body.facet(facet).sources)
+        for (const int polygon : solid_.facets[source.index()].polygons) visit(polygon);
   }
 
   /// A feature that is to stay would lose all its surface with the lump, or lies inside it.

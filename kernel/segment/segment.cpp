@@ -91,7 +91,7 @@ void take_out_cavities(GrowingTree& tree, WaitingBody& body) {
     feature.sense = Sense::cavity;
     feature.value = feature.quality = 0;
     measure(feature, cavity);
-    feature.vertices = points_of(cavity);
+    feature.vertices = vertices_of(cavity);
     tree.add_part(body, std::move(cavity), -body.sign, std::move(feature));
   }
   body.node = rest;

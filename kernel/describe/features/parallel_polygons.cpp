@@ -58,7 +58,7 @@ void ParallelPolygons::measure(ParallelPolygon& polygon) const {
   }
 }
 
-std::size_t ParallelPolygons::least_of(const std::vector<int>& ring) const {
+std::size_t ParallelPolygons::least_of(std::span<const int> ring) const {
   std::size_t least = 0;
   for (std::size_t i = 1; i < ring.size(); ++i)
     least = is_lesser(corners_[at(ring[i])], corners_[at(ring[least])]) ? i : least;

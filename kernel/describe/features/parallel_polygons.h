@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -26,7 +27,7 @@ class ParallelPolygons {
   };
   void measure(ParallelPolygon& polygon) const;
   /// The place of its least corner (is_lesser).
-  [[nodiscard]] std::size_t least_of(const std::vector<int>& ring) const;
+  [[nodiscard]] std::size_t least_of(std::span<const int> ring) const;
 
   std::vector<Vec3> corners_;  ///< by vertex, on the grid
   /// By Polygon::source; measured when they are asked for, as many lie in no feature.

@@ -77,8 +77,7 @@ std::vector<int> facades_of(const Segmentation& segmentation) {
   return facades;
 }
 
-std::vector<int> storeys_of(const std::vector<InFacade>& features,
-                            const std::vector<char>& is_opening) {
+std::vector<int> storeys_of(std::span<const InFacade> features, std::span<const char> is_opening) {
   std::vector<std::size_t> openings;
   for (std::size_t i = 0; i < features.size(); ++i)
     if (is_opening[i]) openings.push_back(i);
@@ -103,8 +102,8 @@ std::vector<int> storeys_of(const std::vector<InFacade>& features,
   return storeys;
 }
 
-FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
-                    const std::vector<int>& storeys, const AskedRelations& asked) {
+FeatureGraph relate(const Segmentation& segmentation, std::span<const InFacade> features,
+                    std::span<const int> storeys, const AskedRelations& asked) {
   std::vector<FeatureGraph::Pair> hosts, alike, beside, above;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i)
     if (segmentation.features[i].host.is_valid())

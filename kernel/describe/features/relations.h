@@ -4,6 +4,7 @@
 #include "kernel/model/description/feature_graph.h"
 #include "kernel/model/segmentation.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -27,8 +28,7 @@ std::vector<int> facades_of(const Segmentation& segmentation);
 
 /// Storeys: openings (holes and imprints in steep facets) grouped by height, two of them together
 /// if their overlap is at least half of the taller; numbered from the lowest. -1: in no storey.
-std::vector<int> storeys_of(const std::vector<InFacade>& features,
-                            const std::vector<char>& is_opening);
+std::vector<int> storeys_of(std::span<const InFacade> features, std::span<const char> is_opening);
 
 /// Which of the relations between features of one facade are asked for, that are found pair by
 /// pair.
@@ -37,7 +37,7 @@ struct AskedRelations {
 };
 
 /// All relations of relation_schema() but those that are not asked for, which stay empty.
-FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
-                    const std::vector<int>& storeys, const AskedRelations& asked);
+FeatureGraph relate(const Segmentation& segmentation, std::span<const InFacade> features,
+                    std::span<const int> storeys, const AskedRelations& asked);
 
 }  // namespace oriel::detail

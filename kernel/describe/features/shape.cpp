@@ -28,7 +28,7 @@ using PlanPoints = boost::container::small_vector<InPlan, 32>;
 
 /// The convex hull in plan, counter-clockwise (Andrew's monotone chain); it stands in `points` or
 /// `hull`, which are empty before.
-std::span<const InPlan> hull_in_plan(const std::vector<Vec3>& of, PlanPoints& points,
+std::span<const InPlan> hull_in_plan(std::span<const Vec3> of, PlanPoints& points,
                                      PlanPoints& hull) {
   points.reserve(of.size());
   for (const Vec3 p : of) points.push_back({p.x, p.y});
@@ -56,7 +56,7 @@ std::span<const InPlan> hull_in_plan(const std::vector<Vec3>& of, PlanPoints& po
 /// The hull of points whose box in plan has a point in all its corners, without looking for it:
 /// those corners, in the order of hull_in_plan(). So stand most features. None if the points are no
 /// such ones.
-std::span<const InPlan> corners_of_box(const std::vector<Vec3>& points, const Box& box,
+std::span<const InPlan> corners_of_box(std::span<const Vec3> points, const Box& box,
                                        std::array<InPlan, 4>& corners) {
   unsigned found = 0;  // low and high x at low y, then at high y
   for (const Vec3& p : points) {
@@ -95,7 +95,7 @@ std::array<double, 3> StandingBox::edges() const {
   return sorted;
 }
 
-StandingBox standing_box(const std::vector<Vec3>& points) {
+StandingBox standing_box(std::span<const Vec3> points) {
   Box box;
   for (const Vec3& p : points) box.grow(p);
   StandingBox best;
@@ -125,7 +125,7 @@ StandingBox standing_box(const std::vector<Vec3>& points) {
   return best;
 }
 
-Extent extent_along(const std::vector<Vec3>& points, Vec3 direction) {
+Extent extent_along(std::span<const Vec3> points, Vec3 direction) {
   Extent extent;
   for (const Vec3& p : points) {
     extent.low = std::min(extent.low, dot(p, direction));

@@ -3,6 +3,7 @@
 #include "kernel/model/segmentation.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -19,7 +20,7 @@ struct StandingBox {
   [[nodiscard]] std::array<double, 3> edges() const;
 };
 
-StandingBox standing_box(const std::vector<Vec3>& points);
+StandingBox standing_box(std::span<const Vec3> points);
 
 /// The least and largest coordinate of points along a direction.
 struct Extent {
@@ -29,7 +30,7 @@ struct Extent {
   [[nodiscard]] double middle() const { return (low + high) / 2; }
 };
 
-Extent extent_along(const std::vector<Vec3>& points, Vec3 direction);
+Extent extent_along(std::span<const Vec3> points, Vec3 direction);
 
 /// The points of a feature.
 std::vector<Vec3> points_of(const Segmentation& segmentation, const Feature& feature);

@@ -104,7 +104,7 @@ Site::GroundFacet Site::ground_facet(CellFacet facet, const Plane& plane, CellId
   return ground;
 }
 
-std::optional<Foot> Site::lowest_at(Vec3 point, const std::vector<GroundFacet>& facets) {
+std::optional<Foot> Site::lowest_at(Vec3 point, std::span<const GroundFacet> facets) {
   std::optional<Foot> lowest;
   for (const GroundFacet& facet : facets) {
     if (point.x < facet.box.min.x || point.x > facet.box.max.x || point.y < facet.box.min.y ||

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ class Site {
   [[nodiscard]] bool is_uncut(const Facet& facet) const;
   void find_terrain();
   [[nodiscard]] GroundFacet ground_facet(CellFacet facet, const Plane& plane, CellId cell) const;
-  static std::optional<Foot> lowest_at(Vec3 point, const std::vector<GroundFacet>& facets);
+  static std::optional<Foot> lowest_at(Vec3 point, std::span<const GroundFacet> facets);
 
   const Segmentation& segmentation_;
   std::set<int> uncut_;  ///< Polygon::source

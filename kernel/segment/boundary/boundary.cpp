@@ -1,5 +1,6 @@
 #include "kernel/segment/boundary/boundary.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ bool Boundary::bends_inward(EdgeId e) const {
   return above > 0;
 }
 
-EdgeId Boundary::add_edge(int origin) { return half_edges_.push_back({origin}); }
+EdgeId Boundary::add_edge(PointId origin) { return half_edges_.push_back({origin}); }
 
 void Boundary::reserve(int half_edges, int facets) {
   half_edges_.reserve(index(half_edges));
@@ -142,6 +143,7 @@ int Boundary::number_side(PlaneSide side) {
 
 BodyFacetId Boundary::add_facet_on(int number, PlaneSide side, const Sources& sources,
                                    std::vector<CapMark> marks) {
+  ORIEL_ASSERT(side >= 0 && number == number_side(side));
   const BodyFacetId f = facets_.next_id();
   OnSide& on = on_side_[index(number)];
   on.facets.push_back(f);
@@ -154,12 +156,12 @@ BodyFacetId Boundary::add_facet_on(int number, PlaneSide side, const Sources& so
   return f;
 }
 
-EdgeId Boundary::add_cycle(std::span<const int> origins, BodyFacetId f, bool is_backward) {
+EdgeId Boundary::add_cycle(std::span<const PointId> origins, BodyFacetId f, bool is_backward) {
   ORIEL_ASSERT(!origins.empty());
   const EdgeId first = half_edges_.next_id();
   const LoopId l = loops_.next_id();
   const int step = is_backward ? -1 : 1;
-  for (const int origin : origins) {
+  for (const PointId origin : origins) {
     const int e = half_edge_count();
     half_edges_.push_back({origin, EdgeId{e + step}, EdgeId{e - step}, EdgeId{}, l, f});
   }
@@ -290,7 +292,7 @@ void Boundary::fill_hole(LoopId hole, double cap_area) {
   part(f);
 }
 
-void Boundary::split_edge(EdgeId e, int point) {
+void Boundary::split_edge(EdgeId e, PointId point) {
   ORIEL_ASSERT(is_alive_edge(e));
   const EdgeId t = twin(e);
   const EdgeId e2 = add_edge(point), t2 = add_edge(point);

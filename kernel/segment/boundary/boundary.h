@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/base/ids.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/segment/boundary/boundary.h"
@@ -41,7 +42,7 @@ struct CapMark {
 class Boundary {
  public:
   struct alignas(16) HalfEdgeRecord {  // 32 bytes: found by a shift
-    int origin = -1;
+    PointId origin = {};
     EdgeId next = {};  ///< invalid: dead
     EdgeId prev = {};
     EdgeId twin = {};
@@ -51,7 +52,7 @@ class Boundary {
   };
   static constexpr signed char kUnknown = -1;
   /// Facets of the solid that a facet is made of, sorted.
-  using Sources = boost::container::small_vector<int, 2>;
+  using Sources = boost::container::small_vector<FacetId, 2>;
   struct LoopRecord {
     EdgeId first = {};
     BodyFacetId facet = {};  ///< invalid: dead
@@ -87,8 +88,8 @@ class Boundary {
   [[nodiscard]] EdgeId next(EdgeId e) const { return edge(e).next; }
   [[nodiscard]] EdgeId prev(EdgeId e) const { return edge(e).prev; }
   [[nodiscard]] EdgeId twin(EdgeId e) const { return edge(e).twin; }
-  [[nodiscard]] int origin(EdgeId e) const { return edge(e).origin; }
-  [[nodiscard]] int target(EdgeId e) const { return edge(edge(e).twin).origin; }
+  [[nodiscard]] PointId origin(EdgeId e) const { return edge(e).origin; }
+  [[nodiscard]] PointId target(EdgeId e) const { return edge(edge(e).twin).origin; }
   [[nodiscard]] BodyFacetId facet_of(EdgeId e) const { return edge(e).facet; }
   [[nodiscard]] PlaneSide side_of_edge(EdgeId e) const { return facet(facet_of(e)).side; }
   [[nodiscard]] Vec3 at(EdgeId e) const { return world_->points.at(origin(e)); }
@@ -132,12 +133,13 @@ class Boundary {
   }
 
   // -- Making: raw pieces, linked by the caller, then made into loops and facets.
-  EdgeId add_edge(int origin);
+  EdgeId add_edge(PointId origin);
   void link(EdgeId e, EdgeId f) {
     half_edges_[e].next = f;
     half_edges_[f].prev = e;
   }
   void pair(EdgeId e, EdgeId f) {
+    ORIEL_ASSERT(e != f);
     half_edges_[e].twin = f;
     half_edges_[f].twin = e;
     half_edges_[e].bend = half_edges_[f].bend = kUnknown;
@@ -154,14 +156,14 @@ class Boundary {
   void reserve(int half_edges, int facets);
   /// Adds half-edges that begin at these points as a loop of facet `f`: each leads to the next, or,
   /// `is_backward`, to the one before. Returns the first half-edge.
-  EdgeId add_cycle(std::span<const int> origins, BodyFacetId f, bool is_backward = false);
+  EdgeId add_cycle(std::span<const PointId> origins, BodyFacetId f, bool is_backward = false);
   /// Makes the cycle through `first` a loop of facet `f`.
   LoopId add_loop(EdgeId first, BodyFacetId f);
   void add_mark(BodyFacetId f, const CapMark& mark) { facets_[f].marks.push_back(mark); }
   void add_sources(BodyFacetId f, const Sources& sources);
 
   /// Puts a new vertex `point` on an edge: e keeps its origin and ends at the point.
-  void split_edge(EdgeId e, int point);
+  void split_edge(EdgeId e, PointId point);
 
   // -- Re-shaping facets.
   /// Forgets the loops of a facet and makes new ones of the cycles that its half-edges and `extra`
@@ -255,7 +257,7 @@ class FlatBody {
   explicit FlatBody(const Boundary& body) : body_(body) {}
 
   struct EdgePoints {
-    int from, to;  ///< points
+    PointId from, to;
   };
   /// A facet and where its plane stands among those of its class.
   struct RankedFacet {

@@ -11,17 +11,17 @@ namespace {
 
 /// Pairs the half-edges of a closed boundary by their ends: each waits at its lower vertex for the
 /// opposite one.
-void pair_twins(Boundary& boundary, int vertices) {
-  std::vector<EdgeId> waiting(static_cast<std::size_t>(vertices));  // by lower vertex, a chain
+void pair_twins(Boundary& boundary, std::size_t vertices) {
+  IndexedVector<PointId, EdgeId> waiting(vertices);  // by lower vertex, a chain
   IndexedVector<EdgeId, EdgeId> behind(static_cast<std::size_t>(boundary.half_edge_count()));
   std::size_t open = 0;
   for (const EdgeId e : boundary.half_edge_ids()) {
-    const int from = boundary.origin(e), to = boundary.origin(boundary.next(e));
-    EdgeId* place = &waiting[static_cast<std::size_t>(std::min(from, to))];
+    const PointId from = boundary.origin(e), to = boundary.origin(boundary.next(e));
+    EdgeId* place = &waiting[std::min(from, to)];
     while (place->is_valid()) {
       const EdgeId other = *place;
-      const int other_from = boundary.origin(other),
-                other_to = boundary.origin(boundary.next(other));
+      const PointId other_from = boundary.origin(other),
+                    other_to = boundary.origin(boundary.next(other));
       if (other_from == from && other_to == to)
         throw GeometryError("an edge runs twice in the same direction");
       if (other_from == to && other_to == from) break;
@@ -65,17 +65,22 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
   const auto with_room = [](std::size_t size) { return static_cast<int>(size + size / kRoom); };
   boundary.reserve(with_room(4 * solid.vertices.size()), with_room(solid.facets.size()));
   const std::vector<int> numbers = number_sides(solid, lump, boundary);
+  std::vector<PointId> origins;  // of the loop at hand
   for (const Shell& shell : solid.shells) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {
       const Facet& facet = solid.facets[id.index()];
       const PlaneSide side = world.planes.side_of(facet.plane);
       const int number = numbers[static_cast<std::size_t>(side)];
-      const BodyFacetId f = boundary.add_facet_on(number, side, {id.value}, {});
-      for (const Loop& loop : facet.loops) boundary.add_cycle(loop, f);
+      const BodyFacetId f = boundary.add_facet_on(number, side, {id}, {});
+      for (const Loop& loop : facet.loops) {
+        origins.clear();
+        for (const int v : loop) origins.push_back(PointId{v});
+        boundary.add_cycle(origins, f);
+      }
     }
   }
-  pair_twins(boundary, static_cast<int>(solid.vertices.size()));
+  pair_twins(boundary, solid.vertices.size());
   return boundary;
 }
 
@@ -124,7 +129,7 @@ std::vector<Loop> CornerLoops::loops(BodyFacetId facet) const {
     } while (e != first);
     loops.emplace_back().reserve(size);
     do {
-      if (is_corner_[e]) loops.back().push_back(body_.origin(e));
+      if (is_corner_[e]) loops.back().push_back(body_.origin(e).value);
       e = body_.next(e);
     } while (e != first);
     if (body_.loop(numbers[i]).area > body_.loop(numbers[outer]).area) outer = i;

@@ -1,4 +1,5 @@
 /// Re-shaping the facets of a boundary: loops made anew, facets merged and parted, seams healed.
+#include "kernel/base/assert.h"
 #include "kernel/segment/boundary/boundary.h"
 
 #include <algorithm>
@@ -101,6 +102,7 @@ void Boundary::add_sources(BodyFacetId f, const Sources& sources) {
 }
 
 void Boundary::cover(BodyFacetId cap, BodyFacetId covered) {
+  ORIEL_ASSERT(facet(cap).side == (facet(covered).side ^ 1), "they do not face each other");
   // What lay under the cap is inside the body now: neither its polygons nor its marks are on the
   // surface any more.
   facets_[covered].sources.clear();
@@ -117,7 +119,7 @@ void Boundary::split_at_corners(BodyFacetId f) {
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (const EdgeId corner : corners) {
       const EdgeId e = edges[i];
-      const int point = origin(corner);
+      const PointId point = origin(corner);
       const Vec3 p = world_->points.at(point), from = at(e), to = world_->points.at(target(e));
       if (p == from || p == to || distance_to_segment(p, from, to) > world_->points.grid_m())
         continue;
@@ -128,7 +130,7 @@ void Boundary::split_at_corners(BodyFacetId f) {
 
 void Boundary::zip(BodyFacetId f) {
   split_at_corners(f);
-  std::map<std::pair<int, int>, EdgeId> open;
+  std::map<std::pair<PointId, PointId>, EdgeId> open;
   std::vector<std::pair<EdgeId, EdgeId>> pairs;
   for_each_edge(f, [&](EdgeId e) {
     if (facet_of(twin(e)) == f) return;

@@ -147,13 +147,12 @@ bool fill_cavity(Boundary& body, const Box& box) {
   return false;
 }
 
-Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
-               const std::set<int>& gone) {
+Solid solid_of(std::span<const Boundary> bodies, const Solid& original, const std::set<int>& gone) {
   Solid solid;
   solid.grid_m = original.grid_m;
   solid.planes = original.planes;
-  std::map<int, int> number;
-  const auto vertex = [&](const World& world, int point) {
+  std::map<PointId, int> number;
+  const auto vertex = [&](const World& world, PointId point) {
     const auto [entry, is_new] = number.emplace(point, static_cast<int>(solid.vertices.size()));
     if (is_new) solid.vertices.push_back({world.points.at(point), world.points.is_meeting(point)});
     return entry->second;
@@ -179,9 +178,9 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
         for (const BodyFacetId f : piece) {
           Facet facet{plane(part.world(), part.facet(f).side), corners.loops(f), {}};
           for (Loop& loop : facet.loops)
-            for (int& v : loop) v = vertex(part.world(), v);
-          for (const int source : part.facet(f).sources)
-            for (const int polygon : original.facets[at(source)].polygons)
+            for (int& v : loop) v = vertex(part.world(), PointId{v});
+          for (const FacetId source : part.facet(f).sources)
+            for (const int polygon : original.facets[source.index()].polygons)
               if (!gone.contains(polygon)) facet.polygons.push_back(polygon);
           std::ranges::sort(facet.polygons);
           shell.facets.push_back(FacetId{static_cast<int>(solid.facets.size())});

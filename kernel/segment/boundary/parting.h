@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,7 @@ class FacetCopier {
   Scratch& scratch_;
   bool is_turned_;
   // Of the loop at hand.
-  std::vector<int> origins_;
+  std::vector<PointId> origins_;
   std::vector<std::pair<EdgeId, EdgeId>> pairs_;  ///< copies of both sides of edges
 };
 
@@ -54,8 +55,7 @@ bool fill_cavity(Boundary& body, const Box& box);
 
 /// The bodies as one solid, with the planes of `original`. Facets list the input polygons of the
 /// facets of `original` they are made of, but for those in `gone`.
-Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
-               const std::set<int>& gone);
+Solid solid_of(std::span<const Boundary> bodies, const Solid& original, const std::set<int>& gone);
 
 /// A fingerprint of the sides and areas of the facets, whatever their order: bodies of one
 /// segmentation with the same are the same. 128 bits, so that long histories take little room.

@@ -127,8 +127,8 @@ struct Scratch {
   }
 
   // Chains of edges. By point: how many steps lead from it, and to it; 0 between two uses.
-  std::vector<int> leaving, entering;
-  std::vector<int> after;  ///< where the step from a point leads to
+  IndexedVector<PointId, int> leaving, entering;
+  IndexedVector<PointId, PointId> after;  ///< where the step from a point leads to
 
   // Floods.
   StampSet<EdgeId> flooded_edges;
@@ -139,8 +139,8 @@ struct Scratch {
   // Pockets.
   StampSet<EdgeId> rim_edges;
   StampMap<EdgeId> place_in_walk;
-  StampMap<int> corner_at_point;
-  StampSet<int> met_sources;  ///< facets of the solid
+  StampMap<PointId> corner_at_point;
+  StampSet<FacetId> met_sources;
 
   // Patches.
   StampMap<EdgeId> place_in_rim;
@@ -150,10 +150,11 @@ struct Scratch {
   StampMap<EdgeId, EdgeId> copy_of;
   StampMap<EdgeId, EdgeId> twin_of_rim;  ///< as they were before the cut
   Outline outline;
-  StampSet<int> met_points;
+  StampSet<PointId> met_points;
 
   // Copies of parts.
-  StampMap<int> moved_points, moved_planes;
+  StampMap<PointId, PointId> moved_points;
+  StampMap<int> moved_planes;
 };
 
 }  // namespace oriel::detail

@@ -24,7 +24,7 @@ Arrangement::Windings sum_of(const Arrangement::Windings& base, const Arrangemen
 
 }  // namespace
 
-Arrangement::Arrangement(const std::vector<PlanarEdge>& edges, const PlaneAxes& axes,
+Arrangement::Arrangement(std::span<const PlanarEdge> edges, const PlaneAxes& axes,
                          const VertexPool& pool)
     : edges_(edges) {
   std::vector<int> vertices;

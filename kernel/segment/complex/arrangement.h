@@ -4,6 +4,7 @@
 #include "kernel/segment/complex/vertex_pool.h"
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace oriel::detail {
 /// edge e, 2e + 1 back; each has a region to its left. Region 0 is the unbounded one.
 class Arrangement {
  public:
-  Arrangement(const std::vector<PlanarEdge>& edges, const PlaneAxes& axes, const VertexPool& pool);
+  Arrangement(std::span<const PlanarEdge> edges, const PlaneAxes& axes, const VertexPool& pool);
 
   static std::size_t twin(std::size_t half_edge) { return half_edge ^ 1U; }
   [[nodiscard]] std::size_t half_edge_count() const { return 2 * edges_.size(); }
@@ -49,7 +50,7 @@ class Arrangement {
   /// The half-edge nearest to the left of a point, just above it, that looks at it; or none.
   [[nodiscard]] std::size_t nearest_to_the_left(Vec2 point) const;
 
-  const std::vector<PlanarEdge>& edges_;
+  std::span<const PlanarEdge> edges_;
   std::vector<std::size_t> vertex_;  ///< of the origins, numbered here
   std::vector<Vec2> position_;
   std::vector<std::size_t> next_;

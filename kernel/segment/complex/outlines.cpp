@@ -18,7 +18,7 @@ using Line = std::pair<PlaneId, PlaneId>;
 
 class Outlines {
  public:
-  Outlines(std::vector<std::vector<Facet>> bodies, const std::vector<PlaneId>& sheets,
+  Outlines(std::vector<std::vector<Facet>> bodies, std::span<const PlaneId> sheets,
            const VertexPool& pool)
       : sheets_(sheets), pool_(pool), bodies_(std::move(bodies)) {
     for (auto& facets : bodies_)
@@ -100,7 +100,7 @@ class Outlines {
     return vertices;
   }
 
-  const std::vector<PlaneId>& sheets_;
+  std::span<const PlaneId> sheets_;
   const VertexPool& pool_;
   std::vector<std::vector<Facet>> bodies_;
   std::map<Line, std::vector<int>> on_line_;
@@ -108,7 +108,7 @@ class Outlines {
 
 }  // namespace
 
-std::vector<PlaneId> sheets_of(const std::vector<Plane>& planes) {
+std::vector<PlaneId> sheets_of(std::span<const Plane> planes) {
   std::vector<PlaneId> sheets;
   std::map<std::array<std::int64_t, 4>, PlaneId> first;
   for (int p = 0; p < std::ssize(planes); ++p) {
@@ -122,7 +122,7 @@ std::vector<PlaneId> sheets_of(const std::vector<Plane>& planes) {
 }
 
 std::vector<std::vector<Facet>> whole_outlines(std::vector<std::vector<Facet>> bodies,
-                                               const std::vector<PlaneId>& sheets,
+                                               std::span<const PlaneId> sheets,
                                                const VertexPool& pool) {
   return Outlines(std::move(bodies), sheets, pool).whole();
 }
@@ -133,8 +133,7 @@ namespace {
 /// the reach of an edge.
 class Vertices {
  public:
-  Vertices(const std::vector<Face>& faces, const std::vector<Vertex>& vertices)
-      : vertices_(vertices) {
+  Vertices(const std::vector<Face>& faces, std::span<const Vertex> vertices) : vertices_(vertices) {
     for (const Face& face : faces)
       for (const Loop& loop : face.loops)
         for (const int v : loop) order_.emplace_back(place_of(at(v)), v);
@@ -168,13 +167,13 @@ class Vertices {
   [[nodiscard]] Vec3 at(int v) const { return vertices_[static_cast<std::size_t>(v)].point; }
   static double place_of(Vec3 p) { return dot(p, normalised({0.5436, 0.3121, 0.7790})); }
 
-  const std::vector<Vertex>& vertices_;
+  std::span<const Vertex> vertices_;
   std::vector<std::pair<double, int>> order_;
 };
 
 }  // namespace
 
-void conform(std::vector<Face>& faces, const std::vector<Vertex>& vertices, double near_m) {
+void conform(std::vector<Face>& faces, std::span<const Vertex> vertices, double near_m) {
   const Vertices in_use(faces, vertices);
   std::map<std::pair<int, int>, std::vector<int>> on_edge;
   for (Face& face : faces)

@@ -42,7 +42,7 @@ std::vector<PlanarEdge> combined(std::vector<Chord> chords) {
 /// One round of cutting: finds all vertices that lie on edges and all crossings.
 class Round {
  public:
-  Round(const std::vector<PlanarEdge>& edges, const PlaneAxes& axes, VertexPool& pool)
+  Round(std::span<const PlanarEdge> edges, const PlaneAxes& axes, VertexPool& pool)
       : edges_(edges), axes_(axes), pool_(pool), cuts_(edges.size()) {
     spans_.reserve(edges.size());
     for (const PlanarEdge& edge : edges) spans_.push_back(span_of(edge));
@@ -175,7 +175,7 @@ class Round {
     has_cuts_ = true;
   }
 
-  const std::vector<PlanarEdge>& edges_;
+  std::span<const PlanarEdge> edges_;
   const PlaneAxes& axes_;
   VertexPool& pool_;
   std::vector<EdgeInPlane> spans_;

@@ -1,5 +1,6 @@
 #include "kernel/segment/complex/sheet.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/segment/complex/arrangement.h"
 #include "kernel/segment/complex/refine.h"
 
@@ -20,13 +21,14 @@ constexpr double kOn = 1e-5;
 
 int Slicer::side(int vertex) const {
   const auto v = static_cast<std::size_t>(vertex);
+  ORIEL_ASSERT(v < is_on_.size());
   if (is_on_[v] != 0) return 0;
   const double height = dot(plane_.normal, pool_.at(vertex)) - plane_.offset_m;
   if (std::abs(height) <= kOn * pool_.reach_m()) return 0;
   return height > 0 ? 1 : -1;
 }
 
-bool Slicer::passes(const std::vector<int>& vertices) const {
+bool Slicer::passes(std::span<const int> vertices) const {
   bool is_behind = false, is_in_front = false;
   for (const int v : vertices) {
     const int where = side(v);
@@ -50,8 +52,7 @@ void Slicer::add_facet(CellId cell, const Facet& facet, std::vector<Chord>& chor
     }
 }
 
-void Slicer::add_sections(CellId cell, const std::vector<Facet>& facets,
-                          std::vector<Chord>& chords) {
+void Slicer::add_sections(CellId cell, std::span<const Facet> facets, std::vector<Chord>& chords) {
   for (const Facet& facet : facets)
     for (const bool is_in_front : {false, true})
       add_section(facet, label_of(cell.value, is_in_front), chords);

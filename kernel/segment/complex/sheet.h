@@ -7,6 +7,7 @@
 #include "kernel/segment/complex/vertex_pool.h"
 
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,16 +19,16 @@ namespace oriel::detail {
 class Slicer {
  public:
   /// `is_on` says by vertex which ones lie on the plane, whatever their coordinates.
-  Slicer(const std::vector<Plane>& planes, PlaneId plane, const std::vector<char>& is_on,
+  Slicer(std::span<const Plane> planes, PlaneId plane, std::span<const char> is_on,
          VertexPool& pool)
       : planes_(planes), plane_(planes[plane.index()]), is_on_(is_on), pool_(pool) {}
 
   /// -1, 0, +1: behind, on, in front of the plane.
   [[nodiscard]] int side(int vertex) const;
   /// True if the cell has vertices on both sides.
-  [[nodiscard]] bool passes(const std::vector<int>& vertices) const;
+  [[nodiscard]] bool passes(std::span<const int> vertices) const;
   /// Appends the outlines of the cell's two sections. For each label they are closed.
-  void add_sections(CellId cell, const std::vector<Facet>& facets, std::vector<Chord>& chords);
+  void add_sections(CellId cell, std::span<const Facet> facets, std::vector<Chord>& chords);
   /// Appends the outline of a facet that lies in the plane.
   void add_facet(CellId cell, const Facet& facet, std::vector<Chord>& chords) const;
 
@@ -35,9 +36,9 @@ class Slicer {
   void add_section(const Facet& facet, int label, std::vector<Chord>& chords);
   int cross_edge(int a, int b);
 
-  const std::vector<Plane>& planes_;
+  std::span<const Plane> planes_;
   const Plane& plane_;
-  const std::vector<char>& is_on_;
+  std::span<const char> is_on_;
   VertexPool& pool_;
   std::map<std::pair<int, int>, int> crossings_;
 };

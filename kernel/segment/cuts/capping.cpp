@@ -51,7 +51,7 @@ class Capper {
 
   /// Where the rim changes from one plane to another.
   struct RimSwitch {
-    int point;
+    PointId point;
     PlaneSide from, to;
     RimPlace rim;  ///< the first half-edge behind it
   };
@@ -108,7 +108,7 @@ class Capper {
   /// From `point`, where the rim leaves the plane of `side` for that of `other`, along the edges of
   /// the corner to where the rim comes back to `side`: adds the free edges, returns the rim
   /// half-edge there.
-  std::optional<RimPlace> walk_in_the_open(PlaneSide side, PlaneSide other, int point,
+  std::optional<RimPlace> walk_in_the_open(PlaneSide side, PlaneSide other, PointId point,
                                            CapLoop& loop) {
     for (int steps = 0; steps <= 4; ++steps) {
       const auto stop = next_stop(side, other, point);
@@ -122,7 +122,7 @@ class Capper {
   }
 
   struct WalkStop {
-    int point;
+    PointId point;
     std::optional<RimPlace> rim;  ///< where the rim takes over
     PlaneSide other;              ///< the plane to walk along next, if it does not
   };
@@ -136,7 +136,7 @@ class Capper {
 
   /// The nearest point ahead on the line in which two planes meet: where the rim comes from `other`
   /// to `side`, or where a third plane of the corner meets them.
-  std::optional<WalkStop> next_stop(PlaneSide side, PlaneSide other, int point) {
+  std::optional<WalkStop> next_stop(PlaneSide side, PlaneSide other, PointId point) {
     const Vec3 direction = ahead(side, other);
     const double here = dot(direction, world_.points.at(point));
     std::optional<WalkStop> nearest;
@@ -170,7 +170,7 @@ class Capper {
     });
   }
 
-  [[nodiscard]] bool is_on_corner(int point) {
+  [[nodiscard]] bool is_on_corner(PointId point) {
     return std::ranges::all_of(component_.sides, [&](PlaneSide side) {
       const int level = world_.points.level(point, side);
       return corner_ == CornerKind::concave && side != component_.ground ? level >= 0 : level <= 0;
@@ -210,11 +210,11 @@ class Judge {
  private:
   /// A side as all points are asked about it.
   struct SideLimit {
-    std::span<const int> ranks;
+    PointRanks ranks;
     int rank, direction;
     /// As PointTable::level.
-    [[nodiscard]] int level(int point) const {
-      const int difference = ranks[at(point)] - rank;
+    [[nodiscard]] int level(PointId point) const {
+      const int difference = ranks[point] - rank;
       return ((difference > 0) - (difference < 0)) * direction;
     }
   };
@@ -233,7 +233,7 @@ class Judge {
   [[nodiscard]] std::optional<CornerKind> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
     const auto limits = limits_of(component);
-    StampSet<int>& met = world_.scratch.met_points;
+    StampSet<PointId>& met = world_.scratch.met_points;
     met.start(world_.points.size());
     for (const BodyFacetId f : component.facets) {
       body_.for_each_edge(f, [&](EdgeId e) {
@@ -265,7 +265,7 @@ class Judge {
     return true;
   }
 
-  [[nodiscard]] bool is_crossed(int from, int to) const {
+  [[nodiscard]] bool is_crossed(PointId from, PointId to) const {
     const Vec3 p = world_.points.at(from), q = world_.points.at(to);
     for (const FlatBody::RankedFacet& f : flat_.facets()) {
       const int start = world_.points.rank(from, f.normal_class) - f.rank,
@@ -295,7 +295,7 @@ class Judge {
     const int rank = world_.planes.rank_of(cap.side >> 1);
     std::vector<Outline> shape;
     for (const auto& [first, second] : flat_.edges()) {
-      const int start = ranks[at(first)] - rank, end = ranks[at(second)] - rank;
+      const int start = ranks[first] - rank, end = ranks[second] - rank;
       if (!are_opposite(start, end)) continue;
       const Vec3 p = world_.points.at(start > 0 ? first : second),
                  q = world_.points.at(start > 0 ? second : first);
@@ -362,7 +362,7 @@ std::vector<PlaneSide> Patch::sides() const {
   return sides;
 }
 
-PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e) {
+PlaneSide rim_side(const Boundary& body, std::span<const PlaneSide> sides, EdgeId e) {
   const PlaneSide beyond = body.side_of_edge(body.twin(e));
   if (std::ranges::binary_search(sides, beyond)) return beyond;
   auto& points = body.world().points;

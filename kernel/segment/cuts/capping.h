@@ -41,7 +41,7 @@ struct Component {
 
 /// The side among `sides` that a rim half-edge lies on: that of the facet beyond it, else one whose
 /// plane holds both ends; -1: none.
-PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e);
+PlaneSide rim_side(const Boundary& body, std::span<const PlaneSide> sides, EdgeId e);
 
 /// The component with caps on all its sides. Nothing if it does not lie in the corner that they
 /// make, if the caps do not close, have no area or are pierced, or if it has no volume.

@@ -18,18 +18,26 @@ namespace {
 
 /// The points, sorted, each once: about `most` of them.
 template <class Points>
-std::vector<int> sorted_uniquely(Points&& points, int most, World& world) {
-  std::vector<int> sorted;
+std::vector<PointId> sorted_uniquely(Points&& points, int most, World& world) {
+  std::vector<PointId> sorted;
   sorted.reserve(at(most));
   world.scratch.met_points.start(world.points.size());
-  for (const int p : points)
+  for (const PointId p : points)
     if (world.scratch.met_points.insert(p)) sorted.push_back(p);
   std::ranges::sort(sorted);
   return sorted;
 }
 
-std::vector<std::pair<int, int>> edges_of(const CapLoop& loop) {
-  std::vector<std::pair<int, int>> edges;
+/// As vertices of the segmentation.
+std::vector<int> vertices_of(std::span<const PointId> points) {
+  std::vector<int> vertices;
+  vertices.reserve(points.size());
+  for (const PointId p : points) vertices.push_back(p.value);
+  return vertices;
+}
+
+std::vector<std::pair<PointId, PointId>> edges_of(const CapLoop& loop) {
+  std::vector<std::pair<PointId, PointId>> edges;
   edges.reserve(loop.edges.size());
   for (const CapEdge& edge : loop.edges) edges.emplace_back(edge.from, edge.to);
   return edges;
@@ -56,14 +64,14 @@ std::vector<std::size_t> models_of(const CutChoice& choice) {
 
 /// A lump of a choice is a pocket that comes off without a body, as the leaf that it is. `models`:
 /// those of the choice.
-bool is_leaf(const CutChoice& choice, const Lump& lump, const std::vector<std::size_t>& models) {
+bool is_leaf(const CutChoice& choice, const Lump& lump, std::span<const std::size_t> models) {
   return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
          choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
 }
 
 /// What a cut that took a part off has changed of the rest. `size`: about how many vertices the
 /// part has.
-RestChange change_of(const Carved& carved, const std::vector<CutCap>& caps, std::size_t size) {
+RestChange change_of(const Carved& carved, std::span<const CutCap> caps, std::size_t size) {
   RestChange change;
   change.points = sorted_uniquely(carved.touched, static_cast<int>(size), carved.lump.world());
   const bool is_simple =
@@ -79,7 +87,7 @@ RestChange change_of(const Carved& carved, const std::vector<CutCap>& caps, std:
 }
 
 /// What filling a pocket has changed of the rest. `points`: the vertices of the pocket.
-RestChange change_of_pocket(const CutCap& cap, std::vector<int> points) {
+RestChange change_of_pocket(const CutCap& cap, std::vector<PointId> points) {
   return {.points = std::move(points), .rim = edges_of(cap.loops[0]), .is_natural = true};
 }
 
@@ -177,7 +185,7 @@ class Cut {
   }
 
   bool take_off_lump(const Lump& lump) {
-    std::vector<int> touched;
+    std::vector<PointId> touched;
     std::vector<CutCap> caps;
     if (lump.pocket >= 0)
       caps.push_back(choice_.pockets->cap_of(lump.pocket));
@@ -191,14 +199,15 @@ class Cut {
     return take_off_part(std::move(caps), {lump.new_area, lump.value}, std::move(touched));
   }
 
-  bool take_off_part(std::vector<CutCap> caps, PartMeasures measures, std::vector<int> touched) {
+  bool take_off_part(std::vector<CutCap> caps, PartMeasures measures,
+                     std::vector<PointId> touched) {
     const bool is_natural = choice_.is_natural && touched.empty();
     auto carved =
         take_off(from_.body, caps, choice_.is_hole, tree_.next_feature(), std::move(touched));
     if (!carved) return false;
     has_changed_body_ = true;
     Feature feature;
-    feature.vertices = points_of(carved->lump);
+    feature.vertices = vertices_of(carved->lump);
     RestChange change = change_of(*carved, caps, feature.vertices.size());
     change.is_natural = is_natural;
     std::erase_if(caps, [](const CutCap& cap) { return cap.is_taken; });
@@ -230,8 +239,9 @@ class Cut {
     else
       leaf = pockets.leaf_of(lump.pocket, facets, choice_.is_hole);
     Feature feature;
-    feature.vertices = pockets.points_of(lump.pocket);
-    result_.changes.push_back(change_of_pocket(cap, feature.vertices));
+    std::vector<PointId> points = pockets.points_of(lump.pocket);
+    feature.vertices = vertices_of(points);
+    result_.changes.push_back(change_of_pocket(cap, std::move(points)));
     const auto filled = fill_pocket(from_.body, cap, facets, choice_.is_hole, tree_.next_feature());
     has_changed_body_ = true;
     describe_cut(feature, {&cap, 1}, {lump.new_area, lump.value});
@@ -273,13 +283,14 @@ class Cut {
 
 }  // namespace
 
-std::vector<int> points_of(const Boundary& body) {
+std::vector<int> vertices_of(const Boundary& body) {
   const auto edges = body.half_edge_ids();
   const auto is_alive = [&](EdgeId e) { return body.is_alive_edge(e); };
   const auto origin = [&](EdgeId e) { return body.origin(e); };
   constexpr int kEdgesAtPoint = 3;  // at least
-  return sorted_uniquely(edges | std::views::filter(is_alive) | std::views::transform(origin),
-                         body.half_edge_count() / kEdgesAtPoint, body.world());
+  return vertices_of(
+      sorted_uniquely(edges | std::views::filter(is_alive) | std::views::transform(origin),
+                      body.half_edge_count() / kEdgesAtPoint, body.world()));
 }
 
 void measure(Feature& feature, const Boundary& body) {

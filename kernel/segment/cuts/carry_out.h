@@ -24,7 +24,7 @@ struct CutResult {
 std::optional<CutResult> try_cut(GrowingTree& tree, WaitingBody& from, const CutChoice& choice);
 
 /// The vertices of a body, sorted.
-std::vector<int> points_of(const Boundary& body);
+std::vector<int> vertices_of(const Boundary& body);
 
 /// Adds the area of a body to the surface of its feature, and sets the volume.
 void measure(Feature& feature, const Boundary& body);

@@ -102,7 +102,7 @@ class Remover {
     return is_parted;
   }
 
-  Carved run(FeatureId mark, std::vector<int> touched) {
+  Carved run(FeatureId mark, std::vector<PointId> touched) {
     copier_.add(facets_);
     close_lump();
     touched.reserve(touched.size() + at(copier_.boundary().half_edge_count()) + rim_size_);
@@ -131,7 +131,7 @@ class Remover {
 
   /// A free edge that waits for its other side.
   struct FreeEdge {
-    int from, to;
+    PointId from, to;
     EdgeId edge;
   };
 
@@ -143,7 +143,8 @@ class Remover {
     for (const CapLoop& loop : cap.loops) {
       EdgeId first, last;
       for (const CapEdge& edge : loop.edges) {
-        const int from = is_backward ? edge.to : edge.from, to = is_backward ? edge.from : edge.to;
+        const PointId from = is_backward ? edge.to : edge.from,
+                      to = is_backward ? edge.from : edge.to;
         const EdgeId e = boundary.add_edge(from);
         if (!first.is_valid())
           first = e;
@@ -295,6 +296,7 @@ double area_of_loop(const Boundary& body, LoopId l, bool is_hole, Vec3 normal) {
 
 Filled fill_pocket(Boundary& body, const CutCap& cap, std::span<const BodyFacetId> facets,
                    bool is_hole, FeatureId mark) {
+  ORIEL_ASSERT(cap.loops.size() == 1 && !cap.loops[0].edges.empty() && cap.covered.empty());
   const PlaneTable& planes = body.world().planes;
   const PointTable& points = body.world().points;
   Outline& room = body.world().scratch.outline;
@@ -322,7 +324,7 @@ Filled fill_pocket(Boundary& body, const CutCap& cap, std::span<const BodyFacetI
 }
 
 std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
-                               FeatureId mark, std::vector<int> touched) {
+                               FeatureId mark, std::vector<PointId> touched) {
   Remover remover(body, caps, is_hole);
   if (!remover.find_lump()) return std::nullopt;
   return remover.run(mark, std::move(touched));

@@ -14,7 +14,7 @@ namespace oriel::detail {
 /// in the open, or inside the body, where two planes of the cut meet.
 struct CapEdge {
   EdgeId rim = {};
-  int from = -1, to = -1;  ///< points
+  PointId from = {}, to = {};
 };
 
 /// A closed outline of a cap, counter-clockwise about the outward normal of the rest there.
@@ -41,7 +41,7 @@ struct Carved {
   Vec3 cap_point;
   /// Points of everything that has changed: an edge without any of them between its ends is as it
   /// was.
-  std::vector<int> touched;
+  std::vector<PointId> touched;
   /// Edges of the rest run along the caps' outlines: the caps are no mere pieces of the facets
   /// around them.
   bool has_rim_left = false;
@@ -58,7 +58,7 @@ struct Filled {
 /// returns its caps. Points that were made and the ends of edges that were split are added to
 /// `touched`.
 std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
-                            std::vector<int>& touched);
+                            std::vector<PointId>& touched);
 
 /// Takes the lump inside the rims of `caps` off the body. A protrusion goes with its surface; a
 /// hole is filled: its walls leave the body, and the lump is the air that was there, turned right
@@ -67,7 +67,7 @@ std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& 
 ///
 /// Nothing, and the body is as it was, if the rims do not separate a lump.
 std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
-                               FeatureId mark, std::vector<int> touched);
+                               FeatureId mark, std::vector<PointId> touched);
 
 /// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
 /// pocket, ascending; `cap`: what closes the rest.

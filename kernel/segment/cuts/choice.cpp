@@ -18,7 +18,7 @@ constexpr double kSame = 1e-9;  // tolerance of doubles, no tolerance of the mod
 bool is_same_value(double p, double q) { return std::abs(p - q) <= kSame * std::max(p, q); }
 
 /// No other one of some sorted values is the same.
-bool is_alone_in(const std::vector<double>& values, double value) {
+bool is_alone_in(std::span<const double> values, double value) {
   const auto first = std::ranges::lower_bound(values, value * (1 - kSame));
   return first + 1 == values.end() || !is_same_value(*(first + 1), value);
 }
@@ -97,7 +97,7 @@ std::optional<CutChoice> Chooser::first_of_least_order(std::span<const Patch> pa
 }
 
 /// The best hole with as few planes as possible, natural or not.
-std::optional<CutChoice> Chooser::corner_cut(const std::vector<Patch>& natural) {
+std::optional<CutChoice> Chooser::corner_cut(std::span<const Patch> natural) {
   for (int order = 2; order <= options_.max_order; ++order) {
     std::vector<Patch> holes =
         find_corner_holes(body_,
@@ -331,7 +331,7 @@ std::optional<CutChoice> Chooser::best_section_cut(Pass pass) {
 }
 
 /// The leader with all lumps of the same plane and kind whose value is the same within value_rel.
-CutChoice Chooser::choice_of(const std::vector<RegionCandidate>& candidates,
+CutChoice Chooser::choice_of(std::span<const RegionCandidate> candidates,
                              std::size_t leader) const {
   const RegionCandidate& first = candidates[leader];
   const Section& section = *first.section;

@@ -57,7 +57,7 @@ class Chooser {
   std::optional<CutChoice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
-  void changed(const std::vector<RestChange>& changes) {
+  void changed(std::span<const RestChange> changes) {
     candidates_.invalidate(changes);
     pockets_.changed(changes);
   }
@@ -99,7 +99,7 @@ class Chooser {
   Lump flood(const RegionCandidate& candidate);
   std::optional<CutChoice> best_patch_cut(std::span<const Patch> patches, int min_order,
                                           int max_order);
-  CutChoice choice_of(const std::vector<RegionCandidate>& candidates, std::size_t leader) const;
+  CutChoice choice_of(std::span<const RegionCandidate> candidates, std::size_t leader) const;
   CutChoice choice_of(std::span<const Patch* const> patches, const Patch& first) const;
   [[nodiscard]] bool is_better(const CutChoice& p, const CutChoice& q) const;
   [[nodiscard]] bool is_banned(const Section& section, const Region& region) const {
@@ -110,7 +110,7 @@ class Chooser {
     return !banned_->empty() && banned_->contains({patch.sides(), patch.is_hole});
   }
   std::vector<Patch> patches(bool is_hole, double most);
-  std::optional<CutChoice> corner_cut(const std::vector<Patch>& natural);
+  std::optional<CutChoice> corner_cut(std::span<const Patch> natural);
   std::optional<CutChoice> first_of_least_order(std::span<const Patch> patches);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
 

@@ -5,6 +5,7 @@
 #include "kernel/segment/sections/section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -18,7 +19,7 @@ namespace {
 /// The holes of one set of planes.
 class CornerCutter {
  public:
-  CornerCutter(const Boundary& body, const std::vector<PlaneSide>& sides, double weld_m,
+  CornerCutter(const Boundary& body, std::span<const PlaneSide> sides, double weld_m,
                std::int64_t& work)
       : old_edges_(body.half_edge_count()),
         old_points_(body.world().points.size()),
@@ -53,17 +54,17 @@ class CornerCutter {
     const World& world = body_->world();
     constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before
     return std::ranges::all_of(component.rim, [&](EdgeId e) {
-      const int point = body_->origin(e);
+      const PointId point = body_->origin(e);
       const PlaneSide side = rim_side(*body_, sides_, e);
       const double distance =
           dot(world.planes.normal(side), world.points.at(point)) - world.planes.offset_m(side);
-      return point < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
+      return point.value < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
     });
   }
 
   /// Makes the whole outline of the section just behind the plane edges of the body.
   bool imprint_all(PlaneSide side) {
-    EdgeIndex edges(*body_, {side >> 1});
+    EdgeIndex edges(*body_, std::array{side >> 1});
     const int behind = (side & 1) != 0 ? 1 : -1;
     Section section{side >> 1, behind};
     section_at(*body_, section, edges.edges_at(0, section.direction), {-1, weld_m_});
@@ -71,7 +72,7 @@ class CornerCutter {
     Lump all;
     for (int r = 0; r < std::ssize(section.regions); ++r)
       if (section.regions[at(r)].is_material) all.regions.push_back(r);
-    std::vector<int> touched;
+    std::vector<PointId> touched;
     imprint(*body_, section, all, touched);
     return true;
   }
@@ -118,7 +119,7 @@ class CornerCutter {
       if (!has_bend || !lies_on_all(component)) continue;
       std::ranges::sort(component.facets);
       std::ranges::sort(component.rim);
-      component.sides = sides_;
+      component.sides.assign(sides_.begin(), sides_.end());
       found.push_back(std::move(component));
     }
     return found;
@@ -136,7 +137,7 @@ class CornerCutter {
 
   int old_edges_, old_points_;
   std::shared_ptr<Boundary> body_;
-  const std::vector<PlaneSide>& sides_;
+  std::span<const PlaneSide> sides_;
   double weld_m_;
   std::int64_t& work_;
 };
@@ -162,7 +163,7 @@ class CornerHoleFinder {
   }
 
  private:
-  void number_groups(const std::vector<Component>& groups) {
+  void number_groups(std::span<const Component> groups) {
     group_of_.assign(at(body_.facet_count()), -1);
     for (int g = 0; g < std::ssize(groups); ++g)
       for (const BodyFacetId f : groups[at(g)].facets) group_of_[f] = g;
@@ -170,7 +171,7 @@ class CornerHoleFinder {
 
   /// A pocket with those that open into it: a tunnel from another wall has its own bends.
   [[nodiscard]] Component with_neighbours(const Component& group,
-                                          const std::vector<Component>& groups) const {
+                                          std::span<const Component> groups) const {
     std::set<int> joined{group_of_[group.facets[0]]};
     for (const EdgeId e : group.rim) joined.insert(group_of_[body_.facet_of(body_.twin(e))]);
     Component all;
@@ -182,8 +183,7 @@ class CornerHoleFinder {
   }
 
   /// All sets of the order that can make a corner, each once.
-  void try_sets(const std::vector<PlaneSide>& sides, std::size_t first,
-                std::vector<PlaneSide>& set) {
+  void try_sets(std::span<const PlaneSide> sides, std::size_t first, std::vector<PlaneSide>& set) {
     if (std::ssize(set) == options_.order) return try_set(set);
     for (std::size_t i = first; i < sides.size() && work_ <= options_.budget; ++i) {
       if (!fits(set, sides[i])) continue;
@@ -238,7 +238,7 @@ class CornerHoleFinder {
     return edges;
   }
 
-  [[nodiscard]] int level(int point, PlaneSide side) const {
+  [[nodiscard]] int level(PointId point, PlaneSide side) const {
     return body_.world().points.level(point, side);
   }
 

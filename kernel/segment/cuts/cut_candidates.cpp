@@ -11,7 +11,7 @@ namespace oriel::detail {
 namespace {
 
 /// Ascending.
-std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& own_planes) {
+std::vector<int> split_planes_of(const Boundary& body, std::span<const int> own_planes) {
   std::vector<int> planes;
   for (const PlaneSide side : body.sides())
     if (planes.empty() || planes.back() != side >> 1) planes.push_back(side >> 1);
@@ -42,7 +42,7 @@ bool is_without_cuts(const Section& section) {
 }  // namespace
 
 CutCandidates::CutCandidates(const Boundary& body, const SegmentOptions& options,
-                             PlaneSide free_side, const std::vector<int>& own_planes,
+                             PlaneSide free_side, std::span<const int> own_planes,
                              SegmentationStats& stats, std::int64_t& work)
     : body_(body),
       world_(body.world()),
@@ -85,8 +85,8 @@ void CutCandidates::invalidate(std::size_t k, const RestChange& change) {
   const PlanesOfClass& c = classes_[k];
   const auto ranks = world_.points.ranks(c.number);
   RankRange touched, rim;
-  for (const int p : change.points) touched.grow(ranks[at(p)]);
-  for (const auto& [from, to] : change.rim) rim.grow(ranks[at(from)]);
+  for (const PointId p : change.points) touched.grow(ranks[p]);
+  for (const auto& [from, to] : change.rim) rim.grow(ranks[from]);
   const PlaneRanks& planes = edges_.ranks_of_class(k);
   const std::size_t last = 2 * (c.first + planes.before(touched.high + 1));
   for (std::size_t i = 2 * (c.first + planes.before(touched.low)); i < last; ++i) {

@@ -19,14 +19,14 @@ namespace oriel::detail {
 struct RestChange {
   /// The points of everything that has changed; an edge without any of them is unchanged. Sorted,
   /// each once.
-  std::vector<int> points = {};
+  std::vector<PointId> points = {};
   /// The edges around the part's cap, if it has a single one with a single outline that covers
   /// nothing; else none.
-  std::vector<std::pair<int, int>> rim = {};
+  std::vector<std::pair<PointId, PointId>> rim = {};
   /// The cut follows existing edges: nothing was split.
   bool is_natural = false;
   /// Edges that the body may have since.
-  std::vector<std::pair<int, int>> new_edges = {};
+  std::vector<std::pair<PointId, PointId>> new_edges = {};
   /// Facets were covered, so that more edges than those bound other facets since.
   bool has_covered = false;
 };
@@ -56,7 +56,7 @@ class CutCandidates {
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of the
   /// body.
   CutCandidates(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
-                const std::vector<int>& own_planes, SegmentationStats& stats, std::int64_t& work);
+                std::span<const int> own_planes, SegmentationStats& stats, std::int64_t& work);
 
   /// Tells that the body has changed in this way and in no other since the last call.
   void invalidate(std::span<const RestChange> changes);

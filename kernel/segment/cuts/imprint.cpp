@@ -19,7 +19,7 @@ class Imprinter {
   using Rim = boost::container::small_vector<EdgeId, 32>;
 
  public:
-  Imprinter(Boundary& body, const Section& section, const Lump& lump, std::vector<int>& touched)
+  Imprinter(Boundary& body, const Section& section, const Lump& lump, std::vector<PointId>& touched)
       : body_(body),
         section_(section),
         lump_(lump),
@@ -46,7 +46,7 @@ class Imprinter {
   }
 
  private:
-  [[nodiscard]] int level(int point) const {
+  [[nodiscard]] int level(PointId point) const {
     const int difference =
         (body_.world().points.rank(point, normal_class_) - plane_rank_) * section_.direction;
     return (difference > 0) - (difference < 0);
@@ -68,10 +68,10 @@ class Imprinter {
   void split_edges() {
     for_each_crossing([&](int c) {
       const EdgeId e = section_.crossings[at(c)].edge;
-      const int high = body_.origin(e), low = body_.target(e);
+      const PointId high = body_.origin(e), low = body_.target(e);
       if (level(low) == 0) return;
       const int f = body_.side_of_edge(e) >> 1, g = body_.side_of_edge(body_.twin(e)) >> 1;
-      const int point = body_.world().points.cross_edge(f, g, low, high, section_.plane);
+      const PointId point = body_.world().points.cross_edge(f, g, low, high, section_.plane);
       body_.split_edge(e, point);
       touched_.insert(touched_.end(), {low, high, point});
     });
@@ -176,8 +176,8 @@ class Imprinter {
 
   /// A new edge from where `tail` ends to `to`: the upper half-edge continues the tail, the lower
   /// one leads from `old_in` to `old_out`. Returns the upper one.
-  EdgeId add_piece(BodyFacetId f, EdgeId tail, EdgeId old_out, EdgeId old_in, int to) {
-    const int from = body_.origin(old_out);
+  EdgeId add_piece(BodyFacetId f, EdgeId tail, EdgeId old_out, EdgeId old_in, PointId to) {
+    const PointId from = body_.origin(old_out);
     const EdgeId upper = body_.add_edge(from), lower = body_.add_edge(to);
     body_.pair(upper, lower);
     body_.link(tail, upper);
@@ -210,7 +210,7 @@ class Imprinter {
   Boundary& body_;
   const Section& section_;
   const Lump& lump_;
-  std::vector<int>& touched_;
+  std::vector<PointId>& touched_;
   int normal_class_;
   int plane_rank_;
   Vec3 axis_;
@@ -222,7 +222,7 @@ class Imprinter {
 }  // namespace
 
 std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
-                            std::vector<int>& touched) {
+                            std::vector<PointId>& touched) {
   return Imprinter(body, section, lump, touched).run();
 }
 

@@ -1,5 +1,6 @@
 #include "kernel/segment/cuts/lump.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ LumpFinder::LumpFinder(const Boundary& body, const Section& section)
 }
 
 Lump LumpFinder::find(int region) {
+  ORIEL_ASSERT(at(region) < section_.regions.size());
   const Region& start = section_.regions[at(region)];
   is_material_ = start.is_material;
   ++stamp_;

@@ -53,15 +53,15 @@ class LumpFinder {
   void visit_piece(int crossing, Visit visit) const;
   template <class Visit>
   void visit_lower_piece(int crossing, Visit visit) const;
-  [[nodiscard]] bool is_up(int point) const {
-    return (ranks_[static_cast<std::size_t>(point)] - plane_rank_) * section_.direction > 0;
+  [[nodiscard]] bool is_up(PointId point) const {
+    return (ranks_[point] - plane_rank_) * section_.direction > 0;
   }
   [[nodiscard]] int crossing_of(EdgeId e) const { return scratch_.crossing_of_edge[e]; }
   [[nodiscard]] bool is_reached(EdgeId e) const { return scratch_.flooded_edges.contains(e); }
 
   const Boundary& body_;
   const Section& section_;
-  std::span<const int> ranks_;
+  PointRanks ranks_;
   int plane_rank_;
   Scratch& scratch_;
   std::vector<int> next_in_facet_;  ///< of crossings where a chord begins: another in its facet

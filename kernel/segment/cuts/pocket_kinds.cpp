@@ -111,7 +111,7 @@ bool Pockets::are_corners_like(const PocketKind& kind, Vec3 shift, const Section
   return std::ranges::all_of(kind.corners, [&](const PocketCorner& corner) {
     const EdgeId e = walk_[at(corner.edge)];
     return is_same_place(body_.at(e) - body_.at(edges[at(corner.edge)]) - shift) &&
-           (corner.is_on_rim || ranks[at(body_.origin(e))] * section.direction > limit);
+           (corner.is_on_rim || ranks[body_.origin(e)] * section.direction > limit);
   });
 }
 
@@ -162,12 +162,12 @@ int Pockets::new_kind(const Section& section, const Region& region) {
 }
 
 void Pockets::list_corners(PocketKind& kind) {
-  StampMap<int>& corner_at = body_.world().scratch.corner_at_point;
+  StampMap<PointId>& corner_at = body_.world().scratch.corner_at_point;
   corner_at.start(body_.world().points.size());
   kind.corners.reserve(walk_.size() / 2);  // no fewer half-edges begin at a vertex
   for (int i = 0; i < std::ssize(walk_); ++i) {
     const EdgeId e = walk_[at(i)];
-    const int point = body_.origin(e);
+    const PointId point = body_.origin(e);
     int number = corner_at.find(point);
     if (number < 0) {
       number = static_cast<int>(kind.corners.size());
@@ -180,8 +180,8 @@ void Pockets::list_corners(PocketKind& kind) {
 
 /// What its lump and its leaf ask for, beside convexity.
 void Pockets::judge(PocketKind& kind, bool is_hole) const {
-  const StampMap<int>& corner_at = body_.world().scratch.corner_at_point;
-  const auto is_on_rim = [&](int point) {
+  const StampMap<PointId>& corner_at = body_.world().scratch.corner_at_point;
+  const auto is_on_rim = [&](PointId point) {
     return kind.corners[at(corner_at.find(point))].is_on_rim;
   };
   // The edges of a convex one bend all one way.

@@ -1,5 +1,6 @@
 #include "kernel/segment/cuts/pockets.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -18,12 +19,12 @@ bool is_of_pocket(const Region& region) {
 
 }  // namespace
 
-void Pockets::changed(const std::vector<RestChange>& changes) {
+void Pockets::changed(std::span<const RestChange> changes) {
   order_.pocket = -1;
-  StampSet<int>& is_touched = body_.world().scratch.met_points;
+  StampSet<PointId>& is_touched = body_.world().scratch.met_points;
   is_touched.start(body_.world().points.size());
   for (const RestChange& change : changes)
-    for (const int p : change.points) is_touched.insert(p);
+    for (const PointId p : change.points) is_touched.insert(p);
   const auto has_gone = [&](const Pocket& pocket) {
     const auto edges = edges_of(pocket);
     return std::ranges::any_of(kinds_[at(pocket.kind)].corners, [&](const PocketCorner& corner) {
@@ -91,7 +92,7 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
     const EdgeId e = body_.next(section.crossings[at(c)].edge);
     c = section.crossings[at(c)].next;
     if (body_.next(e) != body_.twin(section.crossings[at(c)].edge)) return false;
-    if (ranks[at(body_.origin(e))] != rank || ranks[at(body_.target(e))] != rank) return false;
+    if (ranks[body_.origin(e)] != rank || ranks[body_.target(e)] != rank) return false;
     const EdgeId beyond = body_.twin(e);
     if (!rim_.empty() && body_.next(beyond) != body_.twin(rim_.back())) return false;
     rim_.push_back(e);
@@ -123,7 +124,7 @@ bool Pockets::list_facets(const Section& section, PocketKind& kind) {
   for (std::size_t i = 0; i < walk_.size(); ++i) {
     const EdgeId e = walk_[i], twin = body_.twin(e);
     const BodyFacetId beyond = body_.facet_of(twin);
-    const int above = ranks[at(body_.origin(e))] * section.direction - limit;
+    const int above = ranks[body_.origin(e)] * section.direction - limit;
     if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
     if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
     if (!is_met.contains(beyond)) {
@@ -168,11 +169,11 @@ void Pockets::list_loop(PocketKind& kind, EdgeId first) {
 
 /// No two of its facets are made of one facet of the solid.
 bool Pockets::has_own_sources() {
-  StampSet<int>& is_met = body_.world().scratch.met_sources;
+  StampSet<FacetId>& is_met = body_.world().scratch.met_sources;
   is_met.start(0);
   for (const BodyFacetId f : facets_)
-    for (const int source : body_.facet(f).sources) {
-      is_met.make_room(source + 1);
+    for (const FacetId source : body_.facet(f).sources) {
+      is_met.make_room(source.value + 1);
       if (!is_met.insert(source)) return false;
     }
   return true;
@@ -194,6 +195,7 @@ CutCap Pockets::cap_of(int pocket) const {
 }
 
 PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, bool is_hole) const {
+  ORIEL_ASSERT(is_leaf(kind_of(pocket)));
   // Facet by facet and edge by edge as take_off() makes a body of it.
   const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   const int flip = is_hole ? 1 : 0;
@@ -202,29 +204,30 @@ PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, boo
   leaf.sources.reserve(kind.sizes.size());
   for (const BodyFacetId f : facets) {
     const auto& facet = body_.facet(f);
-    for (const int source : facet.sources)
+    for (const FacetId source : facet.sources)
       leaf.sources.push_back({source, static_cast<int>(leaf.faces.size())});
     PocketLeaf::LeafFace& face = leaf.faces.emplace_back(facet.side ^ flip, Loop{});
     const EdgeId first = body_.loop(facet.loops[0]).first;
     face.loop.reserve(4);  // mostly
     EdgeId e = first;
     do {
-      face.loop.push_back(is_hole ? body_.target(e) : body_.origin(e));
+      face.loop.push_back((is_hole ? body_.target(e) : body_.origin(e)).value);
       e = is_hole ? body_.prev(e) : body_.next(e);
     } while (e != first);
   }
   const auto rim = std::span(rims_).subspan(at(pockets_[at(pocket)].first_rim), at(kind.rim));
   PocketLeaf::LeafFace& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
   cap.loop.reserve(rim.size());
-  for (const EdgeId e : rim) cap.loop.push_back(is_hole ? body_.origin(e) : body_.target(e));
+  for (const EdgeId e : rim)
+    cap.loop.push_back((is_hole ? body_.origin(e) : body_.target(e)).value);
   if (!is_hole) std::ranges::reverse(cap.loop);
   return leaf;
 }
 
-std::vector<int> Pockets::points_of(int pocket) const {
+std::vector<PointId> Pockets::points_of(int pocket) const {
   const auto edges = edges_of(pockets_[at(pocket)]);
   const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
-  std::vector<int> points;
+  std::vector<PointId> points;
   points.reserve(kind.corners.size());
   for (const PocketCorner& corner : kind.corners)
     points.push_back(body_.origin(edges[at(corner.edge)]));
@@ -262,7 +265,7 @@ Pockets::PocketOrder Pockets::order_of(int pocket) const {
     const auto& facet = body_.facet(body_.facet_of(edges[at(first)]));
     order.planes.emplace_back(facet.side >> 1, first);
     for (int i = 0; i < std::ssize(facet.sources); ++i)
-      order.sources.push_back({facet.sources[at(i)], first, i});
+      order.sources.emplace_back(facet.sources[at(i)], first, i);
     first += size;
   }
   std::ranges::sort(order.points);
@@ -274,6 +277,7 @@ Pockets::PocketOrder Pockets::order_of(int pocket) const {
 }
 
 Congruence Pockets::congruence(int model, int other) const {
+  ORIEL_ASSERT(kind_of(model) == kind_of(other), "only pockets of one kind are congruent");
   if (order_.pocket != model) order_ = order_of(model);
   const Pocket &one = pockets_[at(model)], &two = pockets_[at(other)];
   Congruence how;

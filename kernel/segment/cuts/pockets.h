@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ class Pockets {
 
   /// Tells that the body has changed in this way and no other: pockets that the changes have no
   /// point of stay known, with their numbers.
-  void changed(const std::vector<RestChange>& changes);
+  void changed(std::span<const RestChange> changes);
 
   /// The number of the pocket in front of a region; -1 if the lump there is none. Of one that
   /// `is_alone` it is not asked whether it is of a kind that is known.
@@ -56,7 +57,7 @@ class Pockets {
   [[nodiscard]] PocketLeaf leaf_of(int pocket, std::span<const BodyFacetId> facets,
                                    bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
-  [[nodiscard]] std::vector<int> points_of(int pocket) const;
+  [[nodiscard]] std::vector<PointId> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
   [[nodiscard]] CutCap cap_of(int pocket) const;
   /// Its facets, ascending.
@@ -96,9 +97,10 @@ class Pockets {
   /// The vertices, planes and sources of a pocket in the order in which maps from it list them.
   struct PocketOrder {
     int pocket = -1;
-    std::vector<std::pair<int, int>> points;  ///< with a half-edge that begins there
-    std::vector<std::pair<int, int>> planes;  ///< with a half-edge of a facet; -1: the cap's
-    std::vector<std::array<int, 3>> sources;  ///< with a half-edge of their facet, and their place
+    std::vector<std::pair<PointId, int>> points;  ///< with a half-edge that begins there
+    std::vector<std::pair<int, int>> planes;      ///< with a half-edge of a facet; -1: the cap's
+    std::vector<std::tuple<FacetId, int, int>>
+        sources;  ///< with a half-edge of their facet, and their place
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -10,7 +10,7 @@
 
 namespace oriel::detail {
 
-PlaneTable::PlaneTable(const std::vector<Plane>& oriented) : sides_(oriented.size()) {
+PlaneTable::PlaneTable(std::span<const Plane> oriented) : sides_(oriented.size()) {
   struct Turned {
     Plane plane;
     bool is_flipped;

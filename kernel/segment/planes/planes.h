@@ -1,9 +1,11 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/model/solid.h"
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -16,7 +18,7 @@ using PlaneSide = int;
 /// rank between.
 class PlaneTable {
  public:
-  explicit PlaneTable(const std::vector<Plane>& oriented);
+  explicit PlaneTable(std::span<const Plane> oriented);
 
   struct ParallelPlanes {
     Vec3 normal;
@@ -60,6 +62,7 @@ class PlaneTable {
   /// Planes come by their coefficients, then offsets, and have the sign that classes have.
   void add(const Plane& plane, bool is_flipped, PlaneId id);
   [[nodiscard]] const TablePlane& entry(int plane) const {
+    ORIEL_ASSERT(plane >= 0 && plane < size(), "no plane of the table");
     return planes_[static_cast<std::size_t>(plane)];
   }
 

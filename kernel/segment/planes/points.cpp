@@ -1,5 +1,6 @@
 #include "kernel/segment/planes/points.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/geometry/axis_corners.h"
 #include "kernel/model/description/counting_sort.h"
 
@@ -40,11 +41,12 @@ PointTable::PointTable(const Solid& solid, const PlaneTable& planes)
   corners.reserve(index(planes.size()));
   for (int p = 0; p < planes.size(); ++p) corners.add(planes.plane(p));
   places_.reserve(points_.size());
-  for (std::size_t v = 0; v < points_.size(); ++v) {
-    TablePoint& point = points_[v];
-    const Vec3 at = solid.vertices[v].point;
+  for (const PointId p : points_.ids()) {
+    TablePoint& point = points_[p];
+    const Vertex& vertex = solid.vertices[p.index()];
+    const Vec3 at = vertex.point;
     std::optional<Vec3> where;
-    if (solid.vertices[v].is_meeting && point.planes.size() >= 3) {
+    if (vertex.is_meeting && point.planes.size() >= 3) {
       where = corners.meeting(point.planes[0], point.planes[1], point.planes[2]);
       if (!where) where = meeting_of(point);
     }
@@ -69,7 +71,7 @@ std::optional<Vec3> PointTable::meeting_of(const TablePoint& point) const {
 }
 
 /// Enters in every point its planes, sorted, each once: the facets come plane by plane.
-void PointTable::list_planes(const std::vector<Facet>& facets) {
+void PointTable::list_planes(std::span<const Facet> facets) {
   Numbers plane_of(facets.size());
   for (std::size_t f = 0; f < facets.size(); ++f)
     plane_of[f] = planes_.side_of(facets[f].plane) >> 1;
@@ -77,7 +79,7 @@ void PointTable::list_planes(const std::vector<Facet>& facets) {
     const int plane = plane_of[index(f)];
     for (const Loop& loop : facets[index(f)].loops)
       for (const int v : loop) {
-        auto& planes = points_[index(v)].planes;
+        auto& planes = points_[PointId{v}].planes;
         if (planes.empty() || planes.back() != plane) planes.push_back(plane);
       }
   }
@@ -88,8 +90,8 @@ Vec3 PointTable::metres_of(const exact::Rational& where) const {
   return grid ? exact::to_metres(*grid, grid_m_) : exact::to_metres(where, grid_m_);
 }
 
-exact::Rational PointTable::exact_at(int p) const {
-  const TablePoint& point = points_[index(p)];
+exact::Rational PointTable::exact_at(PointId p) const {
+  const TablePoint& point = points_[p];
   if (point.stored >= 0) return exact_[index(point.stored)];
   const auto plane = [&](std::size_t i) { return planes_.plane(point.planes[i]); };
   return *exact::meet(plane(0), plane(1), plane(2));
@@ -100,14 +102,14 @@ int PointTable::exact_side(const exact::Rational& point, int plane) const {
   return grid ? exact::side(planes_.plane(plane), *grid) : exact::side(planes_.plane(plane), point);
 }
 
-int PointTable::own_rank(int p, int k) const {
-  for (const int plane : points_[index(p)].planes)
+int PointTable::own_rank(PointId p, int k) const {
+  for (const int plane : points_[p].planes)
     if (planes_.class_of(plane) == k) return planes_.rank_of(plane);
   return rank_beside(p, planes_.normal_class(k));
 }
 
 /// The rank of a point that is not known to lie on a plane of the class.
-int PointTable::rank_beside(int p, const PlaneTable::ParallelPlanes& c) const {
+int PointTable::rank_beside(PointId p, const PlaneTable::ParallelPlanes& c) const {
   const double along = dot(c.normal, at(p));
   if (along + kCertain_m < c.offsets_m.front()) return 0;
   if (along - kCertain_m > c.offsets_m.back()) return 2 * static_cast<int>(c.offsets_m.size());
@@ -115,7 +117,7 @@ int PointTable::rank_beside(int p, const PlaneTable::ParallelPlanes& c) const {
 }
 
 /// The same where the point, `along` the normal, is not outside all planes.
-int PointTable::rank_between(int p, const PlaneTable::ParallelPlanes& c, double along) const {
+int PointTable::rank_between(PointId p, const PlaneTable::ParallelPlanes& c, double along) const {
   auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
   for (; i < std::ssize(c.offsets_m) &&
          c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;
@@ -127,21 +129,20 @@ int PointTable::rank_between(int p, const PlaneTable::ParallelPlanes& c, double 
   return 2 * static_cast<int>(i);
 }
 
-int PointTable::compute_rank(int p, int k) {
-  const TablePoint& point = points_[index(p)];
+int PointTable::compute_rank(PointId p, int k) {
+  const TablePoint& point = points_[p];
   const int own = own_rank(p, k);
-  if (point.low < 0) return own;
-  const auto [least, most] =
-      std::minmax(ranks_[index(k)][index(point.low)], ranks_[index(k)][index(point.high)]);
+  if (!point.low.is_valid()) return own;
+  const auto& ranks = ranks_[index(k)];
+  const auto [least, most] = std::minmax(ranks[point.low], ranks[point.high]);
   return std::clamp(own, least, most);
 }
 
-std::span<const int> PointTable::ranks(int k) {
+PointRanks PointTable::ranks(int k) {
   auto& ranks = ranks_[index(k)];
-  if (std::ssize(ranks) == size()) return ranks;
   if (ranks.empty()) rank_by_incidence(k);
-  for (int p = static_cast<int>(ranks.size()); p < size(); ++p) ranks.push_back(compute_rank(p, k));
-  return ranks;
+  while (ranks.size() < points_.size()) ranks.push_back(compute_rank(ranks.next_id(), k));
+  return PointRanks(ranks.items());
 }
 
 /// Ranks of the solid's vertices: those that lie on planes of the class by these, which most do.
@@ -151,21 +152,22 @@ void PointTable::rank_by_incidence(int k) {
   ranks.assign(index(solid_points_), kUnknown);
   const auto& c = planes_.normal_class(k);
   for (const int plane : std::views::reverse(c.planes))
-    for (const int p : incidence().on(plane)) ranks[index(p)] = planes_.rank_of(plane);
-  for (int p = 0; p < solid_points_; ++p)
-    if (ranks[index(p)] == kUnknown) ranks[index(p)] = rank_beside(p, c);
+    for (const PointId p : incidence().on(plane)) ranks[p] = planes_.rank_of(plane);
+  for (const PointId p : ranks.ids())
+    if (ranks[p] == kUnknown) ranks[p] = rank_beside(p, c);
 }
 
 const Incidence& PointTable::incidence() {
   if (!incidence_.is_made())
     incidence_.make(solid_points_, planes_.size(),
-                    [&](int p) -> const boost::container::small_vector<int, 4>& {
-                      return points_[index(p)].planes;
+                    [&](PointId p) -> const boost::container::small_vector<int, 4>& {
+                      return points_[p].planes;
                     });
   return incidence_;
 }
 
-int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
+PointId PointTable::cross_edge(int f, int g, PointId low, PointId high, int plane) {
+  ORIEL_ASSERT(side(low, plane) * side(high, plane) < 0, "the edge does not cross the plane");
   TablePoint point;
   point.planes = {f, g, plane};
   std::ranges::sort(point.planes);
@@ -184,13 +186,12 @@ int PointTable::cross_edge(int f, int g, int low, int high, int plane) {
     point.is_rounded = true;
     place = place_at(exact::round_finely(from + std::clamp(t, 0.0, 1.0) * along, grid_m_));
   }
-  add(std::move(point), place);
-  return size() - 1;
+  return add(std::move(point), place);
 }
 
-int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
-                          const NumberMap& planes) {
-  const TablePoint& model = points_[index(p)];
+PointId PointTable::add_moved(PointId p, const std::array<std::int64_t, 3>& shift,
+                              const NumberMap& planes) {
+  const TablePoint& model = points_[p];
   TablePoint point;
   point.is_rounded = model.is_rounded;
   for (const int plane : model.planes)
@@ -200,18 +201,17 @@ int PointTable::add_moved(int p, const std::array<std::int64_t, 3>& shift,
   where.x += shift[0] * where.w;
   where.y += shift[1] * where.w;
   where.z += shift[2] * where.w;
-  add(std::move(point), place_at(where));
-  return size() - 1;
+  return add(std::move(point), place_at(where));
 }
 
-void PointTable::add(TablePoint point, const ExactPlace& place) {
+PointId PointTable::add(TablePoint point, const ExactPlace& place) {
   point.stored = static_cast<int>(exact_.size());
   exact_.push_back(place.where);
   places_.push_back(place.at);
-  points_.push_back(std::move(point));
+  return points_.push_back(std::move(point));
 }
 
-std::optional<int> PointTable::meet(int p, int q, int r) {
+std::optional<PointId> PointTable::meet(int p, int q, int r) {
   std::array<int, 3> key{p, q, r};
   std::ranges::sort(key);
   if (const auto known = known_meeting(key)) return known;
@@ -221,33 +221,34 @@ std::optional<int> PointTable::meet(int p, int q, int r) {
   point.planes.assign(key.begin(), key.end());
   const ExactPlace place = place_at(*where);
   met_.push_back(key);
-  int& met = meetings_[key];
+  PointId& met = meetings_[key];
   if (const auto near = met_near(point, place.at)) return met = *near;
-  met = size();
+  met = add(std::move(point), place);
   met_in_[cell_of(place.at)].push_back(met);
-  add(std::move(point), place);
   return met;
 }
 
 void PointTable::forget_since(const PointMark& mark) {
+  ORIEL_ASSERT(mark.points <= size() && mark.met <= met_.size() && mark.widened <= widened_.size());
   for (; widened_.size() > mark.widened; widened_.pop_back()) {
     const auto [p, plane] = widened_.back();
-    auto& own = points_[index(p)].planes;
+    auto& own = points_[p].planes;
     own.erase(std::ranges::find(own, plane));
     const int k = planes_.class_of(plane);
-    if (p < std::ssize(ranks_[index(k)])) ranks_[index(k)][index(p)] = compute_rank(p, k);
+    if (ranks_[index(k)].contains(p)) ranks_[index(k)][p] = compute_rank(p, k);
   }
   for (; met_.size() > mark.met; met_.pop_back()) meetings_.erase(met_.back());
-  for (int p = size(); p-- > mark.points;) {
+  for (int count = size(); count-- > mark.points;) {
+    const PointId p{count};
     const auto cell = met_in_.find(cell_of(at(p)));
     if (cell != met_in_.end() && !cell->second.empty() && cell->second.back() == p)
       cell->second.pop_back();
   }
-  if (size() > mark.points) exact_.resize(index(points_[index(mark.points)].stored));
+  if (size() > mark.points) exact_.resize(index(points_[PointId{mark.points}].stored));
   points_.resize(index(mark.points));
   places_.resize(index(mark.points));
   for (auto& ranks : ranks_)
-    if (std::ssize(ranks) > mark.points) ranks.resize(index(mark.points));
+    if (ranks.size() > index(mark.points)) ranks.resize(index(mark.points));
 }
 
 PointTable::GridCell PointTable::cell_of(Vec3 p) const {
@@ -257,21 +258,21 @@ PointTable::GridCell PointTable::cell_of(Vec3 p) const {
 
 /// A point that was met so near by that it is the same one: more than three planes meet there. It
 /// counts as lying on the new planes.
-std::optional<int> PointTable::met_near(const TablePoint& point, Vec3 where) {
+std::optional<PointId> PointTable::met_near(const TablePoint& point, Vec3 where) {
   const GridCell middle = cell_of(where);
   for (int i = 0; i < 27; ++i) {
     const auto found =
         met_in_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});
     if (found == met_in_.end()) continue;
-    for (const int p : found->second)
+    for (const PointId p : found->second)
       if (length(at(p) - where) <= near_m_ && lies_on_too(p, point.planes)) return p;
   }
   return std::nullopt;
 }
 
 /// Adds planes to a point; false if it lies on parallel ones.
-bool PointTable::lies_on_too(int p, const boost::container::small_vector<int, 4>& planes) {
-  auto& own = points_[index(p)].planes;
+bool PointTable::lies_on_too(PointId p, const boost::container::small_vector<int, 4>& planes) {
+  auto& own = points_[p].planes;
   for (const int plane : planes)
     for (const int other : own)
       if (plane != other && planes_.class_of(plane) == planes_.class_of(other)) return false;
@@ -280,19 +281,19 @@ bool PointTable::lies_on_too(int p, const boost::container::small_vector<int, 4>
     own.insert(std::ranges::lower_bound(own, plane), plane);
     widened_.emplace_back(p, plane);
     auto& ranks = ranks_[index(planes_.class_of(plane))];
-    if (p < std::ssize(ranks)) ranks[index(p)] = planes_.rank_of(plane);
+    if (ranks.contains(p)) ranks[p] = planes_.rank_of(plane);
   }
   return true;
 }
 
 /// The solid's own vertices are found by any three of their planes; the first vertex counts.
-std::optional<int> PointTable::known_meeting(const std::array<int, 3>& planes) {
+std::optional<PointId> PointTable::known_meeting(const std::array<int, 3>& planes) {
   if (const auto met = meetings_.find(planes); met != meetings_.end()) return met->second;
   auto fewest = incidence().on(planes[0]);
   for (const int plane : planes)
     if (const auto points = incidence().on(plane); points.size() < fewest.size()) fewest = points;
   const auto own = std::ranges::find_if(
-      fewest, [&](int p) { return std::ranges::includes(points_[index(p)].planes, planes); });
+      fewest, [&](PointId p) { return std::ranges::includes(points_[p].planes, planes); });
   return own == fewest.end() ? std::nullopt : std::optional(*own);
 }
 

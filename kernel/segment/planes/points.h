@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/base/assert.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
 #include "kernel/segment/planes/planes.h"
@@ -36,24 +38,41 @@ class Incidence {
   template <class PlanesOf>
   void make(int points, int planes, const PlanesOf& planes_of) {
     first_.assign(static_cast<std::size_t>(planes) + 2, 0);
-    for (int p = 0; p < points; ++p)
+    const auto all = ids_below<PointId>(static_cast<std::size_t>(points));
+    for (const PointId p : all)
       for (const int plane : planes_of(p)) ++first_[static_cast<std::size_t>(plane) + 2];
     for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
     points_.resize(first_.back());
-    for (int p = 0; p < points; ++p)
+    for (const PointId p : all)
       for (const int plane : planes_of(p))
         points_[first_[static_cast<std::size_t>(plane) + 1]++] = p;
   }
 
   [[nodiscard]] bool is_made() const { return !first_.empty(); }
-  [[nodiscard]] std::span<const int> on(int plane) const {
+  [[nodiscard]] std::span<const PointId> on(int plane) const {
     const std::size_t i = static_cast<std::size_t>(plane);
     return std::span(points_).subspan(first_[i], first_[i + 1] - first_[i]);
   }
 
  private:
   std::vector<std::size_t> first_;  ///< by plane, in points_
-  std::vector<int> points_;
+  std::vector<PointId> points_;
+};
+
+/// The ranks of all points in one class of planes.
+class PointRanks {
+ public:
+  PointRanks() = default;
+  explicit PointRanks(std::span<const int> ranks) : ranks_(ranks) {}
+
+  [[nodiscard]] int operator[](PointId point) const {
+    ORIEL_ASSERT(point.index() < ranks_.size(), "the point is newer than the ranks");
+    return ranks_[point.index()];
+  }
+  [[nodiscard]] std::size_t size() const { return ranks_.size(); }
+
+ private:
+  std::span<const int> ranks_;
 };
 
 /// The vertices of a solid and those that cuts make, with their ranks in every class of planes.
@@ -63,45 +82,46 @@ class Incidence {
 /// ranks; coordinates serve for measuring.
 class PointTable {
  public:
-  /// The solid's vertices keep their indices.
+  /// The solid's vertices keep their indices: PointId{v} is its v-th.
   PointTable(const Solid& solid, const PlaneTable& planes);
 
   /// Metres per unit of the solid's grid: what is nearer touches.
   [[nodiscard]] double grid_m() const { return grid_m_; }
   [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
-  [[nodiscard]] Vec3 at(int point) const { return places_[index(point)]; }
+  [[nodiscard]] Vec3 at(PointId point) const { return places_[point]; }
+  /// All points, ascending.
+  [[nodiscard]] auto ids() const { return points_.ids(); }
   /// True if the point is known by the three planes it was made of.
-  [[nodiscard]] bool is_meeting(int point) const { return !points_[index(point)].is_rounded; }
+  [[nodiscard]] bool is_meeting(PointId point) const { return !points_[point].is_rounded; }
 
-  /// The ranks of all points in class k, by point; valid until the next point is added.
-  [[nodiscard]] std::span<const int> ranks(int k);
-  [[nodiscard]] int rank(int point, int k) {
+  /// The ranks of all points in class k; valid until the next point is added.
+  [[nodiscard]] PointRanks ranks(int k);
+  [[nodiscard]] int rank(PointId point, int k) {
     const auto& ranks_of_class = ranks_[index(k)];
-    return index(point) < ranks_of_class.size() ? ranks_of_class[index(point)]
-                                                : ranks(k)[index(point)];
+    return ranks_of_class.contains(point) ? ranks_of_class[point] : ranks(k)[point];
   }
   /// -1, 0, +1: behind, on, in front of a plane as its class has it.
-  [[nodiscard]] int side(int point, int plane) {
+  [[nodiscard]] int side(PointId point, int plane) {
     const int difference = rank(point, planes_.class_of(plane)) - planes_.rank_of(plane);
     return (difference > 0) - (difference < 0);
   }
   /// The same for an oriented plane: +1 where its normal points.
-  [[nodiscard]] int level(int point, PlaneSide of) {
+  [[nodiscard]] int level(PointId point, PlaneSide of) {
     const int level = side(point, of >> 1);
     return (of & 1) != 0 ? -level : level;
   }
 
   /// The point where an edge (the meeting of planes f and g, from `low` to `high`) crosses `plane`.
   /// Its ranks lie between those of the edge's ends, whatever was rounded.
-  int cross_edge(int f, int g, int low, int high, int plane);
+  PointId cross_edge(int f, int g, PointId low, PointId high, int plane);
 
   /// The point where three planes meet; nothing if they do not. Where more than three meet, up to
   /// weld_m, it is one point and lies on all of them.
-  std::optional<int> meet(int p, int q, int r);
+  std::optional<PointId> meet(int p, int q, int r);
 
   /// TablePoint `p` moved by a whole number of grid units, on the planes that those of p are mapped
   /// to.
-  int add_moved(int p, const std::array<std::int64_t, 3>& shift, const NumberMap& planes);
+  PointId add_moved(PointId p, const std::array<std::int64_t, 3>& shift, const NumberMap& planes);
 
   /// What is there now, to come back to if what is tried next is not kept.
   struct PointMark {
@@ -117,8 +137,8 @@ class PointTable {
   struct TablePoint {
     boost::container::small_vector<int, 4> planes;  ///< sorted
     bool is_rounded = false;
-    int low = -1, high = -1;  ///< the ends of the edge it was made on
-    int stored = -1;          ///< in exact_; -1: it is where its first three planes meet
+    PointId low, high;  ///< the ends of the edge it was made on
+    int stored = -1;    ///< in exact_; -1: it is where its first three planes meet
   };
   /// Where a point is, exactly and in metres.
   struct ExactPlace {
@@ -127,39 +147,42 @@ class PointTable {
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   using GridCell = std::array<std::int64_t, 3>;
-  [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
+  [[nodiscard]] std::optional<PointId> known_meeting(const std::array<int, 3>& planes);
   const Incidence& incidence();
   [[nodiscard]] std::optional<Vec3> meeting_of(const TablePoint& point) const;
-  void list_planes(const std::vector<Facet>& facets);
+  void list_planes(std::span<const Facet> facets);
   void rank_by_incidence(int k);
   [[nodiscard]] GridCell cell_of(Vec3 p) const;
-  std::optional<int> met_near(const TablePoint& point, Vec3 where);
-  bool lies_on_too(int p, const boost::container::small_vector<int, 4>& planes);
-  void add(TablePoint point, const ExactPlace& place);
+  std::optional<PointId> met_near(const TablePoint& point, Vec3 where);
+  bool lies_on_too(PointId p, const boost::container::small_vector<int, 4>& planes);
+  PointId add(TablePoint point, const ExactPlace& place);
   [[nodiscard]] Vec3 metres_of(const exact::Rational& where) const;
   [[nodiscard]] ExactPlace place_at(const exact::Rational& where) const {
     return {where, metres_of(where)};
   }
-  [[nodiscard]] exact::Rational exact_at(int p) const;
+  [[nodiscard]] exact::Rational exact_at(PointId p) const;
   [[nodiscard]] int exact_side(const exact::Rational& point, int plane) const;
-  int compute_rank(int point, int k);
-  [[nodiscard]] int own_rank(int p, int k) const;
-  [[nodiscard]] int rank_beside(int p, const PlaneTable::ParallelPlanes& c) const;
-  [[nodiscard]] int rank_between(int p, const PlaneTable::ParallelPlanes& c, double along) const;
+  int compute_rank(PointId point, int k);
+  [[nodiscard]] int own_rank(PointId p, int k) const;
+  [[nodiscard]] int rank_beside(PointId p, const PlaneTable::ParallelPlanes& c) const;
+  [[nodiscard]] int rank_between(PointId p, const PlaneTable::ParallelPlanes& c,
+                                 double along) const;
 
   double grid_m_;
   double near_m_;  ///< points that were met closer than this are one
   const PlaneTable& planes_;
-  std::vector<TablePoint> points_;
-  std::vector<Vec3> places_;  ///< by point, close together
+  IndexedVector<PointId, TablePoint> points_;
+  IndexedVector<PointId, Vec3> places_;  ///< close together
   std::vector<exact::Rational> exact_;
-  std::vector<std::vector<int>> ranks_;
+  std::vector<IndexedVector<PointId, int>> ranks_;  ///< by class
   Incidence incidence_;  ///< of the solid's vertices; made when it is asked for
   int solid_points_ = 0;
-  std::map<std::array<int, 3>, int> meetings_;   ///< points that meet() has made, by three planes
-  std::vector<std::array<int, 3>> met_;          ///< their keys, in order
-  std::vector<std::pair<int, int>> widened_;     ///< points and planes that lies_on_too() gave them
-  std::map<GridCell, std::vector<int>> met_in_;  ///< points made by meet(), by cells of near_m_
+  std::map<std::array<int, 3>, PointId>
+      meetings_;                         ///< points that meet() has made, by three planes
+  std::vector<std::array<int, 3>> met_;  ///< their keys, in order
+  std::vector<std::pair<PointId, int>>
+      widened_;  ///< points and planes that lies_on_too() gave them
+  std::map<GridCell, std::vector<PointId>> met_in_;  ///< points made by meet(), by cells of near_m_
 };
 
 }  // namespace oriel::detail

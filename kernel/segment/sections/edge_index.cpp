@@ -1,5 +1,6 @@
 #include "kernel/segment/sections/edge_index.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -7,7 +8,8 @@
 
 namespace oriel::detail {
 
-EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : body_(body) {
+EdgeIndex::EdgeIndex(const Boundary& body, std::span<const int> planes) : body_(body) {
+  ORIEL_ASSERT(std::ranges::is_sorted(planes));
   // Planes are numbered class by class, and in a class by rank.
   const PlaneTable& table = body.world().planes;
   places_.reserve(planes.size());
@@ -65,7 +67,7 @@ void EdgeIndex::find_new_runs(const EdgesOfClass& c) {
   runs_.reserve(edges.size());
   const auto rank = body_.world().points.ranks(c.number);
   for (const IndexedEdge& edge : edges) {
-    const auto [low, high] = std::minmax(rank[at(edge.from)], rank[at(edge.to)]);
+    const auto [low, high] = std::minmax({rank[edge.from], rank[edge.to]});
     if (low == high) continue;
     runs_.push_back({edge.half, c.ranks.before(low + 1), c.ranks.before(high)});
   }

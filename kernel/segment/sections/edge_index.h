@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/segment/boundary/boundary.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ class GrowingLists {
   void push_back(std::size_t i, T item) { push_back(i, i, item); }
   /// To the lists from `first` to `last`, which have room left.
   void push_back_in_room(std::size_t first, std::size_t last, T item) {
+    ORIEL_ASSERT(first <= last && last < lists_.size());
     for (List *list = &lists_[first], *end = &lists_[last] + 1; list != end; ++list)
       items_[list->begin + list->size++] = item;
   }
@@ -107,12 +109,13 @@ class PlaneRanks {
 class EdgeIndex {
  public:
   /// `planes`: those that will be asked for, ascending.
-  EdgeIndex(const Boundary& body, const std::vector<int>& planes);
+  EdgeIndex(const Boundary& body, std::span<const int> planes);
 
   /// A half-edge of every living edge that runs through the gap in front of a plane (`direction`
   /// +1, as its class has it), or behind it (-1); dead edges and some that were shortened since may
   /// be among them. `entry` counts in `planes`.
   [[nodiscard]] std::span<const EdgeId> edges_at(std::size_t entry, int direction) {
+    ORIEL_ASSERT(entry < places_.size() && (direction == 1 || direction == -1));
     const GapPlace& place = places_[entry];
     EdgesOfClass& c = classes_[place.number];
     if (c.entered < edges_.size()) enter(c);
@@ -133,7 +136,7 @@ class EdgeIndex {
   /// A living half-edge that speaks for its edge.
   struct IndexedEdge {
     EdgeId half;
-    int from, to;
+    PointId from, to;
   };
   struct EdgesOfClass {
     int number;

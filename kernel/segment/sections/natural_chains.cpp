@@ -8,8 +8,7 @@
 
 namespace oriel::detail {
 
-NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes,
-                             PlaneSide free_side)
+NaturalChains::NaturalChains(const Boundary& body, std::span<const int> planes, PlaneSide free_side)
     : body_(body),
       world_(body.world()),
       planes_(planes),
@@ -24,7 +23,7 @@ NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& plane
   }
 }
 
-void NaturalChains::expect(const std::vector<std::pair<int, int>>& new_edges) {
+void NaturalChains::expect(std::span<const std::pair<PointId, PointId>> new_edges) {
   for (ChainsOfClass& c : classes_)
     for (std::size_t i = 0; c.is_known && i < new_edges.size(); ++i) {
       const int rank = world_.points.rank(new_edges[i].first, c.number);
@@ -63,12 +62,12 @@ void NaturalChains::find_living_edges() {
 
 /// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
 /// it along `e` and goes back; none if it goes through the plane or lies in it.
-[[gnu::always_inline]] inline void NaturalChains::add_step(int entry, std::span<const int> ranks,
-                                                           EdgeId e, int from, int to) {
-  const int rank = ranks[at(from)];
+[[gnu::always_inline]] inline void NaturalChains::add_step(int entry, PointRanks ranks, EdgeId e,
+                                                           PointId from, PointId to) {
+  const int rank = ranks[from];
   const auto& half = body_.edge(e);
   const EdgeId last = half.prev, second = body_.next(half.next);
-  int rank_before = ranks[at(body_.origin(last))], rank_after = ranks[at(body_.origin(second))];
+  int rank_before = ranks[body_.origin(last)], rank_after = ranks[body_.origin(second)];
   if (rank_before == rank || rank_after == rank)
     std::tie(rank_before, rank_after) = ranks_around(ranks, e, rank);
   const bool is_up = rank_before > rank;
@@ -82,9 +81,8 @@ void NaturalChains::find_living_edges() {
 
 /// The ranks of the last point before the half-edge `e` and the first one behind it that have
 /// another rank than those of `e`; the same rank if there is none.
-std::pair<int, int> NaturalChains::ranks_around(std::span<const int> ranks, EdgeId e,
-                                                int rank) const {
-  const auto rank_at = [&](EdgeId half) { return ranks[at(body_.origin(half))]; };
+std::pair<int, int> NaturalChains::ranks_around(PointRanks ranks, EdgeId e, int rank) const {
+  const auto rank_at = [&](EdgeId half) { return ranks[body_.origin(half)]; };
   EdgeId before = body_.prev(e), after = body_.next(body_.next(e));
   while (before != e && rank_at(before) == rank) before = body_.prev(before);
   if (before == e) return {rank, rank};
@@ -103,8 +101,8 @@ void NaturalChains::look(const ChainsOfClass& c) {
     scratch.entering.resize(ranks.size(), 0);
   }
   for (const LivingEdge& edge : edges_) {
-    const int rank = ranks[at(edge.from)];
-    if ((rank & 1) == 0 || ranks[at(edge.to)] != rank) continue;
+    const int rank = ranks[edge.from];
+    if ((rank & 1) == 0 || ranks[edge.to] != rank) continue;
     // Mostly one of the facets lies in the plane and the other one does not.
     const int plane = planes[at(rank / 2)];
     if (edge.plane == plane && edge.twin_plane == plane) continue;
@@ -136,7 +134,7 @@ void NaturalChains::sort_steps(const ChainsOfClass& c) {
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
 /// only of edges between points where their planes meet.
-bool NaturalChains::hangs_below(EdgeId e, int from, int to, bool is_up) const {
+bool NaturalChains::hangs_below(EdgeId e, PointId from, PointId to, bool is_up) const {
   if (!world_.points.is_meeting(from) || !world_.points.is_meeting(to)) return false;
   const Vec3 up = is_up ? normal_ : -normal_;
   const Vec3 along = world_.points.at(to) - world_.points.at(from);
@@ -148,17 +146,17 @@ bool NaturalChains::hangs_below(EdgeId e, int from, int to, bool is_up) const {
 /// Takes away what comes from nowhere or leads to nowhere, again and again, and tells whether
 /// something is left. Gives up after some rounds: then there may be a chain.
 bool NaturalChains::has_chain(std::span<ChainStep> steps, std::size_t slot) {
-  std::vector<int>&leaving = world_.scratch.leaving, &entering = world_.scratch.entering;
+  IndexedVector<PointId, int>&leaving = world_.scratch.leaving, &entering = world_.scratch.entering;
   for (const ChainStep& step : steps) {
-    ++leaving[at(step.from)];
-    ++entering[at(step.to)];
+    ++leaving[step.from];
+    ++entering[step.to];
   }
   const auto is_loose = [&](const ChainStep& step) {
-    const bool is = (entering[at(step.from)] == 0 && !is_free(step.from)) ||
-                    (leaving[at(step.to)] == 0 && !is_free(step.to));
+    const bool is = (entering[step.from] == 0 && !is_free(step.from)) ||
+                    (leaving[step.to] == 0 && !is_free(step.to));
     if (is) {
-      --leaving[at(step.from)];
-      --entering[at(step.to)];
+      --leaving[step.from];
+      --entering[step.to];
     }
     return is;
   };
@@ -172,8 +170,7 @@ bool NaturalChains::has_chain(std::span<ChainStep> steps, std::size_t slot) {
     left = now;
   }
   const bool has = left > 0 && may_bound(steps.first(left), slot);
-  for (const ChainStep& step : steps.first(left))
-    leaving[at(step.from)] = entering[at(step.to)] = 0;
+  for (const ChainStep& step : steps.first(left)) leaving[step.from] = entering[step.to] = 0;
   return has;
 }
 
@@ -188,20 +185,20 @@ bool NaturalChains::may_bound(std::span<const ChainStep> steps, std::size_t slot
   if (has_material && has_air) return true;
   Scratch& scratch = world_.scratch;
   for (const ChainStep& step : steps)
-    if (scratch.leaving[at(step.to)] != 1 || scratch.entering[at(step.from)] != 1 ||
-        scratch.leaving[at(step.from)] != 1 || is_free(step.from))
+    if (scratch.leaving[step.to] != 1 || scratch.entering[step.from] != 1 ||
+        scratch.leaving[step.from] != 1 || is_free(step.from))
       return true;
   auto& after = scratch.after;
   if (after.size() < scratch.leaving.size()) after.resize(scratch.leaving.size());
-  for (const ChainStep& step : steps) after[at(step.from)] = step.to;
+  for (const ChainStep& step : steps) after[step.from] = step.to;
   const Vec3 normal = world_.planes.normal(looking);
-  constexpr int kDone = -1;
+  constexpr PointId kDone;
   return std::ranges::any_of(steps, [&](const ChainStep& start) {
-    if (after[at(start.from)] == kDone) return false;
+    if (after[start.from] == kDone) return false;
     const Vec3 origin = world_.points.at(start.from);
     Vec3 sum, from;
-    for (int p = start.from; after[at(p)] != kDone;) {
-      p = std::exchange(after[at(p)], kDone);
+    for (PointId p = start.from; after[p] != kDone;) {
+      p = std::exchange(after[p], kDone);
       const Vec3 to = world_.points.at(p) - origin;
       sum = sum + cross(from, to);
       from = to;

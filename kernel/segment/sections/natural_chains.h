@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/assert.h"
 #include "kernel/segment/boundary/boundary.h"
 
 #include <cstddef>
@@ -21,10 +22,10 @@ namespace oriel::detail {
 class NaturalChains {
  public:
   /// `planes`: ascending. `free_side`: the ground, -1: none.
-  NaturalChains(const Boundary& body, const std::vector<int>& planes, PlaneSide free_side);
+  NaturalChains(const Boundary& body, std::span<const int> planes, PlaneSide free_side);
 
   /// The body has these edges since. Chains over others have not become more.
-  void expect(const std::vector<std::pair<int, int>>& new_edges);
+  void expect(std::span<const std::pair<PointId, PointId>> new_edges);
   /// Nothing is known any more.
   void forget();
   /// Looks again at the classes in which chains may have become more. True if there were any.
@@ -32,13 +33,16 @@ class NaturalChains {
 
   /// Slot 2·i is in front of the i-th plane, 2·i + 1 behind it. As of the last refresh(); where
   /// edges have gone since there may be less.
-  [[nodiscard]] bool may_be_natural(std::size_t slot) const { return answers_[slot] != 0; }
+  [[nodiscard]] bool may_be_natural(std::size_t slot) const {
+    ORIEL_ASSERT(slot < answers_.size());
+    return answers_[slot] != 0;
+  }
 
  private:
   /// A half-edge in a plane, of a facet that is on one side of it there.
   struct ChainStep {
     int slot;
-    int from, to;
+    PointId from, to;
   };
   /// The planes of one class: planes_[first…last).
   struct ChainsOfClass {
@@ -51,7 +55,7 @@ class NaturalChains {
   /// begin, and the planes of their facets.
   struct LivingEdge {
     EdgeId half, twin;
-    int from, to;
+    PointId from, to;
     int plane, twin_plane;
   };
 
@@ -59,19 +63,18 @@ class NaturalChains {
   void look(const ChainsOfClass& c);
   void sort_steps(const ChainsOfClass& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
-  void add_step(int entry, std::span<const int> ranks, EdgeId e, int from, int to);
-  [[nodiscard]] std::pair<int, int> ranks_around(std::span<const int> ranks, EdgeId e,
-                                                 int rank) const;
-  [[nodiscard]] bool hangs_below(EdgeId e, int from, int to, bool is_up) const;
+  void add_step(int entry, PointRanks ranks, EdgeId e, PointId from, PointId to);
+  [[nodiscard]] std::pair<int, int> ranks_around(PointRanks ranks, EdgeId e, int rank) const;
+  [[nodiscard]] bool hangs_below(EdgeId e, PointId from, PointId to, bool is_up) const;
   bool has_chain(std::span<ChainStep> steps, std::size_t slot);
   [[nodiscard]] bool may_bound(std::span<const ChainStep> steps, std::size_t slot);
-  [[nodiscard]] bool is_free(int point) const {
-    return free_side_ >= 0 && free_ranks_[static_cast<std::size_t>(point)] == free_rank_;
+  [[nodiscard]] bool is_free(PointId point) const {
+    return free_side_ >= 0 && free_ranks_[point] == free_rank_;
   }
 
   const Boundary& body_;
   World& world_;
-  const std::vector<int>& planes_;
+  std::span<const int> planes_;
   PlaneSide free_side_;
   std::vector<ChainsOfClass> classes_;
   std::vector<char> answers_;  ///< by slot
@@ -79,7 +82,7 @@ class NaturalChains {
   std::vector<int> entries_;  ///< by plane of the world, where it is in planes_; -1: nowhere
 
   // Of the look at hand: of the ground, and of the class.
-  std::span<const int> free_ranks_;
+  PointRanks free_ranks_;
   int free_rank_ = 0;
   Vec3 normal_;
   std::vector<LivingEdge> edges_;  ///< the living ones

@@ -1,5 +1,6 @@
 #include "kernel/segment/sections/section.h"
 
+#include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
 
@@ -174,8 +175,8 @@ class Sectioner {
   }
 
   /// +1 on the side looked to, 0 on the plane, -1 on the other side.
-  [[nodiscard]] int level(int point) const {
-    const int difference = (ranks_[at(point)] - plane_rank_) * section_.direction;
+  [[nodiscard]] int level(PointId point) const {
+    const int difference = (ranks_[point] - plane_rank_) * section_.direction;
     return (difference > 0) - (difference < 0);
   }
 
@@ -190,21 +191,21 @@ class Sectioner {
       const auto& half = body_.edge(one);
       if (!half.next.is_valid()) continue;
       EdgeId e = one;
-      int up = half.origin, down = body_.origin(half.twin);
-      const bool is_one_up = ranks[at(up)] * direction > limit;
-      if (is_one_up == (ranks[at(down)] * direction > limit)) continue;
+      PointId up = half.origin, down = body_.origin(half.twin);
+      const bool is_one_up = ranks[up] * direction > limit;
+      if (is_one_up == (ranks[down] * direction > limit)) continue;
       if (!is_one_up) {
         e = half.twin;
         std::swap(up, down);
       }
       // An edge that was shortened or paired anew may be among them twice.
       if (crossed.insert(e))
-        crossings.push_back({e, meeting(up, down, ranks[at(down)] == plane_rank_)});
+        crossings.push_back({e, meeting(up, down, ranks[down] == plane_rank_)});
     }
   }
 
   /// Where an edge meets the plane, from its upper and its lower end.
-  [[nodiscard]] Vec3 meeting(int up, int down, bool ends_on_plane) const {
+  [[nodiscard]] Vec3 meeting(PointId up, PointId down, bool ends_on_plane) const {
     const Vec3 q = world_.points.at(down);
     if (ends_on_plane) return q;
     const Vec3 p = world_.points.at(up);
@@ -482,7 +483,7 @@ class Sectioner {
   PlaneSide looking_;
   Vec3 axis_;
   double offset_m_;
-  std::span<const int> ranks_;
+  PointRanks ranks_;
   int plane_rank_;
   Section& section_;
   std::array<bool, 2> has_facets_{};  ///< on the split side of air, of material
@@ -492,6 +493,7 @@ class Sectioner {
 
 void section_at(const Boundary& body, Section& section, std::span<const EdgeId> edges,
                 const SectionOptions& options) {
+  ORIEL_ASSERT(section.plane >= 0 && std::abs(section.direction) == 1);
   section.crossings.clear();
   section.loops.clear();
   section.regions.clear();

@@ -41,7 +41,7 @@ bool misses(Vec3 p, Vec3 q, const Box& box, Vec3 normal) {
 
 /// Points spread over a polygon, a grid of about 8 × 8 in its box: where most of them lie is where
 /// most of it lies.
-std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
+std::vector<Vec3> samples_of(std::span<const Outline> polygon, Vec3 normal) {
   Box box;
   for (const Vec3 p : polygon[0]) box.grow(p);
   const auto middle = interior_point(polygon, normal);
@@ -83,12 +83,13 @@ PlaneSide CellWriter::side_of(PlaneId id) const {
   return id.index() < own ? world_.planes.side_of(id) : extra_sides_[id.index() - own];
 }
 
-void CellWriter::copy_sources(const NumberMap& sources, CellId first, CellId last, int copies) {
+void CellWriter::copy_sources(std::span<const std::pair<FacetId, FacetId>> sources, CellId first,
+                              CellId last, int copies) {
   for (const auto& [source, copy] : sources)
-    for (std::size_t i = 0; i < made_of(source).size(); ++i) {
-      const CellFacet here = made_of(source)[i];
+    for (std::size_t i = 0; i < made_of_[source].size(); ++i) {
+      const CellFacet here = made_of_[source][i];
       if (here.cell.value >= first.value && here.cell.value < last.value)
-        made_of(copy).push_back({CellId{here.cell.value - first.value + copies}, here.facet});
+        made_of_[copy].push_back({CellId{here.cell.value - first.value + copies}, here.facet});
     }
 }
 
@@ -105,7 +106,7 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
     Facet& facet = cell.facets.emplace_back();
     facet.plane = plane_id(record.side);
     facet.loops = all_corners.loops(f);
-    for (const int source : record.sources) made_of(source).push_back(here);
+    for (const FacetId source : record.sources) made_of_[source].push_back(here);
     for (const CapMark& mark : record.marks) {
       Feature& marked = out_.features[mark.feature.index()];
       marked.host = feature;
@@ -129,13 +130,13 @@ CellId CellWriter::add(PocketLeaf leaf, NodeId node, int sign, FeatureId feature
     facet.plane = plane_id(face.side);
     facet.loops.push_back(std::move(face.loop));
   }
-  for (const auto& [source, face] : leaf.sources) made_of(source).push_back({id, face});
+  for (const auto& [source, face] : leaf.sources) made_of_[source].push_back({id, face});
   return id;
 }
 
 void CellWriter::finish(const Building& building, const Solid& solid) {
   out_.vertices.reserve(at(world_.points.size()));
-  for (int p = 0; p < world_.points.size(); ++p)
+  for (const PointId p : world_.points.ids())
     out_.vertices.push_back({world_.points.at(p), world_.points.is_meeting(p)});
   attribute_polygons(building, solid);
 }
@@ -157,7 +158,7 @@ std::vector<CellWriter::FacetShape> CellWriter::shapes_of(
 
 /// The shape that holds most of a polygon.
 std::size_t CellWriter::home_of(const Building& building, const Polygon& polygon,
-                                const std::vector<FacetShape>& shapes, Vec3 normal) const {
+                                std::span<const FacetShape> shapes, Vec3 normal) const {
   Box box;
   for (const int v : polygon.rings[0]) box.grow(building.vertices[at(v)]);
   // That of the corners on the grid: of two numbers the lesser one is not rounded to more.
@@ -214,9 +215,9 @@ void CellWriter::give(std::span<const int> polygons, const CellFacet& home) {
 /// is in: those of its cell, what those lie in, and what hosts them.
 void CellWriter::attribute_polygons(const Building& building, const Solid& solid) {
   std::vector<const Polygon*> polygon_of_source;  // made when it is asked for
-  for (std::size_t source = 0; source < made_of_.size(); ++source) {
+  for (const FacetId source : made_of_.ids()) {
     const std::span<const CellFacet> cell_facets{made_of_[source].data(), made_of_[source].size()};
-    const Facet& facet = solid.facets[source];
+    const Facet& facet = solid.facets[source.index()];
     if (cell_facets.size() == 1) give(facet.polygons, cell_facets[0]);
     if (cell_facets.size() <= 1) continue;
     if (polygon_of_source.empty()) polygon_of_source = polygon_of_each_source(building);

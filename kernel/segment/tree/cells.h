@@ -24,10 +24,9 @@ namespace oriel::detail {
 struct Congruence {
   std::array<std::int64_t, 3> shift{};  ///< in grid units
   Vec3 shift_m;
-  NumberMap points;   ///< of the model, of the other
-  NumberMap planes;   ///< likewise
-  NumberMap sources;  ///< of their facets, likewise
-  NumberMap marks;    ///< features with marks on their facets, likewise
+  std::vector<std::pair<PointId, PointId>> points;   ///< of the model, of the other
+  NumberMap planes;                                  ///< likewise
+  std::vector<std::pair<FacetId, FacetId>> sources;  ///< of their facets, likewise
 };
 
 /// A convex body that is told to be a leaf before it is made: all that its cell is written from.
@@ -39,7 +38,8 @@ struct PocketLeaf {
   std::vector<LeafFace> faces;
   /// Facets of the solid that faces are made of, face by face.
   struct LeafSource {
-    int source, face;
+    FacetId source;
+    int face;
   };
   std::vector<LeafSource> sources;
   double volume = 0;
@@ -66,7 +66,8 @@ class CellWriter {
 
   /// The cells from `first` up to `last` were copied, to where `copies` begins: what is made of a
   /// facet of the solid among them has a copy made of the facet that `sources` says.
-  void copy_sources(const NumberMap& sources, CellId first, CellId last, int copies);
+  void copy_sources(std::span<const std::pair<FacetId, FacetId>> sources, CellId first, CellId last,
+                    int copies);
 
   /// Copies the points, and fills in what can be said only now that all leaves are there: hosts of
   /// features, polygons of facets and features.
@@ -78,9 +79,6 @@ class CellWriter {
     boost::container::small_vector<Outline, 1> outlines;
     Box box;
   };
-  boost::container::small_vector<CellFacet, 2>& made_of(int source) {
-    return made_of_[static_cast<std::size_t>(source)];
-  }
   /// The features that polygons of a cell of `innermost` are in; valid until the next call.
   const std::vector<FeatureId>& features_around(FeatureId innermost);
   /// To a cell facet, and to the features it is in.
@@ -88,7 +86,7 @@ class CellWriter {
   void attribute_polygons(const Building& building, const Solid& solid);
   [[nodiscard]] std::vector<FacetShape> shapes_of(std::span<const CellFacet> cell_facets) const;
   [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,
-                                    const std::vector<FacetShape>& shapes, Vec3 normal) const;
+                                    std::span<const FacetShape> shapes, Vec3 normal) const;
 
   World& world_;
   Segmentation& out_;
@@ -96,8 +94,8 @@ class CellWriter {
   std::vector<PlaneSide> extra_sides_;  ///< in the order of their ids
   FeatureId innermost_;                 ///< that was asked for last, and what it is in
   std::vector<FeatureId> around_;
-  /// By facet of the solid, the cell facets made of it.
-  std::vector<boost::container::small_vector<CellFacet, 2>> made_of_;
+  /// The cell facets made of each facet of the solid.
+  IndexedVector<FacetId, boost::container::small_vector<CellFacet, 2>> made_of_;
 };
 
 }  // namespace oriel::detail

@@ -39,7 +39,7 @@ WaitingBody& GrowingTree::add_part(const WaitingBody& from, Boundary body, int s
   node(from.node).parts.push_back(id);
   feature.node = id;
   feature.parent = from.feature;
-  for (const int v : feature.vertices) feature.box.grow(world.points.at(v));
+  for (const int v : feature.vertices) feature.box.grow(world.points.at(PointId{v}));
   const FeatureId feature_id = next_feature();
   out.features.push_back(std::move(feature));
   waiting.push_back({std::move(body), id, feature_id, sign, {}});

@@ -22,8 +22,8 @@ class Instances::SubtreeCopier {
         planes_(world.scratch.moved_planes) {}
 
   void run(NodeId node, FeatureId feature) {
-    fill(points_, world_.points.size(), how_.points);
-    fill(planes_, world_.planes.size(), how_.planes);
+    fill<PointId, PointId>(points_, world_.points.size(), how_.points);
+    fill<int, int>(planes_, world_.planes.size(), how_.planes);
     node_ = node;
     feature_ = feature;
     new_node_ = static_cast<int>(out_.nodes.size());
@@ -37,11 +37,12 @@ class Instances::SubtreeCopier {
     for (int f = model_.first_feature; f < model_.last_feature; ++f) copy_feature(FeatureId{f});
     for (int c = model_.first_cell.value; c < model_.last_cell.value; ++c) copy_cell(CellId{c});
     cells_.copy_sources(how_.sources, model_.first_cell, model_.last_cell, new_cell_);
-    for (const auto& [marked, copy] : how_.marks) copy_host(FeatureId{marked}, FeatureId{copy});
   }
 
  private:
-  static void fill(StampMap<int>& map, int size, const NumberMap& numbers) {
+  template <class Key, class Value>
+  static void fill(StampMap<Key, Value>& map, int size,
+                   std::span<const std::pair<Key, Value>> numbers) {
     map.start(size);
     for (const auto& [one, other] : numbers) map.set(one, other);
   }
@@ -64,9 +65,10 @@ class Instances::SubtreeCopier {
   }
 
   /// Vertices that cuts of the model have made are made again, once.
-  int moved(int point) {
-    if (const int own = points_.find(point); own >= 0) return own;
-    const auto place = std::ranges::lower_bound(made_, point, {}, &std::pair<int, int>::first);
+  PointId moved(PointId point) {
+    if (const PointId own = points_.find(point); own.is_valid()) return own;
+    const auto place =
+        std::ranges::lower_bound(made_, point, {}, &std::pair<PointId, PointId>::first);
     if (place != made_.end() && place->first == point) return place->second;
     return made_.insert(place, {point, world_.points.add_moved(point, how_.shift, how_.planes)})
         ->second;
@@ -91,18 +93,9 @@ class Instances::SubtreeCopier {
     for (PlaneId& plane : feature.planes) plane = moved(plane);
     feature.cap_point = feature.cap_point + how_.shift_m;
     feature.box = feature.box.moved(how_.shift_m);
-    for (int& v : feature.vertices) v = moved(v);
+    for (int& v : feature.vertices) v = moved(PointId{v}).value;
     std::ranges::sort(feature.vertices);
     out_.features.push_back(std::move(feature));
-  }
-
-  /// A feature that was cut from the model before hangs on one of its cells.
-  void copy_host(FeatureId of_model, FeatureId of_copy) {
-    const Feature& hung = out_.features[of_model.index()];
-    if (!hung.host_facet) return;
-    Feature& copy = out_.features[of_copy.index()];
-    copy.host = moved(hung.host);
-    copy.host_facet = CellFacet{moved(hung.host_facet->cell), hung.host_facet->facet};
   }
 
   void copy_cell(CellId id) {
@@ -112,7 +105,7 @@ class Instances::SubtreeCopier {
     for (Facet& facet : cell.facets) {
       facet.plane = moved(facet.plane);
       for (Loop& loop : facet.loops)
-        for (int& v : loop) v = moved(v);
+        for (int& v : loop) v = moved(PointId{v}).value;
     }
     out_.cells.push_back(std::move(cell));
   }
@@ -122,16 +115,16 @@ class Instances::SubtreeCopier {
   World& world_;
   CellWriter& cells_;
   Segmentation& out_;
-  StampMap<int>& points_;  ///< as `how` has them
-  StampMap<int>& planes_;  ///< likewise
+  StampMap<PointId, PointId>& points_;  ///< as `how` has them
+  StampMap<int>& planes_;               ///< likewise
   NodeId node_;
   FeatureId feature_;
   int new_node_ = 0, new_feature_ = 0, new_cell_ = 0;
-  NumberMap made_;
+  std::vector<std::pair<PointId, PointId>> made_;
 };
 
 void Instances::let_wait(std::vector<WaitingBody>& waiting, std::size_t first,
-                         const std::vector<std::size_t>& models) {
+                         std::span<const std::size_t> models) {
   for (std::size_t i = 0; i < models.size(); ++i)
     if (models[i] != i) {
       int& number = waiting[first + models[i]].model;

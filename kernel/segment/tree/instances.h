@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -31,7 +32,7 @@ class Instances {
   /// Of the parts of one node, those that wait from `first` on, the i-th waits for the one that
   /// `models` has for it, as its copy_of_model says; those that are their own model wait for none.
   void let_wait(std::vector<WaitingBody>& waiting, std::size_t first,
-                const std::vector<std::size_t>& models);
+                std::span<const std::size_t> models);
 
   /// Splitting `body` begins, and so many wait below it: if it is a model, its subtree begins here.
   void open(const WaitingBody& body, std::size_t waiting);

@@ -44,10 +44,13 @@ TEST_SUITE("kernel/describe") {
   }
 
   TEST_CASE("the standing box of an upright rectangle or a line has no breadth") {
-    check_edges(standing_box({{0, 1, 0}, {3, 1, 0}, {3, 1, 2}, {0, 1, 2}, {1, 1, 2}}), {3, 2, 0});
-    check_edges(standing_box({{1, 0, 0}, {1, 3, 0}, {1, 3, 2}, {1, 0, 2}}), {3, 2, 0});
-    check_edges(standing_box({{1, 1, 0}, {1, 1, 2}}), {2, 0, 0});
-    CHECK(standing_box({{1, 0, 0}, {1, 3, 0}}).along == Vec3{0, 1, 0});
+    check_edges(
+        standing_box(std::vector<Vec3>{{0, 1, 0}, {3, 1, 0}, {3, 1, 2}, {0, 1, 2}, {1, 1, 2}}),
+        {3, 2, 0});
+    check_edges(standing_box(std::vector<Vec3>{{1, 0, 0}, {1, 3, 0}, {1, 3, 2}, {1, 0, 2}}),
+                {3, 2, 0});
+    check_edges(standing_box(std::vector<Vec3>{{1, 1, 0}, {1, 1, 2}}), {2, 0, 0});
+    CHECK(standing_box(std::vector<Vec3>{{1, 0, 0}, {1, 3, 0}}).along == Vec3{0, 1, 0});
   }
 
   TEST_CASE("where a box lacks a corner a turned one may be smaller") {

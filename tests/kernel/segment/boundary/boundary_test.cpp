@@ -18,8 +18,8 @@ using detail::Boundary;
 using detail::FlatBody;
 using detail::World;
 
-std::vector<std::pair<int, int>> living_edges_of(const Boundary& body) {
-  std::vector<std::pair<int, int>> edges;
+std::vector<std::pair<PointId, PointId>> living_edges_of(const Boundary& body) {
+  std::vector<std::pair<PointId, PointId>> edges;
   for (const EdgeId e : body.half_edge_ids())
     if (body.is_alive_edge(e)) edges.emplace_back(std::minmax(body.origin(e), body.target(e)));
   std::ranges::sort(edges);
@@ -28,7 +28,7 @@ std::vector<std::pair<int, int>> living_edges_of(const Boundary& body) {
 
 void check_lists(const Boundary& body) {
   FlatBody flat(body);
-  std::vector<std::pair<int, int>> twice;
+  std::vector<std::pair<PointId, PointId>> twice;
   for (const FlatBody::EdgePoints& edge : flat.edges())
     twice.insert(twice.end(), 2, std::minmax(edge.from, edge.to));
   std::ranges::sort(twice);
