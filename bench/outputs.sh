@@ -4,6 +4,7 @@
 #   bench/outputs.sh PROGRAM FOLDER [WORD]    with a WORD only runs whose names have it; PROGRAM as built, absolute or relative
 set -euo pipefail
 program=$(realpath "$1")
+[ -x "$program" ] || { echo "no program at $1" >&2; exit 2; }
 mkdir -p "$2"
 out=$(realpath "$2")
 word=${3:-}

@@ -19,7 +19,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -47,42 +46,22 @@ std::uint8_t number_of_label(std::string_view label) {
   throw std::runtime_error("the peers have no label " + std::string(label));
 }
 
-/// Calls `run` with as many buildings at a time as fill a block of the rule engine, of which
-/// features are related before.
-void for_each_batch(const std::vector<bench::FacadeBuilding>& buildings, auto run) {
-  std::vector<FeatureGraph> graphs;
-  std::vector<FeaturesOfBuilding> batch;
-  for (std::size_t begin = 0; begin < buildings.size(); begin += batch.size()) {
-    graphs.clear();
-    batch.clear();
-    for (std::size_t i = begin, rows = 0; i < buildings.size(); ++i) {
-      rows += buildings[i].table.rows();
-      if (rows > rules::kBlock && i > begin) break;
-      graphs.push_back(relate(buildings[i]));
-      batch.push_back({&buildings[i].table, nullptr});
-    }
-    for (std::size_t i = 0; i < batch.size(); ++i) batch[i].graph = &graphs[i];
-    run(std::span<const FeaturesOfBuilding>(batch));
-  }
-}
-
 std::vector<Labelled> label(const RuleBase& rules,
                             const std::vector<bench::FacadeBuilding>& buildings) {
   std::vector<Labelled> all;
   Name last;
   std::uint8_t code = 0;
-  for_each_batch(buildings, [&](std::span<const FeaturesOfBuilding> batch) {
-    for (const Interpretation& said : interpret(rules, batch)) {
-      const std::size_t first = all.size();
-      for (const Verdict& verdict : said.verdicts) {
-        if (verdict.label != last) code = number_of_label(verdict.label);
-        last = verdict.label;
-        all.push_back({code, false});
-      }
-      for (const Group& row : said.groups)
-        for (const FeatureId member : row.members) all[first + member.index()].is_in_row = true;
+  for (const bench::FacadeBuilding& building : buildings) {
+    const Interpretation said = interpret(rules, building.table, relate(building));
+    const std::size_t first = all.size();
+    for (const Verdict& verdict : said.verdicts) {
+      if (verdict.label != last) code = number_of_label(verdict.label);
+      last = verdict.label;
+      all.push_back({code, false});
     }
-  });
+    for (const Group& row : said.groups)
+      for (const FeatureId member : row.members) all[first + member.index()].is_in_row = true;
+  }
   return all;
 }
 
@@ -142,22 +121,19 @@ struct BareVerdict {
   Name label;
 };
 
-std::size_t label_barely(const rules::Pack& pack, std::span<const FeaturesOfBuilding> batch) {
-  rules::EvaluationContext context(pack, batch);
+std::size_t label_barely(const rules::Pack& pack, const bench::FacadeBuilding& building) {
+  const FeatureGraph graph = relate(building);
+  rules::EvaluationContext context(pack, building.table, graph);
   rules::Labelling labelling(pack, context);
   const auto choices = labelling.run();
-  const auto groups = rules::find_groups(pack, context, batch);
-  std::vector<std::vector<BareVerdict>> verdicts(batch.size());
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    verdicts[i].resize(batch[i].table->rows());
-    for (std::size_t row = 0; row < verdicts[i].size(); ++row, ++next) {
-      verdicts[i][row].feature = FeatureId{static_cast<int>(row)};
-      if (choices[next].rule >= 0)
-        verdicts[i][row].label = pack.rules[at(choices[next].rule)].name_of_label;
-    }
+  const auto groups = rules::find_groups(pack, context, building.table);
+  std::vector<BareVerdict> verdicts(choices.size());
+  for (std::size_t row = 0; row < verdicts.size(); ++row) {
+    verdicts[row].feature = FeatureId{static_cast<int>(row)};
+    if (choices[row].rule >= 0)
+      verdicts[row].label = pack.rules[at(choices[row].rule)].name_of_label;
   }
-  return next + groups.size();
+  return verdicts.size() + groups.size();
 }
 
 /// The reason of every feature that has a label, in one line, as label --explain writes it.
@@ -186,13 +162,12 @@ int measure_explain(const std::string& features, const std::string& pack, std::s
   std::size_t rows = 0, written = 0;
   for (std::size_t run = 0; run < runs; ++run) {
     bare.push_back(bench::cpu_ms_of(1, [&] {
-      for_each_batch(buildings, [&](auto batch) { label_barely(rules.value->pack(), batch); });
+      for (const auto& b : buildings) label_barely(rules.value->pack(), b);
     }));
     off.push_back(bench::cpu_ms_of(1, [&] {
       rows = 0;
-      for_each_batch(buildings, [&](auto batch) {
-        for (const auto& said : interpret(*rules.value, batch)) rows += said.verdicts.size();
-      });
+      for (const auto& b : buildings)
+        rows += interpret(*rules.value, b.table, relate(b)).verdicts.size();
     }));
     ratios.push_back(off.back() / bare.back());
     if (run >= kMostOn) continue;

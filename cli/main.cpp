@@ -1,11 +1,11 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/report.h"
-#include "cli/terminal/signals.h"
 #include "kernel/base/issue.h"
+#include "kernel/io/files/output_file.h"
 #include "kernel/model/version.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -16,6 +16,29 @@
 namespace {
 
 using namespace oriel::cli;
+
+/// The handler is reset when it is called, so the signal that it raises ends the program.
+extern "C" void end_by(int signal) {
+  oriel::remove_temporary_files();
+  std::raise(signal);
+}
+
+/// From now on signals that end the program (Ctrl-C, a closed pipe or terminal) first delete the
+/// temporary files of outputs that are not done. The program still ends by the signal: its exit
+/// code is 128 + its number. A file that grows beyond its limit becomes a failed write.
+void clean_up_on_signals() {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file beyond `ulimit -f` is an error of writing, as on a full disk
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM, SIGXCPU}) {
+    struct sigaction old {};
+    ::sigaction(signal, nullptr, &old);
+    if (old.sa_handler == SIG_IGN) continue;  // nohup, a shell's background job
+    struct sigaction action {};
+    action.sa_handler = end_by;
+    action.sa_flags = SA_RESETHAND;
+    ::sigaction(signal, &action, nullptr);
+  }
+}
 
 int exit_with(ExitCode code) { return static_cast<int>(code); }
 
@@ -63,7 +86,7 @@ int run(int argc, char** argv) {
     return exit_with(code);
   } catch (const CLI::RequiredError& error) {
     if (const auto rest = app.remaining(); app.get_subcommands().empty() && !rest.empty())
-      std::cerr << "'" << rest[0] << "' is no command of oriel\n";
+      run_log().write(oriel::LogLevel::error, "'" + rest[0] + "' is no command of oriel");
     app.exit(error);
     return exit_with(ExitCode::usage);
   } catch (const CLI::ParseError& error) {

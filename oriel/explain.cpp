@@ -1,13 +1,39 @@
 #include "oriel/explain.h"
 
 #include "interpret/surfaces/surfaces.h"
+#include "kernel/geometry/planar.h"
+#include "kernel/model/vec3.h"
 #include "kernel/model/polygon_owners.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 namespace oriel {
+
+namespace {
+
+SurfaceTable surfaces_with_parts(const Building& building, const PipelineResult& result,
+                                 const RuleBase& rules) {
+  static const Segmentation none;
+  return with_parts(result.surfaces, building, result.segmentation ? *result.segmentation : none,
+                    result.interpretation, rules);
+}
+
+/// Places are given to the centimetre or so, and recesses that matter are deeper.
+constexpr double kReach_m = 0.05;
+
+std::vector<detail::Outline> outlines_of(const Building& building, const Polygon& polygon) {
+  std::vector<detail::Outline> outlines;
+  for (const auto& ring : polygon.rings) {
+    detail::Outline& outline = outlines.emplace_back();
+    for (const int v : ring) outline.push_back(building.vertices[static_cast<std::size_t>(v)]);
+  }
+  return outlines;
+}
+
+}  // namespace
 
 std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view id) {
   const FeatureTable& table = result.description.table;
@@ -23,13 +49,48 @@ Explanation explain(const PipelineResult& result, const RuleBase& rules, Feature
   return explain(rules, table, graph, result.interpretation, feature);
 }
 
+std::vector<Explanation> explain_features(const PipelineResult& result, const RuleBase& rules) {
+  std::vector<Explanation> all;
+  if (!result.is_done()) return all;
+  const auto& [table, graph] = result.description;
+  const Explainer explainer(rules, table, graph, result.interpretation);
+  for (int i = 0; i < static_cast<int>(table.rows()); ++i)
+    all.push_back(explainer.explain(FeatureId{i}));
+  return all;
+}
+
+std::vector<SurfaceExplanation> explain_surfaces(const Building& building,
+                                                 const PipelineResult& result,
+                                                 const RuleBase& rules) {
+  std::vector<SurfaceExplanation> all;
+  if (!result.has_surfaces()) return all;
+  const SurfaceTable table = surfaces_with_parts(building, result, rules);
+  for (const SurfaceVerdict& verdict : interpret_surfaces(rules, table))
+    all.push_back({verdict.type, {}});
+  const std::vector<std::string> reasons = explain_surfaces(rules, table);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].reason = reasons[i];
+  return all;
+}
+
 std::string explain_surface(const Building& building, const PipelineResult& result,
                             const RuleBase& rules, std::size_t polygon) {
-  const SurfaceTable table =
-      with_parts(result.surfaces, building, result.segmentation.value_or(Segmentation{}),
-                 result.interpretation, rules);
+  const SurfaceTable table = surfaces_with_parts(building, result, rules);
   return fmt::format("{}: polygon {} is ", building.id, building.polygons[polygon].source) +
          explain_surface(rules, table, polygon);
+}
+
+std::optional<PolygonAt> polygon_at(const Building& building, Vec3 point) {
+  const Vec3 local = point - building.frame.origin_m;
+  std::optional<PolygonAt> nearest;
+  for (std::size_t i = 0; i < building.polygons.size(); ++i) {
+    const auto outlines = outlines_of(building, building.polygons[i]);
+    if (outlines.empty() || outlines[0].empty()) continue;
+    const Vec3 normal = normalised(area_vector(outlines[0]));
+    const double distance = std::abs(dot(local - outlines[0][0], normal));
+    if (distance > kReach_m || (nearest && distance >= nearest->distance_m)) continue;
+    if (detail::contains(outlines, normal, local)) nearest = PolygonAt{i, distance};
+  }
+  return nearest;
 }
 
 FeatureId feature_of(const Building& building, const PipelineResult& result, std::size_t polygon) {

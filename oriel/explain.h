@@ -25,6 +25,21 @@ std::vector<FeatureId> find_features(const PipelineResult& result, std::string_v
 /// was asked for, and which number of the pack would change it (docs/rules.md).
 Explanation explain(const PipelineResult& result, const RuleBase& rules, FeatureId feature);
 
+/// The same of every feature, in their order, in less time than one by one; what would change a
+/// label is not searched for.
+std::vector<Explanation> explain_features(const PipelineResult& result, const RuleBase& rules);
+
+/// What a surface is, "WallSurface", and the lines of explain_surface() that say why.
+struct SurfaceExplanation {
+  std::string type;
+  std::string reason;
+};
+
+/// One for each polygon, in the order of Building::polygons; none if there are no surfaces.
+std::vector<SurfaceExplanation> explain_surfaces(const Building& building,
+                                                 const PipelineResult& result,
+                                                 const RuleBase& rules);
+
 /// What a surface is and why: "house: polygon 7 is WallSurface by …", its attributes and
 /// conditions. `polygon` is an index into Building::polygons.
 std::string explain_surface(const Building& building, const PipelineResult& result,

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace oriel {
 
 namespace {
@@ -17,12 +19,38 @@ bool is_invalid(const GeneralisedBuilding& drawn) {
   });
 }
 
+GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineResult& result,
+                                  const StageObserver& observer) {
+  GeneralisedBuilding drawn =
+      measure(observer, Stage::generalise, [&] { return drawer.draw(result); });
+  measure(observer, Stage::write, [&] { drawer.keep_valid(result, drawn); });
+  if (is_invalid(drawn)) drawer.repair(result, drawn);
+  return drawn;
+}
+
 bool has_installation(const Redrawn& level, const std::string& id) {
   const auto& list = level.labelled.installations;
   return std::ranges::find(list, id, &Installation::id) != list.end();
 }
 
 }  // namespace
+
+std::string Targets::recipe() const {
+  std::string text = fmt::format("scale={}", scale.value_or(0));
+  for (const Profile& profile : profiles)
+    text += fmt::format(" {}={} edge={}", profile.level, profile.sha256,
+                        profile.edge_min_m.value_or(0));
+  return text;
+}
+
+std::string Targets::text() const {
+  if (scale) return fmt::format("1:{}", *scale);
+  std::string text;
+  for (const Profile& profile : profiles) text += (text.empty() ? "LoD " : ", ") + profile.level;
+  return text;
+}
+
+Targets at_scale(double denominator) { return {denominator, {}}; }
 
 GeneralisedBuilding generalise(const Document& document, const Building& building,
                                const PipelineResult& result, const RuleBase& rules,
@@ -36,10 +64,12 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
     return drawn;
   }
   const BuildingDrawer drawer(document, building, rules, targets, options);
-  drawn = measure(options.observer, Stage::generalise, [&] { return drawer.draw(result); });
-  measure(options.observer, Stage::write, [&] { drawer.keep_valid(result, drawn); });
-  if (is_invalid(drawn)) drawer.repair(result, drawn);
-  return drawn;
+  return logged(
+      "generalised", building, [&] { return valid_drawing(drawer, result, options.observer); },
+      [](const GeneralisedBuilding& made) {
+        return fmt::format("targets={} issues={} repaired={}", made.levels.size(),
+                           made.issues.size(), made.repaired.has_value());
+      });
 }
 
 void add(GeneralisedBuilding building, OutputRecord& output) {

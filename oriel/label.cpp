@@ -3,7 +3,6 @@
 #include "interpret/surfaces/annotate.h"
 #include "kernel/base/sha256.h"
 #include "oriel/pipeline/pipeline.h"
-#include "oriel/segment.h"
 
 #include <utility>
 
@@ -31,16 +30,6 @@ std::string configuration(const PipelineOptions& options) {
              options.repair.crossings == Crossings::leave ? "leave" : "cut") +
          (options.fits_noise ? " fitted_to_noise" : "") +
          (options.ignores_semantics ? " ignore_semantics" : "");
-}
-
-PipelineResult solid_of(const Building& building, const PipelineOptions& options) {
-  return run_to_solid(building, options.tolerances, options.repair, options.observer);
-}
-
-PipelineResult segment(const Building& building, const PipelineOptions& options) {
-  LabelOptions labelling;
-  static_cast<PipelineOptions&>(labelling) = options;
-  return run_pipeline(building, nullptr, labelling);
 }
 
 PipelineResult label(const Building& building, const RuleBase& rules, const LabelOptions& options) {

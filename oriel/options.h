@@ -4,19 +4,12 @@
 #include "kernel/model/segmentation.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/segment/segment.h"
+#include "oriel/stage.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 
 namespace oriel {
-
-/// The stages that a building passes, and those before and after.
-enum class Stage { read, solidify, segment, describe, interpret, generalise, write };
-
-/// Is called after each stage with the milliseconds that it took. Results do not depend on it. A
-/// call works on one thread; whoever shares an observer between threads guards it.
-using StageObserver = std::function<void(Stage stage, double ms)>;
 
 /// How a building becomes a solid and features. The defaults are those of the command.
 struct PipelineOptions {

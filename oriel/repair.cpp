@@ -3,12 +3,15 @@
 #include "generalise/generalise.h"
 #include "kernel/model/version.h"
 #include "oriel/pipeline/output_check.h"
+#include "oriel/pipeline/pipeline.h"
 #include "oriel/pipeline/repair_and_retry.h"
 #include "oriel/segment.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel {
 
@@ -46,21 +49,8 @@ LabelledBuilding output_of(const Building& building, const Repaired& repaired, b
   return output;
 }
 
-}  // namespace
-
-PipelineOptions repair_defaults() {
-  PipelineOptions options;
-  options.repair.crossings = Crossings::cut;
-  return options;
-}
-
-Repaired repair(const Document& document, const Building& building,
-                const PipelineOptions& options) {
-  return repair(document, building, solid_of(building, options), options);
-}
-
-Repaired repair(const Document& document, const Building& building, PipelineResult solid,
-                const PipelineOptions& options) {
+Repaired checked_solid(const Document& document, const Building& building, PipelineResult solid,
+                       const PipelineOptions& options) {
   Repaired out{std::move(solid.solid), std::move(solid.repair), {}, std::move(solid.issues)};
   if (!out.solid) return out;
   OutputCheck check = check_output(document, building, *out.solid);
@@ -78,6 +68,31 @@ Repaired repair(const Document& document, const Building& building, PipelineResu
   }
   out.output = output_of(building, out, !options.ignores_semantics, check.digits);
   return out;
+}
+
+}  // namespace
+
+PipelineOptions repair_defaults() {
+  PipelineOptions options;
+  options.repair.crossings = Crossings::cut;
+  return options;
+}
+
+Repaired repair(const Document& document, const Building& building,
+                const PipelineOptions& options) {
+  return repair(document, building, solid_of(building, options), options);
+}
+
+Repaired repair(const Document& document, const Building& building, PipelineResult solid,
+                const PipelineOptions& options) {
+  return logged(
+      "repaired", building,
+      [&] { return checked_solid(document, building, std::move(solid), options); },
+      [](const Repaired& made) {
+        return fmt::format("facets={} was_needed={} issues={}",
+                           made.solid ? made.solid->facets.size() : 0, made.report.was_needed,
+                           made.issues.size());
+      });
 }
 
 Checked<LabelledBuilding> on_solid(const Document& document, const Building& building,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "kernel/model/building.h"
+#include "kernel/model/cell_complex.h"
+#include "kernel/segment/tree/balance.h"
 #include "oriel/options.h"
 #include "oriel/result.h"
 
@@ -21,6 +23,24 @@ PipelineResult solid_of(const Building& building, const PipelineOptions& options
 /// PipelineResult::is_done() says whether it came to the end; if not, `issues` has the error. Never
 /// throws: a fault of oriel's own is an error E901 of the building. The result depends on the
 /// building and the options only.
-PipelineResult segment(const Building& building, const PipelineOptions& options);
+PipelineResult segment(const Building& building, const PipelineOptions& options = {});
+
+/// Which cell of a building meets which, and where (docs/segmentation.md). `result` is what
+/// segment() or label() said of it, is_done().
+CellComplex cell_complex(const PipelineResult& result);
+
+/// The CSG tree of a building as it was cut, and arranged anew (paper, section 6).
+struct TreeComparison {
+  TreeFigures cut, balanced, merged;
+  BalanceProof balanced_proof, merged_proof;
+  /// Balanced, with touching parts merged.
+  BalancedTree tree;
+
+  /// All are the same body; false is a fault of oriel's own.
+  [[nodiscard]] bool is_same_body() const { return balanced_proof.holds() && merged_proof.holds(); }
+};
+
+/// `result` is what segment() or label() said of a building, is_done() and not open.
+TreeComparison compare_trees(const PipelineResult& result);
 
 }  // namespace oriel

@@ -83,13 +83,23 @@ class SeriesDrawer {
                                              "is open: there is no solid to redraw"));
       return;
     }
-    LeveledBuilding one = with_levels(building, result);
-    if (has_errors(one.issues)) judge(one);
-    if (!one.is_valid()) repair(one);
+    LeveledBuilding one = logged(
+        "drawn at all scales", building, [&] { return valid_levels(building, result); },
+        [](const LeveledBuilding& made) {
+          return fmt::format("levels={} issues={}", made.levels.size(), made.issues.size());
+        });
     series.issues.insert(series.issues.end(), one.issues.begin(), one.issues.end());
     if (has_errors(one.issues)) return;
     series.drawn.push_back(building.id);
     all.push_back(std::move(one));
+  }
+
+  [[nodiscard]] LeveledBuilding valid_levels(const Building& building,
+                                             const PipelineResult& result) const {
+    LeveledBuilding one = with_levels(building, result);
+    if (has_errors(one.issues)) judge(one);
+    if (!one.is_valid()) repair(one);
+    return one;
   }
 
   [[nodiscard]] LeveledBuilding with_levels(const Building& building, const PipelineResult& result,

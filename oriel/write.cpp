@@ -1,9 +1,8 @@
 #include "oriel/write.h"
 
 #include "kernel/base/issue.h"
+#include "kernel/base/log.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
-#include "kernel/io/files/format.h"
-#include "kernel/io/mesh/mesh_writer.h"
 
 #include <algorithm>
 #include <utility>
@@ -40,15 +39,11 @@ Format checked_format(const std::string& path, std::span<const Document> documen
   return *format;
 }
 
-std::string mesh_text(Format format, std::span<const Document> documents,
-                      std::span<const OutputRecord> outputs) {
+MeshSource mesh_of(std::span<const Document> documents, std::span<const OutputRecord> outputs) {
   MeshSource mesh;
   for (std::size_t i = 0; i < documents.size(); ++i)
     append_mesh(mesh, documents[i], outputs[i].buildings);
-  return format == Format::obj   ? write_obj(mesh)
-         : format == Format::off ? write_off(mesh)
-         : format == Format::ply ? write_ply(mesh)
-                                 : write_stl(mesh);
+  return mesh;
 }
 
 }  // namespace
@@ -58,7 +53,17 @@ void add(LabelledBuilding building, OutputRecord& output) {
 }
 
 std::string write(const Document& document, const OutputRecord& output) {
-  return write_cityjson(document, output.buildings, output.options);
+  std::string text = write_cityjson(document, output.buildings, output.options);
+  log("oriel").debug("written: record={} buildings={} bytes={}", document.name,
+                     output.buildings.size(), text.size());
+  return text;
+}
+
+std::string mesh_text(Format format, const MeshSource& mesh, StlSolids solids) {
+  return format == Format::obj   ? write_obj(mesh)
+         : format == Format::off ? write_off(mesh)
+         : format == Format::ply ? write_ply(mesh)
+                                 : write_stl(mesh, solids);
 }
 
 std::vector<FeatureRecord> feature_records(const Building& building, const PipelineResult& result) {
@@ -69,11 +74,11 @@ std::vector<FeatureRecord> feature_records(const Building& building, const Pipel
 }
 
 void write(const std::string& path, std::span<const Document> documents,
-           std::span<const OutputRecord> outputs) {
+           std::span<const OutputRecord> outputs, StlSolids solids) {
   const Format format = checked_format(path, documents);
   OutputFile file(path);
   if (format != Format::cityjson && format != Format::cityjson_seq) {
-    file.append(mesh_text(format, documents, outputs));
+    file.append(mesh_text(format, mesh_of(documents, outputs), solids));
     return file.commit();
   }
   CityJsonCollector collector;

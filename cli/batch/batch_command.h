@@ -38,9 +38,9 @@ class VisitingCommand : public BatchCommand {
 /// A visiting command that is no more than its functions.
 class RecordVisitor final : public VisitingCommand {
  public:
-  using Visit = std::function<void(const Document&, std::vector<PipelineResult>&)>;
   explicit RecordVisitor(
-      Visit visit, std::function<void()> begin = [] {})
+      std::function<void(const Document&, std::vector<PipelineResult>&)> visit,
+      std::function<void()> begin = [] {})
       : visit_(std::move(visit)), begin_(std::move(begin)) {}
 
   void begin(std::size_t /*input*/) override { begin_(); }
@@ -49,7 +49,7 @@ class RecordVisitor final : public VisitingCommand {
   }
 
  private:
-  Visit visit_;
+  std::function<void(const Document&, std::vector<PipelineResult>&)> visit_;
   std::function<void()> begin_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "cli/batch/isolation.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/table.h"
 #include "kernel/base/log.h"
 #include "kernel/base/sha256.h"
 #include "kernel/io/files/output_file.h"
@@ -21,6 +22,25 @@
 namespace oriel::cli {
 
 using nlohmann::ordered_json;
+
+namespace {
+
+/// The medians of the stages over several runs:
+/// {"read_ms":…,"solidify_ms":…,…,"runs":N} with a line end.
+std::string timings_json(const std::vector<Timings>& runs) {
+  std::string out = "{";
+  for (std::size_t s = 0; s < kStageNames.size(); ++s) {
+    std::vector<double> values;
+    for (const Timings& run : runs) values.push_back(run.ms(static_cast<Stage>(s)));
+    std::ranges::sort(values);
+    const std::size_t n = values.size();
+    const double median = n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
+    out += fmt::format("\"{}_ms\":{:.3f},", kStageNames[s], median);
+  }
+  return out + fmt::format("\"runs\":{}}}\n", runs.size());
+}
+
+}  // namespace
 
 ExitCode BatchRunner::run(VisitingCommand& command) {
   command_ = visitor_ = &command;
@@ -52,7 +72,7 @@ ExitCode BatchRunner::run_all() {
     log_stages();
   }
   command_->commit();
-  if (!options_.timings_file.empty()) write_file(options_.timings_file, to_json(timings_));
+  if (!options_.timings_file.empty()) write_file(options_.timings_file, timings_json(timings_));
   if (state_.code == ExitCode::set_aside && options_.allows(state_.set_aside, state_.buildings))
     state_.code = ExitCode::clean;
   if (status_) write_status();
@@ -94,7 +114,7 @@ std::string BatchRunner::recipe_sha256() const {
 
 void BatchRunner::run_inputs() {
   progress_.emplace(progress_style_of(options_.progress), options_.inputs, state_.buildings);
-  InputReader reader(options_, resume_ ? resume_->position() : Resume::Position{});
+  InputReader reader(options_, resume_ ? resume_->position() : InputPosition{});
   if (options_.is_isolated) return run_isolated(reader);
   if (options_.jobs > 1) return run_in_threads(reader);
   const RecordWorker worker = this->worker();
@@ -108,28 +128,28 @@ void BatchRunner::run_inputs() {
 void BatchRunner::run_in_threads(InputReader& reader) {
   // So many records are held in memory at most.
   constexpr std::size_t kRecordsPerJob = 4;
-  using Item = std::shared_ptr<WorkItem>;
+  using SharedItem = std::shared_ptr<WorkItem>;
   const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(options_.jobs));
   tbb::task_arena arena(options_.jobs);
   const std::size_t records = kRecordsPerJob * static_cast<std::size_t>(options_.jobs);
   const RecordWorker worker = this->worker();
-  const auto read = [&](tbb::flow_control& control) -> Item {
+  const auto read = [&](tbb::flow_control& control) -> SharedItem {
     auto item = next(reader);
     if (!item) control.stop();
     return item;
   };
-  const auto work = [&](Item item) {
+  const auto work = [&](SharedItem item) {
     reuse(*item);
     worker.work_on(*item);
     return item;
   };
-  const auto end = [&](const Item& item) { settle(*item); };
+  const auto end = [&](const SharedItem& item) { settle(*item); };
   arena.execute([&] {
     tbb::parallel_pipeline(
-        records, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, read) &
-                     tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
-                     tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, end));
+        records, tbb::make_filter<void, SharedItem>(tbb::filter_mode::serial_in_order, read) &
+                     tbb::make_filter<SharedItem, SharedItem>(tbb::filter_mode::parallel, work) &
+                     tbb::make_filter<SharedItem, void>(tbb::filter_mode::serial_in_order, end));
   });
 }
 
@@ -282,7 +302,7 @@ void BatchRunner::keep_errors(const std::vector<Issue>& issues) {
 }
 
 /// From here the run can go on.
-void BatchRunner::note(const Resume::Position& position) {
+void BatchRunner::note(const InputPosition& position) {
   if (!resume_) return;
   ordered_json journal = to_json(state_);
   journal["errors"] = report_.errors();
@@ -293,12 +313,11 @@ void BatchRunner::note(const Resume::Position& position) {
 }
 
 void BatchRunner::restore(const ordered_json& journal) {
-  using Counts = std::map<std::string, int>;
   state_ = run_state_of(journal);
-  report_.restore(journal.at("errors").get<Counts>());
+  report_.restore(journal.at("errors").get<std::map<std::string, int>>());
   status_->restore(journal.at("ledger"));
   if (auto* counts = producer_ != nullptr ? producer_->counts() : nullptr)
-    *counts = journal.at("counts").get<Counts>();
+    *counts = journal.at("counts").get<std::map<std::string, int>>();
   run_log().info("resumes after {} building{}", state_.buildings, state_.buildings == 1 ? "" : "s");
 }
 

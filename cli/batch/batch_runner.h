@@ -7,8 +7,8 @@
 #include "cli/batch/run_options.h"
 #include "cli/batch/status.h"
 #include "cli/terminal/exit_code.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/progress.h"
-#include "cli/terminal/report.h"
 
 #include <map>
 #include <memory>
@@ -74,7 +74,7 @@ class BatchRunner {
   void report(const std::vector<Issue>& issues);
   void keep_errors(const std::vector<Issue>& issues);
 
-  void note(const Resume::Position& position);
+  void note(const InputPosition& position);
   void restore(const nlohmann::ordered_json& journal);
   void write_status();
   void log_stages() const;

@@ -3,8 +3,7 @@
 #include "cli/batch/resume.h"
 #include "cli/batch/run_options.h"
 #include "cli/terminal/timings.h"
-#include "kernel/io/document.h"
-#include "kernel/io/reader.h"
+#include "oriel/read.h"
 
 #include <cstdint>
 #include <memory>
@@ -73,7 +72,7 @@ using InputEvent = std::variant<InputBegin, Record, InputEnd, InputFailure>;
 class InputReader {
  public:
   /// Begins at `start`: inputs before it do not come, records before it come as done.
-  explicit InputReader(const RunOptions& options, Resume::Position start = {})
+  explicit InputReader(const RunOptions& options, InputPosition start = {})
       : options_(options), start_(std::move(start)), input_(start_.input) {}
 
   /// What comes next, or nothing after the last input. Throws InputError E117 if what stands before
@@ -93,7 +92,7 @@ class InputReader {
   }
 
   const RunOptions& options_;
-  Resume::Position start_;
+  InputPosition start_;
   std::size_t input_ = 0;
   std::size_t records_ = 0;         ///< of the input
   std::uint64_t bytes_before_ = 0;  ///< of the inputs before it

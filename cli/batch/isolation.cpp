@@ -138,8 +138,8 @@ struct Isolation::Batch {
   [[nodiscard]] bool is_running() const { return pipe >= 0; }
 };
 
-Isolation::Isolation(int jobs, double most_seconds, Steps steps)
-    : jobs_(jobs), most_seconds_(most_seconds), steps_(std::move(steps)) {
+Isolation::Isolation(int jobs, double most_seconds, Callbacks callbacks)
+    : jobs_(jobs), most_seconds_(most_seconds), callbacks_(std::move(callbacks)) {
   const auto count = static_cast<std::size_t>(jobs_);
   void* shared = ::mmap(nullptr, count * sizeof(Place), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -174,7 +174,7 @@ bool Isolation::fill() {
   if (is_over_ || free_places_.empty() || batches_.size() >= most) return false;
   auto batch = std::make_unique<Batch>();
   for (std::size_t bytes = 0; batch->items.size() < kMostBatchRecords && bytes < kMostBatchBytes;) {
-    auto item = steps_.next();
+    auto item = callbacks_.next();
     is_over_ = !item;
     if (is_over_) break;
     bytes += bytes_of(*item);
@@ -216,7 +216,7 @@ void Isolation::be_worker(const Batch& batch, int pipe) const noexcept {
     WorkItem& item = *batch.items[i];
     if (!item.needs_work()) continue;
     item_at_hand = &item;
-    steps_.work(item);
+    callbacks_.work(item);
     if (!send(pipe, message_of(item))) break;
     now_at_building(kNoBuilding);
   }
@@ -302,7 +302,7 @@ void Isolation::settle_front() {
   while (!batches_.empty()) {
     Batch& batch = *batches_.front();
     for (; batch.settled < batch.answered; ++batch.settled) {
-      steps_.settle(*batch.items[batch.settled]);
+      callbacks_.settle(*batch.items[batch.settled]);
       batch.items[batch.settled].reset();
     }
     if (!batch.is_answered() || batch.is_running()) return;

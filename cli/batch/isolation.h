@@ -16,7 +16,7 @@ namespace oriel::cli {
 /// what comes in the order of the inputs.
 class Isolation {
  public:
-  struct Steps {
+  struct Callbacks {
     /// The next item, or null after the last.
     std::function<std::unique_ptr<WorkItem>()> next;
     /// Fills the outcome of an item; runs in a worker.
@@ -27,7 +27,7 @@ class Isolation {
 
   /// Up to `jobs` workers at the same time. A worker that is at one building for longer than
   /// `most_seconds`, if that is more than 0, ends by SIGALRM.
-  Isolation(int jobs, double most_seconds, Steps steps);
+  Isolation(int jobs, double most_seconds, Callbacks callbacks);
   ~Isolation();
   Isolation(const Isolation&) = delete;
   Isolation& operator=(const Isolation&) = delete;
@@ -53,7 +53,7 @@ class Isolation {
 
   int jobs_;
   double most_seconds_;
-  Steps steps_;
+  Callbacks callbacks_;
   std::vector<std::unique_ptr<Batch>> batches_;  ///< in the order of their records
   std::vector<Place*> free_places_;
   Place* places_ = nullptr;  ///< shared with the workers, one for each

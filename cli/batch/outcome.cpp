@@ -47,14 +47,14 @@ ordered_json to_json(const RecordOutcome& outcome) {
 }
 
 RecordOutcome outcome_of(const ordered_json& json) {
-  using Counts = std::map<std::string, int>;
   RecordOutcome outcome;
   for (const ordered_json& building : json.at("buildings"))
     outcome.buildings.push_back({building.at("passed_over"), building.at("done"),
-                                 building.at("open"), building.at("features").get<Counts>(),
+                                 building.at("open"),
+                                 building.at("features").get<std::map<std::string, int>>(),
                                  issues_of(building.at("issues"))});
   outcome.product.issues = issues_of(json.at("issues"));
-  outcome.product.counts = json.at("counts").get<Counts>();
+  outcome.product.counts = json.at("counts").get<std::map<std::string, int>>();
   return outcome;
 }
 

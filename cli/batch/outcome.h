@@ -18,7 +18,7 @@ namespace oriel::cli {
 
 /// What a record adds to: the file of buildings (-o), --features, the listing on stdout, --explain,
 /// --metrics.
-enum class Part { buildings, features, listing, changes, metrics };
+enum class OutputPart { buildings, features, listing, changes, metrics };
 inline constexpr std::size_t kParts = 5;
 
 /// Where an output of the command is: its path, and its size at the moment. No path: it is not
@@ -31,7 +31,7 @@ using PartPlaces = std::array<PartPlace, kParts>;
 
 /// What a record adds to the outputs of a command.
 struct Product {
-  /// The bytes for each Part; empty: nothing.
+  /// The bytes for each OutputPart; empty: nothing.
   std::array<std::string, kParts> bytes;
   /// In place of bytes for buildings, of outputs that are written when all records are there (OBJ,
   /// OFF, STL).
@@ -41,8 +41,10 @@ struct Product {
   /// Counts of the command, to be added to its own.
   std::map<std::string, int> counts{};
 
-  std::string& operator[](Part part) { return bytes[static_cast<std::size_t>(part)]; }
-  const std::string& operator[](Part part) const { return bytes[static_cast<std::size_t>(part)]; }
+  std::string& operator[](OutputPart part) { return bytes[static_cast<std::size_t>(part)]; }
+  const std::string& operator[](OutputPart part) const {
+    return bytes[static_cast<std::size_t>(part)];
+  }
 };
 
 /// What came of one building, for status and summary.

@@ -2,7 +2,7 @@
 
 #include "cli/batch/batch_command.h"
 #include "cli/batch/run_options.h"
-#include "interpret/pack/rule_base.h"
+#include "oriel/rules.h"
 
 #include <string>
 

@@ -181,7 +181,7 @@ std::optional<int> Resume::finished() const {
   return status.at("exit_code").get<int>();
 }
 
-void Resume::note(const Position& position, ordered_json state) {
+void Resume::note(const InputPosition& position, ordered_json state) {
   const FileMarks files = PartialFiles::flush();
   state["command"] = command_sha256_;
   state["input"] = position.input;

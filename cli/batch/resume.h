@@ -49,30 +49,30 @@ class Journal {
 nlohmann::ordered_json to_json(const FileMarks& marks);
 FileMarks marks_of(const nlohmann::ordered_json& json);
 
+/// Where a run stands in its inputs.
+struct InputPosition {
+  std::size_t input = 0;
+  std::size_t records = 0;  ///< of that input
+  std::string sha256;       ///< of what was read of it
+};
+
 /// A run of a command that may be killed at any moment and resumes after its last whole record when
 /// the same command is given again. What it needs to know stands in STEM.journal; outputs grow as
 /// PATH.partial and come to their place by rename.
 class Resume {
  public:
-  /// Where a run stands in its inputs.
-  struct Position {
-    std::size_t input = 0;
-    std::size_t records = 0;  ///< of that input
-    std::string sha256;       ///< of what was read of it
-  };
-
   /// `rules_sha256` and the command line say whether it is the same run. Throws InputError E117 if
   /// the journal is that of another command, or the outputs that it names are not there.
   Resume(const RunOptions& options, const std::string& rules_sha256);
 
   /// What went before: empty for a run that begins.
   [[nodiscard]] const std::optional<nlohmann::ordered_json>& state() const { return state_; }
-  [[nodiscard]] const Position& position() const { return position_; }
+  [[nodiscard]] const InputPosition& position() const { return position_; }
   /// The exit code of a run that is over, if its inputs and outputs still have their hashes.
   [[nodiscard]] std::optional<int> finished() const;
 
   /// A record, or an input, is done. Files that are open are written so far.
-  void note(const Position& position, nlohmann::ordered_json state);
+  void note(const InputPosition& position, nlohmann::ordered_json state);
   /// An input is read to its end.
   void note_read(const std::string& input, const std::string& sha256);
   void remove() { journal_.remove(); }
@@ -87,7 +87,7 @@ class Resume {
   Journal journal_;
   std::string command_sha256_;
   std::optional<nlohmann::ordered_json> state_;
-  Position position_;
+  InputPosition position_;
   FileMarks read_;  ///< since the last note
 };
 

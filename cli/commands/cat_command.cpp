@@ -1,7 +1,6 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
-#include "cli/streams/common_header.h"
 #include "cli/streams/stream_lines.h"
 #include "kernel/io/files/output_file.h"
 
@@ -13,14 +12,14 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : RunOptions {
+struct CatArguments : RunOptions {
   std::string out = "-";
 };
 
 /// One stream of all inputs, under the header of the first.
 class Cat final : public VisitingCommand {
  public:
-  Cat(const Arguments& arguments, BatchRunner& runner)
+  Cat(const CatArguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
         runner_(runner),
         lines_({[&](const std::string& line) { add_header(line); },
@@ -51,7 +50,7 @@ class Cat final : public VisitingCommand {
     if (out_) out_->append(line);
   }
 
-  const Arguments& arguments_;
+  const CatArguments& arguments_;
   BatchRunner& runner_;
   StreamLines lines_;
   CommonHeader header_;
@@ -61,7 +60,7 @@ class Cat final : public VisitingCommand {
   bool has_ended_ = false;  ///< an input did
 };
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const CatArguments& arguments) {
   Report report(arguments.is_verbose);
   BatchRunner runner(arguments, nullptr, report);
   Cat command(arguments, runner);
@@ -73,7 +72,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_cat(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CatArguments>();
   arguments->ends_at_reading = true;
   CLI::App* command = app.add_subcommand(
       "cat", "Write buildings as a stream (CityJSONSeq): a header, then a line for each");

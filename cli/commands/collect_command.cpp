@@ -1,7 +1,6 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
-#include "cli/streams/common_header.h"
 #include "cli/streams/stream_lines.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
@@ -15,14 +14,14 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : RunOptions {
+struct CollectArguments : RunOptions {
   std::string out = "-";
 };
 
 /// One CityJSON file of all inputs, under the header of the first.
 class Collect final : public VisitingCommand {
  public:
-  Collect(const Arguments& arguments, BatchRunner& runner)
+  Collect(const CollectArguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
         runner_(runner),
         lines_({[&](const std::string& line) { add_header(line); },
@@ -56,7 +55,7 @@ class Collect final : public VisitingCommand {
                        "collected"));
   }
 
-  const Arguments& arguments_;
+  const CollectArguments& arguments_;
   BatchRunner& runner_;
   StreamLines lines_;
   CommonHeader header_;
@@ -65,7 +64,7 @@ class Collect final : public VisitingCommand {
   bool has_ended_ = false;  ///< an input did
 };
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const CollectArguments& arguments) {
   Report report(arguments.is_verbose);
   BatchRunner runner(arguments, nullptr, report);
   Collect command(arguments, runner);
@@ -77,7 +76,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_collect(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CollectArguments>();
   arguments->ends_at_reading = true;
   CLI::App* command =
       app.add_subcommand("collect", "Put the features of streams together as one CityJSON file");

@@ -1,8 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/report.h"
-#include "interpret/score/label_diff.h"
-#include "kernel/io/records/feature_records.h"
+#include "oriel/interpret.h"
 
 #include <cstdio>
 #include <memory>
@@ -17,7 +15,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments {
+struct DiffArguments {
   std::string before;
   std::string after;
   std::size_t examples = 3;
@@ -39,7 +37,7 @@ std::vector<NamedFeature> read_run(const std::string& path, Report& report, Exit
   return features;
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const DiffArguments& arguments) {
   Report report(true);
   ExitCode code = ExitCode::clean;
   auto before = read_run(arguments.before, report, code);
@@ -57,7 +55,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_diff(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DiffArguments>();
   CLI::App* command = app.add_subcommand(
       "diff", "Compare the labels of two runs: what changed, by which rules, for example where");
   command->add_option("before", arguments->before, "Records of features: .csv, .json or .jsonl")

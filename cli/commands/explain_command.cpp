@@ -1,5 +1,6 @@
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/labelling.h"
+#include "cli/commands/options.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : RunOptions {
+struct ExplainArguments : RunOptions {
   std::string feature;
   std::string rules = "residential";
   int surface = -1;
@@ -21,7 +22,7 @@ struct Arguments : RunOptions {
 };
 
 /// What lies at a place: the feature there, or the surface where there is none.
-ExitCode explain_place(const Arguments& arguments) {
+ExitCode explain_place(const ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -53,7 +54,7 @@ ExitCode explain_place(const Arguments& arguments) {
 }
 
 /// The surface of that number in every building that has one.
-ExitCode explain_surfaces(const Arguments& arguments) {
+ExitCode explain_surfaces(const ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -76,7 +77,7 @@ ExitCode explain_surfaces(const Arguments& arguments) {
   return code;
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const ExplainArguments& arguments) {
   if (arguments.surface >= 0) return explain_surfaces(arguments);
   if (!arguments.at.empty()) return explain_place(arguments);
   if (arguments.feature.empty()) throw CLI::RequiredError("feature");
@@ -126,7 +127,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_explain(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command = app.add_subcommand(
       "explain", "Say why a feature has its label: every condition with its value and its bound");
   add_line_arguments(*command, *arguments, false);

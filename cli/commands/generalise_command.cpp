@@ -1,14 +1,22 @@
 #include "cli/batch/batch_command.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/labelling.h"
-#include "cli/commands/targets.h"
+#include "cli/commands/options.h"
 #include "cli/output/change_report.h"
-#include "cli/series/series.h"
+#include "cli/output/label_outputs.h"
+#include "cli/output/series_output.h"
+#include "cli/terminal/logging.h"
 #include "oriel/generalise.h"
+#include "oriel/rules.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,7 +28,16 @@ namespace {
 /// What --edge-min may be: from the file's own millimetres to the size of a storey.
 constexpr double kLeastEdge_m = 0.001, kMostEdge_m = 10;
 
-struct Arguments : LabelArguments {
+/// What the options of a command ask for.
+struct TargetArguments {
+  bool has_scale = false;
+  std::string scale;
+  std::vector<std::string> lods;
+  std::string profile;
+  double edge_min_m = 0;  ///< 0: what the profile says
+};
+
+struct GeneraliseArguments : LabellingArguments {
   TargetArguments target;
   std::vector<std::string> series;
   std::string at;
@@ -28,9 +45,73 @@ struct Arguments : LabelArguments {
   std::string metrics;
 };
 
+/// CityJSON's closed list.
+bool is_lod(const std::string& text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '3'; };
+  return (text.size() == 1 && is_digit(text[0])) ||
+         (text.size() == 3 && is_digit(text[0]) && text[1] == '.' && is_digit(text[2]));
+}
+
+void check_lod(const std::string& option, const std::string& lod) {
+  if (!is_lod(lod))
+    throw CLI::ValidationError(option, fmt::format("'{}' is no level of detail", lod));
+}
+
+/// The names of the profiles, as load_profile_file takes them.
+std::vector<std::string> profile_names(const TargetArguments& arguments) {
+  const auto& [has_scale, scale, lods, profile, edge_min_m] = arguments;
+  if (lods.empty()) return profile.empty() ? std::vector<std::string>{} : std::vector{profile};
+  std::vector<std::string> sorted = lods;
+  std::ranges::sort(sorted);
+  if (std::ranges::adjacent_find(sorted) != sorted.end())
+    throw CLI::ValidationError("--to-lod", "a level of detail stands twice");
+  std::vector<std::string> names;
+  for (const std::string& lod : lods) {
+    check_lod("--to-lod", lod);
+    names.push_back((profile.empty() ? "lod" : profile) + ":" + lod);
+  }
+  return names;
+}
+
+/// N of "1:N", "1 : N" or "N", at least 1; else `option` is refused with E125.
+double denominator_of(const std::string& text, const std::string& option) {
+  std::string number;
+  std::ranges::remove_copy(text, std::back_inserter(number), ' ');
+  if (number.starts_with("1:")) number.erase(0, 2);
+  double value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size() || !(value >= 1) ||
+      !std::isfinite(value))
+    refuse_usage(option, Code::E125,
+                 fmt::format("'{}' is no scale: write 1:N with N >= 1, such as 1:2000", text));
+  return value;
+}
+
+/// What --scale or else --to-lod asks for, with --profile; with neither of them the level of the
+/// profile. Nothing if a profile cannot be used, which is reported.
+std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBase& rules,
+                                  Report& report) {
+  Targets targets;
+  if (arguments.has_scale) targets.scale = denominator_of(arguments.scale, "--scale");
+  const std::vector<std::string> names = profile_names(arguments);
+  if (names.empty() && arguments.edge_min_m > 0)
+    throw CLI::ValidationError("--edge-min", "works only with --profile or --to-lod");
+  for (const std::string& name : names) {
+    auto loaded = load_profile_file(name);
+    report.add(loaded.issues);
+    if (!loaded.value) return std::nullopt;
+    report.add(check_profile(*loaded.value, rules));
+    if (arguments.edge_min_m > 0)
+      loaded.value = with_edge_min(std::move(*loaded.value), arguments.edge_min_m);
+    if (targets.has_lods()) check_lod("--profile", loaded.value->level);
+    targets.profiles.push_back(std::move(*loaded.value));
+  }
+  return targets;
+}
+
 class Generaliser final : public ProducingCommand {
  public:
-  Generaliser(const Arguments& arguments, const Targets& targets, const RuleBase& rules,
+  Generaliser(const GeneraliseArguments& arguments, const Targets& targets, const RuleBase& rules,
               BatchRunner& runner)
       : arguments_(arguments),
         targets_(targets),
@@ -103,10 +184,8 @@ class Generaliser final : public ProducingCommand {
       add(std::move(drawn[i]), output);
     }
     now_at_building(kNoBuilding);
-    timings.measure(Stage::write, [&] {
-      outputs_.make_buildings(input, document, std::move(output.buildings), output.options,
-                              product);
-    });
+    timings.measure(Stage::write,
+                    [&] { outputs_.make_buildings(input, document, std::move(output), product); });
     return product;
   }
 
@@ -121,9 +200,10 @@ class Generaliser final : public ProducingCommand {
   void report(const GeneralisedBuilding& drawn, Product& product) const {
     product.issues.insert(product.issues.end(), drawn.issues.begin(), drawn.issues.end());
     for (const TargetReport& report : drawn.reports) {
-      product[Part::changes] += changes_.text(drawn.building, report.target, report.changes);
+      product[OutputPart::changes] += changes_.text(drawn.building, report.target, report.changes);
       if (report.figures)
-        product[Part::metrics] += changes_.text(drawn.building, report.target, *report.figures);
+        product[OutputPart::metrics] +=
+            changes_.text(drawn.building, report.target, *report.figures);
     }
   }
 
@@ -133,7 +213,7 @@ class Generaliser final : public ProducingCommand {
     for (const auto& [label, count] : drawn.levels[0].removed) product.counts[label] += count;
   }
 
-  const Arguments& arguments_;
+  const GeneraliseArguments& arguments_;
   const Targets& targets_;
   const RuleBase& rules_;
   BatchRunner& runner_;
@@ -154,7 +234,7 @@ std::vector<double> scales_of(const std::vector<std::string>& texts) {
 }
 
 /// The profile of a series; nothing if it cannot be used, which is told.
-std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& rules,
+std::optional<ExitCode> make_series(const GeneraliseArguments& arguments, const RuleBase& rules,
                                     Report& report) {
   if (arguments.series.empty()) return std::nullopt;
   if (!arguments.explain.empty() || !arguments.metrics.empty())
@@ -171,7 +251,7 @@ std::optional<ExitCode> make_series(const Arguments& arguments, const RuleBase& 
 }
 
 /// With --at the option --from names a series, else the format of the inputs.
-void check_source(const Arguments& arguments) {
+void check_source(const GeneraliseArguments& arguments) {
   if (!arguments.at.empty()) {
     if (!arguments.inputs.empty())
       throw CLI::ValidationError("--at", "has no input but the series that --from names");
@@ -184,7 +264,7 @@ void check_source(const Arguments& arguments) {
   if (!arguments.from.empty() && !wrong.empty()) throw CLI::ValidationError("--from", wrong);
 }
 
-ExitCode work(Arguments& arguments) {
+ExitCode work(GeneraliseArguments& arguments) {
   arguments.only_names_surfaces = true;
   if (arguments.out.empty()) {
     if (!arguments.is_piped_stream() || !arguments.series.empty())
@@ -214,7 +294,7 @@ ExitCode work(Arguments& arguments) {
 }  // namespace
 
 void add_generalise(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<GeneraliseArguments>();
   CLI::App* command = app.add_subcommand("generalise",
                                          "Redraw buildings for a target scale or level of detail: "
                                          "a closed solid with what it can show");

@@ -1,15 +1,22 @@
 #include "cli/commands/commands.h"
-#include "cli/commands/labelling.h"
 #include "cli/commands/options.h"
-#include "cli/output/stored_features.h"
-#include "cli/terminal/file_watch.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/report.h"
+#include "cli/terminal/table.h"
+#include "oriel/interpret.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -20,7 +27,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments {
+struct InterpretArguments {
   std::vector<std::string> records;
   std::string rules = "residential";
   std::string out;
@@ -30,6 +37,141 @@ struct Arguments {
   bool is_verbose = false;
 };
 
+/// Short against the time that a reader takes to look up, long against that of a look at a file.
+constexpr std::chrono::milliseconds kBetweenLooks{50};
+
+/// Waits until somebody saves one of the files it follows. Goes by time and size of the file, a few
+/// times a second: that works for every editor and file system.
+class FileWatch {
+ public:
+  /// Files that are not followed yet are, as they are now. Names of packs that are built in are no
+  /// files and never change.
+  void follow(const std::vector<std::string>& files);
+
+  /// Returns when a file has changed and is at rest. A file that is gone is waited for: editors
+  /// replace files.
+  void wait();
+
+ private:
+  struct Stamp {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+    bool is_there = false;
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  static Stamp stamp_of(const std::string& file);
+  bool take_changes();
+
+  std::map<std::string, Stamp> stamps_;
+};
+
+FileWatch::Stamp FileWatch::stamp_of(const std::string& file) {
+  Stamp stamp;
+  std::error_code problem;
+  stamp.time = std::filesystem::last_write_time(file, problem);
+  if (!problem) stamp.size = std::filesystem::file_size(file, problem);
+  stamp.is_there = !problem;
+  return stamp.is_there ? stamp : Stamp();
+}
+
+void FileWatch::follow(const std::vector<std::string>& files) {
+  for (const std::string& file : files) stamps_.try_emplace(file, stamp_of(file));
+}
+
+bool FileWatch::take_changes() {
+  bool has_changed = false;
+  for (auto& [file, stamp] : stamps_) {
+    const Stamp now = stamp_of(file);
+    if (!now.is_there || now == stamp) continue;
+    stamp = now;
+    has_changed = true;
+  }
+  return has_changed;
+}
+
+void FileWatch::wait() {
+  while (!take_changes()) std::this_thread::sleep_for(kBetweenLooks);
+  do std::this_thread::sleep_for(kBetweenLooks);
+  while (take_changes());
+}
+
+/// What files of records have, in memory, to be interpreted as often as the rules change.
+class StoredFeatures {
+ public:
+  /// Reads the files; reports what is wrong with them. Throws InputError as read_feature_tables
+  /// does.
+  StoredFeatures(std::vector<std::string> files, Report& report)
+      : files_(std::move(files)), report_(report) {
+    for (const std::string& file : files_) {
+      auto tables = read_feature_tables(file);
+      report_.add(tables.issues);
+      if (has_errors(tables.issues))
+        code_ = graver(code_, tables.value ? ExitCode::set_aside : ExitCode::input);
+      if (tables.value)
+        buildings_.insert(buildings_.end(), std::make_move_iterator(tables.value->begin()),
+                          std::make_move_iterator(tables.value->end()));
+    }
+  }
+
+  /// What reading them came to.
+  [[nodiscard]] ExitCode code() const { return code_; }
+  [[nodiscard]] const std::vector<DescribedBuilding>& buildings() const { return buildings_; }
+
+  /// One for each building. Up to `jobs` shares are interpreted at the same time; what comes of it
+  /// does not depend on that.
+  [[nodiscard]] std::vector<Interpretation> interpreted(const RuleBase& rules, int jobs) const {
+    constexpr std::size_t kShare = 64;
+    const std::span<const DescribedBuilding> all(buildings_);
+    std::vector<Interpretation> run(all.size());
+    const auto interpret_share = [&](std::size_t number) {
+      const std::size_t begin = number * kShare;
+      const auto share = all.subspan(begin, std::min(kShare, all.size() - begin));
+      std::ranges::move(interpret(rules, share), run.begin() + static_cast<long>(begin));
+    };
+    tbb::task_arena arena(jobs);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, (all.size() + kShare - 1) / kShare, interpret_share);
+    });
+    for (const Interpretation& interpretation : run) report_.add(interpretation.issues);
+    return run;
+  }
+
+  /// Writes the records as they were read with the verdicts of `run`.
+  void write(const std::string& path, const std::vector<Interpretation>& run) {
+    FeatureRecordWriter writer(path);
+    RecordLabeller labeller(buildings_, run);
+    for (const std::string& file : files_) {
+      const auto issues = visit_feature_records(file, [&](FeatureRecord record) {
+        if (labeller.label(record)) writer.append({std::move(record)});
+      });
+      // Boxes and polygons, without which the tables could be read, are not reported yet.
+      if (has_errors(issues) && code_ == ExitCode::clean) {
+        report_.add(issues);
+        code_ = ExitCode::set_aside;
+      }
+    }
+    writer.commit();
+  }
+
+ private:
+  std::vector<std::string> files_;
+  Report& report_;
+  ExitCode code_ = ExitCode::clean;
+  std::vector<DescribedBuilding> buildings_;
+};
+
+/// A table of how many features each label and rule has.
+std::string listing(const std::vector<Interpretation>& run) {
+  std::map<std::pair<std::string, std::string>, std::size_t> counts;
+  for (const Interpretation& interpretation : run)
+    for (const Verdict& verdict : interpretation.verdicts) ++counts[{verdict.label, verdict.rule}];
+  std::vector<std::vector<std::string>> rows{{"label", "rule", "features"}};
+  for (const auto& [naming, count] : counts)
+    rows.push_back({naming.first.empty() ? "unknown" : naming.first,
+                    naming.second.empty() ? "-" : naming.second, fmt::format("{}", count)});
+  return table(rows);
+}
+
 void print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
@@ -37,7 +179,7 @@ void print(const std::string& text) {
 
 /// Interprets again whenever the pack, or one that it extends, is saved; ends by a signal only. A
 /// pack with errors changes nothing: what comes next is compared with the last labels.
-[[noreturn]] void watch(const Arguments& arguments, const StoredFeatures& features,
+[[noreturn]] void watch(const InterpretArguments& arguments, const StoredFeatures& features,
                         Report& report) {
   FileWatch files;
   files.follow({arguments.rules});
@@ -47,20 +189,20 @@ void print(const std::string& text) {
     const auto start = std::chrono::steady_clock::now();
     if (const auto rules = load_rules(arguments.rules, report)) {
       files.follow(rules->files());
-      auto run = features.interpret(*rules, arguments.jobs);
-      print(is_first ? StoredFeatures::listing(run)
-                     : to_text(features.compare(last, run, arguments.examples)));
+      auto run = features.interpreted(*rules, arguments.jobs);
+      print(is_first ? listing(run)
+                     : to_text(diff_labels(features.buildings(), last, run, arguments.examples)));
       last = std::move(run);
       is_first = false;
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    run_log().info("{} buildings in {:.2f} s; waiting for {} to be saved", features.buildings(),
-                   took.count(), arguments.rules);
+    run_log().info("{} buildings in {:.2f} s; waiting for {} to be saved",
+                   features.buildings().size(), took.count(), arguments.rules);
     files.wait();
   }
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const InterpretArguments& arguments) {
   if (arguments.is_watching && !arguments.out.empty())
     throw CLI::ValidationError("--watch", "writes no file: leave out -o");
   Report report(arguments.is_verbose);
@@ -72,10 +214,10 @@ ExitCode work(const Arguments& arguments) {
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
   StoredFeatures features(arguments.records, report);
-  const auto run = features.interpret(*rules, arguments.jobs);
+  const auto run = features.interpreted(*rules, arguments.jobs);
   if (arguments.out.empty())
-    print(StoredFeatures::listing(run));
-  else if (features.buildings() > 0 || features.code() != ExitCode::input)
+    print(listing(run));
+  else if (!features.buildings().empty() || features.code() != ExitCode::input)
     features.write(arguments.out, run);
   return features.code();
 }
@@ -83,7 +225,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_interpret(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InterpretArguments>();
   CLI::App* command = app.add_subcommand(
       "interpret", "Name stored features by rules, without their buildings: to try rules out");
   command

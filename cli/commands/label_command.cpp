@@ -1,8 +1,11 @@
 #include "cli/batch/batch_command.h"
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/labelling.h"
-#include "interpret/score/surface_score.h"
+#include "cli/commands/options.h"
+#include "cli/output/label_outputs.h"
+#include "cli/terminal/table.h"
 #include "oriel/repair.h"
+#include "oriel/score.h"
 
 #include <cstdio>
 
@@ -13,7 +16,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : LabelArguments {
+struct LabelArguments : LabellingArguments {
   std::string existing = "fill";
   bool is_json = false;
   bool is_repaired = false;
@@ -61,7 +64,7 @@ bool has_semantics(Format format) {
 }
 
 /// Says where the input's semantics and the rules disagree; nothing is written.
-ExitCode audit(const Arguments& arguments) {
+ExitCode audit(const LabelArguments& arguments) {
   if (!arguments.out.empty() || !arguments.features.empty())
     throw CLI::ValidationError("--existing", "audit changes nothing: leave out -o and --features");
   Report report(arguments.is_verbose);
@@ -73,10 +76,8 @@ ExitCode audit(const Arguments& arguments) {
     if (!runner.is_last_run() || !has_semantics(document.format)) return;
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (lines[i].has_surfaces())
-        compare_surfaces(
-            document.buildings[i],
-            annotate(document.buildings[i], lines[i], *rules, arguments.label_options()),
-            lines[i].surfaces, OpeningPolicy::compare, score);
+        compare_surfaces(document.buildings[i], lines[i], *rules, arguments.label_options(),
+                         OpeningPolicy::compare, score);
   });
   const ExitCode code = runner.run(visitor);
   const std::string text =
@@ -88,7 +89,7 @@ ExitCode audit(const Arguments& arguments) {
 
 class Labeller final : public ProducingCommand {
  public:
-  Labeller(const Arguments& arguments, const RuleBase& rules, BatchRunner& runner)
+  Labeller(const LabelArguments& arguments, const RuleBase& rules, BatchRunner& runner)
       : arguments_(arguments), runner_(runner), outputs_(arguments, rules) {}
 
   void begin(std::size_t input) override { outputs_.begin(input, !runner_.is_last_run()); }
@@ -97,7 +98,7 @@ class Labeller final : public ProducingCommand {
     return timings.measure(Stage::write, [&] { return made_of(input, document, results); });
   }
   void take(const Document& document, Product product) override {
-    if (!runner_.is_last_run()) product[Part::listing].clear();
+    if (!runner_.is_last_run()) product[OutputPart::listing].clear();
     outputs_.take(document, product);
   }
   void end(std::size_t /*input*/) override {
@@ -117,31 +118,30 @@ class Labeller final : public ProducingCommand {
   [[nodiscard]] Product made_of(std::size_t input, const Document& document,
                                 const std::vector<PipelineResult>& results) const {
     Product product;
-    std::vector<LabelledBuilding> labelled;
+    OutputRecord output{{}, arguments_.write_options()};
     for (std::size_t i = 0; i < results.size(); ++i) {
       now_at_building(i);
       const Building& building = document.buildings[i];
       if (outputs_.has_buildings() && results[i].has_surfaces()) {
-        labelled.push_back(outputs_.annotated(building, results[i]));
+        output.buildings.push_back(outputs_.annotated(building, results[i]));
         if (arguments_.is_repaired && results[i].is_done())
-          put_on_solid(document, building, results[i], labelled.back(), product.issues);
+          put_on_solid(document, building, results[i], output.buildings.back(), product.issues);
       }
       if (!results[i].is_done()) continue;
       outputs_.make_features(building, results[i], product);
-      if (!outputs_.has_any()) product[Part::listing] += listing(building, results[i]);
+      if (!outputs_.has_any()) product[OutputPart::listing] += listing(building, results[i]);
     }
     now_at_building(kNoBuilding);
-    outputs_.make_buildings(input, document, std::move(labelled), arguments_.write_options(),
-                            product);
+    outputs_.make_buildings(input, document, std::move(output), product);
     return product;
   }
 
-  const Arguments& arguments_;
+  const LabelArguments& arguments_;
   BatchRunner& runner_;
   LabelOutputs outputs_;
 };
 
-ExitCode work(Arguments& arguments) {
+ExitCode work(LabelArguments& arguments) {
   if (arguments.existing == "audit") return audit(arguments);
   if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
     arguments.out = "-";
@@ -163,7 +163,7 @@ ExitCode work(Arguments& arguments) {
 }  // namespace
 
 void add_label(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<LabelArguments>();
   CLI::App* command = app.add_subcommand(
       "label", "Name the parts of buildings by rules and write the buildings with their labels");
   add_label_arguments(*command, *arguments);

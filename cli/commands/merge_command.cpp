@@ -1,10 +1,11 @@
+#include "cli/batch/resume.h"
 #include "cli/commands/commands.h"
-#include "cli/streams/common_header.h"
-#include "cli/streams/provenance.h"
 #include "cli/streams/shards.h"
+#include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/report.h"
+#include "kernel/base/issue.h"
 #include "kernel/io/files/output_file.h"
+#include "kernel/io/files/partial_files.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -12,11 +13,15 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace oriel::cli {
 
@@ -24,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct MergeArguments {
   std::vector<std::string> files;
   std::string list;
   std::vector<std::string> through;
@@ -36,10 +41,70 @@ std::string name_of(const std::string& file) {
   return name.substr(0, name.find('.'));
 }
 
+using nlohmann::ordered_json;
+
+/// What a stage made of what.
+struct ProcessingStep {
+  std::vector<std::string> inputs;  ///< hashes
+  std::uint64_t left_out = 0;       ///< records
+};
+
+/// The steps that a status file names, by the hash of their output; none if it cannot be read.
+std::multimap<std::string, ProcessingStep> steps_of(const fs::path& path) {
+  std::multimap<std::string, ProcessingStep> steps;
+  std::ifstream file(path, std::ios::binary);
+  const ordered_json status = ordered_json::parse(file, nullptr, false);
+  if (!status.is_object() || !status.contains("outputs")) return steps;
+  ProcessingStep step;
+  for (const auto& [name, sha256] : status.at("input_sha256").items())
+    step.inputs.push_back(sha256);
+  const ordered_json& records = status.at("records");
+  step.left_out =
+      records.at("refused").get<std::uint64_t>() + records.at("not_selected").get<std::uint64_t>();
+  for (const auto& [name, mark] : marks_of(status.at("outputs"))) steps.emplace(mark.sha256, step);
+  return steps;
+}
+
+/// Nothing if `file`, whose bytes are `mark`, was made of the whole shard: by the hashes in
+/// NAME.status.json next to it (the file is its output, its input is the shard) or over several
+/// such files in `through`, and as many lines as the shard has but those that a stage refused or
+/// did not select. Without a status file: if it has as many lines as the shard. Else an error E118.
+std::optional<Issue> check_provenance(const Shard& shard, const std::string& file,
+                                      const FileMark& mark,
+                                      const std::vector<std::string>& through) {
+  const std::string status = shard.name + ".status.json";
+  const fs::path status_file = fs::path(file).parent_path() / status;
+  std::uint64_t expected = shard.features + 1;
+  if (fs::exists(status_file) || !through.empty()) {
+    std::multimap<std::string, ProcessingStep> steps = steps_of(status_file);
+    for (const std::string& folder : through) steps.merge(steps_of(fs::path(folder) / status));
+    std::string sha256 = mark.sha256;
+    bool has_step = false;
+    while (sha256 != shard.sha256) {
+      const auto step = steps.find(sha256);
+      if (step == steps.end())
+        return shard_issue(file, !has_step
+                                     ? fmt::format("is not the output that {} lists", status)
+                                     : fmt::format("was not made of shard {}: {} has another input",
+                                                   shard.name, status));
+      if (step->second.inputs.size() != 1)
+        return shard_issue(file, "was made of several inputs; expected one shard");
+      expected -= std::min(expected, step->second.left_out);
+      sha256 = step->second.inputs[0];
+      has_step = true;
+      steps.erase(step);  // a stage may change nothing
+    }
+  }
+  if (mark.lines == expected) return std::nullopt;
+  return shard_issue(
+      file, fmt::format("has {} lines; shard {} has {}, of which {} were left out", mark.lines,
+                        shard.name, shard.features + 1, shard.features + 1 - expected));
+}
+
 /// The files of the list's shards, in its order. Says which are missing, strange or there twice.
 class Merger {
  public:
-  explicit Merger(const Arguments& arguments)
+  explicit Merger(const MergeArguments& arguments)
       : arguments_(arguments), list_(ShardList::load(arguments.list)), report_(true) {}
 
   ExitCode go() {
@@ -100,7 +165,7 @@ class Merger {
     if (const auto issue = check_provenance(shard, path, mark, arguments_.through)) tell(*issue);
   }
 
-  const Arguments& arguments_;
+  const MergeArguments& arguments_;
   ShardList list_;
   Report report_;
   CommonHeader headers_;
@@ -112,7 +177,7 @@ class Merger {
 }  // namespace
 
 void add_merge(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MergeArguments>();
   CLI::App* command = app.add_subcommand(
       "merge", "Put what was made of the shards of `split` together, in their order");
   command

@@ -1,5 +1,6 @@
 #include "cli/commands/options.h"
 
+#include "cli/output/label_outputs.h"
 #include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
@@ -205,6 +206,29 @@ void add_records_output(CLI::App& command, const std::string& option, std::strin
     return record_format_of(name) ? std::string()
                                   : "'" + name + "' does not end in .csv, .json or .jsonl";
   });
+}
+
+void add_label_arguments(CLI::App& command, LabellingArguments& a) {
+  add_line_arguments(command, a, true);
+  add_rules_argument(command, a.rules);
+  command.add_option("-o,--output", a.out,
+                     "File, - for stdout, or a folder (with a / at its end) for several inputs");
+  command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
+      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
+  add_features_argument(command, a.features);
+  add_resume_argument(command, a);
+  add_reuse_argument(command, a);
+  add_isolate_argument(command, a);
+  command
+      .add_option("--codelist", a.codelist,
+                  "Code list of installations that the pack has codes for")
+      ->capture_default_str();
+}
+
+std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {
+  auto loaded = load_pack_file(pack);
+  report.add(loaded.issues);
+  return loaded.value;
 }
 
 }  // namespace oriel::cli

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "cli/batch/run_options.h"
+#include "cli/terminal/logging.h"
+#include "oriel/rules.h"
 
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -10,6 +13,8 @@ class Validator;
 }  // namespace CLI
 
 namespace oriel::cli {
+
+struct LabellingArguments;
 
 /// Throws CLI::ValidationError: wrong usage of `option` that has a code of its own
 /// (docs/errors.md), reported as "--scale: E125 sentence"; exit code 2.
@@ -52,5 +57,11 @@ void add_features_argument(CLI::App& command, std::string& file);
 /// Adds an option for a file of records, checked in the same way.
 void add_records_output(CLI::App& command, const std::string& option, std::string& file,
                         const std::string& what);
+
+/// Adds all that the commands share that label buildings and write them.
+void add_label_arguments(CLI::App& command, LabellingArguments& arguments);
+
+/// The pack, with its findings reported; nothing if it cannot be used.
+std::optional<RuleBase> load_rules(const std::string& pack, Report& report);
 
 }  // namespace oriel::cli

@@ -18,7 +18,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : RunOptions {
+struct RepairArguments : RunOptions {
   std::string out;
   std::string to;
   std::string report;
@@ -46,7 +46,7 @@ std::string summary_of(const Building& building, const Repaired& repaired) {
 
 class Repairer final : public VisitingCommand {
  public:
-  Repairer(const Arguments& arguments, BatchRunner& runner)
+  Repairer(const RepairArguments& arguments, BatchRunner& runner)
       : arguments_(arguments),
         runner_(runner),
         sink_(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format) {}
@@ -82,21 +82,21 @@ class Repairer final : public VisitingCommand {
   }
 
   void add(const Document& document, std::vector<PipelineResult>& lines) {
-    std::vector<LabelledBuilding> solids;
+    OutputRecord solids;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       Repaired one = repaired(document, building, lines[i]);
-      if (one.solid) solids.push_back(std::move(one.output));
+      if (one.solid) solids.buildings.push_back(std::move(one.output));
       if (!runner_.is_last_run()) continue;
       if (one.solid) ++(one.report.was_needed ? repaired_ : closed_);
       if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, one));
       if (report_)
         report_->append(repair_json(building, one.solid.has_value(), one.report, one.issues));
     }
-    sink_.add(document, solids, {});
+    sink_.add(document, solids);
   }
 
-  const Arguments& arguments_;
+  const RepairArguments& arguments_;
   BatchRunner& runner_;
   OutputSink sink_;
   std::unique_ptr<OutputFile> report_;
@@ -104,7 +104,7 @@ class Repairer final : public VisitingCommand {
   int repaired_ = 0, closed_ = 0;
 };
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const RepairArguments& arguments) {
   Report report(arguments.is_verbose);
   BatchRunner runner(arguments, nullptr, report);
   Repairer command(arguments, runner);
@@ -116,7 +116,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_repair(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RepairArguments>();
   arguments->ends_at_solid = true;
   arguments->crossings = "cut";
   CLI::App* command = app.add_subcommand(

@@ -1,11 +1,14 @@
 #include "cli/commands/commands.h"
-#include "cli/commands/rules_commands.h"
-#include "cli/terminal/report.h"
-#include "interpret/pack/rule_base.h"
+#include "cli/terminal/logging.h"
+#include "kernel/io/files/output_file.h"
+#include "oriel/rules.h"
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -25,7 +28,7 @@ std::string counts_of(const std::string& path, const RuleBase& pack) {
                      counted(pack.rule_count(), "rule"), counted(pack.labels().size(), "label"));
 }
 
-struct Arguments {
+struct RulesCheckArguments {
   std::vector<std::string> packs;
   bool is_json = false;
 };
@@ -37,7 +40,7 @@ nlohmann::ordered_json as_json(const Issue& issue) {
           {"code", to_string(issue.code)}, {"sentence", issue.sentence}};
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode check(const RulesCheckArguments& arguments) {
   Report report(true);
   ExitCode code = ExitCode::clean;
   nlohmann::ordered_json findings = nlohmann::ordered_json::array();
@@ -56,23 +59,174 @@ ExitCode work(const Arguments& arguments) {
   return code;
 }
 
+void add_check(CLI::App& rules, Action& action) {
+  auto arguments = std::make_shared<RulesCheckArguments>();
+  CLI::App* command = rules.add_subcommand(
+      "check", "Find everything that is wrong with a rule pack before any building is read");
+  command
+      ->add_option("pack", arguments->packs,
+                   "Rule packs: files, or names of packs that are built in")
+      ->required();
+  command->add_flag("--json", arguments->is_json, "All findings as one JSON array");
+  command->footer("Example:\n  oriel rules check my_rules.yaml");
+  command->callback([arguments, &action] { action = [arguments] { return check(*arguments); }; });
+}
+
+struct RulesTestArguments {
+  std::vector<std::string> files;
+  std::string junit;
+  double min_coverage = 0;
+  double min_conditions = 0;
+};
+
+/// The tests stand beside the pack: `town.test.yaml` beside `town.yaml`.
+std::string tests_of(const std::string& file) {
+  if (file.ends_with(".test.yaml")) return file;
+  const std::string extension = ".yaml";
+  const std::string name =
+      file.ends_with(extension) ? file.substr(0, file.size() - extension.size()) : file;
+  return name + ".test.yaml";
+}
+
+bool is_covered(const RuleTestReport& report, const RulesTestArguments& arguments) {
+  return report.rule_coverage() * 100 >= arguments.min_coverage &&
+         report.condition_coverage() * 100 >= arguments.min_conditions;
+}
+
+ExitCode test(const RulesTestArguments& arguments) {
+  Report report(true);
+  ExitCode code = ExitCode::clean;
+  std::vector<RuleTestReport> reports;
+  for (const std::string& file : arguments.files) {
+    auto tested = run_rule_tests(tests_of(file));
+    report.add(tested.issues);
+    if (!tested.value) {
+      code = ExitCode::rules;
+      continue;
+    }
+    std::fputs(to_text(*tested.value).c_str(), stdout);
+    if (!is_covered(*tested.value, arguments)) {
+      code = ExitCode::rules;
+      run_log().write(LogLevel::error, file + ": less is covered than was asked for");
+    }
+    if (tested.value->failed() > 0) code = ExitCode::rules;
+    reports.push_back(std::move(*tested.value));
+  }
+  if (!arguments.junit.empty()) write_file(arguments.junit, to_junit(reports));
+  return code;
+}
+
+void add_test(CLI::App& rules, Action& action) {
+  auto arguments = std::make_shared<RulesTestArguments>();
+  CLI::App* command = rules.add_subcommand("test", "Run the tests of rule packs");
+  command
+      ->add_option("file", arguments->files,
+                   "Packs, with their tests in NAME.test.yaml next to NAME.yaml, or those tests")
+      ->required();
+  command->add_option("--junit", arguments->junit, "Write the results to this file, as JUnit XML");
+  command
+      ->add_option("--min-coverage", arguments->min_coverage,
+                   "Fail if less than this share of the rules ever holds, in percent")
+      ->check(CLI::Range(0.0, 100.0));
+  command
+      ->add_option("--min-conditions", arguments->min_conditions,
+                   "... or less of their conditions both holds and fails, in percent")
+      ->check(CLI::Range(0.0, 100.0));
+  command->footer("Example:\n  oriel rules test my_rules.yaml --min-coverage 100");
+  command->callback([arguments, &action] { action = [arguments] { return test(*arguments); }; });
+}
+
+struct RulesPrintArguments {
+  std::vector<std::string> packs;
+  bool is_check = false;
+  bool is_write = false;
+  bool is_merged = false;
+};
+
+std::string text_of(const std::string& pack) {
+  if (const auto text = embedded_pack(pack)) return std::string(*text);
+  std::ifstream file(pack, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+ExitCode format(const RulesPrintArguments& arguments) {
+  Report report(true);
+  ExitCode code = ExitCode::clean;
+  for (const std::string& pack : arguments.packs) {
+    if (arguments.is_write && embedded_pack(pack))
+      throw CLI::ValidationError("--write", "'" + pack + "' is built in and has no file");
+    const auto formatted = format_pack_file(pack);
+    if (!formatted.value) {
+      report.add(formatted.issues);
+      code = graver(code, ExitCode::rules);
+    } else if (arguments.is_check) {
+      if (*formatted.value == text_of(pack)) continue;
+      run_log().write(LogLevel::error, pack + " is not in canonical form");
+      code = graver(code, ExitCode::rules);
+    } else if (!arguments.is_write) {
+      std::fputs(formatted.value->c_str(), stdout);
+    } else if (*formatted.value != text_of(pack)) {
+      write_file(pack, *formatted.value);
+    }
+  }
+  return code;
+}
+
+ExitCode show(const RulesPrintArguments& arguments) {
+  Report report(true);
+  const std::string& pack = arguments.packs.front();
+  const auto merged = merge_pack_file(pack);
+  report.add(merged.issues);
+  if (!merged.value) return ExitCode::rules;
+  std::fputs((arguments.is_merged ? *merged.value : text_of(pack)).c_str(), stdout);
+  return ExitCode::clean;
+}
+
+void add_format(CLI::App& rules, Action& action) {
+  auto arguments = std::make_shared<RulesPrintArguments>();
+  CLI::App* command = rules.add_subcommand("fmt", "Print rule packs in canonical form");
+  command->add_option("pack", arguments->packs, "Rule packs")->required();
+  CLI::Option* check = command->add_flag("--check", arguments->is_check,
+                                         "Print nothing; exit code 4 if a pack is in another form");
+  command->add_flag("-w,--write", arguments->is_write, "Write them to their files")
+      ->excludes(check);
+  command->footer("Example:\n  oriel rules fmt -w my_rules.yaml");
+  command->callback([arguments, &action] { action = [arguments] { return format(*arguments); }; });
+}
+
+void add_show(CLI::App& rules, Action& action) {
+  auto arguments = std::make_shared<RulesPrintArguments>();
+  arguments->packs.resize(1);
+  CLI::App* command = rules.add_subcommand("show", "Print a rule pack, also one that is built in");
+  command->add_option("pack", arguments->packs[0], "A file, or the name of a pack")->required();
+  command->add_flag("--merged", arguments->is_merged,
+                    "With the packs that it extends put into one, without comments");
+  command->footer("Example:\n  oriel rules show --merged my_town.yaml > all_of_it.yaml");
+  command->callback([arguments, &action] { action = [arguments] { return show(*arguments); }; });
+}
+
+void add_schema(CLI::App& rules, Action& action) {
+  CLI::App* command = rules.add_subcommand(
+      "schema", "Print the JSON Schema of rule packs, from which editors complete");
+  command->footer("Example:\n  oriel rules schema > oriel-1.schema.json");
+  command->callback([&action] {
+    action = [] {
+      std::fputs(pack_schema().c_str(), stdout);
+      return ExitCode::clean;
+    };
+  });
+}
+
 }  // namespace
 
 void add_rules(CLI::App& app, Action& action) {
   CLI::App* rules = app.add_subcommand("rules", "Work on rule packs");
   rules->require_subcommand(1);
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* check = rules->add_subcommand(
-      "check", "Find everything that is wrong with a rule pack before any building is read");
-  check
-      ->add_option("pack", arguments->packs,
-                   "Rule packs: files, or names of packs that are built in")
-      ->required();
-  check->add_flag("--json", arguments->is_json, "All findings as one JSON array");
-  check->footer("Example:\n  oriel rules check my_rules.yaml");
-  check->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
-  add_rules_test(*rules, action);
-  add_rules_text(*rules, action);
+  add_check(*rules, action);
+  add_test(*rules, action);
+  add_schema(*rules, action);
+  add_format(*rules, action);
+  add_show(*rules, action);
 }
 
 }  // namespace oriel::cli

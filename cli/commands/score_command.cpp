@@ -1,19 +1,18 @@
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/labelling.h"
-#include "cli/output/score_files.h"
-#include "cli/terminal/report.h"
-#include "interpret/score/area_score.h"
-#include "interpret/score/score_spread.h"
-#include "interpret/score/surface_score.h"
+#include "cli/commands/options.h"
+#include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/feature_records.h"
-#include "kernel/io/records/truth.h"
+#include "oriel/score.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments : RunOptions {
+struct ScoreArguments : RunOptions {
   bool is_of_surfaces = false;
   std::string rules = "residential";
   std::vector<std::string> truth;
@@ -63,87 +62,91 @@ std::vector<std::string> truth_files(const std::vector<std::string>& named) {
   return files;
 }
 
-/// Predictions and true objects, and their polygons by building.
-struct Compared {
-  std::vector<Prediction> predictions;
-  std::vector<ExpectedObject> truth;
-  std::map<std::string, FacesOfBuilding> faces;
-};
-
-void append(Compared& all, std::vector<FeatureRecord> records) {
-  for (FeatureRecord& r : records) {
-    const auto& b = r.aabb_m;
-    all.predictions.push_back(
-        {r.building, r.id, r.label, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}}, r.score.value_or(0)});
-    all.faces[r.building].predictions.push_back({r.id, r.label, std::move(r.source_polygons)});
-  }
-}
-
-void append(Compared& all, const GroundTruth& truth) {
-  FacesOfBuilding& faces = all.faces[truth.building];
-  faces.left_out = truth.capped_faces;
-  for (const TruthObject& o : truth.objects) {
-    ExpectedObject object{
-        truth.building,  o.id, o.label, o.subclass, o.feature_aabb.value_or(o.aabb),
-        !o.faces.empty()};
-    if (is_left_out(object))
-      faces.left_out.insert(faces.left_out.end(), o.faces.begin(), o.faces.end());
-    faces.truth.push_back({o.id, o.label, o.faces});
-    if (o.feature_aabb) faces.niches[o.id] = *o.feature_aabb;
-    all.truth.push_back(std::move(object));
-  }
-}
-
-Compared read(const Arguments& arguments, Report& report, ExitCode& code) {
-  Compared all;
+LabelsAndTruth read(const ScoreArguments& arguments, Report& report, ExitCode& code) {
+  LabelsAndTruth all;
   for (const std::string& path : arguments.inputs) {
     auto records = read_feature_records(path);
     report.add(records.issues);
     if (has_errors(records.issues))
       code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
-    if (records.value) append(all, std::move(*records.value));
+    if (records.value) add(std::move(*records.value), all);
   }
   for (const std::string& path : truth_files(arguments.truth)) {
     const auto truths = read_truths(path);
     report.add(truths.issues);
     if (has_errors(truths.issues)) code = graver(code, ExitCode::input);
     if (truths.value)
-      for (const GroundTruth& truth : *truths.value) append(all, truth);
+      for (const GroundTruth& truth : *truths.value) add(truth, all);
   }
   return all;
 }
 
 /// Areas come from the models that were labelled: neither records nor truth know them.
-AreaScore compare_models(const Arguments& arguments, Compared& all, Report& report,
+AreaScore compare_models(const ScoreArguments& arguments, const LabelsAndTruth& all, Report& report,
                          ExitCode& code) {
   RunOptions models = arguments;
   models.inputs = arguments.models;
   models.ends_at_reading = true;
   BatchRunner runner(models, nullptr, report);
   AreaScore score;
+  std::set<std::string> compared;
   RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>&) {
-    for (const Building& building : document.buildings) {
-      const auto faces = all.faces.find(building.id);
-      if (faces == all.faces.end()) continue;
-      compare_areas(building, faces->second, ScoreOptions{}.not_scored, score);
-      all.faces.erase(faces);
-    }
+    for (const Building& building : document.buildings)
+      if (!compared.contains(building.id) && compare_areas(building, all, {}, score))
+        compared.insert(building.id);
   });
   code = graver(code, runner.run(visitor));
   for (const auto& [building, faces] : all.faces)
-    if (!faces.truth.empty())
+    if (!faces.truth.empty() && !compared.contains(building))
       report.add(building_issue(Severity::warning, Code::E129, building,
                                 "is in none of the models: its areas are not compared"));
   return score;
 }
 
-ExitCode score_features(const Arguments& arguments) {
+std::string cell_of(double ratio) { return std::isnan(ratio) ? "" : fmt::format("{}", ratio); }
+
+void append_row(std::string& out, std::string first, std::string second, const ClassScore& counts) {
+  append_csv_line(out,
+                  {std::move(first), std::move(second), std::to_string(counts.true_positives),
+                   std::to_string(counts.false_positives), std::to_string(counts.false_negatives),
+                   cell_of(counts.precision()), cell_of(counts.recall()), cell_of(counts.f1())});
+}
+
+/// A line for each building and class, then one for all its classes together ("all"), as CSV:
+/// building, class, tp, fp, fn, precision, recall, f1. Ratios without a denominator are empty.
+std::string per_building_csv(const std::map<std::string, Score>& buildings) {
+  std::string text = "building,class,tp,fp,fn,precision,recall,f1\n";
+  for (const auto& [building, score] : buildings) {
+    ClassScore all;
+    for (const auto& [label, counts] : score.classes) {
+      append_row(text, building, label, counts);
+      all += counts;
+    }
+    append_row(text, building, "all", all);
+  }
+  return text;
+}
+
+/// A line for each point: class, threshold, tp, fp, fn, precision, recall, f1; class by class, the
+/// highest threshold first.
+std::string curve_csv(const std::vector<CurvePoint>& curve) {
+  std::vector<const CurvePoint*> points;
+  points.reserve(curve.size());
+  for (const CurvePoint& point : curve) points.push_back(&point);
+  std::ranges::stable_sort(points, {}, [](const CurvePoint* point) { return point->label; });
+  std::string text = "class,threshold,tp,fp,fn,precision,recall,f1\n";
+  for (const CurvePoint* point : points)
+    append_row(text, point->label, fmt::format("{}", point->threshold), point->counts);
+  return text;
+}
+
+ExitCode score_features(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
   ExitCode code = ExitCode::clean;
-  Compared all = read(arguments, report, code);
+  const LabelsAndTruth all = read(arguments, report, code);
   ScoreOptions options;
   options.min_iou = arguments.min_iou;
-  const auto buildings = score_by_building(all.predictions, all.truth, options);
+  const auto buildings = score_by_building(all, options);
   const Score result = total(buildings);
   constexpr std::size_t kShown = 20;
   const std::size_t shown = arguments.is_verbose ? result.misses.size() : kShown;
@@ -164,14 +167,13 @@ ExitCode score_features(const Arguments& arguments) {
   if (!arguments.per_building.empty())
     write_file(arguments.per_building, per_building_csv(buildings));
   if (!arguments.curve.empty())
-    write_file(arguments.curve,
-               curve_csv(precision_recall_curve(all.predictions, all.truth, options)));
+    write_file(arguments.curve, curve_csv(precision_recall_curve(all, options)));
   std::fputs(text.c_str(), stdout);
   return code;
 }
 
 /// The models are labelled as if they had no semantics, and their semantics are the truth.
-ExitCode score_surfaces(const Arguments& arguments) {
+ExitCode score_surfaces(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -180,17 +182,15 @@ ExitCode score_surfaces(const Arguments& arguments) {
   RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (lines[i].has_surfaces())
-        compare_surfaces(
-            document.buildings[i],
-            annotate(document.buildings[i], lines[i], *rules, arguments.label_options()),
-            lines[i].surfaces, OpeningPolicy::as_host, score);
+        compare_surfaces(document.buildings[i], lines[i], *rules, arguments.label_options(),
+                         OpeningPolicy::as_host, score);
   });
   const ExitCode code = runner.run(visitor);
   std::fputs((arguments.is_json ? to_json(score) + "\n" : to_text(score)).c_str(), stdout);
   return code;
 }
 
-void add_comparison_arguments(CLI::App& command, Arguments& arguments) {
+void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
   command.add_option("--iou", arguments.min_iou, "Boxes match from this overlap on (0 to 1)")
       ->check([](const std::string& text) {
         double share = 0;
@@ -211,7 +211,7 @@ void add_comparison_arguments(CLI::App& command, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000));
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const ScoreArguments& arguments) {
   if (arguments.is_of_surfaces) return score_surfaces(arguments);
   if (arguments.truth.empty()) throw CLI::RequiredError("--truth");
   return score_features(arguments);
@@ -220,7 +220,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_score(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ScoreArguments>();
   CLI::App* command = app.add_subcommand(
       "score", "Compare labels with the truth: precision, recall and F1 of every class");
   arguments->ignores_semantics = true;

@@ -1,10 +1,10 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
-#include "cli/output/tree_report.h"
+#include "cli/terminal/table.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
-#include "kernel/segment/complex/cell_complex.h"
+#include "oriel/segment.h"
 #include "oriel/write.h"
 
 #include <memory>
@@ -12,12 +12,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace oriel::cli {
 
 namespace {
 
-struct Arguments : RunOptions {
+struct SegmentArguments : RunOptions {
   bool is_json = false;
   bool has_faces = false;
   bool has_tree = false;
@@ -49,10 +50,76 @@ std::string listing(const Building& building, const PipelineResult& line) {
                      stats.inner, table(rows));
 }
 
+using nlohmann::ordered_json;
+
+ordered_json json_of(const TreeFigures& figures) {
+  return {{"leaves", figures.leaves},
+          {"inner", figures.inner},
+          {"depth", figures.depth},
+          {"weighted_path", figures.weighted_path}};
+}
+
+ordered_json json_of(const BalanceProof& proof) {
+  return {{"holds", proof.holds()},
+          {"same_cells", proof.has_same_cells},
+          {"volume_before_m3", proof.before_m3},
+          {"volume_after_m3", proof.after_m3},
+          {"points", proof.points},
+          {"differing", proof.differing}};
+}
+
+ordered_json json_of(const std::vector<CsgNode>& nodes, NodeId id) {
+  const CsgNode& node = nodes[id.index()];
+  if (node.kind == CsgNode::Kind::leaf) return {{"kind", "leaf"}, {"cell", node.cell.value}};
+  ordered_json out{{"kind", node.kind == CsgNode::Kind::unite ? "union" : "difference"}};
+  out["rest"] = ordered_json::array();
+  out["parts"] = ordered_json::array();
+  for (const NodeId child : node.rest) out["rest"].push_back(json_of(nodes, child));
+  for (const NodeId child : node.parts) out["parts"].push_back(json_of(nodes, child));
+  return out;
+}
+
+std::string text_of(const TreeFigures& figures) {
+  return fmt::format("{} leaves, {} inner, depth {}, weighted path {:.3f}", figures.leaves,
+                     figures.inner, figures.depth, figures.weighted_path);
+}
+
+std::string text_of(const BalanceProof& proof) {
+  return fmt::format("{}: {:.6f} m3, {} of {} points", proof.holds() ? "the same body" : "DIFFERS",
+                     proof.after_m3, proof.points - proof.differing, proof.points);
+}
+
+/// What --tree writes of a building: its CSG tree as it was cut, balanced and with touching parts
+/// merged, each with its figures, and whether all are one body. A line of text, or of JSON
+/// (docs/formats.md).
+std::string tree_report(const std::string& building, const TreeComparison& trees, bool is_json) {
+  if (!is_json)
+    return fmt::format("{}:\n  as cut    {}\n  balanced  {}; {}\n  merged    {}; {}\n", building,
+                       text_of(trees.cut), text_of(trees.balanced), text_of(trees.balanced_proof),
+                       text_of(trees.merged), text_of(trees.merged_proof));
+  ordered_json out{
+      {"id", building}, {"cut", json_of(trees.cut)}, {"balanced", json_of(trees.balanced)}};
+  out["balanced"]["proof"] = json_of(trees.balanced_proof);
+  out["merged"] = json_of(trees.merged);
+  out["merged"]["proof"] = json_of(trees.merged_proof);
+  out["merges"] = ordered_json::array();
+  for (const LeafMerge& merge : trees.tree.merges) {
+    ordered_json planes = ordered_json::array();
+    for (const PlaneId id : merge.planes) planes.push_back(id.value);
+    out["merges"].push_back({{"first", merge.first.value},
+                             {"second", merge.second.value},
+                             {"contact", merge.contact.value},
+                             {"planes", std::move(planes)},
+                             {"volume_m3", merge.volume_m3}});
+  }
+  out["tree"] = json_of(trees.tree.nodes, trees.tree.root);
+  return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
 /// Writes JSON or a listing, and the records of features, each if asked for.
 class Segmenter final : public VisitingCommand {
  public:
-  Segmenter(const Arguments& arguments, BatchRunner& runner)
+  Segmenter(const SegmentArguments& arguments, BatchRunner& runner)
       : arguments_(arguments), runner_(runner) {}
 
   void begin(std::size_t /*input*/) override {
@@ -80,7 +147,7 @@ class Segmenter final : public VisitingCommand {
   void add(const Building& building, const PipelineResult& line) {
     const FeatureTable& table = line.description.table;
     std::optional<CellComplex> complex;
-    if (arguments_.has_faces) complex = cell_complex(*line.segmentation, line.tolerances);
+    if (arguments_.has_faces) complex = cell_complex(line);
     const std::string text =
         arguments_.has_tree ? tree_text(building, line)
         : arguments_.is_json
@@ -93,22 +160,21 @@ class Segmenter final : public VisitingCommand {
   /// Of an open building nothing: it has no tree.
   [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
     if (line.is_open) return {};
-    bool is_same = true;
-    std::string text = tree_report(building.id, *line.segmentation, arguments_.is_json, is_same);
-    if (is_same) return text;
+    const TreeComparison trees = compare_trees(line);
+    if (trees.is_same_body()) return tree_report(building.id, trees, arguments_.is_json);
     runner_.set_aside(building_issue(Severity::error, Code::E901, building.id,
                                      "a fault of oriel's own: its balanced tree is another body"));
     return {};
   }
 
-  const Arguments& arguments_;
+  const SegmentArguments& arguments_;
   BatchRunner& runner_;
   std::unique_ptr<OutputFile> text_;
   std::unique_ptr<FeatureRecordWriter> features_;
   bool has_ended_ = false;  ///< an input did
 };
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const SegmentArguments& arguments) {
   Report report(arguments.is_verbose);
   BatchRunner runner(arguments, nullptr, report);
   Segmenter command(arguments, runner);
@@ -120,7 +186,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_segment(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SegmentArguments>();
   CLI::App* command = app.add_subcommand(
       "segment", "Find the parts of buildings: features, cells and the CSG tree");
   add_line_arguments(*command, *arguments, true);

@@ -1,7 +1,6 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
-#include "cli/streams/common_header.h"
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "kernel/io/cityjson/stream_header.h"
@@ -25,7 +24,7 @@ namespace {
 /// What shards hold in memory together before they are written.
 constexpr std::size_t kMostInMemory = 64U << 20U;
 
-struct Arguments : RunOptions {
+struct SplitArguments : RunOptions {
   std::string folder;
   std::uint64_t count = 0, bytes = 0;  ///< 0: not asked for
   double grid_m = 0;
@@ -35,7 +34,7 @@ struct Arguments : RunOptions {
 /// with --grid it is what lies in a cell; cells are numbered as they first occur.
 class Splitter final : public VisitingCommand {
  public:
-  explicit Splitter(const Arguments& arguments)
+  explicit Splitter(const SplitArguments& arguments)
       : arguments_(arguments),
         lines_({[&](const std::string& line) { add_header(line); },
                 [&](const std::string& line) { add_feature(line); }},
@@ -57,7 +56,7 @@ class Splitter final : public VisitingCommand {
   [[nodiscard]] std::size_t shards() const { return list_.shards.size(); }
 
  private:
-  using Cell = std::pair<std::int64_t, std::int64_t>;
+  using GridCell = std::pair<std::int64_t, std::int64_t>;
 
   void add_header(const std::string& line) {
     if (const auto issue = headers_.check(line, arguments_.inputs[input_]))
@@ -92,13 +91,13 @@ class Splitter final : public VisitingCommand {
     return open_.back();
   }
 
-  ShardFile& shard_of(Cell cell) {
+  ShardFile& shard_of(GridCell cell) {
     const auto [found, is_new] = number_of_.try_emplace(cell, open_.size());
     if (is_new) begin_shard();
     return open_[found->second];
   }
   /// Features without vertices go with the cell of the origin.
-  [[nodiscard]] Cell cell_of(const std::string& line) const {
+  [[nodiscard]] GridCell cell_of(const std::string& line) const {
     const Vec3 middle = place_->middle_of(line).value_or(Vec3{});
     return {static_cast<std::int64_t>(std::floor(middle.x / arguments_.grid_m)),
             static_cast<std::int64_t>(std::floor(middle.y / arguments_.grid_m))};
@@ -109,19 +108,19 @@ class Splitter final : public VisitingCommand {
     open_.back().append(header_);
   }
 
-  const Arguments& arguments_;
+  const SplitArguments& arguments_;
   StreamLines lines_;
   CommonHeader headers_;
   std::string header_;
   std::optional<FeaturePlace> place_;
   std::deque<ShardFile> open_;
-  std::map<Cell, std::size_t> number_of_;
+  std::map<GridCell, std::size_t> number_of_;
   ShardList list_;
   std::size_t input_ = 0, begun_ = 0, in_memory_ = 0;
   std::uint64_t features_ = 0, bytes_ = 0;  ///< of the shard at hand
 };
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const SplitArguments& arguments) {
   Report report(arguments.is_verbose);
   BatchRunner runner(arguments, nullptr, report);
   std::error_code error;
@@ -135,10 +134,11 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_split(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SplitArguments>();
   arguments->ends_at_reading = true;
   CLI::App* command = app.add_subcommand(
-      "split", "Part a stream into shards, each a CityJSONSeq with its header, and a list of them");
+      "split",
+      "OutputPart a stream into shards, each a CityJSONSeq with its header, and a list of them");
   add_input_arguments(*command, *arguments, true);
   command->add_option("-o,--output", arguments->folder, "Folder for the shards and split.json")
       ->required();

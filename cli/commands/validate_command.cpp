@@ -1,7 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/report.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/read.h"
 #include "oriel/validate.h"
@@ -19,9 +18,9 @@ namespace oriel::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
-struct Arguments : RunOptions {
+struct ValidateArguments : RunOptions {
   bool is_json = false;
   bool shows_problems_only = false;
   std::string primitive = "stated";
@@ -30,7 +29,7 @@ struct Arguments : RunOptions {
 };
 
 /// A building and all that was found about it.
-struct Judgement {
+struct BuildingFindings {
   std::string id;
   std::string lod;
   /// "solid" or "surfaces"; empty for a building that could not be read.
@@ -48,8 +47,8 @@ Finding finding_of(const Issue& issue) {
   return finding;
 }
 
-Json json_of(const Finding& finding) {
-  Json out{{"code", to_string(finding.code)}};
+ordered_json json_of(const Finding& finding) {
+  ordered_json out{{"code", to_string(finding.code)}};
   if (finding.val3dity > 0) {
     out["val3dity"] = finding.val3dity;
     out["val3dity_name"] = val3dity_name(finding.val3dity);
@@ -61,31 +60,31 @@ Json json_of(const Finding& finding) {
                                      {"ring", finding.ring}})
     if (number >= 0) out[name] = number;
   if (!finding.at_m.empty()) {
-    Json& points = out["at_m"] = Json::array();
+    ordered_json& points = out["at_m"] = ordered_json::array();
     for (const Vec3 p : finding.at_m) points.push_back({p.x, p.y, p.z});
   }
   return out;
 }
 
-std::string json_line(const Judgement& judgement) {
-  Json out{{"id", judgement.id}};
-  if (!judgement.primitive.empty()) {
-    out["lod"] = judgement.lod;
-    out["primitive"] = judgement.primitive;
+std::string json_line(const BuildingFindings& found) {
+  ordered_json out{{"id", found.id}};
+  if (!found.primitive.empty()) {
+    out["lod"] = found.lod;
+    out["primitive"] = found.primitive;
   }
-  out["valid"] = judgement.findings.empty();
-  out["findings"] = Json::array();
-  for (const Finding& finding : judgement.findings) out["findings"].push_back(json_of(finding));
-  return out.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  out["valid"] = found.findings.empty();
+  out["findings"] = ordered_json::array();
+  for (const Finding& finding : found.findings) out["findings"].push_back(json_of(finding));
+  return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string text_of(const Judgement& judgement) {
-  if (judgement.findings.empty())
-    return fmt::format("{}: valid{}\n", judgement.id,
-                       judgement.primitive == "surfaces" ? " as loose surfaces" : "");
-  std::string text = fmt::format("{}: {} finding{}\n", judgement.id, judgement.findings.size(),
-                                 judgement.findings.size() == 1 ? "" : "s");
-  for (const Finding& finding : judgement.findings) {
+std::string text_of(const BuildingFindings& found) {
+  if (found.findings.empty())
+    return fmt::format("{}: valid{}\n", found.id,
+                       found.primitive == "surfaces" ? " as loose surfaces" : "");
+  std::string text = fmt::format("{}: {} finding{}\n", found.id, found.findings.size(),
+                                 found.findings.size() == 1 ? "" : "s");
+  for (const Finding& finding : found.findings) {
     text += fmt::format("  {} {}", to_string(finding.code), finding.sentence);
     // Sentences of reading name the number themselves.
     if (finding.val3dity > 0 && finding.sentence.find("(val3dity ") == std::string::npos)
@@ -98,7 +97,7 @@ std::string text_of(const Judgement& judgement) {
 /// Reads and judges all inputs.
 class Validation {
  public:
-  explicit Validation(const Arguments& arguments)
+  explicit Validation(const ValidateArguments& arguments)
       : arguments_(arguments), report_(arguments.is_verbose), out_(arguments.out) {}
 
   ExitCode go() {
@@ -156,33 +155,33 @@ class Validation {
   }
 
   void judge(const Building& building, Format format, std::vector<Finding> open_rings) {
-    using Primitive = ValidateOptions::Primitive;
     ValidateOptions options = arguments_.options;
     // A mesh file does not state what it holds.
     const bool is_mesh = oriel::is_mesh(format);
     const bool is_solid = arguments_.primitive == "solid" ||
                           (arguments_.primitive == "stated" && (building.is_solid || is_mesh));
-    options.primitive = is_solid && arguments_.primitive != "stated" ? Primitive::solid
-                        : is_mesh && is_solid                        ? Primitive::solid
-                        : arguments_.primitive == "surfaces"         ? Primitive::surfaces
-                                                                     : Primitive::as_stated;
+    options.primitive =
+        is_solid && arguments_.primitive != "stated" ? ValidateOptions::Primitive::solid
+        : is_mesh && is_solid                        ? ValidateOptions::Primitive::solid
+        : arguments_.primitive == "surfaces"         ? ValidateOptions::Primitive::surfaces
+                                                     : ValidateOptions::Primitive::as_stated;
     // As in val3dity a shell with an open ring is not judged as a shell.
-    if (!open_rings.empty()) options.primitive = Primitive::surfaces;
+    if (!open_rings.empty()) options.primitive = ValidateOptions::Primitive::surfaces;
     std::vector<Finding> findings = std::move(open_rings);
     for (Finding& finding : validate(building, options)) findings.push_back(std::move(finding));
     add({building.id, building.lod, is_solid ? "solid" : "surfaces", std::move(findings)});
   }
 
-  void add(const Judgement& judgement) {
+  void add(const BuildingFindings& found) {
     ++buildings_;
-    for (const Finding& finding : judgement.findings) ++counts_[{finding.code, finding.val3dity}];
-    if (!judgement.findings.empty()) {
+    for (const Finding& finding : found.findings) ++counts_[{finding.code, finding.val3dity}];
+    if (!found.findings.empty()) {
       ++invalid_;
       raise(ExitCode::set_aside);
     } else if (arguments_.shows_problems_only) {
       return;
     }
-    out_.append(arguments_.is_json ? json_line(judgement) : text_of(judgement));
+    out_.append(arguments_.is_json ? json_line(found) : text_of(found));
   }
 
   void report_summary() const {
@@ -199,7 +198,7 @@ class Validation {
     run_log().write(LogLevel::info, text);
   }
 
-  const Arguments& arguments_;
+  const ValidateArguments& arguments_;
   Report report_;
   OutputFile out_;
   ExitCode code_ = ExitCode::clean;
@@ -212,7 +211,7 @@ class Validation {
 }  // namespace
 
 void add_validate(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = app.add_subcommand(
       "validate", "Check the geometry of buildings as it was read, as val3dity does");
   add_input_arguments(*command, *arguments, true);

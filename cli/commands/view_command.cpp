@@ -1,7 +1,7 @@
+#include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/labelling.h"
+#include "cli/commands/options.h"
 #include "cli/view/page.h"
-#include "cli/view/page_data.h"
 #include "kernel/io/cityjson/carried_labels.h"
 #include "kernel/io/files/output_file.h"
 
@@ -16,7 +16,7 @@ namespace oriel::cli {
 
 namespace {
 
-struct Arguments : RunOptions {
+struct ViewArguments : RunOptions {
   std::string rules = "residential";
   std::string out;
   std::string after;
@@ -60,7 +60,7 @@ ExitCode add_model(const RunOptions& arguments, const RuleBase& rules, Report& r
 
 /// The same buildings out of the generalised file, with what was read and written for the first run
 /// left as it is.
-RunOptions arguments_after(const Arguments& arguments, std::vector<std::string> ids) {
+RunOptions arguments_after(const ViewArguments& arguments, std::vector<std::string> ids) {
   RunOptions after = arguments;
   after.inputs = {arguments.after};
   after.selection = {};
@@ -73,7 +73,7 @@ RunOptions arguments_after(const Arguments& arguments, std::vector<std::string> 
   return after;
 }
 
-ExitCode work(const Arguments& arguments) {
+ExitCode work(const ViewArguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
@@ -100,7 +100,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 void add_view(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand(
       "view", "Write a page that shows buildings: a click says what a part is called, and why");
   add_line_arguments(*command, *arguments, true);

@@ -61,15 +61,15 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
 }
 
 void ChangeReport::take(const Product& product) {
-  if (changes_file_) changes_file_->append(product[Part::changes]);
-  if (metrics_file_) metrics_file_->append(product[Part::metrics]);
+  if (changes_file_) changes_file_->append(product[OutputPart::changes]);
+  if (metrics_file_) metrics_file_->append(product[OutputPart::metrics]);
 }
 
 void ChangeReport::add_places(PartPlaces& places) const {
   if (changes_file_)
-    places[static_cast<std::size_t>(Part::changes)] = {explain_, changes_file_->size()};
+    places[static_cast<std::size_t>(OutputPart::changes)] = {explain_, changes_file_->size()};
   if (metrics_file_)
-    places[static_cast<std::size_t>(Part::metrics)] = {metrics_, metrics_file_->size()};
+    places[static_cast<std::size_t>(OutputPart::metrics)] = {metrics_, metrics_file_->size()};
 }
 
 void ChangeReport::commit() const {

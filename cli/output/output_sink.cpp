@@ -128,9 +128,8 @@ void OutputSink::begin(std::size_t input, bool is_rehearsal) {
 }
 
 std::string OutputSink::text(std::size_t input, const Document& document,
-                             const std::vector<LabelledBuilding>& labelled,
-                             const WriteOptions& options) const {
-  return is_gathering(input) ? std::string() : write_cityjson(document, labelled, options);
+                             const OutputRecord& output) const {
+  return is_gathering(input) ? std::string() : write(document, output);
 }
 
 void OutputSink::take(const Document& document, const std::vector<LabelledBuilding>& labelled,
@@ -143,20 +142,15 @@ void OutputSink::take(const Document& document, const std::vector<LabelledBuildi
     file_->append(text);
 }
 
-void OutputSink::add(const Document& document, const std::vector<LabelledBuilding>& labelled,
-                     const WriteOptions& options) {
-  take(document, labelled, text(input_, document, labelled, options));
+void OutputSink::add(const Document& document, const OutputRecord& output) {
+  take(document, output.buildings, text(input_, document, output));
 }
 
 PartPlace OutputSink::place() const { return {path_, file_ ? file_->size() : 0}; }
 
 std::string OutputSink::end() {
   if (collector_.has_lines()) file_->append(collector_.text());
-  const Format format = format_of_output(input_);
-  if (format == Format::obj) file_->append(write_obj(mesh_));
-  if (format == Format::off) file_->append(write_off(mesh_));
-  if (format == Format::ply) file_->append(write_ply(mesh_));
-  if (format == Format::stl) file_->append(write_stl(mesh_, solids_));
+  if (is_gathering(input_)) file_->append(mesh_text(format_of_output(input_), mesh_, solids_));
   file_->commit();
   file_.reset();
   return path_;

@@ -2,12 +2,8 @@
 
 #include "cli/batch/outcome.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
-#include "kernel/io/document.h"
-#include "kernel/io/files/format.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/io/mesh/mesh_writer.h"
-#include "kernel/io/writer.h"
-#include "kernel/model/labelled_building.h"
+#include "oriel/write.h"
 
 #include <memory>
 #include <optional>
@@ -37,15 +33,13 @@ class OutputSink {
   /// What a record of an input adds, as bytes; empty for formats that are written when all records
   /// are there. Several threads may call it.
   [[nodiscard]] std::string text(std::size_t input, const Document& document,
-                                 const std::vector<LabelledBuilding>& labelled,
-                                 const WriteOptions& options) const;
+                                 const OutputRecord& output) const;
   /// Such formats: `add` needs the buildings.
   [[nodiscard]] bool is_gathering(std::size_t input) const;
   /// Puts a record of the input at hand into its place, whose `text` it was.
   void take(const Document& document, const std::vector<LabelledBuilding>& labelled,
             const std::string& text);
-  void add(const Document& document, const std::vector<LabelledBuilding>& labelled,
-           const WriteOptions& options);
+  void add(const Document& document, const OutputRecord& output);
   /// Puts the file in its place and returns its path.
   std::string end();
 

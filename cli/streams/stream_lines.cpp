@@ -1,11 +1,14 @@
 #include "cli/streams/stream_lines.h"
 
 #include "kernel/io/cityjson/cityjson_splitter.h"
-#include "kernel/io/writer.h"
+#include "kernel/io/cityjson/stream_header.h"
+#include "oriel/write.h"
 
 #include <algorithm>
 #include <unordered_set>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel::cli {
 
@@ -34,8 +37,24 @@ void StreamLines::add(const Document& document, const std::vector<PipelineResult
   if (std::exchange(is_first_, false)) return take_apart(document, lines);
   if (const std::string_view line = source_line(document); !line.empty())
     return visitor_.feature(std::string(line) + '\n');
-  const std::string line = write_cityjson(document, {});
+  const std::string line = write(document, OutputRecord{});
   if (!line.empty()) visitor_.feature(line);  // CityGML: empty for a Building with a fault
+}
+
+std::optional<Issue> CommonHeader::check(const std::string& header, const std::string& input) {
+  const bool is_file = of_ == Of::file;
+  const std::string facts = is_file ? file_facts(header) : stream_header_facts(header);
+  if (facts_.empty()) {
+    facts_ = facts;
+    input_ = input;
+  }
+  if (facts == facts_) return std::nullopt;
+  Issue issue;
+  issue.code = Code::E116;
+  issue.sentence = fmt::format("has the header {}, but that of {} is {}: they share no {}", facts,
+                               input_, facts_, is_file ? "file" : "stream");
+  issue.place.file = input;
+  return issue;
 }
 
 }  // namespace oriel::cli

@@ -100,6 +100,20 @@ class JsonFormatter final : public spdlog::formatter {
   }
 };
 
+/// With --log-json a finding is an object of its parts.
+std::string json_of(const Issue& issue) {
+  nlohmann::ordered_json object{{"code", to_string(issue.code)}, {"message", issue.sentence}};
+  const auto add = [&](const char* name, const std::string& text) {
+    if (!text.empty()) object[name] = text;
+  };
+  add("file", issue.place.file);
+  if (issue.place.line > 0) object["line"] = issue.place.line;
+  if (issue.place.column > 0) object["column"] = issue.place.column;
+  add("building", issue.place.building);
+  add("feature", issue.place.feature);
+  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 spdlog::level::level_enum level_of(const std::string& name,
                                    spdlog::level::level_enum without_name) {
   return name.empty() ? without_name : spdlog::level::from_str(name);
@@ -142,5 +156,18 @@ bool logs_json() { return is_json; }
 Log findings_log() { return log(kFindings); }
 Log progress_log() { return log(kProgress); }
 Log run_log() { return log(kRun); }
+
+void Report::add(const std::vector<Issue>& issues) {
+  for (const Issue& issue : issues) add(issue);
+}
+
+void Report::add(const Issue& issue) {
+  if (issue.severity == Severity::error) ++errors_[to_string(issue.code)];
+  LogLevel level = is_verbose_ ? LogLevel::info : LogLevel::debug;
+  if (issue.severity == Severity::warning) level = LogLevel::warning;
+  if (issue.severity == Severity::error) level = LogLevel::error;
+  const Log log = findings_log();
+  if (log.is_on(level)) log.write(level, logs_json() ? json_of(issue) : to_string(issue));
+}
 
 }  // namespace oriel::cli

@@ -1,8 +1,12 @@
 #pragma once
 
+#include "kernel/base/issue.h"
 #include "kernel/base/log.h"
 
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -36,5 +40,25 @@ Log findings_log();
 Log progress_log();
 /// All else that the command says on stderr: summaries, files that were written.
 Log run_log();
+
+/// Reports to the user what was found (findings_log), and counts errors. Notes stand on level debug
+/// unless they are asked for.
+class Report {
+ public:
+  explicit Report(bool is_verbose) : is_verbose_(is_verbose) {}
+
+  void add(const std::vector<Issue>& issues);
+  void add(const Issue& issue);
+
+  /// What an earlier part of the run has reported.
+  void restore(std::map<std::string, int> errors) { errors_ = std::move(errors); }
+
+  /// Errors so far, by code.
+  [[nodiscard]] const std::map<std::string, int>& errors() const { return errors_; }
+
+ private:
+  bool is_verbose_;
+  std::map<std::string, int> errors_;
+};
 
 }  // namespace oriel::cli

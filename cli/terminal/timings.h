@@ -1,11 +1,8 @@
 #pragma once
 
-#include "oriel/options.h"
+#include "oriel/stage.h"
 
 #include <array>
-#include <chrono>
-#include <string>
-#include <vector>
 
 namespace oriel::cli {
 
@@ -19,11 +16,12 @@ class Timings {
   /// Calls `work()` and adds its time to a stage; returns what it returns.
   template <class Work>
   auto measure(Stage stage, Work work) {
-    const Stopwatch watch(ms_[static_cast<std::size_t>(stage)]);
-    return work();
+    return oriel::measure(observer(), stage, work);
   }
 
-  void add(const Timings& more);
+  void add(const Timings& more) {
+    for (std::size_t s = 0; s < ms_.size(); ++s) ms_[s] += more.ms_[s];
+  }
   void add(Stage stage, double ms) { ms_[static_cast<std::size_t>(stage)] += ms; }
 
   /// Adds what the library reports; this must outlive it.
@@ -34,27 +32,7 @@ class Timings {
   [[nodiscard]] double ms(Stage stage) const { return ms_[static_cast<std::size_t>(stage)]; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  class Stopwatch {
-   public:
-    explicit Stopwatch(double& sum_ms) : sum_ms_(sum_ms), start_(Clock::now()) {}
-    ~Stopwatch() {
-      sum_ms_ += std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-    }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-   private:
-    double& sum_ms_;
-    Clock::time_point start_;
-  };
-
-  std::array<double, 7> ms_{};
+  std::array<double, kStageNames.size()> ms_{};
 };
-
-/// The medians of the stages over several runs:
-/// {"read_ms":…,"solidify_ms":…,…,"runs":N} with a line end.
-std::string to_json(const std::vector<Timings>& runs);
 
 }  // namespace oriel::cli

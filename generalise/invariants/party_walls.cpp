@@ -1,8 +1,8 @@
 #include "generalise/invariants/party_walls.h"
 
 #include "kernel/base/index.h"
-#include "kernel/geometry/area_within.h"
 #include "kernel/geometry/boxes.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/vec3.h"
 
 #include <algorithm>

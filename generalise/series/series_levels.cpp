@@ -51,22 +51,22 @@ class Levels {
   }
 
  private:
-  using Steps = std::map<FeatureId, Step>;
+  using StepOfFeature = std::map<FeatureId, Step>;
 
-  static Steps by_feature(const std::vector<Step>& steps) {
-    Steps out;
+  static StepOfFeature by_feature(const std::vector<Step>& steps) {
+    StepOfFeature out;
     for (const Step& step : steps) out.emplace(step.feature, step);
     return out;
   }
-  static std::vector<Step> listed(const Steps& steps) {
+  static std::vector<Step> listed(const StepOfFeature& steps) {
     std::vector<Step> out;
     for (const auto& [feature, step] : steps) out.push_back(step);
     return out;
   }
 
   /// What the plan asks for on top of what was done before.
-  [[nodiscard]] Steps wanted(const SeriesLevel& before, double scale) const {
-    Steps steps = by_feature(before.steps);
+  [[nodiscard]] StepOfFeature wanted(const SeriesLevel& before, double scale) const {
+    StepOfFeature steps = by_feature(before.steps);
     const Plan plan = plan_at_(scale);
     const std::set<FeatureId> bound = bound_members(before, plan);
     for (const Step& step : plan.steps) {
@@ -109,8 +109,8 @@ class Levels {
 
   std::optional<SeriesLevel> next(const SeriesLevel& before, double scale,
                                   std::vector<Issue>& issues) {
-    const Steps old = by_feature(before.steps);
-    Steps steps = wanted(before, scale);
+    const StepOfFeature old = by_feature(before.steps);
+    StepOfFeature steps = wanted(before, scale);
     if (asks_nothing_new(before, steps)) {
       SeriesLevel same = before;
       same.scale = scale;
@@ -160,7 +160,7 @@ class Levels {
   }
 
   /// All steps were carried out, or refused, at the level before.
-  static bool asks_nothing_new(const SeriesLevel& before, const Steps& steps) {
+  static bool asks_nothing_new(const SeriesLevel& before, const StepOfFeature& steps) {
     return std::ranges::all_of(steps, [&](const auto& asked) {
       const auto is_it = [&](const Step& old) {
         return old.feature == asked.first && is_same(old, asked.second);
@@ -171,7 +171,8 @@ class Levels {
 
   /// Steps that were refused give way to those that they were to take the place of. True if there
   /// were such.
-  static bool restore_refused(const SeriesLevel& level, const Steps& old, Steps& steps) {
+  static bool restore_refused(const SeriesLevel& level, const StepOfFeature& old,
+                              StepOfFeature& steps) {
     bool is_changed = false;
     for (const CarriedOut::Refused& refused : level.generalised.refused) {
       const auto before = old.find(refused.feature);
@@ -186,7 +187,7 @@ class Levels {
 
   /// Something is there that was gone already, or an old step is refused.
   static bool is_setback(const SeriesLevel& before, const SeriesLevel& after) {
-    const Steps now = by_feature(after.steps);
+    const StepOfFeature now = by_feature(after.steps);
     const auto& removed = after.generalised.removed;
     const bool has_lost_a_step = std::ranges::any_of(before.steps, [&](const Step& step) {
       return !now.contains(step.feature) && !std::ranges::binary_search(removed, step.feature);
@@ -196,7 +197,7 @@ class Levels {
 
   /// The new steps on top of the old ones; tasks that would undo something, found by halving, are
   /// left.
-  SeriesLevel on_top(const SeriesLevel& before, const Steps& wanted_steps, double scale,
+  SeriesLevel on_top(const SeriesLevel& before, const StepOfFeature& wanted_steps, double scale,
                      std::vector<Issue>& issues) {
     SeriesLevel best = before;
     best.scale = scale;
@@ -207,7 +208,7 @@ class Levels {
   void add_tasks(const SeriesLevel& before, std::span<const std::vector<Step>> tasks,
                  SeriesLevel& best, std::vector<Issue>& issues) {
     if (tasks.empty()) return;
-    Steps more = by_feature(best.steps);
+    StepOfFeature more = by_feature(best.steps);
     for (const std::vector<Step>& task : tasks)
       for (const Step& step : task) more.insert_or_assign(step.feature, step);
     std::vector<Issue> found;
@@ -228,8 +229,8 @@ class Levels {
     }
   }
 
-  [[nodiscard]] std::vector<std::vector<Step>> new_tasks(const Steps& old,
-                                                         const Steps& wanted_steps) const {
+  [[nodiscard]] std::vector<std::vector<Step>> new_tasks(const StepOfFeature& old,
+                                                         const StepOfFeature& wanted_steps) const {
     const auto is_new = [&](const Step& step) {
       const auto found = old.find(step.feature);
       return found == old.end() || !is_same(found->second, step);

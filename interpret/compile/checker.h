@@ -1,5 +1,7 @@
 #pragma once
 
+#include "interpret/compile/name_lookup.h"
+#include "interpret/compile/typed_code.h"
 #include "interpret/language/findings.h"
 #include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
@@ -27,7 +29,11 @@ inline constexpr std::size_t kMostInPack = 200'000;
 class Checker {
  public:
   Checker(Pack& pack, Names& names, Findings& findings)
-      : pack_(&pack), names_(&names), findings_(&findings) {}
+      : pack_(&pack),
+        names_(&names),
+        findings_(&findings),
+        lookup_(pack, names, findings),
+        code_(pack, findings) {}
 
   /// Inside `generalise:` lengths may be stated in mm@map, and `scale` is the target scale's N.
   void allow_map_units(bool is_allowed) { is_map_allowed_ = is_allowed; }
@@ -52,7 +58,7 @@ class Checker {
  private:
   ExprId check(const Syntax& syntax);
   ExprId check_by_kind(const Syntax& syntax);
-  bool is_too_much(Span where);
+  bool is_too_much(SourceSpan where);
 
   [[nodiscard]] const std::vector<AttributeInfo>& schema() const;
   [[nodiscard]] std::vector<std::string> words_for(std::size_t column) const;
@@ -67,43 +73,27 @@ class Checker {
   ExprId check_distance(const Syntax& syntax);
   ExprId check_group_gap(const Syntax& syntax);
   ExprId check_is(const Syntax& syntax);
+  ExprId check_class(const Syntax& syntax, int level);
   ExprId check_host(const Syntax& syntax, int level);
   ExprId check_quantifier(const Syntax& syntax);
   ExprId check_aggregate(const Syntax& syntax);
   std::optional<int> relation_of(const Syntax& syntax);
-  ExprId make_quantifier(Expr expr, ExprId where);
   std::optional<int> level_of(const Syntax& syntax);
-  void report_unknown_name(const Syntax& syntax);
-  void report_unknown_class(const Syntax& syntax);
-  ExprId refuse_class(const Syntax& syntax);
 
   // Operators.
-  ExprId check_call(const Syntax& syntax);
-  ExprId check_negate(const Syntax& syntax);
-  ExprId check_logic(const Syntax& syntax, Op op);
-  ExprId check_binary(const Syntax& syntax);
-  ExprId check_arithmetic(const Syntax& syntax);
+  std::vector<ExprId> check_numbers(const Syntax& syntax);
+  std::vector<ExprId> check_conditions(const Syntax& syntax);
   ExprId check_comparison(const Syntax& syntax);
-  ExprId check_range(const Syntax& syntax);
   ExprId check_list(const Syntax& syntax);
-  ExprId check_similarity(const Syntax& syntax);
   ExprId check_as_number(const Syntax& syntax);
   ExprId check_as_condition(const Syntax& syntax);
   ExprId check_word(const Syntax& syntax, ExprId text);
-  bool expect_same(const Syntax& left, ExprId left_id, const Syntax& right, ExprId right_id);
-  bool report_missing_unit(const Syntax& number, const Syntax& other, Dimension wanted);
-
-  ExprId add(Expr expr);
-  [[nodiscard]] const Expr& at(ExprId id) const {
-    return pack_->code[static_cast<std::size_t>(id)];
-  }
-  [[nodiscard]] std::string_view text_of(const Syntax& syntax) const;
-  ExprId fail(Code code, Span where, std::string sentence);
-  int word_number(const std::string& word);
 
   Pack* pack_;
   Names* names_;
   Findings* findings_;
+  NameLookup lookup_;
+  TypedCode code_;
   bool is_map_allowed_ = false;
   bool is_of_surfaces_ = false;
   bool is_of_group_ = false;
@@ -115,11 +105,5 @@ class Checker {
   std::size_t in_expression_ = 0;
   std::size_t in_pack_ = 0;
 };
-
-/// "a length", "yes or no", "a text".
-std::string describe(const Expr& expr);
-
-/// True for a number that was written without a unit.
-bool is_bare_number(const Syntax& syntax);
 
 }  // namespace oriel::rules

@@ -26,7 +26,7 @@ class Tarjan {
   }
 
  private:
-  struct Visit {
+  struct OpenNode {
     int node = 0;
     std::size_t next = 0;
   };
@@ -34,13 +34,13 @@ class Tarjan {
   void enter(int node) {
     order_[oriel::at(node)] = low_[oriel::at(node)] = seen_++;
     stack_.push_back(node);
-    visits_.push_back({node, 0});
+    open_.push_back({node, 0});
   }
 
   void visit(int root) {
     enter(root);
-    while (!visits_.empty()) {
-      Visit& at = visits_.back();
+    while (!open_.empty()) {
+      OpenNode& at = open_.back();
       if (at.next == targets_[oriel::at(at.node)].size()) {
         leave();
         continue;
@@ -54,10 +54,10 @@ class Tarjan {
   }
 
   void leave() {
-    const int node = visits_.back().node;
-    visits_.pop_back();
-    if (!visits_.empty()) {
-      int& low = low_[oriel::at(visits_.back().node)];
+    const int node = open_.back().node;
+    open_.pop_back();
+    if (!open_.empty()) {
+      int& low = low_[oriel::at(open_.back().node)];
       low = std::min(low, low_[oriel::at(node)]);
     }
     if (low_[oriel::at(node)] != order_[oriel::at(node)]) return;
@@ -74,7 +74,7 @@ class Tarjan {
   std::vector<int> order_;
   std::vector<int> low_;
   std::vector<int> stack_;
-  std::vector<Visit> visits_;
+  std::vector<OpenNode> open_;
   int seen_ = 0;
   Components result_;
 };

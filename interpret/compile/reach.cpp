@@ -13,9 +13,9 @@ namespace oriel::rules {
 
 namespace {
 
-class Reach {
+class ReachChecker {
  public:
-  Reach(const Pack& pack, Findings& findings) : pack_(&pack), findings_(&findings) {
+  ReachChecker(const Pack& pack, Findings& findings) : pack_(&pack), findings_(&findings) {
     for (const Rule& rule : pack.rules) constraints_.emplace_back(pack, rule.require);
     for (std::size_t step = 0; step < pack.steps.size(); ++step) {
       for (const int rule : pack.steps[step].rules) step_of_[oriel::at(rule)] = step;
@@ -58,7 +58,7 @@ class Reach {
   }
 
   /// At the condition, or at the rule if the condition stands in a pack beneath.
-  void warn_in(const Rule& rule, Span span, std::string sentence) {
+  void warn_in(const Rule& rule, SourceSpan span, std::string sentence) {
     const bool is_own = pack_->source.is_in_first(span.begin);
     findings_->warning(Code::R254, is_own ? span : rule.span, std::move(sentence));
   }
@@ -113,7 +113,7 @@ class Reach {
 };
 
 /// True if every feature that `second` is for is one that `first` is for.
-bool covers_target(const Pack& pack, const Entry& first, const Entry& second) {
+bool covers_target(const Pack& pack, const GeneraliseEntry& first, const GeneraliseEntry& second) {
   if (first.group >= 0) return first.group == second.group;
   if (first.target == kNoClass) return true;
   if (second.group >= 0) {
@@ -129,7 +129,8 @@ std::string scale_text(double from, double to) {
 }
 
 /// What the entry `second` leaves to be said of it, `first` standing before it without a condition.
-bool report_overlap(const Pack& pack, const Entry& first, const Entry& second, Findings& findings) {
+bool report_overlap(const Pack& pack, const GeneraliseEntry& first, const GeneraliseEntry& second,
+                    Findings& findings) {
   if (first.when != kNoExpr || first.id == second.id || !covers_target(pack, first, second))
     return false;
   const double from = std::max(first.scale_from, second.scale_from);
@@ -157,13 +158,13 @@ bool report_overlap(const Pack& pack, const Entry& first, const Entry& second, F
 
 void check_entries(const Pack& pack, Findings& findings) {
   for (std::size_t i = 0; i < pack.entries.size(); ++i) {
-    const Entry& second = pack.entries[i];
+    const GeneraliseEntry& second = pack.entries[i];
     if (!pack.source.is_in_first(second.span.begin) || second.scale_from == 0) continue;
     for (std::size_t j = 0; j < i; ++j)
       if (report_overlap(pack, pack.entries[j], second, findings)) break;
   }
 }
 
-void check_reach(const Pack& pack, Findings& findings) { Reach(pack, findings).run(); }
+void check_reach(const Pack& pack, Findings& findings) { ReachChecker(pack, findings).run(); }
 
 }  // namespace oriel::rules

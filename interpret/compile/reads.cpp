@@ -22,7 +22,6 @@ Reads find_reads(const Pack& pack) {
   reads.relations.resize(built_in + pack.relations.size(), false);
   for (const Expr& expr : pack.code) {
     if (is_quantifier(expr.op)) reads.relations[at(expr.index)] = true;
-    if (expr.op == Op::facet_is) reads.host_kinds.at(at(expr.index)) = true;
     if (expr.op == Op::attribute || expr.op == Op::flag)
       (expr.type == Type::text ? reads.texts : reads.numbers).push_back(at(expr.index));
   }

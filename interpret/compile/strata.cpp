@@ -20,7 +20,7 @@ struct Question {
   ClassId reader = kNoClass;
   ClassId read = kNoClass;
   bool is_strict = false;
-  Span span;
+  SourceSpan span;
 };
 
 bool makes_strict(Op op) {
@@ -178,26 +178,16 @@ std::vector<int> find_levels(const Pack& pack, std::vector<Question> questions,
 
 /// One step for each component of predicates, in their order, and after those of a stratum one for
 /// its decision.
-/// The greatest priority first, then the smallest id.
-void sort_by_rank(const Pack& pack, Step& step) {
-  const auto rule = [&](int id) -> const Rule& { return pack.rules[oriel::at(id)]; };
-  std::ranges::sort(step.rules, [&](int p, int q) {
-    return rule(p).priority != rule(q).priority ? rule(p).priority > rule(q).priority
-                                                : rule(p).id < rule(q).id;
-  });
-  step.is_scored = std::ranges::any_of(step.rules, [&](int id) { return !rule(id).score.empty(); });
-}
-
 void make_steps(Pack& pack, const std::vector<Question>& questions, const Components& components) {
   const std::vector<int> levels = find_levels(pack, questions, components);
   const int last = levels.empty() ? -1 : *std::ranges::max_element(levels);
-  std::vector<Step> predicates(oriel::at(components.count));
-  std::vector<Step> decisions(oriel::at(last + 1));
+  std::vector<RuleStep> predicates(oriel::at(components.count));
+  std::vector<RuleStep> decisions(oriel::at(last + 1));
   for (int rule = 0; rule < static_cast<int>(pack.rules.size()); ++rule) {
     const ClassId label = pack.rules[oriel::at(rule)].label;
     const int c = components.of_node[oriel::at(label)];
     const bool is_predicate = pack.classes[oriel::at(label)].is_abstract;
-    Step& step =
+    RuleStep& step =
         is_predicate ? predicates[oriel::at(c)] : decisions[oriel::at(levels[oriel::at(c)])];
     step.is_decision = !is_predicate;
     step.rules.push_back(rule);
@@ -206,8 +196,7 @@ void make_steps(Pack& pack, const std::vector<Question>& questions, const Compon
     const int c = components.of_node[oriel::at(q.reader)];
     if (c == components.of_node[oriel::at(q.read)]) predicates[oriel::at(c)].is_recursive = true;
   }
-  for (Step& step : decisions) sort_by_rank(pack, step);
-  const auto add = [&](Step& step) {
+  const auto add = [&](RuleStep& step) {
     if (!step.rules.empty()) pack.steps.push_back(std::move(step));
   };
   for (int level = 0; level <= last; ++level) {

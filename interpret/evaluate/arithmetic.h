@@ -2,11 +2,8 @@
 
 #include "interpret/language/expr.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <span>
 
 namespace oriel::rules {
 
@@ -52,54 +49,6 @@ inline Truth compare(Op op, double x, double y) {
       return truth_of(x == y);
     default:
       return truth_of(x != y);
-  }
-}
-
-/// Calls `f` for each element of spans of the same size. Compiled for each `f`, so that what is the
-/// same for all elements is decided outside the loop.
-template <class F, class... Spans>
-void for_each(std::size_t size, F f, Spans... spans) {
-  for (std::size_t i = 0; i < size; ++i) f(spans[i]...);
-}
-
-/// The same operators for a block: of x, and of x and y, into x.
-inline void apply(Op op, std::span<double> x) {
-  const auto run = [&](auto f) { for_each(x.size(), f, x); };
-  if (op == Op::negate) return run([](double& v) { v = -v; });
-  if (op == Op::absolute) return run([](double& v) { v = std::abs(v); });
-  run([](double& v) { v = std::sqrt(v); });
-}
-
-inline void apply(Op op, std::span<double> x, std::span<const double> y) {
-  const auto run = [&](auto f) { for_each(x.size(), f, x, y); };
-  switch (op) {
-    case Op::add:
-      return run([](double& p, double q) { p = p + q; });
-    case Op::subtract:
-      return run([](double& p, double q) { p = p - q; });
-    case Op::multiply:
-      return run([](double& p, double q) { p = p * q; });
-    case Op::divide:
-      return run([](double& p, double q) { p = p / q; });
-    default:
-      return run([op](double& p, double q) { p = apply(op, p, q); });
-  }
-}
-
-/// The same with one number for all.
-inline void apply(Op op, std::span<double> x, double y) {
-  const auto run = [&](auto f) { for_each(x.size(), f, x); };
-  switch (op) {
-    case Op::add:
-      return run([y](double& p) { p = p + y; });
-    case Op::subtract:
-      return run([y](double& p) { p = p - y; });
-    case Op::multiply:
-      return run([y](double& p) { p = p * y; });
-    case Op::divide:
-      return run([y](double& p) { p = p / y; });
-    default:
-      return run([op, y](double& p) { p = apply(op, p, y); });
   }
 }
 

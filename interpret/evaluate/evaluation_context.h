@@ -1,6 +1,5 @@
 #pragma once
 
-#include "interpret/labelling/interpret.h"
 #include "interpret/language/expr.h"
 #include "interpret/pack/pack.h"
 #include "kernel/model/description/feature_graph.h"
@@ -8,7 +7,6 @@
 #include "kernel/model/description/surface_table.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -58,48 +56,36 @@ struct Links {
   [[nodiscard]] Truth of_row(int row) const { return certain_rows[static_cast<std::size_t>(row)]; }
 };
 
-/// One building or more, laid out for evaluation: everything a pack asks for by name is found once,
-/// before the first rule is run. Refers to the tables and graphs, which must outlive it.
+/// One building, laid out for evaluation: everything a pack asks for by name is found once, before
+/// the first rule is run. Refers to the table and the graph, which must outlive it.
 struct EvaluationContext {
   EvaluationContext(const Pack& pack, const FeatureTable& table, const FeatureGraph& graph);
-  /// Several buildings, the features of one behind those of the other; nothing relates two. What is
-  /// asked for is copied.
-  EvaluationContext(const Pack& pack, std::span<const FeaturesOfBuilding> buildings);
   /// The same for surfaces, of which neither relations nor classes are known.
   EvaluationContext(const Pack& pack, const SurfaceTable& table);
   EvaluationContext(const EvaluationContext&) = delete;
   EvaluationContext& operator=(const EvaluationContext&) = delete;
 
   std::size_t rows = 0;
-  /// 0, 1, … rows - 1: a block of features is a piece of it.
+  /// 0, 1, … rows - 1.
   std::vector<int> row_numbers;
   /// By column of feature_schema(): its numbers, or its texts as numbers of words (Pack::words,
   /// further numbers for other texts); NaN where missing. Empty where no rule asks for it.
   std::vector<std::span<const double>> columns;
-  /// By number (Relation); without lists for relations that nothing leads over.
+  /// By number (RelationDefinition); without lists for relations that nothing leads over.
   std::vector<Links> relations;
   /// Whether a feature is of a class, by class and row, as far as it is known so far.
   std::vector<std::vector<Truth>> membership;
   /// The same after the round before; of no size without `iterate:`.
   std::vector<std::vector<Truth>> previous;
-  /// Whether the host facet is of a kind, by HostKind and row; of no size where no rule asks for
-  /// the kind or one behind it.
-  std::array<std::vector<Truth>, 4> hosts;
   /// The denominator of the target scale, if there is one.
   double scale = 0;
 
  private:
-  /// Room for so many features.
-  EvaluationContext(const Pack& pack, std::size_t features);
-  void find_hosts(const Pack& pack);
-  void link(const Pack& pack, auto lists_of_relation);
+  void link(const Pack& pack, const FeatureGraph& graph);
 
   /// The lists of the relations that the pack declares.
   std::vector<FeatureLinks> narrowed_;
   std::vector<std::vector<double>> coded_texts_;
-  /// What was copied of several buildings: numbers by column, and lists by relation.
-  std::vector<std::vector<double>> joined_numbers_;
-  std::vector<FeatureLinks> joined_lists_;
 };
 
 }  // namespace oriel::rules

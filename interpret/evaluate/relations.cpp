@@ -1,11 +1,12 @@
 #include "interpret/evaluate/relations.h"
 
-#include "interpret/compile/refined_classes.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/explain/constraints.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace oriel::rules {
@@ -24,9 +25,9 @@ bool are_mirrored(const Pack& pack, const std::vector<ExprId>& p, const std::vec
 
 /// Of `f(self) = f(other)` what is asked of self; else kNoExpr.
 ExprId compared_in(const Pack& pack, ExprId id) {
-  const Expr& expr = pack.code[static_cast<std::size_t>(id)];
+  const Expr& expr = pack.code[at(id)];
   if (expr.op != Op::equal || !is_mirrored(pack, expr.args[0], expr.args[1])) return kNoExpr;
-  const bool is_first = pack.code[static_cast<std::size_t>(expr.args[0])].levels == kSelf;
+  const bool is_first = pack.code[at(expr.args[0])].levels == kSelf;
   return expr.args[is_first ? 0 : 1];
 }
 
@@ -42,86 +43,106 @@ std::optional<std::vector<ExprId>> compared_in(const Pack& pack, const RelationS
   return keys;
 }
 
-/// Goes through the pairs of a relation block by block and keeps those that fit. Conditions on one
-/// of the two alone are evaluated once for every feature, and only pairs that they leave are looked
-/// at.
-class Narrowing {
- public:
-  Narrowing(const EvaluationContext& context, Evaluator& evaluator, const RelationSides& sides)
-      : context_(context), evaluator_(evaluator), sides_(sides) {}
+bool has_unknown(const std::vector<Truth>& truths) {
+  return std::ranges::find(truths, Truth::unknown) != truths.end();
+}
 
-  Narrowed run(const Links& from) {
-    const auto selves = answers_of(context_, evaluator_, sides_.of_self, 0);
-    const auto others = answers_of(context_, evaluator_, sides_.of_other, 1);
-    for (const int row : context_.row_numbers) {
-      const Truth self = selves[static_cast<std::size_t>(row)];
-      if (self == Truth::no) continue;
-      const auto [begin, end] = from.range_of(row);
-      for (std::size_t link = begin; link < end; ++link) {
-        const int other = from.other(link);
-        if (other == row) continue;
-        const Truth fits = std::min(self, others[static_cast<std::size_t>(other)]);
-        add(row, other, std::min(fits, from.is_other(row, link)));
-      }
+/// For every feature whether all of the conditions hold, which read that level only.
+std::vector<Truth> answers_of(const EvaluationContext& context, Evaluator& evaluator,
+                              const std::vector<ExprId>& conditions, int level) {
+  std::vector<Truth> answers;
+  answers.reserve(context.rows);
+  for (const int row : context.row_numbers)
+    answers.push_back(evaluator.all_hold(conditions, rows_of(row, level)));
+  return answers;
+}
+
+/// Keeps the pairs that fit. Conditions on one of the two alone are evaluated once for every
+/// feature.
+NarrowedRelation narrowed_pairs(const EvaluationContext& context, Evaluator& evaluator,
+                                const Links& from, const RelationSides& sides) {
+  const auto selves = answers_of(context, evaluator, sides.of_self, 0);
+  const auto others = answers_of(context, evaluator, sides.of_other, 1);
+  NarrowedRelation result;
+  result.lists.list_of = context.row_numbers;
+  result.lists.starts.clear();
+  std::vector<Truth> certain;
+  for (const int self : context.row_numbers) {
+    result.lists.starts.push_back(static_cast<int>(certain.size()));
+    const auto [begin, end] = from.range_of(self);
+    for (std::size_t link = begin; link < end; ++link) {
+      const int other = from.other(link);
+      if (other == self) continue;
+      Truth fits = std::min({selves[at(self)], others[at(other)], from.is_other(self, link)});
+      FeatureRows pair = rows_of(self);
+      pair[1] = other;
+      if (fits != Truth::no) fits = std::min(fits, evaluator.all_hold(sides.of_both, pair));
+      if (fits == Truth::no) continue;
+      result.lists.others.push_back(other);
+      certain.push_back(fits);
     }
-    flush();
-    Narrowed result;
-    result.lists.list_of = context_.row_numbers;
-    result.lists.starts.assign(context_.rows + 1, 0);
-    for (const int self : kept_selves_) ++result.lists.starts[static_cast<std::size_t>(self) + 1];
-    for (std::size_t row = 0; row < context_.rows; ++row)
-      result.lists.starts[row + 1] += result.lists.starts[row];
-    result.lists.others = std::move(kept_others_);
-    if (has_unknown_) result.links.certain = std::move(kept_truths_);
-    return result;
   }
+  result.lists.starts.push_back(static_cast<int>(certain.size()));
+  if (has_unknown(certain)) result.links.certain = std::move(certain);
+  return result;
+}
 
- private:
-  /// Pairs that do not fit are overwritten by the next, without a branch that nobody could foresee.
-  void add(int self, int other, Truth truth) {
-    if (size_ == kBlock) flush();
-    selves_[size_] = self;
-    others_[size_] = other;
-    truths_[size_] = truth;
-    size_ += truth != Truth::no ? 1 : 0;
-  }
-
-  void flush() {
-    Frame frame;
-    frame.size = size_;
-    frame.rows[0] = selves_.data();
-    frame.rows[1] = others_.data();
-    narrow(evaluator_, sides_.of_both, frame, std::span(truths_).first(size_));
-    for (std::size_t i = 0; i < size_; ++i) {
-      if (truths_[i] == Truth::no) continue;
-      has_unknown_ |= truths_[i] == Truth::unknown;
-      kept_selves_.push_back(selves_[i]);
-      kept_others_.push_back(others_[i]);
-      kept_truths_.push_back(truths_[i]);
+/// Cuts the classes of `from` where their members differ in `values`; those that do not fit are
+/// left out. Rows of one value stay in their order.
+FeatureLinks divided(const FeatureLinks& from, const std::vector<Truth>& fits,
+                     const std::vector<double>& values) {
+  FeatureLinks parts;
+  parts.are_classes = true;
+  parts.starts.clear();
+  parts.list_of.assign(fits.size(), -1);
+  std::vector<int> members;
+  for (std::size_t list = 0; list < from.lists(); ++list) {
+    members.clear();
+    for (const int row : from.list(list))
+      if (fits[at(row)] != Truth::no) members.push_back(row);
+    std::ranges::stable_sort(members, {}, [&](int row) { return values[at(row)]; });
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (i == 0 || values[at(members[i])] != values[at(members[i - 1])])
+        parts.starts.push_back(static_cast<int>(parts.others.size()));
+      parts.list_of[at(members[i])] = static_cast<int>(parts.starts.size()) - 1;
+      parts.others.push_back(members[i]);
     }
-    size_ = 0;
   }
+  parts.starts.push_back(static_cast<int>(parts.others.size()));
+  return parts;
+}
 
-  const EvaluationContext& context_;
-  Evaluator& evaluator_;
-  const RelationSides& sides_;
-  std::vector<int> kept_selves_, kept_others_;
-  std::vector<Truth> kept_truths_;
-  bool has_unknown_ = false;
-  std::size_t size_ = 0;
-  std::array<int, kBlock> selves_;
-  std::array<int, kBlock> others_;
-  std::array<Truth, kBlock> truths_;
-};
+/// The classes of `from` without the features that do not fit the conditions on self, divided by
+/// the keys. Nothing if a value is missing: then it is unknown of pairs, not of features, whether
+/// they belong together.
+std::optional<NarrowedRelation> divided_classes(const EvaluationContext& context,
+                                                Evaluator& evaluator, const Links& from,
+                                                const RelationSides& sides) {
+  std::vector<Truth> fits = answers_of(context, evaluator, sides.of_self, 0);
+  for (std::size_t row = 0; row < from.certain_rows.size(); ++row)
+    fits[row] = std::min(fits[row], from.certain_rows[row]);
+  NarrowedRelation result;
+  result.lists = divided(*from.lists, fits, std::vector<double>(context.rows));
+  std::vector<double> values(context.rows);
+  for (const ExprId key : *sides.keys) {
+    for (const int row : result.lists.others) {
+      values[at(row)] = evaluator.number(key, rows_of(row));
+      if (std::isnan(values[at(row)])) return std::nullopt;
+    }
+    result.lists = divided(result.lists, fits, values);
+  }
+  if (has_unknown(fits)) result.links.certain_rows = std::move(fits);
+  return result;
+}
 
 }  // namespace
 
-RelationSides sides_of(const Pack& pack, const Relation& relation) {
+RelationSides sides_of(const Pack& pack, const RelationDefinition& relation) {
   RelationSides sides;
-  const Expr& where = pack.code[static_cast<std::size_t>(relation.where)];
+  const Expr& where = pack.code[at(relation.where)];
   const std::vector<ExprId> whole{relation.where};
   for (const ExprId id : where.op == Op::all_of ? where.args : whole) {
-    const unsigned levels = pack.code[static_cast<std::size_t>(id)].levels;
+    const unsigned levels = pack.code[at(id)].levels;
     auto& list = (levels & kOther) == 0  ? sides.of_self
                  : (levels & kSelf) == 0 ? sides.of_other
                                          : sides.of_both;
@@ -131,15 +152,14 @@ RelationSides sides_of(const Pack& pack, const Relation& relation) {
   return sides;
 }
 
-Narrowed narrowed(const Pack& pack, const EvaluationContext& context, const Relation& relation) {
-  const Links& from = context.relations[static_cast<std::size_t>(relation.within)];
-  const RelationSides& sides = relation.sides;
+NarrowedRelation narrowed(const Pack& pack, const EvaluationContext& context,
+                          const RelationDefinition& relation) {
+  const Links& from = context.relations[at(relation.within)];
   Evaluator evaluator(pack, context);
-  if (sides.keys && from.lists->are_classes) {
-    auto refined = refined_classes(pack, context, evaluator, from, sides.of_self, *sides.keys);
-    if (refined) return std::move(*refined);
-  }
-  return Narrowing(context, evaluator, sides).run(from);
+  if (relation.sides.keys && from.lists->are_classes)
+    if (auto classes = divided_classes(context, evaluator, from, relation.sides))
+      return std::move(*classes);
+  return narrowed_pairs(context, evaluator, from, relation.sides);
 }
 
 }  // namespace oriel::rules

@@ -39,8 +39,8 @@ Op negated(Op op) {
   }
 }
 
-std::optional<Interval> interval_of(Op op, double bound, ExprId by) {
-  Interval all;
+std::optional<ValueInterval> interval_of(Op op, double bound, ExprId by) {
+  ValueInterval all;
   if (op == Op::less || op == Op::less_equal || op == Op::equal) {
     all.high = bound;
     all.high_by = by;
@@ -103,7 +103,7 @@ bool is_word_test(const Pack& pack, const Expr& expr) {
 
 }  // namespace
 
-bool Interval::is_inside(const Interval& other) const {
+bool ValueInterval::is_inside(const ValueInterval& other) const {
   const bool is_low = low > other.low || (low == other.low && (is_low_open || !other.is_low_open));
   const bool is_high =
       high < other.high || (high == other.high && (is_high_open || !other.is_high_open));
@@ -175,8 +175,8 @@ void Constraints::add(ExprId id, bool is_negated) {
   add_other(id, is_negated);
 }
 
-void Constraints::add_interval(int column, const Interval& interval) {
-  Interval& left = intervals_[column];
+void Constraints::add_interval(int column, const ValueInterval& interval) {
+  ValueInterval& left = intervals_[column];
   const bool was_empty = left.is_empty();
   if (interval.low > left.low || (interval.low == left.low && interval.is_low_open)) {
     left.low = interval.low;
@@ -256,8 +256,8 @@ void Constraints::keep_common(const Constraints& other) {
       mine = intervals_.erase(mine);
       continue;
     }
-    Interval& all = mine->second;
-    const Interval& more = theirs->second;
+    ValueInterval& all = mine->second;
+    const ValueInterval& more = theirs->second;
     const bool is_low_same = all.low == more.low;
     const bool is_high_same = all.high == more.high;
     if (is_low_same) all.is_low_open = all.is_low_open && more.is_low_open;

@@ -12,7 +12,7 @@
 namespace oriel::rules {
 
 /// The values of an attribute that conditions leave, and which condition set each end.
-struct Interval {
+struct ValueInterval {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   /// The end itself does not belong to it.
@@ -24,13 +24,13 @@ struct Interval {
   [[nodiscard]] bool is_empty() const {
     return low > high || (low == high && (is_low_open || is_high_open));
   }
-  [[nodiscard]] bool is_inside(const Interval& other) const;
+  [[nodiscard]] bool is_inside(const ValueInterval& other) const;
 };
 
 /// The values that a condition on one attribute of the feature itself leaves.
 struct AttributeTest {
   int column = -1;
-  Interval interval;
+  ValueInterval interval;
 };
 
 /// What a condition says of one attribute at the params' values: `a > 1 m`, `b in 1 m .. 2 m`,
@@ -55,7 +55,7 @@ class Constraints {
  private:
   Constraints(const Pack& pack, int depth) : pack_(&pack), depth_(depth) {}
   void add(ExprId id, bool is_negated);
-  void add_interval(int column, const Interval& interval);
+  void add_interval(int column, const ValueInterval& interval);
   void add_words(const Expr& expr, ExprId id, bool is_negated);
   void add_predicate(ClassId id, ExprId by);
   void add_other(ExprId id, bool is_negated);
@@ -72,7 +72,7 @@ class Constraints {
   const Pack* pack_;
   /// Of predicates inside predicates.
   int depth_ = 0;
-  std::map<int, Interval> intervals_;
+  std::map<int, ValueInterval> intervals_;
   /// By column, for texts that can only be one of these.
   std::map<int, Words> words_;
   /// Conditions of other kinds, and whether each must fail.

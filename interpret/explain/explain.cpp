@@ -32,7 +32,8 @@ std::vector<ConditionReport> prove_vetoes(Prover& prover, const std::vector<Expr
   return reports;
 }
 
-RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, Prover& prover) {
+RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, int row,
+                     Prover& prover) {
   const rules::Class& label = pack.classes[static_cast<std::size_t>(rule.label)];
   RuleReport report;
   report.id = rule.id;
@@ -40,12 +41,11 @@ RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, P
   report.priority = rule.priority;
   report.is_predicate = label.is_abstract;
   report.place = pack.source.place(rule.span.begin);
-  rules::Judgement judgement;
-  rules::judge(pack, rule, evaluator, prover.frame(), judgement);
-  report.outcome = judgement.truth[0] == Truth::yes       ? Outcome::holds
-                   : judgement.truth[0] == Truth::unknown ? Outcome::unknown
-                                                          : Outcome::fails;
-  if (report.outcome == Outcome::holds) report.score = judgement.score[0];
+  const rules::Judgement judgement = rules::judge(pack, rule, evaluator, row);
+  report.outcome = judgement.truth == Truth::yes       ? Outcome::holds
+                   : judgement.truth == Truth::unknown ? Outcome::unknown
+                                                       : Outcome::fails;
+  if (report.outcome == Outcome::holds) report.score = judgement.score;
   report.require = prove(prover, rule.require);
   report.unless = prove_vetoes(prover, rule.unless);
   for (const rules::ScoreTerm& term : rule.score) report.terms.push_back(prover.term(term));
@@ -127,7 +127,7 @@ Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
   explanation.verdict = interpretation->verdicts.at(feature.index());
   explanation.min_score = pack.decide.min_score;
   for (const Rule& rule : pack.rules)
-    explanation.rules.push_back(report_of(pack, rule, evaluator, prover));
+    explanation.rules.push_back(report_of(pack, rule, evaluator, feature.value, prover));
   for (const auto& round : labelling.rounds())
     explanation.rounds.push_back(round_report(pack, round[feature.index()]));
   explanation.best = find_best(explanation.rules);

@@ -57,28 +57,8 @@ std::string misses_by(double distance, Dimension dimension) {
 
 }  // namespace
 
-Frame Prover::frame() const {
-  Frame frame;
-  frame.size = 1;
-  for (std::size_t level = 0; level < rows_.size(); ++level)
-    if (rows_[level] >= 0) frame.rows[level] = &rows_[level];
-  return frame;
-}
-
 std::string Prover::text_of(ExprId id) const {
   return std::string(pack_->source.text_of(at(id).span));
-}
-
-double Prover::number(ExprId id) {
-  double value = 0;
-  evaluator_->numbers(id, frame(), std::span(&value, 1));
-  return value;
-}
-
-Truth Prover::truth(ExprId id) {
-  Truth value = Truth::unknown;
-  evaluator_->truths(id, frame(), std::span(&value, 1));
-  return value;
 }
 
 std::string Prover::show(ExprId id, double other) {
@@ -100,8 +80,7 @@ std::string Prover::show_named(ExprId id, double other) {
 
 /// "exists(contains where is opening) is 1 of 3".
 std::string Prover::show_tally(ExprId id) {
-  Evaluator::Tally tally;
-  evaluator_->tally(id, frame(), std::span(&tally, 1));
+  const Tally tally = evaluator_->tally(id, rows_);
   std::string text = fmt::format("{} is {} of {}", text_of(id), tally.yes, tally.total());
   if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
   return text;
@@ -109,8 +88,7 @@ std::string Prover::show_tally(ExprId id) {
 
 /// "mean(base_height of in_row) is 2.31 m of 4".
 std::string Prover::show_aggregate(ExprId id, double other) {
-  Evaluator::Tally tally;
-  evaluator_->tally(id, frame(), std::span(&tally, 1));
+  const Tally tally = evaluator_->tally(id, rows_);
   std::string text = fmt::format("{} is {} of {}", text_of(id), show(id, other), tally.yes);
   if (tally.unknown > 0) text += fmt::format(" ({} unknown)", tally.unknown);
   return text;
@@ -121,7 +99,7 @@ std::string Prover::show_relation(const Expr& expr) const {
   const std::size_t built_in = relation_schema().size();
   const auto number = static_cast<std::size_t>(expr.index);
   if (number < built_in) return "";
-  const Relation& relation = pack_->relations[number - built_in];
+  const RelationDefinition& relation = pack_->relations[number - built_in];
   return fmt::format("{}: {} where {}", relation.name,
                      relation_names(*pack_)[static_cast<std::size_t>(relation.within)],
                      text_of(relation.where));
@@ -285,8 +263,7 @@ TermReport Prover::term(const ScoreTerm& term) {
   report.text = text_of(term.value);
   report.place = pack_->source.place(at(term.value).span.begin);
   report.weight = term.weight;
-  double judged = 0;
-  judge_term(*pack_, term, *evaluator_, frame(), std::span(&judged, 1));
+  const double judged = judge_term(*pack_, term, *evaluator_, rows_);
   if (std::isnan(judged))
     find_missing(term.value, report.missing);
   else

@@ -4,7 +4,6 @@
 #include "interpret/explain/explain.h"
 #include "interpret/pack/pack.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,7 @@ namespace oriel::rules {
 class Prover {
  public:
   Prover(const Pack& pack, const FeatureTable& table, Evaluator& evaluator, int row)
-      : pack_(&pack), table_(&table), evaluator_(&evaluator), rows_{row, -1} {}
+      : pack_(&pack), table_(&table), evaluator_(&evaluator), rows_(rows_of(row)) {}
 
   /// From now on conditions on others say which of them misses least.
   void look_for_nearest(const EvaluationContext& context) { context_ = &context; }
@@ -25,8 +24,6 @@ class Prover {
   /// Without "must be" before the bound of one that fails.
   ConditionReport bare_condition(ExprId id);
   TermReport term(const ScoreTerm& term);
-  /// The frame of the feature.
-  [[nodiscard]] Frame frame() const;
 
  private:
   void compare(const Expr& expr, ConditionReport& report);
@@ -55,8 +52,8 @@ class Prover {
     return pack_->code[static_cast<std::size_t>(id)];
   }
   [[nodiscard]] std::string text_of(ExprId id) const;
-  double number(ExprId id);
-  Truth truth(ExprId id);
+  double number(ExprId id) { return evaluator_->number(id, rows_); }
+  Truth truth(ExprId id) { return evaluator_->truth(id, rows_); }
   /// "0.61 m", "hole", or "?" where it is missing; apart from `other` if they differ.
   std::string show(ExprId id, double other);
   std::string show_named(ExprId id, double other);
@@ -66,7 +63,7 @@ class Prover {
   void find_missing(ExprId id, std::vector<std::string>& missing) const;
 
   [[nodiscard]] bool is_known(int level) const {
-    return level < 2 && rows_[static_cast<std::size_t>(level)] >= 0;
+    return rows_[static_cast<std::size_t>(level)] >= 0;
   }
   [[nodiscard]] FeatureId feature_of(const Expr& expr) const {
     return FeatureId{rows_[static_cast<std::size_t>(expr.level)]};
@@ -78,7 +75,7 @@ class Prover {
   /// Null: nearest misses are not looked for.
   const EvaluationContext* context_ = nullptr;
   /// The feature, and for conditions of a pair the other one.
-  std::array<int, 2> rows_;
+  FeatureRows rows_;
 };
 
 }  // namespace oriel::rules

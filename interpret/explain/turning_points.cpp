@@ -1,13 +1,13 @@
 #include "interpret/explain/turning_points.h"
 
-#include "interpret/evaluate/arithmetic.h"
 #include "interpret/evaluate/evaluator.h"
+#include "kernel/base/index.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <map>
+#include <span>
 #include <utility>
 
 namespace oriel::rules {
@@ -37,7 +37,7 @@ class TurnFinder {
       for (const ExprId id : rule.unless) visit(id);
       for (const ScoreTerm& term : rule.score) visit(term);
     }
-    for (const Relation& relation : pack_.relations) {
+    for (const RelationDefinition& relation : pack_.relations) {
       relations_[0] = root_of(relation.within);
       visit(relation.where);
     }
@@ -148,32 +148,32 @@ class TurnFinder {
   bool is_gradual_ = false;
 };
 
-/// For whom a turn is asked: a feature for each level that it speaks of.
-struct Slots {
-  std::array<std::vector<int>, kMostLevels> rows;
-  std::vector<bool> is_own;
+/// Features that a turn is asked of, one for each level that it speaks of.
+struct AskedFeatures {
+  FeatureRows rows;
+  bool is_own = false;
 };
 
-Slots slots_of(const Pack& pack, const Turn& turn, const EvaluationContext& context, int row) {
+std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
+                                       const EvaluationContext& context, int row) {
   const unsigned levels = pack.code[static_cast<std::size_t>(turn.left)].levels |
                           pack.code[static_cast<std::size_t>(turn.right)].levels;
-  Slots slots;
-  if (levels == 0) slots.is_own = {true};
-  if (levels == 0) return slots;
-  const auto level = static_cast<std::size_t>(std::countr_zero(levels));
-  if (std::has_single_bit(levels)) {
-    slots.rows[level] = context.row_numbers;
-    for (const int self : context.row_numbers) slots.is_own.push_back(level == 0 && self == row);
-    return slots;
-  }
-  const Links& links = context.relations[static_cast<std::size_t>(turn.relations[level])];
-  for (const int self : context.row_numbers)
-    for (const int other : links.others_of(self)) {
-      slots.rows[level].push_back(self);
-      slots.rows[level + 1].push_back(other);
-      slots.is_own.push_back(level == 0 && self == row);
+  if (levels == 0) return {{rows_of(-1), true}};
+  const int level = std::countr_zero(levels);
+  const Links& links = context.relations[static_cast<std::size_t>(turn.relations[at(level)])];
+  std::vector<AskedFeatures> asked;
+  for (const int self : context.row_numbers) {
+    AskedFeatures features{rows_of(self, level), level == 0 && self == row};
+    if (std::has_single_bit(levels)) {
+      asked.push_back(features);
+      continue;
     }
-  return slots;
+    for (const int other : links.others_of(self)) {
+      features.rows[at(level + 1)] = other;
+      asked.push_back(features);
+    }
+  }
+  return asked;
 }
 
 /// How far the sides of one turn are apart at values of the param.
@@ -182,32 +182,26 @@ class Differences {
   Differences(WhatIf& what_if, std::size_t param)
       : pack_(what_if.pack()), param_(param), evaluator_(pack_, what_if.context()) {}
 
-  void add_to(TurningPoints& points, const Turn& turn, const Slots& slots) {
+  void add_to(TurningPoints& points, const Turn& turn, std::span<const AskedFeatures> asked) {
     const Param& param = pack_.params[param_];
     const auto [low, high] = *param.range;
     const double said = param.value;
-    for (std::size_t begin = 0; begin < slots.is_own.size(); begin += kBlock) {
-      const std::size_t size = std::min(kBlock, slots.is_own.size() - begin);
-      Block at_low, at_said, at_high;
-      find(turn, slots, begin, size, low, at_low);
-      find(turn, slots, begin, size, high, at_high);
-      find(turn, slots, begin, size, said, at_said);
-      for (std::size_t i = 0; i < size; ++i) {
-        auto& values = slots.is_own[begin + i] ? points.own : points.others;
-        const auto root = [&](double x, double dx, double y, double dy) {
-          if (const auto value = root_of(turn, slots, begin + i, {x, dx, y, dy}))
-            values.push_back(*value);
-        };
-        root(low, at_low[i], said, at_said[i]);
-        root(said, at_said[i], high, at_high[i]);
-      }
+    const auto at_low = differences(turn, asked, low);
+    const auto at_high = differences(turn, asked, high);
+    const auto at_said = differences(turn, asked, said);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      auto& values = asked[i].is_own ? points.own : points.others;
+      const auto root = [&](const Chord& chord) {
+        if (const auto value = root_of(turn, asked[i].rows, chord)) values.push_back(*value);
+      };
+      root({low, at_low[i], said, at_said[i]});
+      root({said, at_said[i], high, at_high[i]});
     }
     set(said);
   }
 
  private:
-  using Block = std::array<double, kBlock>;
-  struct Segment {
+  struct Chord {
     double x, dx, y, dy;
   };
 
@@ -216,28 +210,26 @@ class Differences {
     evaluator_.forget();
   }
 
-  void find(const Turn& turn, const Slots& slots, std::size_t begin, std::size_t size, double value,
-            Block& out) {
+  double difference(const Turn& turn, const FeatureRows& rows) {
+    return evaluator_.number(turn.left, rows) - evaluator_.number(turn.right, rows);
+  }
+
+  double difference(const Turn& turn, const FeatureRows& rows, double value) {
     set(value);
-    Frame frame;
-    frame.size = size;
-    for (std::size_t level = 0; level < slots.rows.size(); ++level)
-      if (!slots.rows[level].empty()) frame.rows[level] = slots.rows[level].data() + begin;
-    Block right;
-    evaluator_.numbers(turn.left, frame, std::span(out).first(size));
-    evaluator_.numbers(turn.right, frame, std::span(right).first(size));
-    for (std::size_t i = 0; i < size; ++i) out[i] -= right[i];
+    return difference(turn, rows);
   }
 
-  double difference(const Turn& turn, const Slots& slots, std::size_t slot, double value) {
-    Block out;
-    find(turn, slots, slot, 1, value, out);
-    return out[0];
+  std::vector<double> differences(const Turn& turn, std::span<const AskedFeatures> asked,
+                                  double value) {
+    set(value);
+    std::vector<double> all;
+    for (const AskedFeatures& features : asked) all.push_back(difference(turn, features.rows));
+    return all;
   }
 
-  /// Where the difference is 0 between the ends of the segment: exactly where a side is the param
+  /// Where the difference is 0 between the ends of the chord: exactly where a side is the param
   /// itself, else as a straight line goes, else by halving.
-  std::optional<double> root_of(const Turn& turn, const Slots& slots, std::size_t slot, Segment s) {
+  std::optional<double> root_of(const Turn& turn, const FeatureRows& rows, Chord s) {
     if (s.x == s.y || std::isnan(s.dx) || std::isnan(s.dy) || s.dx == s.dy) return std::nullopt;
     if ((s.dx < 0) == (s.dy < 0) && s.dx != 0 && s.dy != 0) return std::nullopt;
     const Expr& left = pack_.code[static_cast<std::size_t>(turn.left)];
@@ -245,27 +237,17 @@ class Differences {
     if (right.op == Op::parameter || left.op == Op::parameter) {
       const bool is_left = left.op == Op::parameter;
       if (!depends_on(pack_, is_left ? turn.right : turn.left, param_, true))
-        return side(is_left ? turn.right : turn.left, slots, slot);
+        return evaluator_.number(is_left ? turn.right : turn.left, rows);
     }
     const double line = s.x + (s.y - s.x) * (s.dx / (s.dx - s.dy));
-    const double off = difference(turn, slots, slot, line);
+    const double off = difference(turn, rows, line);
     if (std::abs(off) <= kStraight * std::max(std::abs(s.dx), std::abs(s.dy))) return line;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = (s.x + s.y) / 2;
-      const bool is_like_first = (difference(turn, slots, slot, middle) < 0) == (s.dx < 0);
+      const bool is_like_first = (difference(turn, rows, middle) < 0) == (s.dx < 0);
       (is_like_first ? s.x : s.y) = middle;
     }
     return s.y;
-  }
-
-  double side(ExprId id, const Slots& slots, std::size_t slot) {
-    Frame frame;
-    frame.size = 1;
-    for (std::size_t level = 0; level < slots.rows.size(); ++level)
-      if (!slots.rows[level].empty()) frame.rows[level] = slots.rows[level].data() + slot;
-    double value = kUnknown;
-    evaluator_.numbers(id, frame, std::span(&value, 1));
-    return value;
   }
 
   Pack& pack_;
@@ -288,7 +270,7 @@ TurningPoints turning_points(WhatIf& what_if, std::size_t param, int row) {
   points.is_gradual = finder.is_gradual();
   Differences differences(what_if, param);
   for (const Turn& turn : turns)
-    differences.add_to(points, turn, slots_of(what_if.pack(), turn, what_if.context(), row));
+    differences.add_to(points, turn, features_of(what_if.pack(), turn, what_if.context(), row));
   tidy(points.own, *what_if.pack().params[param].range);
   tidy(points.others, *what_if.pack().params[param].range);
   return points;

@@ -21,7 +21,7 @@ bool is_laid_out(const Pack& pack, std::size_t param) {
   for (const HostRange& range : {pack.hosts.wall, pack.hosts.roof, pack.hosts.ground})
     if (depends_on(pack, range.low, param, true) || depends_on(pack, range.high, param, true))
       return true;
-  return std::ranges::any_of(pack.relations, [&](const Relation& relation) {
+  return std::ranges::any_of(pack.relations, [&](const RelationDefinition& relation) {
     return depends_on(pack, relation.where, param, true);
   });
 }

@@ -64,62 +64,21 @@ Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const Fea
   return building_issue(Severity::warning, Code::R261, table.building(), std::move(sentence));
 }
 
-/// The buildings of `context`.
-void interpret_all(const rules::Pack& pack, rules::EvaluationContext& context,
-                   std::span<const FeaturesOfBuilding> buildings,
-                   std::span<Interpretation> results) {
-  rules::Labelling labelling(pack, context);
-  const auto all_choices = labelling.run();
-  auto groups = rules::find_groups(pack, context, buildings);
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < buildings.size(); ++i) {
-    const FeatureTable& table = *buildings[i].table;
-    const auto choices = std::span(all_choices).subspan(first, table.rows());
-    first += table.rows();
-    results[i].verdicts = verdicts_of(pack, choices);
-    if (pack.decide.ambiguous_below > 0) add_ambiguities(pack, choices, table, results[i]);
-    results[i].groups = std::move(groups[i]);
-  }
-  // Packs that are run in rounds go building by building.
-  if (const auto rows = labelling.unsettled(); !rows.empty())
-    results[0].issues.push_back(unsettled(pack, rows, *buildings[0].table));
-}
-
-/// So many of the first as fill a block together. Each building decides how many rounds it takes.
-std::size_t size_of_batch(const rules::Pack& pack, std::span<const FeaturesOfBuilding> buildings) {
-  std::size_t size = 1, rows = buildings[0].table->rows();
-  if (pack.rounds > 0) return size;
-  while (size < buildings.size() && rows + buildings[size].table->rows() <= rules::kBlock)
-    rows += buildings[size++].table->rows();
-  return size;
-}
-
 }  // namespace
 
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph) {
-  const FeaturesOfBuilding building{&table, &graph};
-  rules::EvaluationContext context(base.pack(), table, graph);
+  const rules::Pack& pack = base.pack();
+  rules::EvaluationContext context(pack, table, graph);
+  rules::Labelling labelling(pack, context);
+  const auto choices = labelling.run();
   Interpretation result;
-  interpret_all(base.pack(), context, std::span(&building, 1), std::span(&result, 1));
+  result.verdicts = verdicts_of(pack, choices);
+  if (pack.decide.ambiguous_below > 0) add_ambiguities(pack, choices, table, result);
+  result.groups = rules::find_groups(pack, context, table);
+  if (const auto rows = labelling.unsettled(); !rows.empty())
+    result.issues.push_back(unsettled(pack, rows, table));
   return result;
-}
-
-std::vector<Interpretation> interpret(const RuleBase& base,
-                                      std::span<const FeaturesOfBuilding> buildings) {
-  std::vector<Interpretation> results(buildings.size());
-  for (std::size_t begin = 0; begin < buildings.size();) {
-    const std::size_t size = size_of_batch(base.pack(), buildings.subspan(begin));
-    const auto batch = buildings.subspan(begin, size);
-    if (size == 1) {
-      results[begin] = interpret(base, *batch[0].table, *batch[0].graph);
-    } else {
-      rules::EvaluationContext context(base.pack(), batch);
-      interpret_all(base.pack(), context, batch, std::span(results).subspan(begin, size));
-    }
-    begin += size;
-  }
-  return results;
 }
 
 }  // namespace oriel

@@ -5,9 +5,6 @@
 #include "kernel/model/description/feature_table.h"
 #include "kernel/model/interpretation.h"
 
-#include <span>
-#include <vector>
-
 namespace oriel {
 
 /// Labels the features of one building by the rules of a pack: one verdict for every row of
@@ -21,16 +18,5 @@ namespace oriel {
 /// round still changed something.
 Interpretation interpret(const RuleBase& base, const FeatureTable& table,
                          const FeatureGraph& graph);
-
-/// What is known of one building. Refers to both, which must outlive it.
-struct FeaturesOfBuilding {
-  const FeatureTable* table = nullptr;
-  const FeatureGraph* graph = nullptr;
-};
-
-/// The same for each of several buildings, in their order, in less time than one by one: small
-/// buildings go through the rules some hundred features at a time.
-std::vector<Interpretation> interpret(const RuleBase& base,
-                                      std::span<const FeaturesOfBuilding> buildings);
 
 }  // namespace oriel

@@ -8,7 +8,7 @@
 namespace oriel::detail {
 
 MainParts::MainParts(const Segmentation& segmentation, const FeatureTable& table,
-                     const Profile::Part& part, const Thresholds& sizes)
+                     const Profile::MainPart& part, const Thresholds& sizes)
     : segmentation_(segmentation), table_(table), part_(part), sizes_(sizes) {
   for (const Cell& cell : segmentation.cells) building_m3_ += cell.sign * cell.volume_m3;
 }

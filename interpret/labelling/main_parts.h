@@ -9,11 +9,11 @@
 namespace oriel::detail {
 
 /// Which features are parts of a building, not details on it, though they are short or thin. No
-/// such feature goes for its size. Profile::Part says when.
+/// such feature goes for its size. Profile::MainPart says when.
 class MainParts {
  public:
-  MainParts(const Segmentation& segmentation, const FeatureTable& table, const Profile::Part& part,
-            const Thresholds& sizes);
+  MainParts(const Segmentation& segmentation, const FeatureTable& table,
+            const Profile::MainPart& part, const Thresholds& sizes);
 
   /// The whole building is smaller than the least that the sizes let stand alone, or the feature is
   /// a storey, or a part of the main roof.
@@ -28,7 +28,7 @@ class MainParts {
  private:
   const Segmentation& segmentation_;
   const FeatureTable& table_;
-  const Profile::Part& part_;
+  const Profile::MainPart& part_;
   const Thresholds& sizes_;
   double building_m3_ = 0;
 };

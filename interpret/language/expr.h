@@ -92,7 +92,7 @@ struct Expr {
   /// Of a test for a class: it reads the memberships of the round before (`iterate:`).
   bool is_previous = false;
   /// Where it was written, for excerpts and explanations.
-  Span span{};
+  SourceSpan span{};
 };
 
 /// All expressions of a pack.

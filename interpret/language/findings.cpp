@@ -11,13 +11,13 @@ constexpr std::size_t kMostFindings = 200;
 constexpr std::size_t kMostKept = 10'000;
 }  // namespace
 
-void Findings::error(Code code, Span where, std::string sentence) {
+void Findings::error(Code code, SourceSpan where, std::string sentence) {
   ++errors_;
   if (findings_.size() < kMostKept)
     findings_.push_back({where, Severity::error, code, std::move(sentence)});
 }
 
-void Findings::warning(Code code, Span where, std::string sentence) {
+void Findings::warning(Code code, SourceSpan where, std::string sentence) {
   if (findings_.size() < kMostKept)
     findings_.push_back({where, Severity::warning, code, std::move(sentence)});
 }
@@ -29,11 +29,11 @@ std::vector<Issue> Findings::issues() const {
   if (sorted.size() > kMostFindings) {
     // Errors before warnings, so that what makes the pack invalid is not among what is left out.
     std::stable_partition(sorted.begin(), sorted.end(),
-                          [](const Finding& f) { return f.severity == Severity::error; });
+                          [](const Item& f) { return f.severity == Severity::error; });
     sorted.resize(kMostFindings);
   }
   std::vector<Issue> issues;
-  for (const Finding& f : sorted)
+  for (const Item& f : sorted)
     issues.push_back(
         {f.severity, f.code, f.sentence, source_->place(f.where.begin), source_->excerpt(f.where)});
   return issues;

@@ -13,8 +13,8 @@ class Findings {
  public:
   explicit Findings(const Source& source) : source_(&source) {}
 
-  void error(Code code, Span where, std::string sentence);
-  void warning(Code code, Span where, std::string sentence);
+  void error(Code code, SourceSpan where, std::string sentence);
+  void warning(Code code, SourceSpan where, std::string sentence);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
@@ -24,15 +24,15 @@ class Findings {
   [[nodiscard]] std::vector<Issue> issues() const;
 
  private:
-  struct Finding {
-    Span where;
+  struct Item {
+    SourceSpan where;
     Severity severity = Severity::error;
     Code code = Code::none;
     std::string sentence;
-    friend auto operator<=>(const Finding&, const Finding&) = default;
+    friend auto operator<=>(const Item&, const Item&) = default;
   };
   const Source* source_;
-  std::vector<Finding> findings_;
+  std::vector<Item> findings_;
   std::size_t errors_ = 0;
 };
 

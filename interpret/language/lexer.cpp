@@ -56,7 +56,7 @@ constexpr std::array<Foreign, 7> kForeign = {{{"==", "write '='"},
 
 class Lexer {
  public:
-  Lexer(Span where, Findings& findings)
+  Lexer(SourceSpan where, Findings& findings)
       : text_(findings.source().text_of(where)), base_(where.begin), findings_(&findings) {}
 
   std::optional<std::vector<Token>> run() {
@@ -80,7 +80,7 @@ class Lexer {
 
   /// The token of the next `length` bytes, which are eaten.
   Token make(Token::Kind kind, std::size_t length) {
-    const Span span{base_ + at_, base_ + at_ + length};
+    const SourceSpan span{base_ + at_, base_ + at_ + length};
     const Token token{kind, text_.substr(at_, length), 0, span};
     at_ += length;
     return token;
@@ -168,7 +168,7 @@ class Lexer {
 
 }  // namespace
 
-std::optional<std::vector<Token>> tokenise(Span where, Findings& findings) {
+std::optional<std::vector<Token>> tokenise(SourceSpan where, Findings& findings) {
   return Lexer(where, findings).run();
 }
 

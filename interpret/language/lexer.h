@@ -40,11 +40,11 @@ struct Token {
   Kind kind = Kind::end;
   std::string_view text;
   double number = 0;
-  Span span;
+  SourceSpan span;
 };
 
 /// The tokens of the expression at `where` in the text of `findings.source()`, with an end token
 /// last; or nothing and an error R220.
-std::optional<std::vector<Token>> tokenise(Span where, Findings& findings);
+std::optional<std::vector<Token>> tokenise(SourceSpan where, Findings& findings);
 
 }  // namespace oriel::rules

@@ -41,7 +41,7 @@ class TokenStream {
   /// The next token, which must be of that kind.
   Token expect(Token::Kind kind, const std::string& wanted);
 
-  [[noreturn]] void fail(Code code, Span where, std::string sentence);
+  [[noreturn]] void fail(Code code, SourceSpan where, std::string sentence);
   /// R220: `wanted` was expected here.
   [[noreturn]] void fail_expecting(const std::string& wanted);
 
@@ -74,7 +74,7 @@ Token TokenStream::expect(Token::Kind kind, const std::string& wanted) {
   return take();
 }
 
-void TokenStream::fail(Code code, Span where, std::string sentence) {
+void TokenStream::fail(Code code, SourceSpan where, std::string sentence) {
   findings_->error(code, where, std::move(sentence));
   throw ParseStop();
 }
@@ -104,17 +104,17 @@ const std::vector<std::string>& functions() {
 
 /// What is called with one fixed word, which says of whom it speaks. They are words of the language
 /// only where a bracket follows.
-struct Measure {
+struct FixedCall {
   const char* name;
   const char* argument;
   Syntax::Kind kind;
 };
-constexpr Measure kMeasures[] = {{"distance_along", "other", Syntax::Kind::distance},
-                                 {"gap", "members", Syntax::Kind::group_gap}};
+constexpr FixedCall kFixedCalls[] = {{"distance_along", "other", Syntax::Kind::distance},
+                                     {"gap", "members", Syntax::Kind::group_gap}};
 
-const Measure* measure_of(std::string_view word) {
-  const auto* found = std::ranges::find(kMeasures, word, &Measure::name);
-  return found == std::end(kMeasures) ? nullptr : found;
+const FixedCall* fixed_call_of(std::string_view word) {
+  const auto* found = std::ranges::find(kFixedCalls, word, &FixedCall::name);
+  return found == std::end(kFixedCalls) ? nullptr : found;
 }
 
 std::vector<std::string> callables() {
@@ -160,7 +160,7 @@ class ExpressionParser {
 
   /// `node` with its children in place, its span drawn over them and its height counted.
   Syntax finish(Syntax node, std::vector<Syntax> children);
-  void check_depth(int depth, Span where);
+  void check_depth(int depth, SourceSpan where);
 
   // Operands.
   Syntax operand();
@@ -170,11 +170,11 @@ class ExpressionParser {
   Syntax negative();
   Syntax in_brackets();
   Syntax word();
-  Syntax scoped(Syntax::Scope scope, Span begin);
-  Syntax is_test(Syntax::Scope scope, bool is_of_host, Span begin);
-  Syntax plain_name(Syntax::Scope scope, Span begin);
+  Syntax scoped(Syntax::Scope scope, SourceSpan begin);
+  Syntax is_test(Syntax::Scope scope, bool is_of_host, SourceSpan begin);
+  Syntax plain_name(Syntax::Scope scope, SourceSpan begin);
   Syntax call();
-  Syntax measure();
+  Syntax fixed_call();
   Syntax quantifier();
   Syntax aggregate(Syntax node, Syntax value);
   void relation_of(Syntax& node, std::vector<Syntax>& children);
@@ -215,7 +215,7 @@ Power power_of(const Token& token) {
   }
 }
 
-void ExpressionParser::check_depth(int depth, Span where) {
+void ExpressionParser::check_depth(int depth, SourceSpan where) {
   if (depth > kDeepestExpression)
     tokens_.fail(Code::R222, where, "an expression nests no deeper than 64 levels");
 }
@@ -356,7 +356,7 @@ Syntax ExpressionParser::number() {
 }
 
 Syntax ExpressionParser::negation() {
-  const Span symbol = tokens_.take().span;
+  const SourceSpan symbol = tokens_.take().span;
   Syntax node{.kind = Kind::negation, .span = symbol, .name_span = symbol};
   std::vector<Syntax> children;
   children.push_back(expression(Power::conjunction));
@@ -364,7 +364,7 @@ Syntax ExpressionParser::negation() {
 }
 
 Syntax ExpressionParser::negative() {
-  const Span symbol = tokens_.take().span;
+  const SourceSpan symbol = tokens_.take().span;
   Syntax node{.kind = Kind::negate, .span = symbol, .name_span = symbol};
   std::vector<Syntax> children;
   children.push_back(expression(Power::product));
@@ -372,9 +372,9 @@ Syntax ExpressionParser::negative() {
 }
 
 Syntax ExpressionParser::in_brackets() {
-  const Span open = tokens_.take().span;
+  const SourceSpan open = tokens_.take().span;
   Syntax inner = expression(Power::loosest);
-  const Span close = tokens_.expect(Token::Kind::close_round, "')'").span;
+  const SourceSpan close = tokens_.expect(Token::Kind::close_round, "')'").span;
   inner.span = {open.begin, close.end};
   return inner;
 }
@@ -384,10 +384,10 @@ Syntax ExpressionParser::word() {
   if (contains(quantifiers(), token.text)) return quantifier();
   if (contains(functions(), token.text)) return call();
   const bool is_called = tokens_.peek(1).kind == Token::Kind::open_round;
-  if (is_called && measure_of(token.text) != nullptr) return measure();
+  if (is_called && fixed_call_of(token.text) != nullptr) return fixed_call();
   if (is_called && !is_reserved(token.text)) {
     auto known = callables();
-    for (const Measure& measure : kMeasures) known.emplace_back(measure.name);
+    for (const FixedCall& called : kFixedCalls) known.emplace_back(called.name);
     tokens_.fail(
         Code::R220, token.span,
         fmt::format("unknown function '{}'{}", token.text, did_you_mean(token.text, known)));
@@ -399,14 +399,14 @@ Syntax ExpressionParser::word() {
   return plain_name(Syntax::Scope::here, token.span);
 }
 
-Syntax ExpressionParser::scoped(Syntax::Scope scope, Span begin) {
+Syntax ExpressionParser::scoped(Syntax::Scope scope, SourceSpan begin) {
   if (tokens_.is_at_word("is")) return is_test(scope, false, begin);
   tokens_.expect(Token::Kind::dot, "'is' or '.'");
   if (tokens_.take_if_word("host")) return is_test(scope, true, begin);
   return plain_name(scope, begin);
 }
 
-Syntax ExpressionParser::is_test(Syntax::Scope scope, bool is_of_host, Span begin) {
+Syntax ExpressionParser::is_test(Syntax::Scope scope, bool is_of_host, SourceSpan begin) {
   if (!tokens_.take_if_word("is")) tokens_.fail_expecting("'is' and a class, as in 'host is wall'");
   if (tokens_.is_at_word("not"))
     tokens_.fail(Code::R220, tokens_.peek().span,
@@ -421,7 +421,7 @@ Syntax ExpressionParser::is_test(Syntax::Scope scope, bool is_of_host, Span begi
   return node;
 }
 
-Syntax ExpressionParser::plain_name(Syntax::Scope scope, Span begin) {
+Syntax ExpressionParser::plain_name(Syntax::Scope scope, SourceSpan begin) {
   if (tokens_.peek().kind != Token::Kind::word || is_reserved(tokens_.peek().text))
     tokens_.fail_expecting(scope == Syntax::Scope::here ? "a value or a condition"
                                                         : "an attribute");
@@ -456,14 +456,14 @@ Syntax ExpressionParser::call() {
 }
 
 /// `distance_along(other)`, `gap(members)`.
-Syntax ExpressionParser::measure() {
+Syntax ExpressionParser::fixed_call() {
   const Token name = tokens_.take();
-  const Measure& measure = *measure_of(name.text);
-  Syntax node{.kind = measure.kind, .span = name.span, .name_span = name.span};
+  const FixedCall& called = *fixed_call_of(name.text);
+  Syntax node{.kind = called.kind, .span = name.span, .name_span = name.span};
   tokens_.expect(Token::Kind::open_round, "'('");
-  if (!tokens_.take_if_word(measure.argument))
+  if (!tokens_.take_if_word(called.argument))
     tokens_.fail_expecting(
-        fmt::format("'{}': it is {}({})", measure.argument, measure.name, measure.argument));
+        fmt::format("'{}': it is {}({})", called.argument, called.name, called.argument));
   node.span.end = tokens_.expect(Token::Kind::close_round, "')'").span.end;
   return node;
 }
@@ -501,7 +501,8 @@ void ExpressionParser::relation_of(Syntax& node, std::vector<Syntax>& children) 
 
 /// What `parse` makes of the expression at `where`, or nothing and an error.
 template <class Result>
-std::optional<Result> parse_at(Span where, Findings& findings, Result (*parse)(ExpressionParser&)) {
+std::optional<Result> parse_at(SourceSpan where, Findings& findings,
+                               Result (*parse)(ExpressionParser&)) {
   if (where.end - where.begin > kLongestExpression) {
     findings.error(Code::R222, {where.begin, where.begin},
                    "an expression is no longer than 1000 characters; use macros");
@@ -521,12 +522,12 @@ std::optional<Result> parse_at(Span where, Findings& findings, Result (*parse)(E
 
 }  // namespace
 
-std::optional<Syntax> parse_expression(Span where, Findings& findings) {
+std::optional<Syntax> parse_expression(SourceSpan where, Findings& findings) {
   return parse_at<Syntax>(
       where, findings, [](ExpressionParser& parser) { return parser.expression(Power::loosest); });
 }
 
-std::optional<RangeSyntax> parse_range(Span where, Findings& findings) {
+std::optional<RangeSyntax> parse_range(SourceSpan where, Findings& findings) {
   return parse_at<RangeSyntax>(where, findings,
                                [](ExpressionParser& parser) { return parser.range(); });
 }

@@ -35,12 +35,12 @@ struct Syntax {
   enum class Scope { here, self, other };
 
   Kind kind = Kind::name;
-  Span span{};
+  SourceSpan span{};
   /// Of the name alone, or of the operator's symbol.
-  Span name_span{};
+  SourceSpan name_span{};
   std::string name{};
   std::string relation{};
-  Span relation_span{};
+  SourceSpan relation_span{};
   Scope scope = Scope::here;
   bool is_of_host = false;
   double number = 0;
@@ -65,10 +65,10 @@ inline constexpr int kDeepestExpression = 64;
 
 /// The expression at `where` in the text of `findings.source()`, or nothing and an error: R220
 /// (what was found and what was expected), R222 (too long or too deep), R233 (unknown unit).
-std::optional<Syntax> parse_expression(Span where, Findings& findings);
+std::optional<Syntax> parse_expression(SourceSpan where, Findings& findings);
 
 /// The range `lo .. hi` at `where`, with the same errors.
-std::optional<RangeSyntax> parse_range(Span where, Findings& findings);
+std::optional<RangeSyntax> parse_range(SourceSpan where, Findings& findings);
 
 /// The words that expressions are made of; nothing else can carry their names.
 const std::vector<std::string>& reserved_words();

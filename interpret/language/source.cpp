@@ -55,10 +55,10 @@ std::size_t utf8_length(std::string_view text) {
 
 Source::Source(std::string file, std::string text) { append(std::move(file), text); }
 
-Span Source::append(std::string file, const std::string& text) {
-  if (!parts_.empty()) text_ += '\n';
+SourceSpan Source::append(std::string file, const std::string& text) {
+  if (!files_.empty()) text_ += '\n';
   const std::size_t begin = text_.size();
-  parts_.push_back({std::move(file), begin, line_starts_.size()});
+  files_.push_back({std::move(file), begin, line_starts_.size()});
   text_ += text;
   line_starts_.push_back(begin);
   for (std::size_t i = begin; i < text_.size(); ++i)
@@ -66,20 +66,20 @@ Span Source::append(std::string file, const std::string& text) {
   return {begin, text_.size()};
 }
 
-const Source::Part& Source::part_of(std::size_t offset) const {
-  const auto next = std::ranges::upper_bound(parts_, offset, {}, &Part::begin);
+const Source::File& Source::file_at(std::size_t offset) const {
+  const auto next = std::ranges::upper_bound(files_, offset, {}, &File::begin);
   return *(next - 1);
 }
 
-bool Source::is_in_first(std::size_t offset) const { return &part_of(offset) == parts_.data(); }
+bool Source::is_in_first(std::size_t offset) const { return &file_at(offset) == files_.data(); }
 
 std::vector<std::string> Source::files() const {
   std::vector<std::string> names;
-  for (const Part& part : parts_) names.push_back(part.file);
+  for (const File& file : files_) names.push_back(file.name);
   return names;
 }
 
-std::string_view Source::text_of(Span span) const {
+std::string_view Source::text_of(SourceSpan span) const {
   return std::string_view(text_).substr(span.begin, span.end - span.begin);
 }
 
@@ -101,14 +101,14 @@ Place Source::place(std::size_t offset) const {
   const std::size_t start = line_starts_[line];
   const std::size_t before = count_characters(text_of({start, offset}));
   Place place;
-  const Part& part = part_of(offset);
-  place.file = part.file;
-  place.line = static_cast<int>(line - part.first_line) + 1;
+  const File& file = file_at(offset);
+  place.file = file.name;
+  place.line = static_cast<int>(line - file.first_line) + 1;
   place.column = static_cast<int>(before) + 1;
   return place;
 }
 
-std::string Source::excerpt(Span span) const {
+std::string Source::excerpt(SourceSpan span) const {
   const std::size_t begin = std::min(span.begin, text_.size());
   const std::size_t line = line_of(begin);
   std::string_view shown = line_text(line);

@@ -10,8 +10,6 @@ namespace oriel::rules {
 
 namespace {
 
-using Kind = YamlNode::Kind;
-
 YamlNode* find(YamlNode& map, std::string_view key) {
   for (YamlEntry& entry : map.entries)
     if (entry.key.text == key) return &entry.value;
@@ -24,7 +22,7 @@ const YamlNode* find(const YamlNode& map, std::string_view key) {
 
 /// Entries of `over` replace those of the same key, or with `levels` left are put over them.
 void put_over(YamlNode& base, YamlNode over, int levels) {
-  if (base.kind != Kind::map || over.kind != Kind::map) {
+  if (base.kind != YamlNode::Kind::map || over.kind != YamlNode::Kind::map) {
     base = std::move(over);
     return;
   }
@@ -92,7 +90,7 @@ class ListMerge {
 
 void put_section(std::string_view key, YamlNode& base, YamlNode over, Findings& findings) {
   const bool is_list = key == "rules" || key == "surfaces" || key == "generalise";
-  if (is_list && base.kind == Kind::sequence && over.kind == Kind::sequence) {
+  if (is_list && base.kind == YamlNode::Kind::sequence && over.kind == YamlNode::Kind::sequence) {
     ListMerge merge(base, findings);
     for (YamlNode& item : over.items) merge.put(std::move(item));
     merge.end();
@@ -123,7 +121,7 @@ YamlNode merged(YamlNode base, YamlNode over, Findings& findings) {
 std::optional<YamlNode> take_extends(YamlNode& root) {
   const auto found = std::ranges::find(root.entries, std::string_view("extends"),
                                        [](const YamlEntry& e) { return e.key.text; });
-  if (root.kind != Kind::map || found == root.entries.end()) return std::nullopt;
+  if (root.kind != YamlNode::Kind::map || found == root.entries.end()) return std::nullopt;
   YamlNode node = std::move(found->value);
   root.entries.erase(found);
   return node;
@@ -131,7 +129,8 @@ std::optional<YamlNode> take_extends(YamlNode& root) {
 
 /// A name without folders: nothing outside the pack's own folder is read.
 bool is_plain_name(const YamlNode& node) {
-  if (node.kind != Kind::scalar || node.text.empty() || node.text.front() == '.') return false;
+  if (node.kind != YamlNode::Kind::scalar || node.text.empty() || node.text.front() == '.')
+    return false;
   return std::ranges::all_of(node.text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
@@ -139,8 +138,9 @@ bool is_plain_name(const YamlNode& node) {
 }
 
 /// The text of the pack that `node` names, appended to `source`.
-std::optional<Span> append_pack(const YamlNode& node, std::set<std::string>& seen, Source& source,
-                                const PackFinder& find_pack, Findings& findings) {
+std::optional<SourceSpan> append_pack(const YamlNode& node, std::set<std::string>& seen,
+                                      Source& source, const PackFinder& find_pack,
+                                      Findings& findings) {
   if (!is_plain_name(node)) {
     findings.error(Code::R246, node.span,
                    "after 'extends' stands a pack that is built in, or a file in the same folder, "
@@ -172,7 +172,7 @@ std::optional<Span> append_pack(const YamlNode& node, std::set<std::string>& see
 std::optional<YamlNode> read_tree(Source& source, const PackFinder& find_pack, Findings& findings) {
   std::vector<YamlNode> trees;
   std::set<std::string> seen = {source.file()};
-  std::optional<Span> where = Span{0, source.text().size()};
+  std::optional<SourceSpan> where = SourceSpan{0, source.text().size()};
   while (where) {
     auto tree = parse_yaml(*where, findings);
     if (!tree) return std::nullopt;

@@ -32,7 +32,7 @@ const std::vector<std::string>& top_keys() {
   return keys;
 }
 
-void check_schema(Section& top, Findings& findings) {
+void check_schema(YamlSection& top, Findings& findings) {
   const YamlNode* schema = top.require("schema");
   if (schema == nullptr) return;
   const auto text = read_text(*schema, "'schema'", findings);
@@ -45,7 +45,7 @@ std::size_t size_of(const YamlNode* node) {
   return node == nullptr ? 0 : std::max(node->entries.size(), node->items.size());
 }
 
-bool is_small_enough(const Section& top, Findings& findings) {
+bool is_small_enough(const YamlSection& top, Findings& findings) {
   bool is_small = true;
   const auto check = [&](const char* key, std::size_t most) {
     const YamlNode* node = top.find(key);
@@ -62,7 +62,7 @@ bool is_small_enough(const Section& top, Findings& findings) {
   return is_small;
 }
 
-void read_sections(Section& top, Loader& loader) {
+void read_sections(YamlSection& top, Loader& loader) {
   const auto read = [&](const YamlNode* node, void (*reader)(const YamlNode&, Loader&)) {
     if (node != nullptr) reader(*node, loader);
   };
@@ -84,7 +84,9 @@ void read_sections(Section& top, Loader& loader) {
 }
 
 /// What a pack beneath says and this one has no use for is no fault of this one.
-bool is_own(Span span, const Loader& loader) { return loader.pack.source.is_in_first(span.begin); }
+bool is_own(SourceSpan span, const Loader& loader) {
+  return loader.pack.source.is_in_first(span.begin);
+}
 
 /// A macro that no rule uses is checked all the same.
 void report_unused_macros(Loader& loader) {
@@ -108,7 +110,7 @@ void report_unused_params(const Loader& loader) {
 
 void report_unused_relations(const Loader& loader) {
   const auto& used = loader.names.used_relations;
-  for (const Relation& relation : loader.pack.relations)
+  for (const RelationDefinition& relation : loader.pack.relations)
     if (is_own(relation.span, loader) &&
         !used.contains(relation_number(loader.pack, relation.name)))
       loader.findings.warning(Code::R248, relation.span,
@@ -142,7 +144,7 @@ void name_rules(Pack& pack) {
 
 void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   check_traps(root, findings);
-  Section top(root, "a pack", top_keys(), findings);
+  YamlSection top(root, "a pack", top_keys(), findings);
   if (!top.is_map()) return;
   check_schema(top, findings);
   if (!is_small_enough(top, findings)) return;
@@ -157,7 +159,7 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   add_default_emissions(pack);
   pack.reads = find_reads(pack);
   find_raised(pack.classes);
-  for (Relation& relation : pack.relations) relation.sides = sides_of(pack, relation);
+  for (RelationDefinition& relation : pack.relations) relation.sides = sides_of(pack, relation);
   name_rules(pack);
 }
 

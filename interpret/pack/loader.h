@@ -40,7 +40,7 @@ void read_generalise(const YamlNode& node, Loader& loader);
 void read_invariants(const YamlNode& node, Loader& loader);
 
 /// What `invariants:` of a pack or a profile says: a map of numbers above 0. Of what is wrong with
-/// it findings as of a Section, and R211.
+/// it findings as of a YamlSection, and R211.
 Limits read_limits(const YamlNode& node, Findings& findings);
 
 /// True if `node` can name something new; else an error R216 that calls it `what`.

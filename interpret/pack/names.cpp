@@ -19,7 +19,7 @@ int relation_number(const Pack& pack, std::string_view name) {
 
 std::vector<std::string> relation_names(const Pack& pack) {
   std::vector<std::string> names = rules::names_of(relation_schema());
-  for (const Relation& relation : pack.relations) names.push_back(relation.name);
+  for (const RelationDefinition& relation : pack.relations) names.push_back(relation.name);
   return names;
 }
 

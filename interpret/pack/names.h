@@ -15,7 +15,7 @@ namespace oriel::rules {
 struct Macro {
   std::string name;
   Syntax body;
-  Span span;
+  SourceSpan span;
   bool is_used = false;
   /// True while it is being expanded: a macro that meets itself is an error.
   bool is_open = false;

@@ -26,7 +26,7 @@ struct Param {
   Dimension dimension;
   std::optional<std::pair<double, double>> range;
   std::string why;
-  Span span;
+  SourceSpan span;
 };
 
 /// How often a class is expected: `typical: {per storey: 2 .. 12}`.
@@ -58,7 +58,7 @@ struct Class {
   std::vector<ClassId> raised;
   std::vector<Typical> typical;
   std::optional<Emission> emission;
-  Span span;
+  SourceSpan span;
 };
 
 /// A ramp from 0 to 1 (rise) or from 1 to 0 (fall).
@@ -84,7 +84,7 @@ struct Rule {
   std::vector<ExprId> require;
   std::vector<ExprId> unless;
   std::vector<ScoreTerm> score;
-  Span span;
+  SourceSpan span;
 };
 
 /// The id of a rule and its label as verdicts carry them.
@@ -95,13 +95,11 @@ struct NamesOfRule {
 
 /// Rules that are run together: those of one strongly connected component of predicates, or all
 /// rules of one stratum that compete for the label.
-struct Step {
+struct RuleStep {
   bool is_decision = false;
   /// Predicates that need each other run to their least fixpoint.
   bool is_recursive = false;
-  /// A rule of a decision has a score.
-  bool is_scored = false;
-  /// Indices into Pack::rules; of a decision in the order in which they win where scores are equal.
+  /// Indices into Pack::rules.
   std::vector<int> rules;
 };
 
@@ -145,7 +143,7 @@ struct RelationSides {
 
 /// A relation that the pack declares: the pairs of another one for which a condition holds.
 /// Relations are numbered: those of relation_schema(), then those of the pack in their order.
-struct Relation {
+struct RelationDefinition {
   std::string name;
   /// The number of the relation that it narrows, below its own.
   int within = -1;
@@ -153,7 +151,7 @@ struct Relation {
   ExprId where = kNoExpr;
   /// What `where` says, once the pack is read.
   RelationSides sides;
-  Span span;
+  SourceSpan span;
 };
 
 /// Features of a class that hang together by a relation: `groups:`.
@@ -163,11 +161,11 @@ struct GroupKind {
   /// The number of the relation.
   int by = -1;
   int at_least = 2;
-  Span span;
+  SourceSpan span;
 };
 
 /// An entry of `generalise:`.
-struct Entry {
+struct GeneraliseEntry {
   std::string id;
   double scale_from = 0;
   double scale_to = 0;
@@ -184,7 +182,7 @@ struct Entry {
     std::string word;
   };
   std::vector<Argument> arguments;
-  Span span;
+  SourceSpan span;
 };
 
 struct SurfaceRules;
@@ -195,8 +193,6 @@ struct Reads {
   /// Columns of texts and of numbers, yes/no included.
   std::vector<std::size_t> texts;
   std::vector<std::size_t> numbers;
-  /// By HostKind: whether it asks that of host facets.
-  std::array<bool, 4> host_kinds{};
   /// By number: whether an expression or a group leads over the relation, or one that narrows it.
   std::vector<bool> relations;
   /// Pack::words, each with its number.
@@ -213,16 +209,16 @@ struct Pack {
   Hosts hosts;
   std::vector<Param> params;
   std::vector<Class> classes;
-  std::vector<Relation> relations;
+  std::vector<RelationDefinition> relations;
   std::vector<GroupKind> groups;
   std::vector<Rule> rules;
   /// Parallel to `rules`; once the pack is read.
   std::vector<NamesOfRule> names_of_rules;
-  std::vector<Step> steps;
+  std::vector<RuleStep> steps;
   Decide decide;
   /// How often the pack is run at most; 0: once, without `iterate:`.
   int rounds = 0;
-  std::vector<Entry> entries;
+  std::vector<GeneraliseEntry> entries;
   Limits limits;  ///< `invariants:`
   /// Null: the pack says nothing of surfaces but `hosts:`.
   std::shared_ptr<const SurfaceRules> surfaces;

@@ -34,7 +34,7 @@ std::optional<double> denominator(std::string_view text) {
   return value;
 }
 
-void read_scale(const YamlNode& node, Entry& entry, Loader& loader) {
+void read_scale(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   const auto text = read_text(node, "a scale", loader.findings);
   if (!text) return;
   const std::string_view all = *text;
@@ -63,13 +63,14 @@ const YamlNode* operator_name(const YamlNode& node, Findings& findings) {
 }
 
 /// `{to: 0.5 mm@map, anchor: sill}`.
-void read_arguments(const YamlNode& node, const OperatorKind& kind, Entry& entry, Loader& loader) {
-  Section section(node, "'" + kind.name + "'", names_of(kind.arguments), loader.findings);
+void read_arguments(const YamlNode& node, const OperatorKind& kind, GeneraliseEntry& entry,
+                    Loader& loader) {
+  YamlSection section(node, "'" + kind.name + "'", names_of(kind.arguments), loader.findings);
   if (!section.is_map()) return;
   for (const OperatorArgument& argument : kind.arguments) {
     const YamlNode* value = section.find(argument.name);
     if (value == nullptr) continue;
-    Entry::Argument& read = entry.arguments.emplace_back();
+    GeneraliseEntry::Argument& read = entry.arguments.emplace_back();
     read.name = argument.name;
     if (argument.kind == "word") {
       read.word = value->text;
@@ -84,7 +85,7 @@ void read_arguments(const YamlNode& node, const OperatorKind& kind, Entry& entry
   }
 }
 
-void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
+void read_operation(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   const YamlNode* name = operator_name(node, loader.findings);
   if (name == nullptr) return;
   entry.operation = name->text;
@@ -103,7 +104,7 @@ void read_operation(const YamlNode& node, Entry& entry, Loader& loader) {
                           "'" + name->text + "' has no arguments: write do: " + name->text);
 }
 
-void read_target(const YamlNode& node, Entry& entry, Loader& loader) {
+void read_target(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   const auto text = read_text(node, "'for'", loader.findings);
   if (!text || *text == "any") return;
   constexpr std::string_view kGroup = "group ";
@@ -119,7 +120,8 @@ void read_target(const YamlNode& node, Entry& entry, Loader& loader) {
         "unknown group '" + name + "'" + did_you_mean(name, names_of(loader.pack.groups)));
 }
 
-void read_entry_id(const YamlNode& node, Entry& entry, std::set<std::string>& ids, Loader& loader) {
+void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::string>& ids,
+                   Loader& loader) {
   const auto id = read_text(node, "an entry's id", loader.findings);
   if (!id) return;
   entry.id = *id;
@@ -132,9 +134,9 @@ void read_entry_id(const YamlNode& node, Entry& entry, std::set<std::string>& id
 }
 
 void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
-  Section section(node, "an entry", {"id", "scale", "for", "when", "do"}, loader.findings);
+  YamlSection section(node, "an entry", {"id", "scale", "for", "when", "do"}, loader.findings);
   if (!section.is_map()) return;
-  Entry entry;
+  GeneraliseEntry entry;
   entry.span = node.span;
   if (const YamlNode* id = section.require("id")) read_entry_id(*id, entry, ids, loader);
   if (const YamlNode* scale = section.require("scale")) read_scale(*scale, entry, loader);

@@ -36,7 +36,7 @@ bool is_version(std::string_view text) {
 
 std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   if (!expect_name(entry.key, "a param", loader.findings)) return std::nullopt;
-  Section section(entry.value, "a param", {"value", "range", "why"}, loader.findings);
+  YamlSection section(entry.value, "a param", {"value", "range", "why"}, loader.findings);
   const YamlNode* value_node = section.require("value");
   if (value_node == nullptr) return std::nullopt;
   Param param;
@@ -59,7 +59,8 @@ std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
 }
 
 void read_typical(const YamlNode& node, Class& c, Loader& loader) {
-  Section section(node, "'typical'", {"per storey", "per facade", "per building"}, loader.findings);
+  YamlSection section(node, "'typical'", {"per storey", "per facade", "per building"},
+                      loader.findings);
   for (const YamlEntry& entry : node.entries)
     if (const auto range = read_range(entry.value, Dimension{}, loader))
       c.typical.push_back({entry.key.text, range->low, range->high});
@@ -67,7 +68,7 @@ void read_typical(const YamlNode& node, Class& c, Loader& loader) {
 
 void read_class_body(const YamlNode& node, Class& c, Loader& loader) {
   if (node.kind == YamlNode::Kind::null) return;
-  Section section(node, "a class", {"is", "abstract", "typical"}, loader.findings);
+  YamlSection section(node, "a class", {"is", "abstract", "typical"}, loader.findings);
   if (const YamlNode* parent = section.find("is"))
     c.parent = read_class(*parent, "the class after 'is'", loader);
   if (const YamlNode* flag = section.find("abstract"))
@@ -123,7 +124,7 @@ bool expect_name(const YamlNode& node, const std::string& what, Findings& findin
 }
 
 void read_header(const YamlNode& node, Loader& loader) {
-  Section section(node, "'pack'", {"name", "version"}, loader.findings);
+  YamlSection section(node, "'pack'", {"name", "version"}, loader.findings);
   if (const YamlNode* name = section.require("name"))
     if (read_text(*name, "a pack's name", loader.findings) &&
         expect_name(*name, "a pack", loader.findings))

@@ -25,10 +25,10 @@ void read_relation(const YamlEntry& entry, Loader& loader) {
     loader.findings.error(Code::R216, entry.key.span,
                           "a relation cannot be called '" + name +
                               "': it says what was cut into what, and is built in");
-  Relation relation;
+  RelationDefinition relation;
   relation.name = name;
   relation.span = entry.key.span;
-  Section section(entry.value, "a relation", {"within", "where"}, loader.findings);
+  YamlSection section(entry.value, "a relation", {"within", "where"}, loader.findings);
   if (const YamlNode* within = section.require("within"))
     relation.within = read_relation(*within, "'within'", loader);
   loader.names.used_relations.insert(relation.within);
@@ -55,7 +55,7 @@ void read_group(const YamlEntry& entry, Loader& loader) {
   GroupKind kind;
   kind.name = entry.key.text;
   kind.span = entry.key.span;
-  Section section(entry.value, "a group", {"of", "by", "at_least"}, loader.findings);
+  YamlSection section(entry.value, "a group", {"of", "by", "at_least"}, loader.findings);
   if (const YamlNode* of = section.require("of"))
     kind.of = read_class(*of, "the class after 'of'", loader);
   if (const YamlNode* by = section.require("by")) {

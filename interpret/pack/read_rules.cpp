@@ -57,7 +57,7 @@ void check_ramps(const ScoreTerm& term, const YamlNode& node, Loader& loader) {
 
 /// What stands after `expression:` in a score.
 void read_judgement(const YamlNode& node, ScoreTerm& term, Loader& loader) {
-  Section section(node, "a score term", {"rise", "fall", "weight"}, loader.findings);
+  YamlSection section(node, "a score term", {"rise", "fall", "weight"}, loader.findings);
   if (!section.is_map()) return;
   term.weight = read_weight(section.find("weight"), loader);
   if (term.value == kNoExpr) return;
@@ -117,8 +117,8 @@ void read_rule_id(const YamlNode& node, Rule& rule, std::set<std::string>& ids, 
 }
 
 void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
-  Section section(node, "a rule", {"id", "label", "priority", "require", "unless", "score"},
-                  loader.findings);
+  YamlSection section(node, "a rule", {"id", "label", "priority", "require", "unless", "score"},
+                      loader.findings);
   if (!section.is_map()) return;
   Rule rule;
   rule.span = node.span;

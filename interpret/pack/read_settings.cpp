@@ -50,7 +50,8 @@ std::optional<std::string> read_code(const YamlNode& node, Findings& findings) {
 }
 
 std::optional<Emission> read_emission(const YamlNode& node, Loader& loader) {
-  Section section(node, "an emitted object", {"type", "class", "function", "top"}, loader.findings);
+  YamlSection section(node, "an emitted object", {"type", "class", "function", "top"},
+                      loader.findings);
   const YamlNode* type_node = section.require("type");
   if (type_node == nullptr) return std::nullopt;
   Emission emission{"", kOuterCharacteristics, {}, "RoofSurface"};
@@ -91,7 +92,7 @@ ExprId read_share(const YamlNode* node, const std::string& what, double& share, 
 }  // namespace
 
 void read_hosts(const YamlNode& node, Loader& loader) {
-  Section section(node, "'hosts'", {"wall", "roof", "ground", "ground_reach"}, loader.findings);
+  YamlSection section(node, "'hosts'", {"wall", "roof", "ground", "ground_reach"}, loader.findings);
   Hosts& hosts = loader.pack.hosts;
   read_facet_range(section.find("wall"), hosts.wall, loader);
   read_facet_range(section.find("roof"), hosts.roof, loader);
@@ -106,7 +107,8 @@ void read_hosts(const YamlNode& node, Loader& loader) {
 }
 
 void read_decide(const YamlNode& node, Loader& loader) {
-  Section section(node, "'decide'", {"min_score", "ambiguous_below", "otherwise"}, loader.findings);
+  YamlSection section(node, "'decide'", {"min_score", "ambiguous_below", "otherwise"},
+                      loader.findings);
   Decide& decide = loader.pack.decide;
   decide.min_score_of =
       read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
@@ -116,7 +118,7 @@ void read_decide(const YamlNode& node, Loader& loader) {
 }
 
 void read_iterate(const YamlNode& node, Loader& loader) {
-  Section section(node, "'iterate'", {"rounds"}, loader.findings);
+  YamlSection section(node, "'iterate'", {"rounds"}, loader.findings);
   const YamlNode* rounds = section.require("rounds");
   if (rounds == nullptr) return;
   const auto count = read_integer(*rounds, "'rounds'", loader.findings);
@@ -147,7 +149,7 @@ Limits read_limits(const YamlNode& node, Findings& findings) {
       {"eaves-m", &limits.eaves_m}};
   std::vector<std::string> keys;
   for (const auto& [key, into] : all) keys.push_back(key);
-  const Section section(node, "'invariants'", keys, findings);
+  const YamlSection section(node, "'invariants'", keys, findings);
   for (const auto& [key, into] : all) {
     const YamlNode* value = section.is_map() ? section.find(key) : nullptr;
     if (value == nullptr) continue;

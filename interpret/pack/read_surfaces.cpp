@@ -53,7 +53,7 @@ class SurfaceReader {
 };
 
 void SurfaceReader::read(const YamlNode& entry) {
-  Section section(entry, "an entry of 'surfaces'", {"id", "type", "when"}, findings_);
+  YamlSection section(entry, "an entry of 'surfaces'", {"id", "type", "when"}, findings_);
   if (!section.is_map()) return;
   SurfaceRule rule;
   rule.span = entry.span;

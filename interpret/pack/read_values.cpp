@@ -11,7 +11,7 @@ namespace oriel::rules {
 namespace {
 
 /// The value of a constant that was checked; an error where it has none.
-std::optional<double> fold_here(ExprId id, Span where, Loader& loader) {
+std::optional<double> fold_here(ExprId id, SourceSpan where, Loader& loader) {
   const auto value = id == kNoExpr ? std::nullopt : fold(loader.pack, id);
   if (!value || std::isfinite(*value)) return value;
   loader.findings.error(Code::R212, where, "this has no value");

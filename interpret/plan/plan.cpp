@@ -1,14 +1,12 @@
 #include "interpret/plan/plan.h"
 
 #include "interpret/compile/fold.h"
-#include "interpret/labelling/group_gap.h"
+#include "interpret/labelling/groups.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/names.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,9 +16,8 @@ namespace oriel {
 namespace {
 
 using rules::ClassId;
-using rules::Entry;
 using rules::ExprId;
-using rules::kBlock;
+using rules::GeneraliseEntry;
 using rules::Truth;
 
 InputError bad_scale(double scale) {
@@ -64,8 +61,9 @@ bool is_asking_for_class(const rules::ExprList& code, rules::ExprId id) {
 }
 
 /// Marks the features that an entry is for.
-void mark_targets(const rules::Pack& pack, const Entry& entry, const std::vector<ClassId>& labels,
-                  const Interpretation& interpretation, std::vector<Truth>& fits) {
+void mark_targets(const rules::Pack& pack, const GeneraliseEntry& entry,
+                  const std::vector<ClassId>& labels, const Interpretation& interpretation,
+                  std::vector<Truth>& fits) {
   std::ranges::fill(fits, Truth::no);
   if (entry.group < 0) {
     for (std::size_t row = 0; row < fits.size(); ++row)
@@ -83,15 +81,9 @@ void mark_targets(const rules::Pack& pack, const Entry& entry, const std::vector
 void judge_condition(ExprId when, const rules::EvaluationContext& context,
                      rules::Evaluator& evaluator, std::vector<Truth>& fits) {
   if (when == rules::kNoExpr) return;
-  std::array<Truth, kBlock> answers;
-  for (std::size_t begin = 0; begin < context.rows; begin += kBlock) {
-    rules::Frame frame;
-    frame.size = std::min(kBlock, context.rows - begin);
-    frame.rows[0] = context.row_numbers.data() + begin;
-    frame.needed = fits.data() + begin;
-    evaluator.truths(when, frame, std::span(answers).first(frame.size));
-    for (std::size_t i = 0; i < frame.size; ++i)
-      fits[begin + i] = std::min(fits[begin + i], answers[i]);
+  for (const int row : context.row_numbers) {
+    Truth& fit = fits[static_cast<std::size_t>(row)];
+    if (fit != Truth::no) fit = std::min(fit, evaluator.truth(when, rules::rows_of(row)));
   }
 }
 
@@ -107,7 +99,7 @@ void keep_whole_groups(const std::string& kind, const Interpretation& interpreta
 }
 
 /// The group of the entry's kind that the feature is in; empty if the entry is not for groups.
-std::string group_of(const rules::Pack& pack, const Entry& entry, FeatureId feature,
+std::string group_of(const rules::Pack& pack, const GeneraliseEntry& entry, FeatureId feature,
                      const Interpretation& interpretation) {
   if (entry.group < 0) return {};
   const std::string& kind = pack.groups[static_cast<std::size_t>(entry.group)].name;
@@ -116,11 +108,11 @@ std::string group_of(const rules::Pack& pack, const Entry& entry, FeatureId feat
   return {};
 }
 
-Step step_of(const rules::Pack& pack, const Entry& entry, FeatureId feature, double scale,
+Step step_of(const rules::Pack& pack, const GeneraliseEntry& entry, FeatureId feature, double scale,
              const Interpretation& interpretation) {
   Step step{feature, entry.operation, entry.id};
   step.group = group_of(pack, entry, feature, interpretation);
-  for (const Entry::Argument& argument : entry.arguments)
+  for (const GeneraliseEntry::Argument& argument : entry.arguments)
     if (argument.value == rules::kNoExpr)
       step.words[argument.name] = argument.word;
     else if (const auto value = rules::fold(pack, argument.value, scale))
@@ -138,17 +130,18 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
   const std::vector<ClassId> labels = labels_of(pack, interpretation, table.rows());
   rules::EvaluationContext context(pack, table, graph);
   context.scale = scale_denominator;
-  const bool needs_classes = std::ranges::any_of(
-      pack.entries, [&](const Entry& e) { return is_asking_for_class(pack.code, e.when); });
+  const bool needs_classes = std::ranges::any_of(pack.entries, [&](const GeneraliseEntry& e) {
+    return is_asking_for_class(pack.code, e.when);
+  });
   if (needs_classes) set_membership(pack, labels, context);
 
-  std::vector<const Entry*> chosen(context.rows, nullptr);
+  std::vector<const GeneraliseEntry*> chosen(context.rows, nullptr);
   std::vector<Truth> fits(context.rows);
   // gap(members) stands behind the columns of the schema.
   std::vector<double> gaps;
   context.columns.emplace_back();
   rules::Evaluator evaluator(pack, context);
-  for (const Entry& entry : pack.entries) {
+  for (const GeneraliseEntry& entry : pack.entries) {
     if (scale_denominator < entry.scale_from || scale_denominator > entry.scale_to) continue;
     mark_targets(pack, entry, labels, interpretation, fits);
     if (entry.group >= 0) {
@@ -174,7 +167,7 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
 
 std::vector<double> plan_bounds(const RuleBase& base) {
   std::vector<double> bounds;
-  for (const Entry& entry : base.pack().entries)
+  for (const GeneraliseEntry& entry : base.pack().entries)
     for (const double bound : {entry.scale_from, entry.scale_to})
       if (std::isfinite(bound)) bounds.push_back(bound);
   std::ranges::sort(bounds);

@@ -20,8 +20,8 @@ namespace oriel {
 namespace {
 
 using rules::Findings;
-using rules::Section;
 using rules::YamlNode;
+using rules::YamlSection;
 
 constexpr const char* kProfileSchema = "oriel-profile/1";
 
@@ -30,13 +30,13 @@ class ProfileReader {
   ProfileReader(Findings& findings, Profile& profile) : findings_(findings), profile_(profile) {}
 
   void read(const YamlNode& root, const std::string& level) {
-    Section top(root, "a profile", {"schema", "profile", "levels"}, findings_);
+    YamlSection top(root, "a profile", {"schema", "profile", "levels"}, findings_);
     if (!top.is_map()) return;
     if (const YamlNode* schema = top.require("schema");
         schema != nullptr && schema->text != kProfileSchema)
       findings_.error(Code::R212, schema->span, fmt::format("the schema is {}", kProfileSchema));
     if (const YamlNode* header = top.require("profile")) {
-      Section section(*header, "'profile'", {"name", "version"}, findings_);
+      YamlSection section(*header, "'profile'", {"name", "version"}, findings_);
       section.require("version");
       if (const YamlNode* name = section.require("name")) profile_.name = name->text;
     }
@@ -65,7 +65,7 @@ class ProfileReader {
 
  private:
   void read_level(const YamlNode& node) {
-    Section section(
+    YamlSection section(
         node, "a level",
         {"form", "least-piece-m2", "omit", "keep", "imprints", "on-ground", "sizes-m", "area-m2",
          "map-mm", "verdicts", "parts", "invariants", "edge-min-m", "edge-owner-b-m", "stl-solids"},
@@ -126,7 +126,7 @@ class ProfileReader {
     return value;
   }
 
-  void read_sizes(Section& section, const YamlNode& level) {
+  void read_sizes(YamlSection& section, const YamlNode& level) {
     const YamlNode* sizes = section.find("sizes-m");
     const YamlNode* map = section.find("map-mm");
     const YamlNode* verdicts = section.find("verdicts");
@@ -139,7 +139,7 @@ class ProfileReader {
     }
     if (map != nullptr) profile_.map_mm = positive(*map, "'map-mm'");
     if (sizes == nullptr) return;
-    Section of_sizes(*sizes, "'sizes-m'", {"a", "b", "c"}, findings_);
+    YamlSection of_sizes(*sizes, "'sizes-m'", {"a", "b", "c"}, findings_);
     const YamlNode* area = section.require("area-m2");
     std::array<std::optional<double>, 4> numbers;
     std::size_t i = 0;
@@ -161,9 +161,9 @@ class ProfileReader {
   }
 
   void read_verdicts(const YamlNode& node) {
-    Section section(node, "'verdicts'",
-                    {"point", "line", "small", "sheet", "lamina", "cap", "fin", "enclosed"},
-                    findings_);
+    YamlSection section(node, "'verdicts'",
+                        {"point", "line", "small", "sheet", "lamina", "cap", "fin", "enclosed"},
+                        findings_);
     if (!section.is_map()) return;
     for (const Significance verdict :
          {Significance::point, Significance::line, Significance::small})
@@ -187,11 +187,11 @@ class ProfileReader {
   }
 
   void read_parts(const YamlNode& node) {
-    Section section(node, "'parts'", {"height-m", "area-m2"}, findings_);
+    YamlSection section(node, "'parts'", {"height-m", "area-m2"}, findings_);
     const YamlNode *height = section.require("height-m"), *area = section.require("area-m2");
     if (height == nullptr || area == nullptr) return;
     const auto height_m = positive(*height, "'height-m'"), area_m2 = positive(*area, "'area-m2'");
-    if (height_m && area_m2) profile_.part = Profile::Part{*height_m, *area_m2};
+    if (height_m && area_m2) profile_.part = Profile::MainPart{*height_m, *area_m2};
   }
 
   Findings& findings_;

@@ -26,7 +26,7 @@ struct Profile {
   /// (detail::MainParts): what has this height and, seen from above, on average this area; a
   /// protrusion that covers the least area of the sizes; all of a building that is smaller than
   /// that area times c; the highest part, if it rises by more than c over the rest.
-  struct Part {
+  struct MainPart {
     double height_m = 0;
     double area_m2 = 0;
   };
@@ -43,7 +43,7 @@ struct Profile {
   /// What reaches the ground goes only if it is of one of these classes; missing: it may go.
   std::optional<std::vector<std::string>> on_ground;
   std::optional<Thresholds> sizes;
-  std::optional<Part> part;  ///< missing: size alone decides
+  std::optional<MainPart> part;  ///< missing: size alone decides
   /// Instead of `sizes`: the least length on the map.
   std::optional<double> map_mm;
   /// The least length of an edge and a gap that the whole result is to have; missing: that of what
@@ -87,7 +87,7 @@ std::vector<Issue> check_profile(const Profile& profile, const RuleBase& base);
 
 /// Adds to `plan`, which may be empty, what the profile asks for of features without a step there:
 /// first its lists of classes, then the verdict of significance, unless it is a part of the
-/// building (Profile::Part). A recess that reaches the ground and is deep, or has no lintel, is
+/// building (Profile::MainPart). A recess that reaches the ground and is deep, or has no lintel, is
 /// part of the ground plan: it stays where what is on the ground stays. A feature that carries one
 /// that is to stay by the profile does not go for its size. Steps are called "NAME:LEVEL/omit" or
 /// "NAME:LEVEL/VERDICT", of sheets with their place as verdict. `flatten` of a recess with a label

@@ -16,7 +16,7 @@ void sort_by_id(std::vector<NamedFeature>& features) {
 
 }  // namespace
 
-void LabelDiff::note(Change& change, std::string_view building, std::string_view id) const {
+void LabelDiff::note(LabelChange& change, std::string_view building, std::string_view id) const {
   if (change.count++ < most_examples_) change.examples.emplace_back(building, id);
 }
 

@@ -28,7 +28,7 @@ struct NamedFeature {
 class LabelDiff {
  public:
   /// Features that changed in the same way.
-  struct Change {
+  struct LabelChange {
     std::size_t count = 0;
     /// The first of them: building and id.
     std::vector<std::pair<std::string, std::string>> examples;
@@ -54,28 +54,28 @@ class LabelDiff {
   [[nodiscard]] std::size_t changed() const { return changed_; }
   /// Those that have the same label by another rule.
   [[nodiscard]] std::size_t renamed_rules() const { return other_rule_; }
-  [[nodiscard]] const Change& only_before() const { return only_before_; }
-  [[nodiscard]] const Change& only_after() const { return only_after_; }
+  [[nodiscard]] const LabelChange& only_before() const { return only_before_; }
+  [[nodiscard]] const LabelChange& only_after() const { return only_after_; }
   /// What is not the same in both runs: other labels, and features that only one of them has.
   [[nodiscard]] std::size_t differences() const {
     return changed_ + only_before_.count + only_after_.count;
   }
 
   /// (before, after), where label or rule differ.
-  using Changes = std::map<std::pair<Naming, Naming>, Change>;
+  using Changes = std::map<std::pair<Naming, Naming>, LabelChange>;
   [[nodiscard]] const Changes& changes() const { return changes_; }
   /// By label; "" is unknown.
   [[nodiscard]] const std::map<std::string, Count>& counts() const { return counts_; }
 
  private:
-  void note(Change& change, std::string_view building, std::string_view id) const;
+  void note(LabelChange& change, std::string_view building, std::string_view id) const;
 
   std::size_t most_examples_;
   std::size_t compared_ = 0;
   std::size_t changed_ = 0;
   std::size_t other_rule_ = 0;
-  Change only_before_;
-  Change only_after_;
+  LabelChange only_before_;
+  LabelChange only_after_;
   Changes changes_;
   std::map<std::string, Count> counts_;
 };

@@ -23,7 +23,7 @@ std::vector<const LabelDiff::Changes::value_type*> by_count(const LabelDiff& dif
   return changes;
 }
 
-std::string examples_text(const LabelDiff::Change& change) {
+std::string examples_text(const LabelDiff::LabelChange& change) {
   std::string text;
   for (const auto& [building, id] : change.examples)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", building, id);
@@ -47,7 +47,7 @@ std::string count_line(const std::string& label, LabelDiff::Count count) {
                      gain);
 }
 
-std::string only_line(const char* which, const LabelDiff::Change& change) {
+std::string only_line(const char* which, const LabelDiff::LabelChange& change) {
   if (change.count == 0) return "";
   return fmt::format("{} features are only in the {} run: {}\n", change.count, which,
                      examples_text(change));
@@ -58,7 +58,7 @@ std::string naming_json(const Naming& naming) {
                      json_string(naming.rule));
 }
 
-std::string change_json(const LabelDiff::Change& change) {
+std::string change_json(const LabelDiff::LabelChange& change) {
   std::string examples;
   for (const auto& [building, id] : change.examples)
     examples += fmt::format(R"({}{{"building":{},"id":{}}})", examples.empty() ? "" : ",",

@@ -19,13 +19,13 @@ double ratio(std::size_t part, std::size_t whole) {
 }
 
 /// A prediction and an object whose boxes meet.
-struct Pair {
+struct MatchCandidate {
   double iou = 0;
   const ExpectedObject* truth = nullptr;
   const Prediction* prediction = nullptr;
 };
 
-bool is_better(const Pair& p, const Pair& q) {
+bool is_better(const MatchCandidate& p, const MatchCandidate& q) {
   if (p.iou != q.iou) return p.iou > q.iou;
   return std::tie(p.truth->id, p.prediction->id) < std::tie(q.truth->id, q.prediction->id);
 }
@@ -42,10 +42,11 @@ class Matcher {
 
   void run() {
     find_pairs();
-    match([](const Pair& p) { return p.truth->label == p.prediction->label; },
-          [&](const Pair& p) { add_hit(p); });
+    match([](const MatchCandidate& p) { return p.truth->label == p.prediction->label; },
+          [&](const MatchCandidate& p) { add_hit(p); });
     drop_neutral();
-    match([](const Pair&) { return true; }, [&](const Pair& p) { add_confusion(p); });
+    match([](const MatchCandidate&) { return true; },
+          [&](const MatchCandidate& p) { add_confusion(p); });
     add_rest();
   }
 
@@ -67,7 +68,7 @@ class Matcher {
   /// One to one, the best first, among what is not matched yet.
   template <class Wanted, class Add>
   void match(Wanted is_wanted, Add add) {
-    for (const Pair& pair : pairs_) {
+    for (const MatchCandidate& pair : pairs_) {
       if (is_left_out(*pair.truth) || !is_wanted(pair)) continue;
       if (is_done_.contains(pair.truth) || is_done_.contains(pair.prediction)) continue;
       is_done_.insert(pair.truth);
@@ -76,17 +77,17 @@ class Matcher {
     }
   }
 
-  void add_hit(const Pair& pair) {
+  void add_hit(const MatchCandidate& pair) {
     ++score_.classes[pair.truth->label].true_positives;
     ++score_.confusion[{pair.truth->label, pair.prediction->label}];
   }
 
   void drop_neutral() {
-    for (const Pair& pair : pairs_)
+    for (const MatchCandidate& pair : pairs_)
       if (is_left_out(*pair.truth) && is_done_.insert(pair.prediction).second) ++score_.neutral;
   }
 
-  void add_confusion(const Pair& pair) {
+  void add_confusion(const MatchCandidate& pair) {
     const ExpectedObject& truth = *pair.truth;
     const Prediction& prediction = *pair.prediction;
     ++score_.confusion[{truth.label, prediction.label}];
@@ -115,7 +116,7 @@ class Matcher {
   std::vector<const ExpectedObject*> truth_;
   const ScoreOptions& options_;
   Score& score_;
-  std::vector<Pair> pairs_;
+  std::vector<MatchCandidate> pairs_;
   std::set<const void*> is_done_;
 };
 

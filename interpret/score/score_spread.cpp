@@ -20,7 +20,7 @@ constexpr std::uint64_t kSeed = 2004;
 /// The middle 95 %.
 constexpr double kTail = 0.025;
 
-Interval interval_of(std::vector<double> values) {
+ConfidenceInterval interval_of(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   if (values.empty()) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -33,7 +33,7 @@ Interval interval_of(std::vector<double> values) {
 }
 
 /// What a building has, the predictions with the best scores first.
-struct Content {
+struct BuildingRecords {
   std::vector<Prediction> predictions;
   std::vector<ExpectedObject> truth;
 
@@ -44,7 +44,7 @@ struct Content {
   }
 };
 
-std::string json_of(const Interval& interval) {
+std::string json_of(const ConfidenceInterval& interval) {
   return fmt::format("[{},{}]", rules::json_number(interval.low),
                      rules::json_number(interval.high));
 }
@@ -54,7 +54,7 @@ std::string json_of(const Interval& interval) {
 std::vector<CurvePoint> precision_recall_curve(const std::vector<Prediction>& predictions,
                                                const std::vector<ExpectedObject>& truth,
                                                const ScoreOptions& options) {
-  std::map<std::string, Content> buildings;
+  std::map<std::string, BuildingRecords> buildings;
   for (const ExpectedObject& object : truth) buildings[object.building].truth.push_back(object);
   // Where the threshold passes a prediction, its building is matched anew.
   std::map<double, std::set<std::string>, std::greater<>> steps;

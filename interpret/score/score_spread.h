@@ -24,15 +24,15 @@ std::vector<CurvePoint> precision_recall_curve(const std::vector<Prediction>& pr
                                                const ScoreOptions& options = {});
 
 /// Where 95 % of the resampled values lie; NaN without any.
-struct Interval {
+struct ConfidenceInterval {
   double low = 0;
   double high = 0;
 };
 
 struct Intervals {
   std::size_t samples = 0;
-  std::map<std::string, Interval> f1;
-  Interval macro_f1;
+  std::map<std::string, ConfidenceInterval> f1;
+  ConfidenceInterval macro_f1;
 };
 
 /// 95 % percentile intervals of F1 by the bootstrap over buildings (Efron and Tibshirani 1993,

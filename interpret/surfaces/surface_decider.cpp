@@ -1,7 +1,6 @@
 #include "interpret/surfaces/surface_decider.h"
 
 #include <algorithm>
-#include <array>
 
 namespace oriel::rules {
 
@@ -17,9 +16,11 @@ SurfaceDecider::SurfaceDecider(const SurfaceRules& surfaces, const SurfaceTable&
 }
 
 void SurfaceDecider::add_conjuncts(ExprId id, std::vector<SurfaceConjunct>& conjuncts) const {
-  const auto parts = evaluator_.parts(id);
-  for (const ExprId part : parts) add_conjuncts(part, conjuncts);
-  if (parts.empty()) conjuncts.push_back({id, !reads_pending(id)});
+  const Expr& expr = surfaces_.pack.code[static_cast<std::size_t>(id)];
+  if (expr.op == Op::all_of)
+    for (const ExprId part : expr.args) add_conjuncts(part, conjuncts);
+  else
+    conjuncts.push_back({id, !reads_pending(id)});
 }
 
 bool SurfaceDecider::reads_pending(ExprId id) const {
@@ -39,57 +40,36 @@ void SurfaceDecider::look_again() {
 std::vector<int> SurfaceDecider::decide(std::span<const int> rows) {
   undecided_.clear();
   first_doubtful_ = conjuncts_.size();
-  std::vector<int> deciding(rows.size(), -1);
-  for (std::size_t begin = 0; begin < rows.size(); begin += kBlock) {
-    const std::size_t size = std::min(kBlock, rows.size() - begin);
-    decide_block(rows.subspan(begin, size), std::span(deciding).subspan(begin, size));
+  std::vector<int> deciding;
+  deciding.reserve(rows.size());
+  for (const int row : rows) deciding.push_back(decide(row));
+  return deciding;
+}
+
+int SurfaceDecider::decide(int row) {
+  int deciding = -1;
+  bool is_doubtful = false;
+  for (std::size_t r = first_rule_; r < conjuncts_.size() && deciding < 0; ++r) {
+    const Truth holds = all_hold(conjuncts_[r], row);
+    if (holds == Truth::yes) deciding = static_cast<int>(r);
+    if (holds != Truth::unknown) continue;
+    is_doubtful = true;
+    first_doubtful_ = std::min(first_doubtful_, r);
   }
+  if (is_doubtful) undecided_.push_back(row);
   return deciding;
 }
 
 /// What is unknown for good does not hold.
-void SurfaceDecider::ask(const Frame& frame, const SurfaceConjunct& conjunct,
-                         std::span<Truth> holds) {
-  std::array<Truth, kBlock> block;
-  const auto answer = std::span(block).first(holds.size());
-  evaluator_.truths(conjunct.id, frame, answer);
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    if (conjunct.is_final && answer[i] != Truth::yes) answer[i] = Truth::no;
-    holds[i] = std::min(holds[i], answer[i]);
+Truth SurfaceDecider::all_hold(const std::vector<SurfaceConjunct>& conjuncts, int row) {
+  const FeatureRows rows = rows_of(row);
+  Truth least = Truth::yes;
+  for (const SurfaceConjunct& conjunct : conjuncts) {
+    const Truth answer = evaluator_.truth(conjunct.id, rows);
+    if (answer == Truth::no || (conjunct.is_final && answer == Truth::unknown)) return Truth::no;
+    least = std::min(least, answer);
   }
-}
-
-void SurfaceDecider::decide_block(std::span<const int> rows, std::span<int> deciding) {
-  std::array<Truth, kBlock> open_block, holds_block;
-  std::array<bool, kBlock> is_doubtful;
-  Frame frame;
-  frame.size = rows.size();
-  frame.rows[0] = rows.data();
-  const auto open = std::span(open_block).first(frame.size);
-  const auto holds = std::span(holds_block).first(frame.size);
-  frame.needed = holds.data();
-  std::ranges::fill(open, Truth::yes);
-  std::fill_n(is_doubtful.begin(), frame.size, false);
-  const auto is_needed = [](Truth truth) { return truth != Truth::no; };
-  for (std::size_t r = first_rule_; r < conjuncts_.size(); ++r) {
-    std::ranges::copy(open, holds.begin());
-    for (const SurfaceConjunct& conjunct : conjuncts_[r]) {
-      if (!std::ranges::any_of(holds, is_needed)) break;
-      ask(frame, conjunct, holds);
-    }
-    for (std::size_t i = 0; i < frame.size; ++i) {
-      if (holds[i] == Truth::no) continue;
-      if (holds[i] == Truth::unknown) {
-        is_doubtful[i] = true;
-        first_doubtful_ = std::min(first_doubtful_, r);
-        continue;
-      }
-      deciding[i] = static_cast<int>(r);
-      open[i] = Truth::no;
-    }
-  }
-  for (std::size_t i = 0; i < frame.size; ++i)
-    if (is_doubtful[i]) undecided_.push_back(rows[i]);
+  return least;
 }
 
 }  // namespace oriel::rules

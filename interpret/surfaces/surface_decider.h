@@ -37,8 +37,8 @@ class SurfaceDecider {
  private:
   void add_conjuncts(ExprId id, std::vector<SurfaceConjunct>& conjuncts) const;
   [[nodiscard]] bool reads_pending(ExprId id) const;
-  void decide_block(std::span<const int> rows, std::span<int> deciding);
-  void ask(const Frame& frame, const SurfaceConjunct& conjunct, std::span<Truth> holds);
+  [[nodiscard]] int decide(int row);
+  [[nodiscard]] Truth all_hold(const std::vector<SurfaceConjunct>& conjuncts, int row);
 
   const SurfaceRules& surfaces_;
   const MoreAttributes* more_;

@@ -14,7 +14,7 @@ struct SurfaceRule {
   std::string type;
   /// All of them must hold; over attributes of surfaces.
   std::vector<ExprId> when;
-  Span span;
+  SourceSpan span;
 };
 
 /// `surfaces:`. Its expressions are over surface_schema(), so they have a code, and words, of their

@@ -17,7 +17,6 @@ namespace oriel {
 
 namespace {
 
-using rules::Frame;
 using rules::HostKind;
 using rules::Pack;
 using rules::SurfaceRule;
@@ -104,7 +103,7 @@ std::string attribute_lines(const SurfaceTable& table, std::size_t row) {
 }
 
 /// The place of an expression as messages show it.
-std::string place_of(const Pack& pack, rules::Span span) {
+std::string place_of(const Pack& pack, rules::SourceSpan span) {
   const Place place = pack.source.place(span.begin);
   return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
@@ -113,21 +112,17 @@ std::string rule_lines(const SurfaceRules& surfaces, const SurfaceTable& table, 
                        int last) {
   const rules::EvaluationContext context(surfaces.pack, table);
   rules::Evaluator evaluator(surfaces.pack, context);
-  const int number = static_cast<int>(row);
-  Frame frame;
-  frame.size = 1;
-  frame.rows[0] = &number;
+  const rules::FeatureRows rows = rules::rows_of(static_cast<int>(row));
   std::string text;
   for (std::size_t r = 0; r < surfaces.rules.size(); ++r) {
     const SurfaceRule& rule = surfaces.rules[r];
     text += fmt::format("  {} -> {}\n", rule.id, rule.type);
     for (const rules::ExprId id : rule.when) {
-      Truth truth = Truth::unknown;
-      evaluator.truths(id, frame, std::span(&truth, 1));
+      const Truth truth = evaluator.truth(id, rows);
       const char* outcome = truth == Truth::yes  ? "holds"
                             : truth == Truth::no ? "fails"
                                                  : "unknown";
-      const rules::Span span = surfaces.pack.code[static_cast<std::size_t>(id)].span;
+      const rules::SourceSpan span = surfaces.pack.code[static_cast<std::size_t>(id)].span;
       text += fmt::format("    {:<8} {}   {}\n", outcome, surfaces.pack.source.text_of(span),
                           place_of(surfaces.pack, span));
     }
@@ -178,7 +173,7 @@ std::string reason_of(const Pack& pack, const SurfaceTable& table, std::size_t r
   std::string text = fmt::format("{} by {}", verdict.type, verdict.rule);
   const char* separator = ": ";
   for (const rules::ExprId id : rule->when) {
-    const rules::Span span = pack.surfaces->pack.code[static_cast<std::size_t>(id)].span;
+    const rules::SourceSpan span = pack.surfaces->pack.code[static_cast<std::size_t>(id)].span;
     text += separator;
     text += pack.surfaces->pack.source.text_of(span);
     separator = "; ";

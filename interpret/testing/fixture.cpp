@@ -116,7 +116,7 @@ double read_step(const YamlNode* node, Loader& loader) {
 
 /// A grid of copies: w.1, w.2 … along the rows, from the lowest.
 void repeat(const YamlNode& node, const FixtureFeature& feature, Fixture& fixture, Loader& loader) {
-  Section section(node, "'repeat'", {"columns", "rows", "dx", "dz"}, loader.findings);
+  YamlSection section(node, "'repeat'", {"columns", "rows", "dx", "dz"}, loader.findings);
   const int columns = read_times(section.find("columns"), loader);
   const int rows = read_times(section.find("rows"), loader);
   const double dx = read_step(section.find("dx"), loader);
@@ -268,7 +268,7 @@ bool is_match(std::string_view pattern, std::string_view name) {
 
 Fixture read_fixture(const YamlNode& node, Loader& loader) {
   Fixture fixture;
-  Section section(node, "a fixture", {"defaults", "features"}, loader.findings);
+  YamlSection section(node, "a fixture", {"defaults", "features"}, loader.findings);
   const YamlNode* features = section.require("features");
   if (features == nullptr || !expect_map(*features, "'features'", loader.findings)) return fixture;
   FixtureFeature defaults;

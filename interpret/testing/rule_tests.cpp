@@ -40,12 +40,8 @@ class CoverageCounter {
     if (context.rows == 0) return;
     rules::Labelling(*pack_, context).run();
     rules::Evaluator evaluator(*pack_, context);
-    for (std::size_t begin = 0; begin < context.rows; begin += rules::kBlock) {
-      rules::Frame frame;
-      frame.size = std::min(rules::kBlock, context.rows - begin);
-      frame.rows[0] = context.row_numbers.data() + begin;
-      for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, frame);
-    }
+    for (const int row : context.row_numbers)
+      for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, row);
   }
 
   [[nodiscard]] const std::vector<RuleCoverage>& rules() const { return rules_; }
@@ -62,19 +58,14 @@ class CoverageCounter {
         {std::string(pack_->source.text_of(expr.span)), pack_->source.place(expr.span.begin)});
   }
 
-  void count_rule(std::size_t i, rules::Evaluator& evaluator, const rules::Frame& frame) {
-    rules::Judgement judgement;
-    rules::judge(*pack_, pack_->rules[i], evaluator, frame, judgement);
-    rules_[i].held += static_cast<std::size_t>(std::count(
-        judgement.truth.begin(), judgement.truth.begin() + static_cast<std::ptrdiff_t>(frame.size),
-        rules::Truth::yes));
-    std::array<rules::Truth, rules::kBlock> answers;
+  void count_rule(std::size_t i, rules::Evaluator& evaluator, int row) {
+    const auto judgement = rules::judge(*pack_, pack_->rules[i], evaluator, row);
+    if (judgement.truth == rules::Truth::yes) ++rules_[i].held;
     for (std::size_t c = 0; c < conditions_[i].size(); ++c) {
-      const auto some = std::span(answers).first(frame.size);
-      evaluator.truths(conditions_[i][c], frame, some);
+      const rules::Truth truth = evaluator.truth(conditions_[i][c], rules::rows_of(row));
       ConditionCoverage& coverage = rules_[i].conditions[c];
-      coverage.held += static_cast<std::size_t>(std::ranges::count(some, rules::Truth::yes));
-      coverage.failed += static_cast<std::size_t>(std::ranges::count(some, rules::Truth::no));
+      if (truth == rules::Truth::yes) ++coverage.held;
+      if (truth == rules::Truth::no) ++coverage.failed;
     }
   }
 

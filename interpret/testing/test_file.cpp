@@ -15,8 +15,6 @@ namespace oriel::rules {
 
 namespace {
 
-using Kind = YamlNode::Kind;
-
 constexpr int kMostTimes = 1000;
 
 /// Reads the tests of one file.
@@ -24,7 +22,7 @@ class TestReader {
  public:
   TestReader(const Pack& pack, Loader& loader) : pack_(&pack), loader_(&loader) {}
 
-  std::vector<RuleTest> run(Section& top) {
+  std::vector<RuleTest> run(YamlSection& top) {
     if (const YamlNode* fixtures = top.find("fixtures")) read_fixtures(*fixtures);
     const YamlNode* tests = top.require("tests");
     if (tests != nullptr && expect_list(*tests, "'tests'", findings()))
@@ -44,7 +42,8 @@ class TestReader {
   }
 
   void read_test(const YamlNode& node) {
-    Section section(node, "a test", {"name", "given", "expect", "because", "property"}, findings());
+    YamlSection section(node, "a test", {"name", "given", "expect", "because", "property"},
+                        findings());
     if (!section.is_map()) return;
     RuleTest test;
     test.place = findings().source().place(node.span.begin);
@@ -83,8 +82,8 @@ class TestReader {
   }
 
   void read_given(const YamlNode& node, RuleTest& test) {
-    if (node.kind == Kind::scalar) return use_fixture(node, test);
-    if (node.kind != Kind::map || node.entries.size() != 1) {
+    if (node.kind == YamlNode::Kind::scalar) return use_fixture(node, test);
+    if (node.kind != YamlNode::Kind::map || node.entries.size() != 1) {
       findings().error(Code::R211, node.span,
                        "'given' is a fixture, 'fixture: {feature.attribute: value}' or 'building: "
                        "FILE'");
@@ -174,7 +173,7 @@ class TestReader {
   }
 
   void read_property(const YamlNode& node, RuleTest& test) {
-    Section section(node, "a property", {"perturb", "times"}, findings());
+    YamlSection section(node, "a property", {"perturb", "times"}, findings());
     Perturbation perturbation;
     const YamlNode* perturb = section.require("perturb");
     if (perturb != nullptr && expect_map(*perturb, "'perturb'", findings()))
@@ -268,7 +267,7 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
     findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
   } else if (const auto root = parse_yaml({0, scratch.source.text().size()}, findings)) {
     check_traps(*root, findings);
-    Section top(*root, "a file of tests", {"tests_for", "fixtures", "tests"}, findings);
+    YamlSection top(*root, "a file of tests", {"tests_for", "fixtures", "tests"}, findings);
     const YamlNode* pack = top.is_map() ? top.require("tests_for") : nullptr;
     if (pack != nullptr) file.base = load_tested(*pack, path, findings, of_pack);
     if (file.base) {

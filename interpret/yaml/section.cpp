@@ -14,24 +14,22 @@ namespace oriel::rules {
 
 namespace {
 
-using Kind = YamlNode::Kind;
-
 std::string describe(const YamlNode& node) {
   switch (node.kind) {
-    case Kind::null:
+    case YamlNode::Kind::null:
       return "nothing";
-    case Kind::scalar:
+    case YamlNode::Kind::scalar:
       return "a text";
-    case Kind::sequence:
+    case YamlNode::Kind::sequence:
       return "a list";
-    case Kind::map:
+    case YamlNode::Kind::map:
       return "a map";
   }
   return "";
 }
 
-bool expect(const YamlNode& node, Kind kind, const std::string& what, const std::string& wanted,
-            Findings& findings) {
+bool expect(const YamlNode& node, YamlNode::Kind kind, const std::string& what,
+            const std::string& wanted, Findings& findings) {
   if (node.kind == kind) return true;
   findings.error(Code::R211, node.span, what + " is " + wanted + "; here stands " + describe(node));
   return false;
@@ -93,7 +91,8 @@ void report_unknown_key(const YamlEntry& entry, const std::string& what,
                         const std::vector<std::string>& keys, Findings& findings) {
   const std::string& key = entry.key.text;
   // `{why: one thing, and another}` is a key `and another` without a value.
-  const bool is_rest_of_text = entry.value.kind == Kind::null && key.find(' ') != std::string::npos;
+  const bool is_rest_of_text =
+      entry.value.kind == YamlNode::Kind::null && key.find(' ') != std::string::npos;
   const std::string advice =
       is_rest_of_text ? "; inside { } a text with a comma must be quoted" : did_you_mean(key, keys);
   findings.error(Code::R209, entry.key.span,
@@ -102,24 +101,24 @@ void report_unknown_key(const YamlEntry& entry, const std::string& what,
 
 }  // namespace
 
-Section::Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
-                 Findings& findings)
+YamlSection::YamlSection(const YamlNode& node, std::string what,
+                         const std::vector<std::string>& keys, Findings& findings)
     : node_(&node), what_(std::move(what)), findings_(&findings) {
-  if (!expect(node, Kind::map, what_, "a map", findings)) return;
+  if (!expect(node, YamlNode::Kind::map, what_, "a map", findings)) return;
   for (const YamlEntry& entry : node.entries) {
     const std::string& key = entry.key.text;
-    if (entry.key.kind == Kind::scalar && !contains(keys, key))
+    if (entry.key.kind == YamlNode::Kind::scalar && !contains(keys, key))
       report_unknown_key(entry, what_, keys, findings);
   }
 }
 
-const YamlNode* Section::find(std::string_view key) const {
+const YamlNode* YamlSection::find(std::string_view key) const {
   for (const YamlEntry& entry : node_->entries)
     if (entry.key.text == key) return &entry.value;
   return nullptr;
 }
 
-const YamlNode* Section::require(std::string_view key) {
+const YamlNode* YamlSection::require(std::string_view key) {
   const YamlNode* value = find(key);
   if (value == nullptr && is_map())
     findings_->error(Code::R210, node_->span, what_ + " needs the key '" + std::string(key) + "'");
@@ -127,21 +126,23 @@ const YamlNode* Section::require(std::string_view key) {
 }
 
 bool expect_map(const YamlNode& node, const std::string& what, Findings& findings) {
-  return node.kind == Kind::null || expect(node, Kind::map, what, "a map", findings);
+  return node.kind == YamlNode::Kind::null ||
+         expect(node, YamlNode::Kind::map, what, "a map", findings);
 }
 
 bool expect_list(const YamlNode& node, const std::string& what, Findings& findings) {
-  return node.kind == Kind::null || expect(node, Kind::sequence, what, "a list", findings);
+  return node.kind == YamlNode::Kind::null ||
+         expect(node, YamlNode::Kind::sequence, what, "a list", findings);
 }
 
 std::optional<std::string> read_text(const YamlNode& node, const std::string& what,
                                      Findings& findings) {
-  if (!expect(node, Kind::scalar, what, "a text", findings)) return std::nullopt;
+  if (!expect(node, YamlNode::Kind::scalar, what, "a text", findings)) return std::nullopt;
   return node.text;
 }
 
 std::optional<int> read_integer(const YamlNode& node, const std::string& what, Findings& findings) {
-  if (!expect(node, Kind::scalar, what, "a whole number", findings)) return std::nullopt;
+  if (!expect(node, YamlNode::Kind::scalar, what, "a whole number", findings)) return std::nullopt;
   const auto value = node.is_plain ? parse_number<int>(node.text) : std::nullopt;
   if (!value) return refuse(node, what, "a whole number", findings);
   return value;
@@ -149,21 +150,22 @@ std::optional<int> read_integer(const YamlNode& node, const std::string& what, F
 
 std::optional<double> read_number(const YamlNode& node, const std::string& what,
                                   Findings& findings) {
-  if (!expect(node, Kind::scalar, what, "a number", findings)) return std::nullopt;
+  if (!expect(node, YamlNode::Kind::scalar, what, "a number", findings)) return std::nullopt;
   const auto value = node.is_plain ? parse_number<double>(node.text) : std::nullopt;
   if (!value || !std::isfinite(*value)) return refuse(node, what, "a number", findings);
   return value;
 }
 
 std::optional<bool> read_flag(const YamlNode& node, const std::string& what, Findings& findings) {
-  if (!expect(node, Kind::scalar, what, "true or false", findings)) return std::nullopt;
+  if (!expect(node, YamlNode::Kind::scalar, what, "true or false", findings)) return std::nullopt;
   if (node.is_plain && (node.text == "true" || node.text == "false")) return node.text == "true";
   if (is_switch_word(node)) return std::nullopt;  // reported by check_traps
   return refuse(node, what, "true or false", findings);
 }
 
-std::optional<Span> expression_span(const YamlNode& node, Findings& findings) {
-  if (!expect(node, Kind::scalar, "an expression", "a text", findings)) return std::nullopt;
+std::optional<SourceSpan> expression_span(const YamlNode& node, Findings& findings) {
+  if (!expect(node, YamlNode::Kind::scalar, "an expression", "a text", findings))
+    return std::nullopt;
   if (node.is_verbatim) return node.span;
   findings.error(Code::R221, node.span,
                  "an expression stands on one line without escapes, so that messages can point "
@@ -172,7 +174,7 @@ std::optional<Span> expression_span(const YamlNode& node, Findings& findings) {
 }
 
 void check_traps(const YamlNode& node, Findings& findings) {
-  if (node.kind == Kind::scalar) check_scalar(node, findings);
+  if (node.kind == YamlNode::Kind::scalar) check_scalar(node, findings);
   for (const YamlNode& item : node.items) check_traps(item, findings);
   for (const YamlEntry& entry : node.entries) {
     check_traps(entry.key, findings);

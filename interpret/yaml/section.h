@@ -12,10 +12,10 @@ namespace oriel::rules {
 
 /// A map of a pack whose keys are fixed. Making one reports every key that is not among `keys`
 /// (R209), and a node that is no map (R211); `what` names it in messages ("a rule").
-class Section {
+class YamlSection {
  public:
-  Section(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
-          Findings& findings);
+  YamlSection(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
+              Findings& findings);
 
   /// The value of `key`, or null.
   [[nodiscard]] const YamlNode* find(std::string_view key) const;
@@ -45,7 +45,7 @@ std::optional<bool> read_flag(const YamlNode& node, const std::string& what, Fin
 
 /// Where the expression in a scalar stands; nothing and R211 if it is no scalar, R221 if it runs
 /// over lines or has escapes, since then no caret could point into it.
-std::optional<Span> expression_span(const YamlNode& node, Findings& findings);
+std::optional<SourceSpan> expression_span(const YamlNode& node, Findings& findings);
 
 /// Reports (R214) what YAML readers understand in different ways: bare yes, no, on and off, and
 /// numbers in base 60 such as 1:50.

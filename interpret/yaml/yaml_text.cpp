@@ -40,7 +40,7 @@ class Scalars {
 
   /// The end of the scalar that `offset` is in, or `offset`.
   [[nodiscard]] std::size_t skip(std::size_t offset) const {
-    const auto after = std::ranges::upper_bound(spans_, offset, {}, &Span::begin);
+    const auto after = std::ranges::upper_bound(spans_, offset, {}, &SourceSpan::begin);
     if (after == spans_.begin()) return offset;
     return std::max(offset, std::prev(after)->end);
   }
@@ -75,7 +75,7 @@ class Scalars {
   }
 
   std::vector<std::size_t> begins_;
-  std::vector<Span> spans_;
+  std::vector<SourceSpan> spans_;
 };
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
@@ -108,8 +108,6 @@ std::vector<YamlComment> find_comments(const YamlNode& root, std::string_view te
   return comments;
 }
 
-using Kind = YamlNode::Kind;
-
 /// Lines longer than this are hard to read beside a picture of a building.
 constexpr std::size_t kMostColumns = 120;
 constexpr std::size_t kIndent = 2;
@@ -132,18 +130,18 @@ std::string quoted(const std::string& text) {
 }
 
 std::string scalar_text(const YamlNode& node) {
-  if (node.kind == Kind::null) return "~";
+  if (node.kind == YamlNode::Kind::null) return "~";
   return node.is_plain ? node.text : quoted(node.text);
 }
 
 /// The node in one line; nothing if a plain scalar in it would have to be quoted there.
 bool append_inline(const YamlNode& node, std::string& out) {
-  if (node.kind == Kind::scalar || node.kind == Kind::null) {
+  if (node.kind == YamlNode::Kind::scalar || node.kind == YamlNode::Kind::null) {
     out += scalar_text(node);
     return !node.is_plain || node.text.find_first_of(",[]{}") == std::string::npos;
   }
   const char* separator = "";
-  out += node.kind == Kind::map ? '{' : '[';
+  out += node.kind == YamlNode::Kind::map ? '{' : '[';
   for (const YamlNode& item : node.items) {
     out += std::exchange(separator, ", ");
     if (!append_inline(item, out)) return false;
@@ -154,7 +152,7 @@ bool append_inline(const YamlNode& node, std::string& out) {
     out += ": ";
     if (!append_inline(entry.value, out)) return false;
   }
-  out += node.kind == Kind::map ? '}' : ']';
+  out += node.kind == YamlNode::Kind::map ? '}' : ']';
   return true;
 }
 
@@ -220,14 +218,14 @@ class Printer {
   void print_entry(const YamlEntry& entry, std::size_t indent, bool is_inline) {
     const YamlNode& value = entry.value;
     out_ += scalar_text(entry.key) + ':';
-    if (value.kind == Kind::null) return;
+    if (value.kind == YamlNode::Kind::null) return;
     out_ += ' ';
-    if (value.kind == Kind::scalar) {
+    if (value.kind == YamlNode::Kind::scalar) {
       out_ += scalar_text(value);
       return;
     }
     const bool is_empty = value.items.empty() && value.entries.empty();
-    const bool has_maps = std::ranges::find(value.items, Kind::map, &YamlNode::kind) !=
+    const bool has_maps = std::ranges::find(value.items, YamlNode::Kind::map, &YamlNode::kind) !=
                           value.items.end();  // terms of a score
     if (((is_inline && !has_maps) || is_empty) && print_inline(value)) return;
     out_.pop_back();
@@ -248,12 +246,12 @@ class Printer {
 
   /// A rule stands in a block, and so does what has one key only: a term of a score.
   void print_item(const YamlNode& item, std::size_t indent) {
-    if (item.kind == Kind::scalar || item.kind == Kind::null) {
+    if (item.kind == YamlNode::Kind::scalar || item.kind == YamlNode::Kind::null) {
       out_ += scalar_text(item);
       return;
     }
     const bool is_rule = is_in_rules_ && indent == 2 * kIndent;
-    const bool is_block = item.kind == Kind::map && (is_rule || item.entries.size() == 1);
+    const bool is_block = item.kind == YamlNode::Kind::map && (is_rule || item.entries.size() == 1);
     if (!is_block && print_inline(item)) return;
     for (std::size_t i = 0; i < item.entries.size(); ++i) {
       if (i > 0) begin_line(item.entries[i].key.span.begin, indent);
@@ -263,7 +261,8 @@ class Printer {
       out_.pop_back();
       print_block(item, indent);
     }
-    if (item.items.empty() && item.entries.empty()) out_ += item.kind == Kind::map ? "{}" : "[]";
+    if (item.items.empty() && item.entries.empty())
+      out_ += item.kind == YamlNode::Kind::map ? "{}" : "[]";
   }
 
   static std::size_t begin_of(const YamlNode& item) {

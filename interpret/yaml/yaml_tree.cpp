@@ -35,7 +35,7 @@ class TextBuffer : public std::streambuf {
 /// end; a scalar's end is found by comparing it with the text.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(Span where, Findings& findings) : findings_(&findings), where_(where) {}
+  TreeBuilder(SourceSpan where, Findings& findings) : findings_(&findings), where_(where) {}
 
   [[nodiscard]] YamlNode take_root() { return std::move(root_); }
   [[nodiscard]] bool has_root() const { return has_root_; }
@@ -95,7 +95,7 @@ class TreeBuilder : public YAML::EventHandler {
       stop(Code::R203, mark, "a pack has no tags (!name)");
   }
 
-  [[nodiscard]] Span at(const YAML::Mark& mark) const {
+  [[nodiscard]] SourceSpan at(const YAML::Mark& mark) const {
     const auto offset = where_.begin + static_cast<std::size_t>(std::max(mark.pos, 0));
     const std::size_t begin = std::min(offset, where_.end);
     return {begin, begin};
@@ -117,7 +117,7 @@ class TreeBuilder : public YAML::EventHandler {
   void add_key(Open& map, YamlNode key);
 
   Findings* findings_;
-  Span where_;
+  SourceSpan where_;
   std::vector<Open> open_;
   YamlNode root_;
   bool has_root_ = false;
@@ -184,7 +184,7 @@ void TreeBuilder::add_key(Open& map, YamlNode key) {
 }
 
 /// What yaml-cpp says, with the advice that this dialect of YAML needs most.
-std::string explain_syntax(const Source& source, Span at, const YAML::Exception& problem) {
+std::string explain_syntax(const Source& source, SourceSpan at, const YAML::Exception& problem) {
   std::string sentence = "not YAML: " + problem.msg;
   const std::string line = source.excerpt(at);
   if (line.find(" in [") != std::string::npos && problem.msg.find("flow") != std::string::npos)
@@ -192,7 +192,7 @@ std::string explain_syntax(const Source& source, Span at, const YAML::Exception&
   return sentence;
 }
 
-void report(Span where, Findings& findings, const YAML::Exception& problem) {
+void report(SourceSpan where, Findings& findings, const YAML::Exception& problem) {
   const std::string& text = findings.source().text();
   const auto mark = static_cast<std::size_t>(std::max(problem.mark.pos, 0));
   const std::size_t offset = std::min(where.begin + mark, where.end);
@@ -217,7 +217,7 @@ std::size_t find_closing_quote(std::string_view text, std::size_t begin) {
   return std::string_view::npos;
 }
 
-std::optional<YamlNode> parse_yaml(Span where, Findings& findings) {
+std::optional<YamlNode> parse_yaml(SourceSpan where, Findings& findings) {
   if (where.end - where.begin > kMostBytes) {
     findings.error(Code::R213, {where.begin, where.begin}, "a pack is no longer than 1 MiB");
     return std::nullopt;

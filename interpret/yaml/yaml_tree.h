@@ -27,7 +27,7 @@ struct YamlNode {
   /// A scalar that stands in the text letter by letter on one line, so that `span` counts in it.
   bool is_verbatim = false;
   /// Of a scalar without its quotes; of a sequence or map only where it begins.
-  Span span;
+  SourceSpan span;
   std::vector<YamlNode> items;
   std::vector<YamlEntry> entries;
 };
@@ -42,7 +42,7 @@ struct YamlEntry {
 /// for what is no YAML, R203 for anchors, aliases, tags and further documents, R211 for a key that
 /// is no text, R213 for a text beyond the limits above. A repeated key is an error R202 and both
 /// stay.
-std::optional<YamlNode> parse_yaml(Span where, Findings& findings);
+std::optional<YamlNode> parse_yaml(SourceSpan where, Findings& findings);
 
 /// The bytes of a file, at most one more than a pack may have; nothing if it cannot be read.
 std::optional<std::string> read_file(const std::string& path);

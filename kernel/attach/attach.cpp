@@ -2,7 +2,6 @@
 
 #include "kernel/attach/clearance.h"
 #include "kernel/base/index.h"
-#include "kernel/geometry/area_within.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"

@@ -1,7 +1,7 @@
 #include "kernel/attach/clearance.h"
 
 #include "kernel/base/index.h"
-#include "kernel/geometry/area_within.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 
 #include <algorithm>

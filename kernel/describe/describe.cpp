@@ -100,7 +100,7 @@ using detail::Extent;
 using detail::InFacade;
 
 /// A feature with what several attributes need of it.
-struct Subject {
+struct DescribedFeature {
   FeatureId id;
   const Feature* feature;
   std::vector<Vec3> points;
@@ -118,9 +118,10 @@ Vec3 direction_across(Vec3 normal, const detail::StandingBox& box) {
   return length(across) > kLevel ? normalised(across) : box.along;
 }
 
-Subject subject_of(const Segmentation& segmentation, FeatureId id) {
+DescribedFeature subject_of(const Segmentation& segmentation, FeatureId id) {
   const Feature& feature = segmentation.features[id.index()];
-  Subject subject{id, &feature, detail::points_of(segmentation, feature), {}, std::nullopt};
+  DescribedFeature subject{
+      id, &feature, detail::points_of(segmentation, feature), {}, std::nullopt};
   subject.box = detail::standing_box(subject.points);
   if (!feature.planes.empty()) {
     subject.normal = segmentation.planes[feature.planes.front().index()].normal;
@@ -130,7 +131,7 @@ Subject subject_of(const Segmentation& segmentation, FeatureId id) {
   return subject;
 }
 
-void describe_cut(FeatureTable& table, const Subject& s) {
+void describe_cut(FeatureTable& table, const DescribedFeature& s) {
   const Feature& f = *s.feature;
   table.set(s.id, Attribute::sense, to_string(f.sense));
   table.set(s.id, Attribute::natural, f.is_natural ? 1.0 : 0.0);
@@ -156,7 +157,7 @@ bool is_level(double inclination_deg) {
   return inclination_deg < kLevel_deg || inclination_deg > 180 - kLevel_deg;
 }
 
-void describe_size(FeatureTable& table, const Subject& s) {
+void describe_size(FeatureTable& table, const DescribedFeature& s) {
   const auto [a, b, c] = s.box.edges();
   table.set(s.id, Attribute::a, a);
   table.set(s.id, Attribute::b, b);
@@ -199,7 +200,7 @@ class CellReaches {
 
 /// How far the feature sticks out of the box of the cell it sits on: the paper's difference of
 /// bounding boxes.
-void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches) {
+void describe_growth(FeatureTable& table, const DescribedFeature& s, CellReaches& reaches) {
   if (!s.feature->host_facet) return;
   const CellId host = s.feature->host_facet->cell;
   const auto beyond = [&](Vec3 direction) {
@@ -216,8 +217,8 @@ void describe_growth(FeatureTable& table, const Subject& s, CellReaches& reaches
   table.set(s.id, Attribute::growth_side, side);
 }
 
-void describe_recess(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
-                     const detail::ParallelPolygons& polygons) {
+void describe_recess(FeatureTable& table, const DescribedFeature& s,
+                     const Segmentation& segmentation, const detail::ParallelPolygons& polygons) {
   if (!s.normal) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
   if (const auto level_m = polygons.level_in(*s.feature, plane))
@@ -250,7 +251,7 @@ Vec3 foot_of(const Segmentation& segmentation, const Feature& feature) {
 
 /// The ground at the foot of a feature. Where that is the underside of a part that itself hangs in
 /// the air (a window of a bay), the ground at the foot of that part, if it is lower.
-detail::Foot ground_of(const Subject& s, const Segmentation& segmentation,
+detail::Foot ground_of(const DescribedFeature& s, const Segmentation& segmentation,
                        const detail::Site& site) {
   detail::Foot foot = site.ground_at(foot_of(segmentation, *s.feature), s.feature->host_facet);
   CellId cell = foot.cell;
@@ -266,8 +267,8 @@ detail::Foot ground_of(const Subject& s, const Segmentation& segmentation,
   return foot;
 }
 
-void describe_place(FeatureTable& table, const Subject& s, const Segmentation& segmentation,
-                    const detail::Site& site) {
+void describe_place(FeatureTable& table, const DescribedFeature& s,
+                    const Segmentation& segmentation, const detail::Site& site) {
   const Box& box = s.feature->box;
   const auto& facet = s.feature->host_facet;
   const detail::Foot foot = ground_of(s, segmentation, site);
@@ -285,7 +286,7 @@ void describe_place(FeatureTable& table, const Subject& s, const Segmentation& s
 }
 
 /// The smallest distance of the cap's corners to the outline of the host's facet.
-void describe_edge_gap(FeatureTable& table, const Subject& s, const Plane& plane,
+void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Plane& plane,
                        const detail::Outline& outline) {
   constexpr double kOnPlane_m =
       1e-6;  // tolerance of doubles: the corners of the cap lie on its plane
@@ -300,7 +301,7 @@ void describe_edge_gap(FeatureTable& table, const Subject& s, const Plane& plane
 }
 
 /// Where it lies within the outline of the host's facet.
-void describe_place_in_facet(FeatureTable& table, const Subject& s,
+void describe_place_in_facet(FeatureTable& table, const DescribedFeature& s,
                              const Segmentation& segmentation) {
   if (!s.feature->host_facet) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
@@ -311,7 +312,7 @@ void describe_place_in_facet(FeatureTable& table, const Subject& s,
   table.set(s.id, Attribute::along, s.width.middle() - left);
 }
 
-void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
+void count_companions(FeatureTable& table, const std::vector<DescribedFeature>& subjects,
                       const std::vector<int>& group_of, Attribute attribute) {
   std::map<std::pair<int, Sense>, int> counts;
   const auto kind = [&](std::size_t i) {
@@ -323,7 +324,7 @@ void count_companions(FeatureTable& table, const std::vector<Subject>& subjects,
     if (group_of[i] >= 0) table.set(subjects[i].id, attribute, counts[kind(i)]);
 }
 
-InFacade in_facade(const Subject& s, int facade) {
+InFacade in_facade(const DescribedFeature& s, int facade) {
   const auto [a, b, c] = s.box.edges();
   return {facade,  detail::kind_of(s.feature->sense),
           s.width, detail::extent_along(s.points, {0, 0, 1}),
@@ -331,7 +332,7 @@ InFacade in_facade(const Subject& s, int facade) {
 }
 
 /// A hole or an imprint in a steep facet.
-bool is_opening(const Subject& s) {
+bool is_opening(const DescribedFeature& s) {
   return detail::kind_of(s.feature->sense) == Sense::hole && s.normal &&
          std::abs(s.normal->z) < 0.5;
 }
@@ -365,7 +366,7 @@ struct Asked {
   }
 
   bool recess, growth, place_in_facet, companions;
-  detail::Neighbours neighbours;
+  detail::AskedRelations neighbours;
 };
 
 }  // namespace
@@ -379,7 +380,7 @@ Description describe(const Building& building, const Segmentation& segmentation,
   if (asked.recess) polygons.emplace(building, segmentation.grid_m);
   CellReaches reaches(segmentation);
   const std::vector<int> facades = detail::facades_of(segmentation);
-  std::vector<Subject> subjects;
+  std::vector<DescribedFeature> subjects;
   std::vector<InFacade> placed;
   std::vector<char> openings;
   const auto lod = level_of_detail(building);
@@ -388,7 +389,7 @@ Description describe(const Building& building, const Segmentation& segmentation,
   openings.reserve(segmentation.features.size());
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     subjects.push_back(subject_of(segmentation, FeatureId{static_cast<int>(i)}));
-    const Subject& s = subjects.back();
+    const DescribedFeature& s = subjects.back();
     describe_cut(out.table, s);
     describe_size(out.table, s);
     if (lod) out.table.set(s.id, Attribute::lod, *lod);

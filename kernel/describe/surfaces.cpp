@@ -155,7 +155,7 @@ void SurfaceSurvey::State::describe(std::size_t row) {
 
 void SurfaceSurvey::State::measure_sides(std::size_t row) {
   if (faces[row].normal == Vec3{}) return;
-  const detail::Sides sides = detail::sides_of(faces[row]);
+  const detail::RectangleSides sides = detail::sides_of(faces[row]);
   table.set(row, SurfaceAttribute::a, sides.a_m);
   table.set(row, SurfaceAttribute::b, sides.b_m);
 }

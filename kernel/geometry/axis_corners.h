@@ -25,7 +25,7 @@ class AxisCorners {
     std::array<double, 4> corner{};
     unsigned axes = 0;
     for (const int plane : {p, q, r}) {
-      const Across& here = across_[static_cast<std::size_t>(plane)];
+      const AcrossAxis& here = across_[static_cast<std::size_t>(plane)];
       corner[here.axis] = here.level_m;
       axes |= 1U << here.axis;
     }
@@ -36,11 +36,11 @@ class AxisCorners {
 
  private:
   /// Which axis a plane stands across, and where; axis 3: none.
-  struct Across {
+  struct AcrossAxis {
     std::size_t axis = 3;
     double level_m = 0;
   };
-  [[nodiscard]] Across across(const Plane& plane) const {
+  [[nodiscard]] AcrossAxis across(const Plane& plane) const {
     const auto& [x, y, z] = plane.coefficients;
     const std::int64_t sign = x + y + z;
     if ((x != 0) + (y != 0) + (z != 0) != 1 || (sign != 1 && sign != -1)) return {};
@@ -48,7 +48,7 @@ class AxisCorners {
   }
 
   double grid_m_;
-  std::vector<Across> across_;  ///< by plane
+  std::vector<AcrossAxis> across_;  ///< by plane
 };
 
 }  // namespace oriel

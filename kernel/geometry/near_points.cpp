@@ -73,13 +73,13 @@ class Candidates {
   Numbers found_;
 };
 
-struct Bucket {
+struct ReachCube {
   std::int64_t x, y, z;
-  friend bool operator==(const Bucket&, const Bucket&) = default;
+  friend bool operator==(const ReachCube&, const ReachCube&) = default;
 };
 
-struct BucketHash {
-  std::size_t operator()(const Bucket& b) const noexcept {
+struct ReachCubeHash {
+  std::size_t operator()(const ReachCube& b) const noexcept {
     std::uint64_t h = static_cast<std::uint64_t>(b.x) * 0x9E3779B97F4A7C15ULL;
     h = (h ^ (h >> 31)) + static_cast<std::uint64_t>(b.y) * 0xBF58476D1CE4E5B9ULL;
     h = (h ^ (h >> 29)) + static_cast<std::uint64_t>(b.z) * 0x94D049BB133111EBULL;
@@ -105,10 +105,10 @@ void unite_near(std::span<const Point> points, std::span<const int> members, dou
   const auto floor_div = [edge](std::int64_t c) {
     return c >= 0 ? c / edge : -((-c + edge - 1) / edge);
   };
-  std::unordered_map<Bucket, Numbers, BucketHash> buckets;
+  std::unordered_map<ReachCube, Numbers, ReachCubeHash> buckets;
   for (const int i : members) {
     const auto& p = points[at(i)];
-    const Bucket home{floor_div(p[0]), floor_div(p[1]), floor_div(p[2])};
+    const ReachCube home{floor_div(p[0]), floor_div(p[1]), floor_div(p[2])};
     for (std::int64_t n = 0; n < 27; ++n) {
       const auto found =
           buckets.find({home.x + n % 3 - 1, home.y + n / 3 % 3 - 1, home.z + n / 9 - 1});

@@ -17,4 +17,14 @@ std::vector<Outline> outlines_of(const Building& building, const Polygon& polygo
 /// The points of loops, as of a facet.
 std::vector<Outline> outlines_of(std::span<const Vertex> vertices, const std::vector<Loop>& loops);
 
+/// A half-space: what lies behind a plane.
+struct HalfSpaceM {
+  Vec3 normal;
+  double offset_m = 0;
+};
+
+/// The area of the part of a facet that lies behind all `limits`; the facet may have any shape.
+double area_within(std::span<const Vertex> vertices, const Facet& facet, Vec3 normal,
+                   const std::vector<HalfSpaceM>& limits);
+
 }  // namespace oriel::detail

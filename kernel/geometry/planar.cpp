@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include <boost/container/small_vector.hpp>
@@ -189,6 +190,19 @@ double winding_part(std::span<const Outline> outlines, Vec3 eye) {
     for (std::size_t i = 1; i + 1 < outline.size(); ++i)
       sum += solid_angle(outline[0] - eye, outline[i] - eye, outline[i + 1] - eye);
   return sum / (4 * std::numbers::pi);
+}
+
+std::optional<double> visible_level(std::span<ParallelArea> areas, double outline_m2) {
+  std::ranges::sort(areas, {},
+                    [](const ParallelArea& a) { return std::tuple(-a.offset_m, a.area_m2); });
+  std::optional<double> level;
+  double covered_m2 = 0;
+  for (const ParallelArea& area : areas) {
+    level = area.offset_m;
+    covered_m2 += area.area_m2;
+    if (covered_m2 >= outline_m2 / 2) break;
+  }
+  return level;
 }
 
 }  // namespace oriel::detail

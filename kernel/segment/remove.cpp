@@ -19,7 +19,7 @@ namespace oriel {
 namespace {
 
 using detail::Boundary;
-using detail::Side;
+using detail::PlaneSide;
 
 /// What sits on or in a feature goes with it. By feature.
 std::vector<char> spread(std::vector<char> go, const Segmentation& segmentation) {
@@ -113,7 +113,7 @@ class FeatureRemover {
   }
 
   /// A facet of a cell is part of the solid's boundary that looks to `side`.
-  [[nodiscard]] bool is_on_surface(const Facet& facet, Side side) const {
+  [[nodiscard]] bool is_on_surface(const Facet& facet, PlaneSide side) const {
     const Vec3 normal = world_.planes.normal(side);
     const auto shape = detail::outlines_of(segmentation_.vertices, facet.loops);
     const auto point = detail::interior_point(shape, normal);
@@ -134,7 +134,7 @@ class FeatureRemover {
       return std::nullopt;
     }
     if (f.is_uncut) return "no cut frees it: only its ring is known";
-    std::vector<Side> sides;
+    std::vector<PlaneSide> sides;
     for (const PlaneId plane : f.planes) {
       const auto side = world_.planes.find(segmentation_.planes[plane.index()]);
       if (!side) return "it lies on a part that stays";
@@ -156,8 +156,8 @@ class FeatureRemover {
 
   /// The sides that part of a part meets the body in: its own cut, and those that its carriers were
   /// cut at.
-  [[nodiscard]] std::vector<Side> sides_around(FeatureId id) const {
-    std::set<Side> sides;
+  [[nodiscard]] std::vector<PlaneSide> sides_around(FeatureId id) const {
+    std::set<PlaneSide> sides;
     const int sign = feature(id).sense == Sense::protrusion ? 1 : -1;
     for (const Cell& cell : segmentation_.cells) {
       if (cell.feature != id || cell.sign != sign) continue;
@@ -165,14 +165,14 @@ class FeatureRemover {
         const auto side = world_.planes.find(segmentation_.planes[facet.plane.index()]);
         if (!side) continue;
         // Of a void, and of what stays beside a part, the boundary looks the other way.
-        const Side surface = sign > 0 ? *side : *side ^ 1;
+        const PlaneSide surface = sign > 0 ? *side : *side ^ 1;
         if (!is_on_surface(facet, surface)) sides.insert(surface ^ 1);
       }
     }
     return {sides.begin(), sides.end()};
   }
 
-  std::optional<std::string> remove_by_section(const Feature& f, Side split) {
+  std::optional<std::string> remove_by_section(const Feature& f, PlaneSide split) {
     // A protrusion is in front of its plane, a hole behind it.
     const bool looks_along_class = ((split & 1) == 0) == (f.sense == Sense::protrusion);
     for (Boundary& body : bodies_) {
@@ -207,7 +207,7 @@ class FeatureRemover {
     return std::nullopt;
   }
 
-  std::optional<std::string> remove_by_patch(const Feature& f, std::vector<Side> sides) {
+  std::optional<std::string> remove_by_patch(const Feature& f, std::vector<PlaneSide> sides) {
     std::ranges::sort(sides);
     std::int64_t work = 0;
     for (Boundary& body : bodies_)
@@ -224,7 +224,7 @@ class FeatureRemover {
   }
 
   [[nodiscard]] bool has_cap_at(const detail::Patch& patch, Vec3 point) const {
-    return std::ranges::any_of(patch.caps, [&](const detail::Cap& cap) {
+    return std::ranges::any_of(patch.caps, [&](const detail::CutCap& cap) {
       const Vec3 normal = world_.planes.normal(cap.side);
       constexpr double kOnPlane_m =
           1e-6;  // tolerance of doubles: the point was made on the plane of one of the caps
@@ -251,7 +251,7 @@ class FeatureRemover {
 
   /// Carries out the cut on `trial` and keeps it if nothing goes that is to stay.
   std::optional<std::string> take(Boundary& body, Boundary& trial,
-                                  const std::vector<detail::Cap>& caps, const Feature& f) {
+                                  const std::vector<detail::CutCap>& caps, const Feature& f) {
     const auto carved = take_off(trial, caps, f.sense == Sense::hole, {}, {});
     if (!carved) return "its cut does not close any more";
     if (!is_within(carved->lump, f)) return "its cut would take more than the feature";
@@ -263,8 +263,8 @@ class FeatureRemover {
   /// A cut that was made in a part, or after others, may meet more when it is made in the whole.
   [[nodiscard]] bool is_within(const Boundary& lump, const Feature& f) const {
     Box of_lump;
-    for (const int facet : lump.living_facets())
-      lump.for_each_edge(facet, [&](int e) { of_lump.grow(world_.points.at(lump.origin(e))); });
+    for (const detail::BodyFacetId facet : lump.living_facets())
+      lump.for_each_edge(facet, [&](EdgeId e) { of_lump.grow(world_.points.at(lump.origin(e))); });
     const double slack_m = options_.tolerances.weld_m;
     const auto all_not_below = [](Vec3 p, Vec3 q) {
       return p.x >= q.x && p.y >= q.y && p.z >= q.z;
@@ -283,7 +283,7 @@ class FeatureRemover {
   }
   template <class Visit>
   void for_each_polygon(const Boundary& body, const Visit& visit) const {
-    for (const int facet : body.living_facets())
+    for (const detail::BodyFacetId facet : body.living_facets())
       for (const int source : body.facet(facet).sources)
         for (const int polygon : solid_.facets[at(source)].polygons) visit(polygon);
   }
@@ -324,7 +324,7 @@ class FeatureRemover {
 
   [[nodiscard]] static bool is_inside(const Boundary& body, Vec3 point) {
     double winding = 0;
-    for (const int facet : body.living_facets())
+    for (const detail::BodyFacetId facet : body.living_facets())
       winding += detail::winding_part(body.outlines(facet), point);
     return winding > 0.5;
   }

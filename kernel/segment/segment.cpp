@@ -20,8 +20,8 @@ namespace oriel {
 namespace {
 
 using detail::Boundary;
-using detail::Choice;
 using detail::Chooser;
+using detail::CutChoice;
 using detail::CutKey;
 using detail::CutResult;
 using detail::GrowingTree;
@@ -32,7 +32,7 @@ using detail::WaitingBody;
 class CutHistory {
  public:
   /// False if the cut has been made in this state before: then it is banned.
-  bool enter(const Boundary& body, const Choice& choice) {
+  bool enter(const Boundary& body, const CutChoice& choice) {
     if (choice.is_natural) return true;
     const CutKey key{choice.sides, choice.is_hole};
     if (seen_.emplace(state_of(body), key).second) return true;
@@ -40,7 +40,7 @@ class CutHistory {
     has_led_back_ = true;
     return false;
   }
-  void ban(const Choice& choice) { banned_.insert({choice.sides, choice.is_hole}); }
+  void ban(const CutChoice& choice) { banned_.insert({choice.sides, choice.is_hole}); }
 
   [[nodiscard]] const std::set<CutKey>& banned() const { return banned_; }
   [[nodiscard]] bool has_led_back() const { return has_led_back_; }
@@ -112,19 +112,19 @@ void split(GrowingTree& tree, WaitingBody body) {
   if (!body.has_one_shell) take_out_cavities(tree, body);
   std::optional<Chooser> chooser;
   CutHistory history;
-  int bend = 0;
+  EdgeId bend;
   while (true) {
     if (is_convex(body.body, bend)) return add_leaf(tree, body, LeafFlag::convex);
     if (tree.work > tree.options.budget) return add_leaf(tree, body, LeafFlag::budget);
     if (is_mostly_dead(body.body)) {
       body.body = compacted(body.body);
       chooser.reset();
-      bend = 0;
+      bend = {};
     }
     if (!chooser)
       chooser.emplace(body.body, tree.options, tree.ground, body.own_planes, tree.out.stats,
                       tree.work);
-    const std::optional<Choice> choice = chooser->next(history.banned());
+    const std::optional<CutChoice> choice = chooser->next(history.banned());
     if (!choice) return add_leaf(tree, body, flag_of_uncut(body, history));
     if (!history.enter(body.body, *choice)) continue;
     const std::optional<CutResult> result = try_cut(tree, body, *choice);

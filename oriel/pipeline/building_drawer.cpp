@@ -140,7 +140,7 @@ Redrawn BuildingDrawer::untouched(const PipelineResult& result, GeneralisedBuild
   return redrawn;
 }
 
-std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const Subject& of,
+std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const LabelledResult& of,
                                                 Judging judging, GeneralisedBuilding& out) const {
   const PipelineResult& result = of.result;
   const FeatureTable& table = result.description.table;

@@ -39,12 +39,12 @@ class BuildingDrawer {
   void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
  private:
-  struct Subject {
+  struct LabelledResult {
     const PipelineResult& result;
     const LabelledBuilding& labelled;
   };
 
-  [[nodiscard]] std::optional<Redrawn> draw_for(const Profile* profile, const Subject& of,
+  [[nodiscard]] std::optional<Redrawn> draw_for(const Profile* profile, const LabelledResult& of,
                                                 Judging judging, GeneralisedBuilding& out) const;
   [[nodiscard]] Plan plan_for(const Profile* profile, const PipelineResult& result,
                               GeneralisedBuilding& out) const;

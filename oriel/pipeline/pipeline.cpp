@@ -1,10 +1,8 @@
 #include "oriel/pipeline/pipeline.h"
 
 #include "interpret/labelling/interpret.h"
-#include "kernel/base/log.h"
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/rings/ring_features.h"
-#include "kernel/segment/segment_open.h"
 #include "kernel/solidify/noise.h"
 #include "kernel/solidify/open_shell.h"
 #include "kernel/solidify/solidify.h"
@@ -59,22 +57,6 @@ Issue noise_note(const Building& building, const Tolerances& fitted) {
 DescribeOptions describe_options(const RuleBase* rules, const LabelOptions& options) {
   if (rules == nullptr || options.measures_features) return {};
   return {rules->attributes_read(), rules->relations_read()};
-}
-
-/// Measures a stage and logs it at level debug: `segmented: building=b1 features=42 ms=118`.
-/// `counts` says what stands between.
-template <class Work, class Counts>
-auto measured(const StageObserver& observer, Stage stage, const char* done,
-              const Building& building, Work work, Counts counts) {
-  double ms = 0;
-  const StageObserver keeping = [&](Stage measured_stage, double took_ms) {
-    ms = took_ms;
-    if (observer) observer(measured_stage, took_ms);
-  };
-  auto value = measure(keeping, stage, work);
-  if (const Log logger = log("oriel"); logger.is_on(LogLevel::debug))
-    logger.debug("{}: building={} {} ms={:.0f}", done, building.id, counts(value), ms);
-  return value;
 }
 
 Segmentation all_features(const Building& building, const PipelineResult& result,

@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace oriel {
 
 namespace {
@@ -42,12 +44,14 @@ class MeasuredWhenAsked : public MoreAttributes {
   std::size_t done_ = 0;
 };
 
-/// Runs `describe`; what it throws is a fault of ours in this building.
+/// Runs `describe`, which returns the number of surfaces; what it throws is a fault of ours in this
+/// building.
 template <class Describe>
 void measured_describe(const Building& building, const StageObserver& observer,
-                       PipelineResult& result, Describe describe) {
+                       PipelineResult& result, const char* done, Describe describe) {
   try {
-    measure(observer, Stage::describe, describe);
+    measured(observer, Stage::describe, done, building, describe,
+             [](std::size_t surfaces) { return fmt::format("surfaces={}", surfaces); });
   } catch (const std::exception& fault) {
     result.issues.push_back(own_fault(building, fault));
   }
@@ -57,8 +61,9 @@ void measured_describe(const Building& building, const StageObserver& observer,
 
 void describe_all_surfaces(const Building& building, const Tolerances& tolerances,
                            const StageObserver& observer, PipelineResult& result) {
-  measured_describe(building, observer, result, [&] {
+  measured_describe(building, observer, result, "described surfaces", [&] {
     result.surfaces = describe_surfaces(building, tolerances, context_of(result));
+    return result.surfaces.rows();
   });
 }
 
@@ -66,7 +71,7 @@ void name_surfaces(const Building& building, const Tolerances& tolerances, const
                    const StageObserver& observer, PipelineResult& result) {
   static const Segmentation none;
   const Segmentation& segmentation = result.segmentation ? *result.segmentation : none;
-  measured_describe(building, observer, result, [&] {
+  measured_describe(building, observer, result, "named surfaces", [&] {
     const PolygonOwners& owners = result.owners.emplace(polygon_owners(segmentation, building));
     const auto rows = rows_to_name(building, owners, result.interpretation, rules);
     SurfaceContext context = context_of(result);
@@ -77,6 +82,7 @@ void name_surfaces(const Building& building, const Tolerances& tolerances, const
     MeasuredWhenAsked more(survey);
     result.named_surfaces = interpret_surfaces(rules, table, rows, more);
     result.surfaces = std::move(table);
+    return rows.size();
   });
 }
 

@@ -1,29 +1,6 @@
 #include "oriel/pipeline/targets.h"
 
-#include "oriel/generalise.h"
-
-#include <utility>
-
-#include <fmt/format.h>
-
 namespace oriel {
-
-std::string Targets::recipe() const {
-  std::string text = fmt::format("scale={}", scale.value_or(0));
-  for (const Profile& profile : profiles)
-    text += fmt::format(" {}={} edge={}", profile.level, profile.sha256,
-                        profile.edge_min_m.value_or(0));
-  return text;
-}
-
-std::string Targets::text() const {
-  if (scale) return fmt::format("1:{}", *scale);
-  std::string text;
-  for (const Profile& profile : profiles) text += (text.empty() ? "LoD " : ", ") + profile.level;
-  return text;
-}
-
-Targets at_scale(double denominator) { return {denominator, {}}; }
 
 double least_edge_m(const Profile* profile, std::optional<double> scale) {
   if (profile != nullptr && profile->edge_min_m) return *profile->edge_min_m;

@@ -35,6 +35,24 @@ TEST_SUITE("cli") {
     CHECK(info.says("1 of 1 building labelled"));
   }
 
+  TEST_CASE("at level debug there is a line for each stage of a building") {
+    const auto has_lines = [](const Outcome& outcome, const std::vector<std::string>& starts) {
+      for (const std::string& start : starts)
+        CHECK_MESSAGE(outcome.says("[debug] oriel: " + start), start);
+    };
+    const Folder folder;
+    has_lines(run({"generalise", kHouse, "--scale", "1:5000", "-o", folder / "coarse.city.json",
+                   "--log-level", "debug"}),
+              {"solidified: building=", "segmented: building=", "described: building=",
+               "interpreted: building=", "named surfaces: building=", "generalised: building=",
+               "written: record="});
+    has_lines(run({"repair", kHouse, "-o", folder / "solid.city.json", "--log-level", "debug"}),
+              {"solidified: building=", "repaired: building=", "written: record="});
+    has_lines(run({"generalise", kHouse, "--series", "1:500,1:2000", "-o", folder / "house",
+                   "--log-level", "debug"}),
+              {"drawn at all scales: building=", "written: record="});
+  }
+
   TEST_CASE("with level off stderr is empty and the exit code says what happened") {
     const Outcome missing = run({"label", "no-such-file.city.json", "--log-level", "off"});
     CHECK(missing.exit == 5);

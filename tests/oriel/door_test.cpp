@@ -91,6 +91,99 @@ TEST_SUITE("oriel") {
     CHECK(explain_surface(building, result, residential(), 0).starts_with(building.id));
   }
 
+  TEST_CASE("all features and surfaces are explained as one by one") {
+    const auto records = records_of("house");
+    const Building& building = records[0].buildings.at(0);
+    LabelOptions options;
+    options.measures_surfaces = true;
+    const PipelineResult result = label(building, residential(), options);
+    const auto features = explain_features(result, residential());
+    REQUIRE(features.size() == result.description.table.rows());
+    CHECK(headline(features[0]) == headline(explain(result, residential(), FeatureId{0})));
+    const auto surfaces = explain_surfaces(building, result, residential());
+    REQUIRE(surfaces.size() == building.polygons.size());
+    CHECK(explain_surface(building, result, residential(), 3).ends_with(surfaces[3].reason));
+    CHECK(surfaces[3].reason.find(surfaces[3].type) != std::string::npos);
+    CHECK(explain_features({}, residential()).empty());
+    CHECK(explain_surfaces(building, {}, residential()).empty());
+  }
+
+  TEST_CASE("cells and the balanced tree are those of one body") {
+    const auto records = records_of("house");
+    const PipelineResult result = segment(records[0].buildings.at(0));
+    CHECK(!cell_complex(result).faces().empty());
+    const TreeComparison trees = compare_trees(result);
+    CHECK(trees.is_same_body());
+    CHECK(trees.cut.leaves == trees.balanced.leaves);
+    CHECK(trees.merged.leaves <= trees.balanced.leaves);
+  }
+
+  TEST_CASE("stored features get the labels that the building gets") {
+    const auto records = records_of("house");
+    const Building& building = records[0].buildings.at(0);
+    const PipelineResult labelled = label(building, residential());
+    std::vector<FeatureRecord> stored = feature_records(building, segment(building));
+    CHECK(stored[0].rule.empty());
+    const PipelineResult features = segment(building);
+    const std::vector<DescribedBuilding> buildings{
+        {features.description.table, features.description.graph}};
+    const auto run = interpret(residential(), buildings);
+    REQUIRE(run.size() == 1);
+    const auto expected = feature_records(building, labelled);
+    RecordLabeller labeller(buildings, run);
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+      CHECK(labeller.label(stored[i]));
+      CHECK(stored[i].label == expected[i].label);
+      CHECK(stored[i].rule == expected[i].rule);
+    }
+    FeatureRecord unknown;
+    unknown.building = "nobody";
+    CHECK(!labeller.label(unknown));
+    CHECK(diff_labels(buildings, run, run).differences() == 0);
+  }
+
+  TEST_CASE("labels are scored against the truth by boxes and by area") {
+    const auto records = records_of("house");
+    const Building& building = records[0].buildings.at(0);
+    LabelsAndTruth all;
+    add(feature_records(building, label(building, residential())), all);
+    const auto truths =
+        read_truths(std::string(ORIEL_SOURCE_DIR) + "/examples/samples/house.truth.json");
+    for (const GroundTruth& truth : truths.value.value()) add(truth, all);
+    const auto buildings = score_by_building(all);
+    REQUIRE(buildings.size() == 1);
+    CHECK(total(buildings).macro_f1() > 0.9);
+    CHECK(!precision_recall_curve(all).empty());
+    AreaScore areas;
+    CHECK(compare_areas(building, all, {}, areas));
+    CHECK(areas.compared_m2 > 0);
+    Building other;
+    other.id = "other";
+    CHECK(!compare_areas(other, all, {}, areas));
+  }
+
+  TEST_CASE("tests of a pack read their buildings") {
+    const auto report =
+        run_rule_tests(std::string(ORIEL_SOURCE_DIR) + "/rules/residential.test.yaml");
+    REQUIRE(report.value);
+    CHECK(report.value->failed() == 0);
+    CHECK(!report.value->tests.empty());
+  }
+
+  TEST_CASE("a mesh file has what was gathered of all records") {
+    const auto records = records_of("house");
+    const Folder folder;
+    MeshSource mesh;
+    append_mesh(mesh, records[0], {});
+    for (const auto& [name, format] : {std::pair("house.ply", Format::ply),
+                                       {"house.obj", Format::obj},
+                                       {"house.off", Format::off},
+                                       {"house.stl", Format::stl}}) {
+      write(folder / name, records, std::vector<OutputRecord>(1));
+      CHECK(bytes_of(folder / name) == mesh_text(format, mesh));
+    }
+  }
+
   TEST_CASE("a name that says no format is refused with E106") {
     const auto records = records_of("house");
     const Folder folder;

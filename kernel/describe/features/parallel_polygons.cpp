@@ -3,7 +3,6 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/geometry/visible_level.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,6 @@ namespace oriel::detail {
 
 namespace {
 
-using Pair = FeatureGraph::Pair;
-
 /// How far apart features may stand to be beside or above one another, and to be alike in the
 /// neighbourhood.
 constexpr double kNextTo_m = 1;
@@ -46,8 +44,8 @@ bool is_above(const InFacade& p, const InFacade& q) {
          std::abs(gap) <= kNextTo_m;
 }
 
-std::vector<Pair> contained(const Segmentation& segmentation) {
-  std::vector<Pair> pairs;
+std::vector<FeatureGraph::Pair> contained(const Segmentation& segmentation) {
+  std::vector<FeatureGraph::Pair> pairs;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i) {
     FeatureId host = segmentation.features[i].host;
     // A chain of hosts is no longer than the number of features.
@@ -106,8 +104,8 @@ std::vector<int> storeys_of(const std::vector<InFacade>& features,
 }
 
 FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
-                    const std::vector<int>& storeys, const Neighbours& asked) {
-  std::vector<Pair> hosts, alike, beside, above;
+                    const std::vector<int>& storeys, const AskedRelations& asked) {
+  std::vector<FeatureGraph::Pair> hosts, alike, beside, above;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i)
     if (segmentation.features[i].host.is_valid())
       hosts.emplace_back(id(i), segmentation.features[i].host);
@@ -131,7 +129,7 @@ FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade
     }
   }
   graph.set("host", std::move(hosts));
-  std::vector<Pair> contains = contained(segmentation), inside;
+  std::vector<FeatureGraph::Pair> contains = contained(segmentation), inside;
   for (const auto& [outer, inner] : contains) inside.emplace_back(inner, outer);
   graph.set("contains", std::move(contains));
   graph.set("inside", std::move(inside));

@@ -32,12 +32,12 @@ std::vector<int> storeys_of(const std::vector<InFacade>& features,
 
 /// Which of the relations between features of one facade are asked for, that are found pair by
 /// pair.
-struct Neighbours {
+struct AskedRelations {
   bool alike = true, beside = true, above = true;
 };
 
 /// All relations of relation_schema() but those that are not asked for, which stay empty.
 FeatureGraph relate(const Segmentation& segmentation, const std::vector<InFacade>& features,
-                    const std::vector<int>& storeys, const Neighbours& asked);
+                    const std::vector<int>& storeys, const AskedRelations& asked);
 
 }  // namespace oriel::detail

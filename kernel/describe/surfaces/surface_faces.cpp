@@ -114,7 +114,7 @@ void SurfaceFaces::make(std::size_t face) const {
          [&](int v) -> const Vec3& { return solid_->vertices[static_cast<std::size_t>(v)].point; });
 }
 
-Sides sides_of(const SurfaceFace& face) {
+RectangleSides sides_of(const SurfaceFace& face) {
   if (face.normal == Vec3{}) return {};
   const Vec3 aside = std::abs(face.normal.z) < 0.5 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = normalised(cross(aside, face.normal)), v = cross(face.normal, u);

@@ -72,10 +72,10 @@ class SurfaceFaces {
 };
 
 /// The sides of the smallest rectangle around the face in its plane, the longer one first.
-struct Sides {
+struct RectangleSides {
   double a_m = 0;
   double b_m = 0;
 };
-Sides sides_of(const SurfaceFace& face);
+RectangleSides sides_of(const SurfaceFace& face);
 
 }  // namespace oriel::detail

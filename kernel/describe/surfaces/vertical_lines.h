@@ -1,13 +1,38 @@
 #pragma once
 
-#include "kernel/describe/surfaces/plan_figure.h"
 #include "kernel/describe/surfaces/surface_faces.h"
+#include "kernel/geometry/planar.h"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace oriel::detail {
+
+/// Outlines seen from above. Asking whether it holds a point costs a look at the edges beside the
+/// point, not at all of them.
+class PlanFigure {
+ public:
+  explicit PlanFigure(std::span<const OutlineView> outlines);
+
+  [[nodiscard]] const Box& box() const { return box_; }
+  /// Even-odd over all outlines; z is not looked at. Points on an outline may fall on either side.
+  [[nodiscard]] bool contains(Vec3 point) const;
+
+ private:
+  struct PlanEdge {
+    double from_x, from_y, to_x, to_y;
+  };
+  [[nodiscard]] std::size_t strip_of(double y) const;
+  template <class Visit>
+  void for_each_touch(std::span<const OutlineView> outlines, Visit visit) const;
+
+  Box box_;
+  /// Edges by the strips of equal width in y that they touch: those of strip s begin at first_[s].
+  std::vector<PlanEdge> edges_;
+  std::vector<int> first_;
+};
 
 /// Where a vertical line meets a face.
 struct LineCrossing {
@@ -31,7 +56,7 @@ class VerticalLines {
  private:
   /// A face that is not steep: its box seen from above and the heights it can be met at, which most
   /// faces of a cell are left out by, then what it is.
-  struct Entry {
+  struct FaceBox {
     double x0, x1, y0, y1, z0, z1;
     int face;
   };
@@ -44,11 +69,11 @@ class VerticalLines {
   struct Cells {
     int row0, row1, column0, column1;
   };
-  [[nodiscard]] static Entry entry_of(const SurfaceFace& face, int number);
+  [[nodiscard]] static FaceBox entry_of(const SurfaceFace& face, int number);
   void fill_cells();
   [[nodiscard]] int column_of(double x) const;
   [[nodiscard]] int row_of(double y) const;
-  [[nodiscard]] Cells cells_of(const Entry& entry) const;
+  [[nodiscard]] Cells cells_of(const FaceBox& entry) const;
   [[nodiscard]] std::span<const int> cell_of(Vec3 point) const;
   [[nodiscard]] std::optional<LineCrossing> crossing(std::size_t entry, Vec3 point) const;
 
@@ -56,7 +81,7 @@ class VerticalLines {
   Box box_;
   int side_ = 1;
   /// By z0, then by number.
-  std::vector<Entry> entries_;
+  std::vector<FaceBox> entries_;
   /// Of entries, made when they are asked for: most faces are left out by their boxes.
   mutable std::vector<std::optional<Met>> met_;
   /// The entries whose box touches a cell, in their order, row by row: those of cell c begin at

@@ -12,28 +12,28 @@ namespace {
 /// Pairs the half-edges of a closed boundary by their ends: each waits at its lower vertex for the
 /// opposite one.
 void pair_twins(Boundary& boundary, int vertices) {
-  std::vector<int> waiting(static_cast<std::size_t>(vertices), -1);  // by lower vertex, a chain
-  std::vector<int> behind(static_cast<std::size_t>(boundary.half_edge_count()), -1);
+  std::vector<EdgeId> waiting(static_cast<std::size_t>(vertices));  // by lower vertex, a chain
+  IndexedVector<EdgeId, EdgeId> behind(static_cast<std::size_t>(boundary.half_edge_count()));
   std::size_t open = 0;
-  for (int e = 0; e < boundary.half_edge_count(); ++e) {
+  for (const EdgeId e : boundary.half_edge_ids()) {
     const int from = boundary.origin(e), to = boundary.origin(boundary.next(e));
-    int* place = &waiting[static_cast<std::size_t>(std::min(from, to))];
-    while (*place >= 0) {
-      const int other = *place;
+    EdgeId* place = &waiting[static_cast<std::size_t>(std::min(from, to))];
+    while (place->is_valid()) {
+      const EdgeId other = *place;
       const int other_from = boundary.origin(other),
                 other_to = boundary.origin(boundary.next(other));
       if (other_from == from && other_to == to)
         throw GeometryError("an edge runs twice in the same direction");
       if (other_from == to && other_to == from) break;
-      place = &behind[static_cast<std::size_t>(other)];
+      place = &behind[other];
     }
-    if (*place < 0) {
+    if (!place->is_valid()) {
       *place = e;
       ++open;
       continue;
     }
-    const int twin = *place;
-    *place = behind[static_cast<std::size_t>(twin)];
+    const EdgeId twin = *place;
+    *place = behind[twin];
     boundary.pair(e, twin);
     --open;
   }
@@ -50,7 +50,7 @@ std::vector<int> number_sides(const Solid& solid, int lump, Boundary& boundary) 
     for (const FacetId id : shell.facets)
       numbers[static_cast<std::size_t>(planes.side_of(solid.facets[id.index()].plane))] = 0;
   }
-  for (Side side = 0; side < std::ssize(numbers); ++side)
+  for (PlaneSide side = 0; side < std::ssize(numbers); ++side)
     if (int& number = numbers[static_cast<std::size_t>(side)]; number == 0)
       number = boundary.number_side(side);
   return numbers;
@@ -69,9 +69,9 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
     if (shell.lump != lump) continue;
     for (const FacetId id : shell.facets) {
       const Facet& facet = solid.facets[id.index()];
-      const Side side = world.planes.side_of(facet.plane);
+      const PlaneSide side = world.planes.side_of(facet.plane);
       const int number = numbers[static_cast<std::size_t>(side)];
-      const int f = boundary.add_facet_on(number, side, {id.value}, {});
+      const BodyFacetId f = boundary.add_facet_on(number, side, {id.value}, {});
       for (const Loop& loop : facet.loops) boundary.add_cycle(loop, f);
     }
   }
@@ -79,22 +79,23 @@ Boundary boundary_of(const Solid& solid, int lump, World& world) {
   return boundary;
 }
 
-Corners::Corners(const Boundary& body)
+CornerLoops::CornerLoops(const Boundary& body)
     : body_(body), is_corner_(static_cast<std::size_t>(body.half_edge_count()), 0) {
-  for (int e = 0; e < body.half_edge_count(); ++e)
+  for (const EdgeId e : body.half_edge_ids())
     if (body.is_alive_edge(e)) is_corner(e) = body.next(body.twin(e)) != body.twin(body.prev(e));
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
-    for (int f = 0; f < body.facet_count(); ++f) {
+    for (const BodyFacetId f : body.facet_ids()) {
       if (!body.is_alive(f)) continue;
-      for (const int l : body.facet(f).loops) has_changed |= keep_enough(l);
+      for (const LoopId l : body.facet(f).loops) has_changed |= keep_enough(l);
     }
   }
 }
 
-bool Corners::keep_enough(int loop) {
-  const int first = body_.loop(loop).first;
-  int size = 0, kept = 0, e = first;
+bool CornerLoops::keep_enough(LoopId loop) {
+  const EdgeId first = body_.loop(loop).first;
+  int size = 0, kept = 0;
+  EdgeId e = first;
   do {
     ++size;
     kept += is_corner(e);
@@ -108,22 +109,22 @@ bool Corners::keep_enough(int loop) {
   return true;
 }
 
-std::vector<Loop> Corners::loops(int facet) const {
+std::vector<Loop> CornerLoops::loops(BodyFacetId facet) const {
   std::vector<Loop> loops;
   std::size_t outer = 0;
   const auto& numbers = body_.facet(facet).loops;
   loops.reserve(numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const int first = body_.loop(numbers[i]).first;
-    int e = first;
+    const EdgeId first = body_.loop(numbers[i]).first;
+    EdgeId e = first;
     std::size_t size = 0;
     do {
-      size += static_cast<std::size_t>(is_corner_[static_cast<std::size_t>(e)]);
+      size += static_cast<std::size_t>(is_corner_[e]);
       e = body_.next(e);
     } while (e != first);
     loops.emplace_back().reserve(size);
     do {
-      if (is_corner_[static_cast<std::size_t>(e)]) loops.back().push_back(body_.origin(e));
+      if (is_corner_[e]) loops.back().push_back(body_.origin(e));
       e = body_.next(e);
     } while (e != first);
     if (body_.loop(numbers[i]).area > body_.loop(numbers[outer]).area) outer = i;
@@ -132,9 +133,9 @@ std::vector<Loop> Corners::loops(int facet) const {
   return loops;
 }
 
-Side ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg) {
+PlaneSide ground_side(const Solid& solid, const PlaneTable& planes, double tilt_deg) {
   const double steepest = -std::cos(tilt_deg * std::numbers::pi / 180);
-  Side ground = -1;
+  PlaneSide ground = -1;
   double least = Box::kInfinity;
   for (const Facet& facet : solid.facets) {
     if (solid.planes[facet.plane.index()].normal.z > steepest) continue;

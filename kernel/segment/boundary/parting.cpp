@@ -2,7 +2,6 @@
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/segment/boundary/facet_copier.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,25 +10,58 @@
 
 namespace oriel::detail {
 
+void FacetCopier::add(std::span<const BodyFacetId> facets) {
+  scratch_.copy_of.start(from_.half_edge_count());
+  int edges = 0;
+  for (const BodyFacetId f : facets) from_.for_each_edge(f, [&](EdgeId) { ++edges; });
+  to_.reserve(2 * edges, static_cast<int>(facets.size()) + 2);
+  for (const BodyFacetId f : facets) add(f);
+}
+
+void FacetCopier::add(BodyFacetId f) {
+  const auto& facet = from_.facet(f);
+  const BodyFacetId copy =
+      to_.add_facet(is_turned_ ? facet.side ^ 1 : facet.side, facet.sources, facet.marks);
+  for (const LoopId l : facet.loops) {
+    origins_.clear();
+    pairs_.clear();
+    EdgeId one{to_.half_edge_count()};
+    const EdgeId first = from_.loop(l).first;
+    EdgeId e = first;
+    do {
+      origins_.push_back(is_turned_ ? from_.target(e) : from_.origin(e));
+      scratch_.copy_of.set(e, one);
+      // Whichever side comes last is paired.
+      if (const EdgeId twin = copy_of(from_.twin(e)); twin.is_valid())
+        pairs_.emplace_back(one, twin);
+      ++one.value;
+      e = from_.next(e);
+    } while (e != first);
+    to_.add_cycle(origins_, copy, is_turned_);
+    for (const auto& [one_side, other] : pairs_) to_.pair(one_side, other);
+  }
+}
+
 namespace {
 
 /// Adds the facets that hang together with `start` and are not in `seen` yet.
-void add_piece(const Boundary& body, int start, StampSet& seen, std::vector<int>& piece) {
+void add_piece(const Boundary& body, BodyFacetId start, StampSet<BodyFacetId>& seen,
+               std::vector<BodyFacetId>& piece) {
   seen.insert(start);
   piece.push_back(start);
   for (std::size_t i = 0; i < piece.size(); ++i)
-    body.for_each_edge(piece[i], [&](int e) {
-      const int g = body.facet_of(body.twin(e));
+    body.for_each_edge(piece[i], [&](EdgeId e) {
+      const BodyFacetId g = body.facet_of(body.twin(e));
       if (seen.insert(g)) piece.push_back(g);
     });
 }
 
 /// The living facets in connected pieces, in the order of their first facets.
-std::vector<std::vector<int>> pieces_of(const Boundary& body) {
-  std::vector<std::vector<int>> pieces;
-  StampSet& seen = body.world().scratch.facets_of_piece;
+std::vector<std::vector<BodyFacetId>> pieces_of(const Boundary& body) {
+  std::vector<std::vector<BodyFacetId>> pieces;
+  StampSet<BodyFacetId>& seen = body.world().scratch.facets_of_piece;
   seen.start(body.facet_count());
-  for (int start = 0; start < body.facet_count(); ++start) {
+  for (const BodyFacetId start : body.facet_ids()) {
     if (!body.is_alive(start) || seen.contains(start)) continue;
     add_piece(body, start, seen, pieces.emplace_back());
     std::ranges::sort(pieces.back());
@@ -37,20 +69,21 @@ std::vector<std::vector<int>> pieces_of(const Boundary& body) {
   return pieces;
 }
 
-double volume_of(const Boundary& body, const std::vector<int>& facets) {
+double volume_of(const Boundary& body, std::span<const BodyFacetId> facets) {
   double sum = 0;
-  for (const int f : facets) sum += body.world().planes.offset_m(body.facet(f).side) * body.area(f);
+  for (const BodyFacetId f : facets)
+    sum += body.world().planes.offset_m(body.facet(f).side) * body.area(f);
   return sum / 3;
 }
 
 /// How often the facets wind around a point: 1 inside, 0 outside.
-double winding_number(const Boundary& body, const std::vector<int>& facets, Vec3 eye) {
+double winding_number(const Boundary& body, std::span<const BodyFacetId> facets, Vec3 eye) {
   double sum = 0;
-  for (const int f : facets) sum += winding_part(body.outlines(f), eye);
+  for (const BodyFacetId f : facets) sum += winding_part(body.outlines(f), eye);
   return sum;
 }
 
-Boundary copy_facets(const Boundary& body, const std::vector<int>& facets, bool is_turned) {
+Boundary copy_facets(const Boundary& body, std::span<const BodyFacetId> facets, bool is_turned) {
   FacetCopier copier(body, is_turned);
   copier.add(facets);
   return std::move(copier.boundary());
@@ -59,10 +92,10 @@ Boundary copy_facets(const Boundary& body, const std::vector<int>& facets, bool 
 }  // namespace
 
 bool is_connected(const Boundary& body) {
-  StampSet& seen = body.world().scratch.facets_of_piece;
+  StampSet<BodyFacetId>& seen = body.world().scratch.facets_of_piece;
   seen.start(body.facet_count());
-  std::vector<int> piece;
-  for (int f = 0; f < body.facet_count(); ++f) {
+  std::vector<BodyFacetId> piece;
+  for (const BodyFacetId f : body.facet_ids()) {
     if (!body.is_alive(f) || seen.contains(f)) continue;
     if (!piece.empty()) return false;
     add_piece(body, f, seen, piece);
@@ -74,10 +107,10 @@ Boundary compacted(const Boundary& body) { return copy_facets(body, body.living_
 
 std::vector<Boundary> part_into_lumps(const Boundary& body) {
   std::vector<Boundary> lumps;
-  std::vector<std::vector<int>> outers, cavities;
+  std::vector<std::vector<BodyFacetId>> outers, cavities;
   for (const auto& piece : pieces_of(body))
     (volume_of(body, piece) > 0 ? outers : cavities).push_back(piece);
-  std::vector<std::vector<int>> all = outers;
+  std::vector<std::vector<BodyFacetId>> all = outers;
   for (const auto& cavity : cavities) {
     const Vec3 eye = body.at(body.loop(body.facet(cavity[0]).loops[0]).first);
     for (std::size_t i = 0; i < outers.size(); ++i)
@@ -105,7 +138,8 @@ std::vector<Boundary> take_out_cavities(Boundary& body) {
 bool fill_cavity(Boundary& body, const Box& box) {
   for (const auto& piece : pieces_of(body)) {
     Box around;
-    for (const int f : piece) body.for_each_edge(f, [&](int e) { around.grow(body.at(e)); });
+    for (const BodyFacetId f : piece)
+      body.for_each_edge(f, [&](EdgeId e) { around.grow(body.at(e)); });
     if (volume_of(body, piece) >= 0 || around != box) continue;
     body.remove(piece);
     return true;
@@ -125,8 +159,8 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
     return entry->second;
   };
   // A cap may lie in a plane that the original has in the other orientation only.
-  std::map<Side, PlaneId> turned;
-  const auto plane = [&](const World& world, Side side) {
+  std::map<PlaneSide, PlaneId> turned;
+  const auto plane = [&](const World& world, PlaneSide side) {
     if (const PlaneId id = world.planes.id_of(side); id.is_valid()) return id;
     const auto [entry, is_new] =
         turned.emplace(side, PlaneId{static_cast<int>(solid.planes.size())});
@@ -139,10 +173,10 @@ Solid solid_of(const std::vector<Boundary>& bodies, const Solid& original,
   int lump = 0;
   for (const Boundary& body : bodies)
     for (const Boundary& part : part_into_lumps(body)) {
-      const Corners corners(part);
+      const CornerLoops corners(part);
       for (const auto& piece : pieces_of(part)) {
         Shell shell{{}, lump, volume_of(part, piece) < 0};
-        for (const int f : piece) {
+        for (const BodyFacetId f : piece) {
           Facet facet{plane(part.world(), part.facet(f).side), corners.loops(f), {}};
           for (Loop& loop : facet.loops)
             for (int& v : loop) v = vertex(part.world(), v);
@@ -177,7 +211,7 @@ BodyState state_of(const Boundary& body) {
   constexpr double kPerSquareMetre = 1e6;
   constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
   BodyState state{};
-  for (int f = 0; f < body.facet_count(); ++f) {
+  for (const BodyFacetId f : body.facet_ids()) {
     if (!body.is_alive(f)) continue;
     const auto side = static_cast<std::uint64_t>(body.facet(f).side);
     const auto area = static_cast<std::uint64_t>(std::llround(body.area(f) * kPerSquareMetre));
@@ -195,10 +229,10 @@ bool is_mostly_dead(const Boundary& body) {
   return all > kFew && all > kTimes * living;
 }
 
-bool is_convex(const Boundary& body, int& bend) {
-  const int size = body.half_edge_count(), start = bend;
+bool is_convex(const Boundary& body, EdgeId& bend) {
+  const int size = body.half_edge_count(), start = bend.is_valid() ? bend.value : 0;
   for (int i = 0; i < size; ++i) {
-    bend = start + i < size ? start + i : start + i - size;
+    bend = EdgeId{start + i < size ? start + i : start + i - size};
     if (body.is_alive_edge(bend) && bend < body.twin(bend) && body.is_reflex(bend)) return false;
   }
   return true;

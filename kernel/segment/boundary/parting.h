@@ -6,9 +6,35 @@
 #include <array>
 #include <cstdint>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace oriel::detail {
+
+/// Copies facets with their half-edges into a boundary of their own. Turned round, air becomes a
+/// body. Only one copier at a time may be in use.
+class FacetCopier {
+ public:
+  FacetCopier(const Boundary& from, bool is_turned)
+      : from_(from), to_(from.world()), scratch_(from.world().scratch), is_turned_(is_turned) {}
+
+  void add(std::span<const BodyFacetId> facets);
+
+  /// Of a half-edge of the facets.
+  [[nodiscard]] EdgeId copy_of(EdgeId e) const { return scratch_.copy_of.find(e); }
+  Boundary& boundary() { return to_; }
+
+ private:
+  void add(BodyFacetId f);
+
+  const Boundary& from_;
+  Boundary to_;
+  Scratch& scratch_;
+  bool is_turned_;
+  // Of the loop at hand.
+  std::vector<int> origins_;
+  std::vector<std::pair<EdgeId, EdgeId>> pairs_;  ///< copies of both sides of edges
+};
 
 /// True if all facets hang together: no cavity, and no cut has parted the body.
 bool is_connected(const Boundary& body);
@@ -40,6 +66,6 @@ BodyState state_of(const Boundary& body);
 bool is_mostly_dead(const Boundary& body);
 
 /// `bend` is where to look first: a half-edge that was reflex when it was asked for last, if any.
-bool is_convex(const Boundary& body, int& bend);
+bool is_convex(const Boundary& body, EdgeId& bend);
 
 }  // namespace oriel::detail

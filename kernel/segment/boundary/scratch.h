@@ -1,5 +1,7 @@
 #pragma once
 
+#include "kernel/base/assert.h"
+#include "kernel/base/indexed_vector.h"
 #include "kernel/geometry/planar.h"
 
 #include <cstddef>
@@ -8,57 +10,75 @@
 
 namespace oriel::detail {
 
-/// A set of numbers that is emptied in no time: what was put in before the last start() counts as
-/// absent.
+/// A facet of a body that is being cut: Boundary::facet. Not one of the solid, which is a FacetId.
+using BodyFacetId = Id<struct BodyFacetTag>;
+
+constexpr std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
+template <class Tag>
+constexpr std::size_t index_of(Id<Tag> id) {
+  return id.index();
+}
+
+/// A set of numbers or ids that is emptied in no time: what was put in before the last start()
+/// counts as absent.
+template <class Key>
 class StampSet {
  public:
   void start(int size) {
     make_room(size);
     ++last_;
   }
-  /// For numbers below `size`.
+  /// For keys below `size`.
   void make_room(int size) {
     if (std::ssize(stamps_) < size) stamps_.resize(static_cast<std::size_t>(size), 0);
   }
   /// True if it was not in.
-  bool insert(int i) {
-    int& stamp = stamps_[static_cast<std::size_t>(i)];
+  bool insert(Key key) {
+    ORIEL_ASSERT(index_of(key) < stamps_.size(), "start() was told of fewer");
+    int& stamp = stamps_[index_of(key)];
     if (stamp == last_) return false;
     stamp = last_;
     return true;
   }
-  [[nodiscard]] bool contains(int i) const { return stamps_[static_cast<std::size_t>(i)] == last_; }
+  [[nodiscard]] bool contains(Key key) const {
+    ORIEL_ASSERT(index_of(key) < stamps_.size(), "start() was told of fewer");
+    return stamps_[index_of(key)] == last_;
+  }
 
  private:
   std::vector<int> stamps_;
   int last_ = 0;
 };
 
-/// A number for each of some numbers, emptied in no time likewise.
+/// A number or id for each of some keys, emptied in no time likewise.
+template <class Key, class Value = int>
 class StampMap {
  public:
   void start(int size) {
     make_room(size);
     ++last_;
   }
-  /// For numbers below `size`.
+  /// For keys below `size`.
   void make_room(int size) {
     if (std::ssize(entries_) < size) entries_.resize(static_cast<std::size_t>(size));
   }
-  void set(int i, int number) { entries_[static_cast<std::size_t>(i)] = {last_, number}; }
-  /// -1 if there is none, as for what is out of range.
-  [[nodiscard]] int find(int i) const {
-    if (i < 0 || i >= std::ssize(entries_)) return -1;
-    const Entry& entry = entries_[static_cast<std::size_t>(i)];
-    return entry.stamp == last_ ? entry.number : -1;
+  void set(Key key, Value value) {
+    ORIEL_ASSERT(index_of(key) < entries_.size(), "start() was told of fewer");
+    entries_[index_of(key)] = {last_, value};
+  }
+  /// -1, or an invalid id, if there is none, as for what is out of range.
+  [[nodiscard]] Value find(Key key) const {
+    if (index_of(key) >= entries_.size()) return Value{-1};
+    const StampedValue& entry = entries_[index_of(key)];
+    return entry.stamp == last_ ? entry.value : Value{-1};
   }
 
  private:
-  struct Entry {
+  struct StampedValue {
     int stamp = 0;
-    int number = -1;
+    Value value{-1};
   };
-  std::vector<Entry> entries_;
+  std::vector<StampedValue> entries_;
   int last_ = 1;
 };
 
@@ -82,26 +102,26 @@ struct ChordEnd {
 /// hand. A step owns the members it starts until it ends; the comments say which.
 struct Scratch {
   // Sections.
-  StampSet crossed_edges;
-  std::vector<Chords> chords;  ///< by facet
+  StampSet<EdgeId> crossed_edges;
+  IndexedVector<BodyFacetId, Chords> chords;
   int last_chords = 0;
-  std::vector<int> facets_with_several;
+  std::vector<BodyFacetId> facets_with_several;
   std::vector<std::vector<ChordEnd>> chord_ends;  ///< of those facets
   void start_chords(int facets) {
-    if (std::ssize(chords) < facets) chords.resize(static_cast<std::size_t>(facets));
+    if (chords.size() < index_of(facets)) chords.resize(index_of(facets));
     ++last_chords;
     facets_with_several.clear();
   }
   /// An empty list for the ends in one more facet with several chords.
-  std::vector<ChordEnd>& add_chord_ends(int facet) {
+  std::vector<ChordEnd>& add_chord_ends(BodyFacetId facet) {
     facets_with_several.push_back(facet);
     if (chord_ends.size() < facets_with_several.size()) chord_ends.emplace_back();
     auto& ends = chord_ends[facets_with_several.size() - 1];
     ends.clear();
     return ends;
   }
-  Chords& chords_in(int facet) {
-    Chords& here = chords[static_cast<std::size_t>(facet)];
+  Chords& chords_in(BodyFacetId facet) {
+    Chords& here = chords[facet];
     if (here.stamp != last_chords) here = {last_chords};
     return here;
   }
@@ -111,29 +131,29 @@ struct Scratch {
   std::vector<int> after;  ///< where the step from a point leads to
 
   // Floods.
-  StampSet flooded_edges, flooded_facets;
-  StampSet facets_with_chord;
-  std::vector<int> last_chord_in;     ///< by facet
-  std::vector<int> crossing_of_edge;  ///< by half-edge
+  StampSet<EdgeId> flooded_edges;
+  StampSet<BodyFacetId> flooded_facets, facets_with_chord;
+  IndexedVector<BodyFacetId, int> last_chord_in;
+  IndexedVector<EdgeId, int> crossing_of_edge;
 
   // Pockets.
-  StampSet rim_edges;
-  StampMap place_in_walk;    ///< by half-edge
-  StampMap corner_at_point;  ///< by point
-  StampSet met_sources;      ///< by facet of the solid
+  StampSet<EdgeId> rim_edges;
+  StampMap<EdgeId> place_in_walk;
+  StampMap<int> corner_at_point;
+  StampSet<int> met_sources;  ///< facets of the solid
 
   // Patches.
-  StampMap place_in_rim;  ///< by half-edge
+  StampMap<EdgeId> place_in_rim;
 
   // Cuts.
-  StampSet facets_of_lump, facets_of_piece;
-  StampMap copy_of;      ///< by half-edge
-  StampMap twin_of_rim;  ///< by half-edge, as they were before the cut
+  StampSet<BodyFacetId> facets_of_lump, facets_of_piece;
+  StampMap<EdgeId, EdgeId> copy_of;
+  StampMap<EdgeId, EdgeId> twin_of_rim;  ///< as they were before the cut
   Outline outline;
-  StampSet met_points;
+  StampSet<int> met_points;
 
   // Copies of parts.
-  StampMap moved_points, moved_planes;
+  StampMap<int> moved_points, moved_planes;
 };
 
 }  // namespace oriel::detail

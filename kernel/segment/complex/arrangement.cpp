@@ -8,11 +8,10 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-using Windings = Arrangement::Windings;
-
 /// base + sign × change; both sorted by label.
-Windings sum_of(const Windings& base, const Windings& change, int sign) {
-  Windings sum;
+Arrangement::Windings sum_of(const Arrangement::Windings& base, const Arrangement::Windings& change,
+                             int sign) {
+  Arrangement::Windings sum;
   auto b = base.begin();
   for (const auto& [label, count] : change) {
     while (b != base.end() && b->first < label) sum.push_back(*b++);
@@ -110,10 +109,10 @@ std::size_t Arrangement::nearest_to_the_left(Vec2 point) const {
   return nearest;
 }
 
-std::vector<Windings> Arrangement::windings() const {
+std::vector<Arrangement::Windings> Arrangement::windings() const {
   std::vector<std::vector<std::size_t>> around(region_count_);
   for (std::size_t h = 0; h < half_edge_count(); ++h) around[region(h)].push_back(h);
-  std::vector<Windings> windings(region_count_);
+  std::vector<Arrangement::Windings> windings(region_count_);
   std::vector<char> is_known(region_count_, 0);
   is_known[0] = 1;
   std::vector<std::size_t> reached{0};
@@ -130,7 +129,7 @@ std::vector<Windings> Arrangement::windings() const {
 }
 
 std::vector<std::vector<int>> Arrangement::labels() const {
-  const std::vector<Windings> of_region = windings();
+  const std::vector<Arrangement::Windings> of_region = windings();
   std::vector<std::vector<int>> labels(region_count_);
   for (std::size_t r = 0; r < region_count_; ++r)
     for (const auto& [label, count] : of_region[r])

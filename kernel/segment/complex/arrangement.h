@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernel/segment/complex/chord.h"
 #include "kernel/segment/complex/refine.h"
 #include "kernel/segment/complex/vertex_pool.h"
 

@@ -1,7 +1,6 @@
 #include "kernel/segment/complex/body_without.h"
 
 #include "kernel/segment/complex/arrangement.h"
-#include "kernel/segment/complex/chord.h"
 #include "kernel/segment/complex/outlines.h"
 #include "kernel/segment/complex/refine.h"
 #include "kernel/segment/complex/vertex_pool.h"

@@ -4,7 +4,6 @@
 #include "kernel/segment/complex/outlines.h"
 #include "kernel/segment/complex/owners.h"
 #include "kernel/segment/complex/sheet.h"
-#include "kernel/segment/complex/slice.h"
 #include "kernel/segment/complex/vertex_pool.h"
 
 #include <algorithm>

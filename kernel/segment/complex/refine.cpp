@@ -57,7 +57,7 @@ class Round {
     std::vector<Chord> chords;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const PlanarEdge& edge = edges_[e];
-      const Span& span = spans_[e];
+      const EdgeInPlane& span = spans_[e];
       std::vector<int>& cuts = cuts_[e];
       std::ranges::sort(cuts, {}, [&](int v) {
         return std::pair{dot(axes_(pool_.at(v)) - span.a, span.b - span.a), v};
@@ -74,13 +74,13 @@ class Round {
   }
 
  private:
-  struct Span {
+  struct EdgeInPlane {
     Vec2 a, b;
     Vec2 min, max;  ///< its box, grown by the pool's reach
     double length;
   };
 
-  [[nodiscard]] Span span_of(const PlanarEdge& edge) const {
+  [[nodiscard]] EdgeInPlane span_of(const PlanarEdge& edge) const {
     const Vec2 a = axes_(pool_.at(edge.a)), b = axes_(pool_.at(edge.b));
     const double reach = pool_.reach_m();
     return {a,
@@ -93,7 +93,7 @@ class Round {
   /// A sweep looks at fewer pairs along the axis on which things are spread wider.
   void sort_along_longer_axis() {
     Vec2 min{Box::kInfinity, Box::kInfinity}, max{-Box::kInfinity, -Box::kInfinity};
-    for (const Span& span : spans_) {
+    for (const EdgeInPlane& span : spans_) {
       min = {std::min(min.x, span.min.x), std::min(min.y, span.min.y)};
       max = {std::max(max.x, span.max.x), std::max(max.y, span.max.y)};
       order_.push_back(order_.size());
@@ -110,11 +110,11 @@ class Round {
 
   void look_ahead(std::size_t i) {
     const std::size_t e = order_[i];
-    const Span& mine = spans_[e];
+    const EdgeInPlane& mine = spans_[e];
     for (std::size_t j = i + 1; j < order_.size(); ++j) {
       const std::size_t other = order_[j];
       if (begin_of(other) > end_of(e)) return;
-      const Span& its = spans_[other];
+      const EdgeInPlane& its = spans_[other];
       if (its.min.y > mine.max.y || mine.min.y > its.max.y || its.min.x > mine.max.x ||
           mine.min.x > its.max.x)
         continue;
@@ -132,7 +132,7 @@ class Round {
   /// Cuts edge e at a vertex that lies on it. True if it is the edge's end, or lies on it.
   bool meet_vertex(std::size_t e, int vertex) {
     if (vertex == edges_[e].a || vertex == edges_[e].b) return true;
-    const Span& span = spans_[e];
+    const EdgeInPlane& span = spans_[e];
     const Vec2 at = axes_(pool_.at(vertex));
     if (std::abs(cross(span.b - span.a, at - span.a)) > pool_.reach_m() / 2 * span.length)
       return false;
@@ -143,12 +143,12 @@ class Round {
 
   /// True if both pieces are shorter than the whole.
   [[nodiscard]] bool is_shortened_by(std::size_t e, Vec2 at) const {
-    const Span& span = spans_[e];
+    const EdgeInPlane& span = spans_[e];
     return length(at - span.a) < span.length && length(span.b - at) < span.length;
   }
 
   void meet_edge(std::size_t e, std::size_t f) {
-    const Span &p = spans_[e], &q = spans_[f];
+    const EdgeInPlane &p = spans_[e], &q = spans_[f];
     const double fa = cross(p.b - p.a, q.a - p.a), fb = cross(p.b - p.a, q.b - p.a);
     const double ea = cross(q.b - q.a, p.a - q.a), eb = cross(q.b - q.a, p.b - q.a);
     if ((fa > 0) == (fb > 0) || (ea > 0) == (eb > 0)) return;
@@ -178,7 +178,7 @@ class Round {
   const std::vector<PlanarEdge>& edges_;
   const PlaneAxes& axes_;
   VertexPool& pool_;
-  std::vector<Span> spans_;
+  std::vector<EdgeInPlane> spans_;
   std::vector<std::size_t> order_;
   bool is_along_y_ = false;
   std::vector<std::vector<int>> cuts_;

@@ -3,6 +3,8 @@
 #include "kernel/base/index.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -26,14 +28,14 @@ class Capper {
   Capper(const Boundary& body, const Component& component, CornerKind corner)
       : body_(body), world_(body.world()), component_(component), corner_(corner) {
     labels_.reserve(component.rim.size());
-    for (const int e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
+    for (const EdgeId e : component.rim) labels_.push_back(rim_side(body, component.sides, e));
   }
 
-  std::optional<std::vector<Cap>> run() {
+  std::optional<std::vector<CutCap>> run() {
     if (!order_rim()) return std::nullopt;
-    std::vector<Cap> caps;
+    std::vector<CutCap> caps;
     caps.reserve(component_.sides.size());
-    for (const Side side : component_.sides) {
+    for (const PlaneSide side : component_.sides) {
       auto cap = cap_on(side);
       if (!cap) return std::nullopt;
       caps.push_back(std::move(*cap));
@@ -50,19 +52,19 @@ class Capper {
   /// Where the rim changes from one plane to another.
   struct RimSwitch {
     int point;
-    Side from, to;
+    PlaneSide from, to;
     RimPlace rim;  ///< the first half-edge behind it
   };
 
   /// The rim half-edge that follows each on its closed curve.
   bool order_rim() {
-    StampMap& places = world_.scratch.place_in_rim;
+    StampMap<EdgeId>& places = world_.scratch.place_in_rim;
     places.start(body_.half_edge_count());
     for (RimPlace i = 0; i < component_.rim.size(); ++i)
       places.set(component_.rim[i], static_cast<int>(i));
     followers_.reserve(component_.rim.size());
     for (RimPlace i = 0; i < component_.rim.size(); ++i) {
-      int follower = body_.next(component_.rim[i]);
+      EdgeId follower = body_.next(component_.rim[i]);
       for (int steps = 0; places.find(follower) < 0; ++steps) {
         if (steps > body_.half_edge_count()) return false;
         follower = body_.next(body_.twin(follower));
@@ -75,8 +77,8 @@ class Capper {
     return true;
   }
 
-  std::optional<Cap> cap_on(Side side) {
-    Cap cap{side, {}, {}, false};
+  std::optional<CutCap> cap_on(PlaneSide side) {
+    CutCap cap{side, {}, {}, false};
     if (side == component_.ground) {
       cap.side = side ^ 1;
       cap.is_taken = true;
@@ -89,7 +91,7 @@ class Capper {
       RimPlace i = start;
       do {
         is_done[i] = 1;
-        const int e = component_.rim[i];
+        const EdgeId e = component_.rim[i];
         loop.edges.push_back({e, body_.origin(e), body_.target(e)});
         i = followers_[i];
         if (labels_[i] == side) continue;
@@ -106,11 +108,12 @@ class Capper {
   /// From `point`, where the rim leaves the plane of `side` for that of `other`, along the edges of
   /// the corner to where the rim comes back to `side`: adds the free edges, returns the rim
   /// half-edge there.
-  std::optional<RimPlace> walk_in_the_open(Side side, Side other, int point, CapLoop& loop) {
+  std::optional<RimPlace> walk_in_the_open(PlaneSide side, PlaneSide other, int point,
+                                           CapLoop& loop) {
     for (int steps = 0; steps <= 4; ++steps) {
       const auto stop = next_stop(side, other, point);
       if (!stop) return std::nullopt;
-      loop.edges.push_back({-1, point, stop->point});
+      loop.edges.push_back({EdgeId{}, point, stop->point});
       if (stop->rim) return stop->rim;
       point = stop->point;
       other = stop->other;
@@ -121,11 +124,11 @@ class Capper {
   struct WalkStop {
     int point;
     std::optional<RimPlace> rim;  ///< where the rim takes over
-    Side other;                   ///< the plane to walk along next, if it does not
+    PlaneSide other;              ///< the plane to walk along next, if it does not
   };
 
   /// From the caps `side` and `other` towards the inside of the corner's edge between them.
-  [[nodiscard]] Vec3 ahead(Side side, Side other) const {
+  [[nodiscard]] Vec3 ahead(PlaneSide side, PlaneSide other) const {
     const Vec3 line = cross(world_.planes.normal(side), world_.planes.normal(other));
     const bool is_at_ground = side == component_.ground || other == component_.ground;
     return corner_ == CornerKind::concave && !is_at_ground ? -line : line;
@@ -133,7 +136,7 @@ class Capper {
 
   /// The nearest point ahead on the line in which two planes meet: where the rim comes from `other`
   /// to `side`, or where a third plane of the corner meets them.
-  std::optional<WalkStop> next_stop(Side side, Side other, int point) {
+  std::optional<WalkStop> next_stop(PlaneSide side, PlaneSide other, int point) {
     const Vec3 direction = ahead(side, other);
     const double here = dot(direction, world_.points.at(point));
     std::optional<WalkStop> nearest;
@@ -146,7 +149,7 @@ class Capper {
       least = distance;
       nearest = stop;
     };
-    for (const Side third : component_.sides) {
+    for (const PlaneSide third : component_.sides) {
       if (third == side || third == other) continue;
       const auto meeting = world_.points.meet(side >> 1, other >> 1, third >> 1);
       if (meeting && is_on_corner(*meeting)) offer({*meeting, std::nullopt, third});
@@ -158,9 +161,9 @@ class Capper {
 
   /// The edge between `side` and the stop's plane leads from the stop along the corner, not out of
   /// it.
-  [[nodiscard]] bool bounds_corner(Side side, const WalkStop& stop) {
+  [[nodiscard]] bool bounds_corner(PlaneSide side, const WalkStop& stop) {
     const Vec3 direction = ahead(side, stop.other);
-    return std::ranges::all_of(component_.sides, [&](Side s) {
+    return std::ranges::all_of(component_.sides, [&](PlaneSide s) {
       if (s == side || s == stop.other || world_.points.side(stop.point, s >> 1) != 0) return true;
       const double out = dot(world_.planes.normal(s), direction);
       return corner_ == CornerKind::concave && s != component_.ground ? out >= 0 : out <= 0;
@@ -168,7 +171,7 @@ class Capper {
   }
 
   [[nodiscard]] bool is_on_corner(int point) {
-    return std::ranges::all_of(component_.sides, [&](Side side) {
+    return std::ranges::all_of(component_.sides, [&](PlaneSide side) {
       const int level = world_.points.level(point, side);
       return corner_ == CornerKind::concave && side != component_.ground ? level >= 0 : level <= 0;
     });
@@ -178,7 +181,7 @@ class Capper {
   World& world_;
   const Component& component_;
   CornerKind corner_;
-  boost::container::small_vector<Side, 16>
+  boost::container::small_vector<PlaneSide, 16>
       labels_;  ///< by place in the rim: the plane of the cap there
   boost::container::small_vector<RimPlace, 16> followers_;  ///< likewise
   boost::container::small_vector<RimSwitch, 8> switches_;
@@ -220,7 +223,7 @@ class Judge {
   [[nodiscard]] boost::container::small_vector<SideLimit, 4> limits_of(
       const Component& component) const {
     boost::container::small_vector<SideLimit, 4> limits;
-    for (const Side side : component.sides)
+    for (const PlaneSide side : component.sides)
       if (side != component.ground)
         limits.push_back({world_.points.ranks(world_.planes.class_of(side >> 1)),
                           world_.planes.rank_of(side >> 1), (side & 1) != 0 ? -1 : 1});
@@ -230,10 +233,10 @@ class Judge {
   [[nodiscard]] std::optional<CornerKind> corner_of(const Component& component) const {
     bool is_behind_all = is_hole_, is_before_all = !is_hole_, is_before_one = !is_hole_;
     const auto limits = limits_of(component);
-    StampSet& met = world_.scratch.met_points;
+    StampSet<int>& met = world_.scratch.met_points;
     met.start(world_.points.size());
-    for (const int f : component.facets) {
-      body_.for_each_edge(f, [&](int e) {
+    for (const BodyFacetId f : component.facets) {
+      body_.for_each_edge(f, [&](EdgeId e) {
         work_ += std::ssize(component.sides);
         if (!met.insert(body_.origin(e))) return;
         int most = -1, least = 1;
@@ -254,20 +257,21 @@ class Judge {
 
   /// No facet outside the patch stands in the way of a free edge.
   [[nodiscard]] bool are_edges_free(const Patch& patch) const {
-    for (const Cap& cap : patch.caps)
+    for (const CutCap& cap : patch.caps)
       for (const CapLoop& loop : cap.loops)
         for (const CapEdge& edge : loop.edges)
-          if (edge.rim < 0 && edge.from < edge.to && is_crossed(edge.from, edge.to)) return false;
+          if (!edge.rim.is_valid() && edge.from < edge.to && is_crossed(edge.from, edge.to))
+            return false;
     return true;
   }
 
   [[nodiscard]] bool is_crossed(int from, int to) const {
     const Vec3 p = world_.points.at(from), q = world_.points.at(to);
-    for (const FlatBody::Facet& f : flat_.facets()) {
+    for (const FlatBody::RankedFacet& f : flat_.facets()) {
       const int start = world_.points.rank(from, f.normal_class) - f.rank,
                 end = world_.points.rank(to, f.normal_class) - f.rank;
       if (!are_opposite(start, end)) continue;
-      const Side side = body_.facet(f.number).side;
+      const PlaneSide side = body_.facet(f.number).side;
       const Vec3 normal = world_.planes.normal(side);
       const double offset_m = world_.planes.offset_m(side);
       const double hp = dot(normal, p) - offset_m, hq = dot(normal, q) - offset_m;
@@ -281,10 +285,10 @@ class Judge {
   /// An edge of the body goes through a cap that is none of its facets.
   [[nodiscard]] bool is_pierced(const Patch& patch) const {
     return std::ranges::any_of(patch.caps,
-                               [&](const Cap& cap) { return !cap.is_taken && is_pierced(cap); });
+                               [&](const CutCap& cap) { return !cap.is_taken && is_pierced(cap); });
   }
 
-  [[nodiscard]] bool is_pierced(const Cap& cap) const {
+  [[nodiscard]] bool is_pierced(const CutCap& cap) const {
     const Vec3 normal = world_.planes.normal(cap.side);
     const double offset_m = world_.planes.offset_m(cap.side);
     const auto ranks = world_.points.ranks(world_.planes.class_of(cap.side >> 1));
@@ -303,7 +307,7 @@ class Judge {
     return false;
   }
 
-  [[nodiscard]] std::vector<Outline> shape_of(const Cap& cap) const {
+  [[nodiscard]] std::vector<Outline> shape_of(const CutCap& cap) const {
     std::vector<Outline> shape;
     for (const CapLoop& loop : cap.loops) {
       shape.emplace_back();
@@ -316,16 +320,16 @@ class Judge {
   /// the patch no volume.
   bool measure(Patch& patch) const {
     double patch_sum = 0, cap_sum = 0;
-    for (const int f : patch.facets)
+    for (const BodyFacetId f : patch.facets)
       patch_sum += world_.planes.offset_m(body_.facet(f).side) * body_.area(f);
-    for (Cap& cap : patch.caps) {
+    for (CutCap& cap : patch.caps) {
       const std::vector<Outline> shape = shape_of(cap);
       const Vec3 normal = world_.planes.normal(cap.side);
       double area = 0;
       for (const Outline& outline : shape) area += signed_area(outline, normal);
       cap_sum += world_.planes.offset_m(cap.side) * area;
       if (cap.is_taken) continue;
-      for (const int g : body_.facets_on(cap.side ^ 1)) {
+      for (const BodyFacetId g : body_.facets_on(cap.side ^ 1)) {
         if (std::ranges::binary_search(patch.facets, g)) continue;
         const auto inside = interior_point(body_.outlines(g), normal);
         if (!inside || !contains(shape, normal, *inside)) continue;
@@ -350,19 +354,19 @@ class Judge {
 
 }  // namespace
 
-std::vector<Side> Patch::sides() const {
-  std::vector<Side> sides;
-  for (const Cap& cap : caps)
+std::vector<PlaneSide> Patch::sides() const {
+  std::vector<PlaneSide> sides;
+  for (const CutCap& cap : caps)
     if (!cap.is_taken) sides.push_back(cap.side);
   std::ranges::sort(sides);
   return sides;
 }
 
-Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e) {
-  const Side beyond = body.side_of_edge(body.twin(e));
+PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e) {
+  const PlaneSide beyond = body.side_of_edge(body.twin(e));
   if (std::ranges::binary_search(sides, beyond)) return beyond;
   auto& points = body.world().points;
-  for (const Side side : sides)
+  for (const PlaneSide side : sides)
     if (points.side(body.origin(e), side >> 1) == 0 && points.side(body.target(e), side >> 1) == 0)
       return side;
   return -1;
@@ -375,6 +379,66 @@ std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component
   auto patch = Judge(body, is_hole, work).run(component);
   if (!patch) points.forget_since(before);
   return patch;
+}
+
+namespace {
+
+/// Normals whose parallelepiped has less volume (or area) tell nothing of each other's caps.
+constexpr double kFlat = 1e-3;  // of unit vectors, no tolerance of the model
+
+/// A linear programme: the least is that of up to three caps that alone close the surface.
+class LeastCaps {
+ public:
+  LeastCaps(Vec3 open, double slack) : open_(open), slack_(slack) {
+    if (length(open) <= slack) least_ = 0;
+  }
+
+  void offer(Vec3 n) {
+    const double area = dot(open_, n);
+    if (length(open_ - area * n) <= slack_) take(area, 0, 0, 1);
+  }
+
+  void offer(Vec3 n, Vec3 m) {
+    const double c = dot(n, m), det = 1 - c * c;
+    if (det < kFlat) return;
+    const double p = dot(open_, n), q = dot(open_, m);
+    const double first = (p - c * q) / det, second = (q - c * p) / det;
+    if (length(open_ - first * n - second * m) <= slack_) take(first, second, 0, det);
+  }
+
+  void offer(Vec3 n, Vec3 m, Vec3 k) {
+    const Vec3 across = cross(m, k);
+    const double det = dot(n, across);
+    if (std::abs(det) < kFlat) return;
+    take(dot(open_, across) / det, dot(open_, cross(k, n)) / det, dot(open_, cross(n, m)) / det,
+         std::abs(det));
+  }
+
+  [[nodiscard]] double least() const { return least_; }
+
+ private:
+  void take(double first, double second, double third, double det) {
+    if (std::min({first, second, third}) < -slack_ / det) return;
+    least_ = std::min(least_, std::max(first, 0.0) + std::max(second, 0.0) + std::max(third, 0.0));
+  }
+
+  Vec3 open_;
+  double slack_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+double least_cap_area(std::span<const Vec3> normals, Vec3 open, double slack_m2) {
+  LeastCaps caps(open, slack_m2);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    caps.offer(normals[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      caps.offer(normals[i], normals[j]);
+      for (std::size_t k = 0; k < j; ++k) caps.offer(normals[i], normals[j], normals[k]);
+    }
+  }
+  return caps.least();
 }
 
 }  // namespace oriel::detail

@@ -1,11 +1,13 @@
 #pragma once
 
-#include "kernel/segment/boundary/flat_body.h"
+#include "kernel/model/vec3.h"
+#include "kernel/segment/boundary/boundary.h"
 #include "kernel/segment/cuts/carve.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -15,8 +17,8 @@ namespace oriel::detail {
 /// chimney).
 struct Patch {
   bool is_hole = false;
-  std::vector<int> facets;
-  std::vector<Cap> caps;
+  std::vector<BodyFacetId> facets;
+  std::vector<CutCap> caps;
   double new_area = 0;
   double old_area = 0;
   double volume = 0;
@@ -26,24 +28,31 @@ struct Patch {
   /// itself.
   std::shared_ptr<const Boundary> imprinted = nullptr;
   /// The split planes: those of its caps but the ground.
-  [[nodiscard]] std::vector<Side> sides() const;
+  [[nodiscard]] std::vector<PlaneSide> sides() const;
 };
 
 /// Facets that may become a patch.
 struct Component {
-  std::vector<int> facets;  ///< ascending
-  std::vector<int> rim;     ///< half-edges of its facets, their twins beyond; ascending
-  std::vector<Side> sides;  ///< on which the rim lies, ascending
-  Side ground = -1;         ///< one of the sides, if the patch stands on the ground
+  std::vector<BodyFacetId> facets;  ///< ascending
+  std::vector<EdgeId> rim;          ///< half-edges of its facets, their twins beyond; ascending
+  std::vector<PlaneSide> sides;     ///< on which the rim lies, ascending
+  PlaneSide ground = -1;            ///< one of the sides, if the patch stands on the ground
 };
 
 /// The side among `sides` that a rim half-edge lies on: that of the facet beyond it, else one whose
 /// plane holds both ends; -1: none.
-Side rim_side(const Boundary& body, const std::vector<Side>& sides, int e);
+PlaneSide rim_side(const Boundary& body, const std::vector<PlaneSide>& sides, EdgeId e);
 
 /// The component with caps on all its sides. Nothing if it does not lie in the corner that they
 /// make, if the caps do not close, have no area or are pierced, or if it has no volume.
 std::optional<Patch> cap_component(FlatBody& body, bool is_hole, const Component& component,
                                    std::int64_t& work);
+
+/// The least area that caps in these planes (unit normals, no more than four) have together if they
+/// close a surface. `open` is the sum of area × unit normal over the surface's facets, which closed
+/// surfaces have none of: the caps' own is the same, each cap's area positive. Infinite if no caps
+/// close it. Areas are told apart by more than `slack_m2`: facets may be that much off their
+/// planes.
+double least_cap_area(std::span<const Vec3> normals, Vec3 open, double slack_m2);
 
 }  // namespace oriel::detail

@@ -37,7 +37,7 @@ std::vector<std::pair<int, int>> edges_of(const CapLoop& loop) {
 
 /// Of each lump of a choice the last one that is the same pocket, moved: what becomes of the one is
 /// known from the other. Itself, if there is none; nothing if that is not known of one.
-std::vector<std::size_t> models_of(const Choice& choice) {
+std::vector<std::size_t> models_of(const CutChoice& choice) {
   std::map<int, std::size_t> last_of_kind;
   const auto& lumps = choice.lumps;
   for (std::size_t i = 0; i < lumps.size(); ++i) {
@@ -56,20 +56,20 @@ std::vector<std::size_t> models_of(const Choice& choice) {
 
 /// A lump of a choice is a pocket that comes off without a body, as the leaf that it is. `models`:
 /// those of the choice.
-bool is_leaf(const Choice& choice, const Lump& lump, const std::vector<std::size_t>& models) {
+bool is_leaf(const CutChoice& choice, const Lump& lump, const std::vector<std::size_t>& models) {
   return !models.empty() && choice.is_natural && lump.pocket >= 0 &&
          choice.pockets->is_leaf(choice.pockets->kind_of(lump.pocket));
 }
 
 /// What a cut that took a part off has changed of the rest. `size`: about how many vertices the
 /// part has.
-RestChange change_of(const Carved& carved, const std::vector<Cap>& caps, std::size_t size) {
+RestChange change_of(const Carved& carved, const std::vector<CutCap>& caps, std::size_t size) {
   RestChange change;
   change.points = sorted_uniquely(carved.touched, static_cast<int>(size), carved.lump.world());
   const bool is_simple =
       caps.size() == 1 && caps[0].loops.size() == 1 && caps[0].covered.empty() && !caps[0].is_taken;
   if (is_simple) change.rim = edges_of(caps[0].loops[0]);
-  for (const Cap& cap : caps) {
+  for (const CutCap& cap : caps) {
     change.has_covered |= !cap.covered.empty() || cap.is_taken;
     if (!carved.has_rim_left) continue;
     for (const CapLoop& loop : cap.loops)
@@ -79,11 +79,11 @@ RestChange change_of(const Carved& carved, const std::vector<Cap>& caps, std::si
 }
 
 /// What filling a pocket has changed of the rest. `points`: the vertices of the pocket.
-RestChange change_of_pocket(const Cap& cap, std::vector<int> points) {
+RestChange change_of_pocket(const CutCap& cap, std::vector<int> points) {
   return {.points = std::move(points), .rim = edges_of(cap.loops[0]), .is_natural = true};
 }
 
-double area_of(World& world, const Cap& cap) {
+double area_of(World& world, const CutCap& cap) {
   double area = 0;
   for (const CapLoop& loop : cap.loops) {
     Outline& outline = world.scratch.outline;
@@ -102,7 +102,7 @@ struct Snapshot {
   PointTable::PointMark points;
 };
 
-Snapshot snapshot_of(const GrowingTree& tree, const WaitingBody& from, const Choice& choice) {
+Snapshot snapshot_of(const GrowingTree& tree, const WaitingBody& from, const CutChoice& choice) {
   const bool may_fail = !choice.is_natural || choice.imprinted;
   return {may_fail ? std::optional(from.body) : std::nullopt,
           from.node,
@@ -126,7 +126,7 @@ void restore(GrowingTree& tree, WaitingBody& from, Snapshot before) {
 /// One cut: its parts are taken off one after the other.
 class Cut {
  public:
-  Cut(GrowingTree& tree, WaitingBody& from, const Choice& choice)
+  Cut(GrowingTree& tree, WaitingBody& from, const CutChoice& choice)
       : tree_(tree), from_(from), choice_(choice) {}
 
   /// False if a rim separates nothing.
@@ -169,7 +169,7 @@ class Cut {
     here.kind = choice_.is_hole ? CsgNode::Kind::subtract : CsgNode::Kind::unite;
     here.value = choice_.value;
     here.quality = choice_.quality;
-    for (const Side side : choice_.sides) here.planes.push_back(tree_.cells.plane_id(side));
+    for (const PlaneSide side : choice_.sides) here.planes.push_back(tree_.cells.plane_id(side));
     std::ranges::sort(here.planes);
     here.parts.reserve(choice_.lumps.size() + choice_.patches.size());
     const NodeId rest = tree_.add_node();
@@ -178,7 +178,7 @@ class Cut {
 
   bool take_off_lump(const Lump& lump) {
     std::vector<int> touched;
-    std::vector<Cap> caps;
+    std::vector<CutCap> caps;
     if (lump.pocket >= 0)
       caps.push_back(choice_.pockets->cap_of(lump.pocket));
     else
@@ -186,12 +186,12 @@ class Cut {
     has_changed_body_ |= !touched.empty();
     if (caps.empty()) return false;
     std::size_t loops = 0;
-    for (const Cap& cap : caps) loops += cap.loops.size() + cap.covered.size();
+    for (const CutCap& cap : caps) loops += cap.loops.size() + cap.covered.size();
     result_.may_have_parted |= loops > 1;
     return take_off_part(std::move(caps), {lump.new_area, lump.value}, std::move(touched));
   }
 
-  bool take_off_part(std::vector<Cap> caps, PartMeasures measures, std::vector<int> touched) {
+  bool take_off_part(std::vector<CutCap> caps, PartMeasures measures, std::vector<int> touched) {
     const bool is_natural = choice_.is_natural && touched.empty();
     auto carved =
         take_off(from_.body, caps, choice_.is_hole, tree_.next_feature(), std::move(touched));
@@ -201,18 +201,18 @@ class Cut {
     feature.vertices = points_of(carved->lump);
     RestChange change = change_of(*carved, caps, feature.vertices.size());
     change.is_natural = is_natural;
-    std::erase_if(caps, [](const Cap& cap) { return cap.is_taken; });
+    std::erase_if(caps, [](const CutCap& cap) { return cap.is_taken; });
     if (caps.size() > 1)
       std::ranges::stable_sort(caps, std::greater{},
-                               [&](const Cap& cap) { return area_of(tree_.world, cap); });
+                               [&](const CutCap& cap) { return area_of(tree_.world, cap); });
     describe_cut(feature, caps, measures);
     feature.cap_point = carved->cap_point;
-    for (const Cap& cap : caps) feature.surface_m2 -= area_of(tree_.world, cap);
+    for (const CutCap& cap : caps) feature.surface_m2 -= area_of(tree_.world, cap);
     measure(feature, carved->lump);
     const int sign = sign_of(feature);
     WaitingBody& part = tree_.add_part(from_, std::move(carved->lump), sign, std::move(feature));
     if (!choice_.is_hole && choice_.sides.size() > 1)
-      for (const Side side : choice_.sides) part.own_planes.push_back(side >> 1);
+      for (const PlaneSide side : choice_.sides) part.own_planes.push_back(side >> 1);
     result_.changes.push_back(std::move(change));
     return true;
   }
@@ -221,8 +221,8 @@ class Cut {
   /// or, if there is none, is a leaf.
   void take_off_pocket(const Lump& lump, const Lump* model) {
     const Pockets& pockets = *choice_.pockets;
-    const Cap cap = pockets.cap_of(lump.pocket);
-    const std::vector<int> facets = pockets.facets_of(lump.pocket);
+    const CutCap cap = pockets.cap_of(lump.pocket);
+    const std::vector<BodyFacetId> facets = pockets.facets_of(lump.pocket);
     std::optional<Congruence> how;
     std::optional<PocketLeaf> leaf;
     if (model != nullptr)
@@ -246,7 +246,7 @@ class Cut {
   }
 
   /// Says of a part what its cut tells: sense, value, areas and planes. `caps`: the largest first.
-  void describe_cut(Feature& feature, std::span<const Cap> caps, PartMeasures measures) {
+  void describe_cut(Feature& feature, std::span<const CutCap> caps, PartMeasures measures) {
     // A hole in a void is material: the sense is that of the building.
     const bool is_material = choice_.is_hole == (from_.sign < 0);
     feature.sense = is_material ? Sense::protrusion : Sense::hole;
@@ -255,7 +255,7 @@ class Cut {
     feature.new_area_m2 = measures.new_area;
     feature.old_area_m2 = choice_.old_area;
     feature.is_natural = choice_.is_natural;
-    for (const Cap& cap : caps) {
+    for (const CutCap& cap : caps) {
       const PlaneId plane = tree_.cells.plane_id(from_.sign < 0 ? cap.side ^ 1 : cap.side);
       if (std::ranges::find(feature.planes, plane) == feature.planes.end())
         feature.planes.push_back(plane);
@@ -266,7 +266,7 @@ class Cut {
 
   GrowingTree& tree_;
   WaitingBody& from_;
-  const Choice& choice_;
+  const CutChoice& choice_;
   CutResult result_;
   bool has_changed_body_ = false;
 };
@@ -274,9 +274,9 @@ class Cut {
 }  // namespace
 
 std::vector<int> points_of(const Boundary& body) {
-  const auto edges = std::views::iota(0, body.half_edge_count());
-  const auto is_alive = [&](int e) { return body.is_alive_edge(e); };
-  const auto origin = [&](int e) { return body.origin(e); };
+  const auto edges = body.half_edge_ids();
+  const auto is_alive = [&](EdgeId e) { return body.is_alive_edge(e); };
+  const auto origin = [&](EdgeId e) { return body.origin(e); };
   constexpr int kEdgesAtPoint = 3;  // at least
   return sorted_uniquely(edges | std::views::filter(is_alive) | std::views::transform(origin),
                          body.half_edge_count() / kEdgesAtPoint, body.world());
@@ -284,11 +284,11 @@ std::vector<int> points_of(const Boundary& body) {
 
 void measure(Feature& feature, const Boundary& body) {
   feature.volume_m3 = body.volume();
-  for (int f = 0; f < body.facet_count(); ++f)
+  for (const BodyFacetId f : body.facet_ids())
     if (body.is_alive(f)) feature.surface_m2 += body.area(f);
 }
 
-std::optional<CutResult> try_cut(GrowingTree& tree, WaitingBody& from, const Choice& choice) {
+std::optional<CutResult> try_cut(GrowingTree& tree, WaitingBody& from, const CutChoice& choice) {
   Snapshot before = snapshot_of(tree, from, choice);
   if (choice.imprinted) from.body = *choice.imprinted;
   Cut cut(tree, from, choice);

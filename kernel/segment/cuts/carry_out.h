@@ -21,7 +21,7 @@ struct CutResult {
 /// Nothing, and everything is as before, if the rim turns out to separate nothing, as may be
 /// between vertices that were rounded onto their planes (noisy input). Throws GeometryError if that
 /// is found out about a cut along edges that has changed the body already.
-std::optional<CutResult> try_cut(GrowingTree& tree, WaitingBody& from, const Choice& choice);
+std::optional<CutResult> try_cut(GrowingTree& tree, WaitingBody& from, const CutChoice& choice);
 
 /// The vertices of a body, sorted.
 std::vector<int> points_of(const Boundary& body);

@@ -5,6 +5,7 @@
 #include "kernel/segment/sections/section.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace oriel::detail {
@@ -12,7 +13,7 @@ namespace oriel::detail {
 /// One edge of a cap as the rest has it: along the rim of the lump (the half-edge there), or free:
 /// in the open, or inside the body, where two planes of the cut meet.
 struct CapEdge {
-  int rim = -1;
+  EdgeId rim = {};
   int from = -1, to = -1;  ///< points
 };
 
@@ -22,12 +23,12 @@ struct CapLoop {
 };
 
 /// A cap: the new facet that closes the rest where a lump was.
-struct Cap {
-  Side side = -1;
+struct CutCap {
+  PlaneSide side = -1;
   std::vector<CapLoop> loops;
   /// Facets of the opposite side under the cap: they vanish into the body, and so does the cap over
   /// them.
-  std::vector<int> covered;
+  std::vector<BodyFacetId> covered;
   /// No new facet, but a part of an old one (of the ground, under a lump) that goes with the lump:
   /// the facet beyond the rim, whose side is the opposite of `side`.
   bool is_taken = false;
@@ -46,7 +47,7 @@ struct Carved {
   bool has_rim_left = false;
 };
 
-/// What a pocket (detail/pockets.h) leaves that is taken off without being made a body.
+/// What a pocket (cuts/pockets.h) leaves that is taken off without being made a body.
 struct Filled {
   Vec3 cap_point;      ///< a point inside its cap
   double volume = 0;   ///< of the body it would have been
@@ -56,8 +57,8 @@ struct Filled {
 /// Splits facets along the chords of the lump's regions, so that the lump is bounded by edges, and
 /// returns its caps. Points that were made and the ends of edges that were split are added to
 /// `touched`.
-std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lump,
-                         std::vector<int>& touched);
+std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
+                            std::vector<int>& touched);
 
 /// Takes the lump inside the rims of `caps` off the body. A protrusion goes with its surface; a
 /// hole is filled: its walls leave the body, and the lump is the air that was there, turned right
@@ -65,12 +66,12 @@ std::vector<Cap> imprint(Boundary& body, const Section& section, const Lump& lum
 /// largest cap of the rest.
 ///
 /// Nothing, and the body is as it was, if the rims do not separate a lump.
-std::optional<Carved> take_off(Boundary& body, const std::vector<Cap>& caps, bool is_hole,
+std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
                                FeatureId mark, std::vector<int> touched);
 
 /// Takes a pocket off the body as take_off() does, but makes no body of it. `facets`: those of the
 /// pocket, ascending; `cap`: what closes the rest.
-Filled fill_pocket(Boundary& body, const Cap& cap, const std::vector<int>& facets, bool is_hole,
-                   FeatureId mark);
+Filled fill_pocket(Boundary& body, const CutCap& cap, std::span<const BodyFacetId> facets,
+                   bool is_hole, FeatureId mark);
 
 }  // namespace oriel::detail

@@ -50,7 +50,7 @@ std::optional<double> strict_key(double new_area, double old_area, double limit)
 
 }  // namespace
 
-Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
+Chooser::Chooser(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
                  std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work)
     : body_(body),
       world_(body.world()),
@@ -62,12 +62,12 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, Side free_
       candidates_(body, options, free_side, own_planes_, stats, work),
       pockets_(body, free_side) {}
 
-std::optional<Choice> Chooser::next(const std::set<CutKey>& banned) {
+std::optional<CutChoice> Chooser::next(const std::set<CutKey>& banned) {
   banned_ = &banned;
   return options_.order == Order::natural ? natural_next() : paper_next();
 }
 
-std::optional<Choice> Chooser::natural_next() {
+std::optional<CutChoice> Chooser::natural_next() {
   candidates_.refresh(true);
   if (auto choice = best_section_cut(Pass::natural)) return choice;
   if (options_.max_order > 1)
@@ -82,7 +82,7 @@ std::optional<Choice> Chooser::natural_next() {
   return choice ? std::move(choice) : corner_cut({});
 }
 
-std::optional<Choice> Chooser::paper_next() {
+std::optional<CutChoice> Chooser::paper_next() {
   candidates_.refresh(false);
   if (auto choice = best_section_cut(Pass::strict)) return choice;
   if (options_.max_order == 1) return std::nullopt;
@@ -90,14 +90,14 @@ std::optional<Choice> Chooser::paper_next() {
 }
 
 /// The best cut with as few planes as possible.
-std::optional<Choice> Chooser::first_of_least_order(std::span<const Patch> patches) {
+std::optional<CutChoice> Chooser::first_of_least_order(std::span<const Patch> patches) {
   for (int order = 2; order <= options_.max_order; ++order)
     if (auto choice = best_patch_cut(patches, order, order)) return choice;
   return std::nullopt;
 }
 
 /// The best hole with as few planes as possible, natural or not.
-std::optional<Choice> Chooser::corner_cut(const std::vector<Patch>& natural) {
+std::optional<CutChoice> Chooser::corner_cut(const std::vector<Patch>& natural) {
   for (int order = 2; order <= options_.max_order; ++order) {
     std::vector<Patch> holes =
         find_corner_holes(body_,
@@ -125,13 +125,13 @@ std::vector<Patch> Chooser::patches(bool is_hole, double most) {
 }
 
 /// Smaller value, then hole before protrusion, larger volume of all parts, order of the planes.
-bool Chooser::is_better(const Choice& p, const Choice& q) const {
+bool Chooser::is_better(const CutChoice& p, const CutChoice& q) const {
   if (!is_same_value(p.value, q.value)) return p.value < q.value;
   if (p.is_hole != q.is_hole) return p.is_hole;
   if (!is_same_value(p.volume, q.volume)) return p.volume > q.volume;
-  const auto order = [&](const Choice& c) {
+  const auto order = [&](const CutChoice& c) {
     std::vector<std::tuple<double, double, double, double>> planes;
-    for (const Side s : c.sides) {
+    for (const PlaneSide s : c.sides) {
       const Vec3 n = world_.planes.normal(s);
       planes.emplace_back(n.x, n.y, n.z, world_.planes.offset_m(s));
     }
@@ -307,13 +307,13 @@ void Chooser::wait_for_sections(Pass pass) {
   std::ranges::make_heap(waiting_, std::greater{});
 }
 
-std::optional<Choice> Chooser::best_section_cut(Pass pass) {
+std::optional<CutChoice> Chooser::best_section_cut(Pass pass) {
   std::vector<RegionCandidate> candidates;
   lumps_.clear();
   lump_of_kind_.assign(at(pockets_.kind_count()), -1);
   wait_for_sections(pass);
   check_leaders(candidates, pass);
-  std::optional<Choice> best;
+  std::optional<CutChoice> best;
   boost::container::small_vector<std::pair<std::size_t, bool>, 8>
       done;  // sections, and which kind of their regions
   double least = std::numeric_limits<double>::infinity();
@@ -324,19 +324,19 @@ std::optional<Choice> Chooser::best_section_cut(Pass pass) {
     if (!is_same_value(candidates[i].key, least) || std::ranges::find(done, kind) != done.end())
       continue;
     done.push_back(kind);
-    Choice choice = choice_of(candidates, i);
+    CutChoice choice = choice_of(candidates, i);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }
   return best;
 }
 
 /// The leader with all lumps of the same plane and kind whose value is the same within value_rel.
-Choice Chooser::choice_of(const std::vector<RegionCandidate>& candidates,
-                          std::size_t leader) const {
+CutChoice Chooser::choice_of(const std::vector<RegionCandidate>& candidates,
+                             std::size_t leader) const {
   const RegionCandidate& first = candidates[leader];
   const Section& section = *first.section;
   const Region& region = section.regions[at(first.region)];
-  Choice choice;
+  CutChoice choice;
   choice.is_hole = !region.is_material;
   choice.is_natural = true;
   choice.value = first.key;
@@ -358,25 +358,25 @@ Choice Chooser::choice_of(const std::vector<RegionCandidate>& candidates,
   return choice;
 }
 
-std::optional<Choice> Chooser::best_patch_cut(std::span<const Patch> patches, int min_order,
-                                              int max_order) {
+std::optional<CutChoice> Chooser::best_patch_cut(std::span<const Patch> patches, int min_order,
+                                                 int max_order) {
   std::vector<const Patch*> fit;
   for (const Patch& p : patches) {
-    const auto order = std::ranges::count(p.caps, false, &Cap::is_taken);
+    const auto order = std::ranges::count(p.caps, false, &CutCap::is_taken);
     if (order >= min_order && order <= max_order && !(p.new_area / p.old_area >= limit()) &&
         !is_banned(p))
       fit.push_back(&p);
   }
-  std::optional<Choice> best;
+  std::optional<CutChoice> best;
   for (const Patch* leader : fit) {
-    Choice choice = choice_of(fit, *leader);
+    CutChoice choice = choice_of(fit, *leader);
     if (!best || is_better(choice, *best)) best = std::move(choice);
   }
   return best;
 }
 
-Choice Chooser::choice_of(std::span<const Patch* const> patches, const Patch& first) const {
-  Choice choice;
+CutChoice Chooser::choice_of(std::span<const Patch* const> patches, const Patch& first) const {
+  CutChoice choice;
   choice.is_hole = first.is_hole;
   choice.is_natural = true;
   choice.imprinted = first.imprinted;

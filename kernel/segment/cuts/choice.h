@@ -21,13 +21,13 @@ namespace oriel::detail {
 
 /// What the planes of one cut split off in one step: an n-ary node of the tree. Either lumps in
 /// front of one plane, or patches that several planes cap.
-struct Choice {
+struct CutChoice {
   bool is_hole = false;
   bool is_natural = false;
   double value = 0;    ///< the key the order sorts by, of the best part
   double quality = 0;  ///< new area / old area of the best part
   double volume = 0;   ///< of all parts
-  std::vector<Side> sides;
+  std::vector<PlaneSide> sides;
   double old_area = 0;
 
   const Section* section = nullptr;  ///< for one plane
@@ -40,7 +40,7 @@ struct Choice {
 
 /// Planes and kind of a cut.
 struct CutKey {
-  std::vector<Side> sides;
+  std::vector<PlaneSide> sides;
   bool is_hole = false;
   friend auto operator<=>(const CutKey&, const CutKey&) = default;
 };
@@ -50,11 +50,11 @@ class Chooser {
  public:
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of this
   /// body.
-  Chooser(const Boundary& body, const SegmentOptions& options, Side free_side,
+  Chooser(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
           std::vector<int> own_planes, SegmentationStats& stats, std::int64_t& work);
 
   /// The best cut by the order that is not `banned`, or nothing: the body is a leaf.
-  std::optional<Choice> next(const std::set<CutKey>& banned);
+  std::optional<CutChoice> next(const std::set<CutKey>& banned);
 
   /// Tells that the body has changed in this way and no other.
   void changed(const std::vector<RestChange>& changes) {
@@ -82,9 +82,9 @@ class Chooser {
   [[nodiscard]] const Lump& lump_of(const RegionCandidate& candidate) const {
     return lumps_[static_cast<std::size_t>(candidate.lump)];
   }
-  std::optional<Choice> natural_next();
-  std::optional<Choice> paper_next();
-  std::optional<Choice> best_section_cut(Pass pass);
+  std::optional<CutChoice> natural_next();
+  std::optional<CutChoice> paper_next();
+  std::optional<CutChoice> best_section_cut(Pass pass);
   [[nodiscard]] std::optional<double> key_of(Pass pass, const Region& region, double new_area,
                                              double old_area) const;
   [[nodiscard]] double least_key(std::size_t number, Pass pass);
@@ -97,11 +97,11 @@ class Chooser {
   Lump lump_at(const RegionCandidate& candidate, bool is_alone);
   Lump lump_of(int pocket, const RegionCandidate& candidate);
   Lump flood(const RegionCandidate& candidate);
-  std::optional<Choice> best_patch_cut(std::span<const Patch> patches, int min_order,
-                                       int max_order);
-  Choice choice_of(const std::vector<RegionCandidate>& candidates, std::size_t leader) const;
-  Choice choice_of(std::span<const Patch* const> patches, const Patch& first) const;
-  [[nodiscard]] bool is_better(const Choice& p, const Choice& q) const;
+  std::optional<CutChoice> best_patch_cut(std::span<const Patch> patches, int min_order,
+                                          int max_order);
+  CutChoice choice_of(const std::vector<RegionCandidate>& candidates, std::size_t leader) const;
+  CutChoice choice_of(std::span<const Patch* const> patches, const Patch& first) const;
+  [[nodiscard]] bool is_better(const CutChoice& p, const CutChoice& q) const;
   [[nodiscard]] bool is_banned(const Section& section, const Region& region) const {
     return !banned_->empty() &&
            banned_->contains({{section.split_side(region)}, !region.is_material});
@@ -110,14 +110,14 @@ class Chooser {
     return !banned_->empty() && banned_->contains({patch.sides(), patch.is_hole});
   }
   std::vector<Patch> patches(bool is_hole, double most);
-  std::optional<Choice> corner_cut(const std::vector<Patch>& natural);
-  std::optional<Choice> first_of_least_order(std::span<const Patch> patches);
+  std::optional<CutChoice> corner_cut(const std::vector<Patch>& natural);
+  std::optional<CutChoice> first_of_least_order(std::span<const Patch> patches);
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
 
   const Boundary& body_;
   World& world_;
   const SegmentOptions& options_;
-  Side free_side_;
+  PlaneSide free_side_;
   std::vector<int> own_planes_;
   SegmentationStats& stats_;
   std::int64_t& work_;

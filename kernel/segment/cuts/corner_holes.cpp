@@ -18,7 +18,7 @@ namespace {
 /// The holes of one set of planes.
 class CornerCutter {
  public:
-  CornerCutter(const Boundary& body, const std::vector<Side>& sides, double weld_m,
+  CornerCutter(const Boundary& body, const std::vector<PlaneSide>& sides, double weld_m,
                std::int64_t& work)
       : old_edges_(body.half_edge_count()),
         old_points_(body.world().points.size()),
@@ -31,14 +31,15 @@ class CornerCutter {
     // The body is copied, and asked what lies behind the planes; for each it is indexed and
     // changed.
     work_ += 2 * (std::ssize(sides_) + 1) * body_->half_edge_count();
-    for (const Side side : sides_)
+    for (const PlaneSide side : sides_)
       if (!imprint_all(side)) return {};
     std::vector<Patch> patches;
     FlatBody flat(*body_);
     for (const Component& component : components_behind()) {
       auto patch = cap_component(flat, true, component, work_);
       if (!patch || !is_exact(component)) continue;
-      patch->is_natural = std::ranges::all_of(component.rim, [&](int e) { return e < old_edges_; });
+      patch->is_natural =
+          std::ranges::all_of(component.rim, [&](EdgeId e) { return e.value < old_edges_; });
       patch->imprinted = body_;
       patches.push_back(std::move(*patch));
     }
@@ -51,9 +52,9 @@ class CornerCutter {
   [[nodiscard]] bool is_exact(const Component& component) const {
     const World& world = body_->world();
     constexpr double kBesidePlane = 1.0 / 16;  // of weld_m: vertices are one long before
-    return std::ranges::all_of(component.rim, [&](int e) {
+    return std::ranges::all_of(component.rim, [&](EdgeId e) {
       const int point = body_->origin(e);
-      const Side side = rim_side(*body_, sides_, e);
+      const PlaneSide side = rim_side(*body_, sides_, e);
       const double distance =
           dot(world.planes.normal(side), world.points.at(point)) - world.planes.offset_m(side);
       return point < old_points_ || std::abs(distance) <= kBesidePlane * weld_m_;
@@ -61,7 +62,7 @@ class CornerCutter {
   }
 
   /// Makes the whole outline of the section just behind the plane edges of the body.
-  bool imprint_all(Side side) {
+  bool imprint_all(PlaneSide side) {
     EdgeIndex edges(*body_, {side >> 1});
     const int behind = (side & 1) != 0 ? 1 : -1;
     Section section{side >> 1, behind};
@@ -75,15 +76,15 @@ class CornerCutter {
     return true;
   }
 
-  [[nodiscard]] bool is_behind_all(int f) const {
+  [[nodiscard]] bool is_behind_all(BodyFacetId f) const {
     if (!body_->is_alive(f)) return false;
-    const Side own = body_->facet(f).side;
-    if (std::ranges::any_of(sides_, [&](Side s) { return s >> 1 == own >> 1; })) return false;
-    return std::ranges::all_of(body_->facet(f).loops, [&](int l) {
-      const int first = body_->loop(l).first;
-      int e = first;
+    const PlaneSide own = body_->facet(f).side;
+    if (std::ranges::any_of(sides_, [&](PlaneSide s) { return s >> 1 == own >> 1; })) return false;
+    return std::ranges::all_of(body_->facet(f).loops, [&](LoopId l) {
+      const EdgeId first = body_->loop(l).first;
+      EdgeId e = first;
       do {
-        for (const Side side : sides_)
+        for (const PlaneSide side : sides_)
           if (body_->world().points.level(body_->origin(e), side) > 0) return false;
         e = body_->next(e);
       } while (e != first);
@@ -93,24 +94,25 @@ class CornerCutter {
 
   /// Connected facets behind all planes whose rim lies on all of them, and that bend inward.
   std::vector<Component> components_behind() {
-    std::vector<int> state(at(body_->facet_count()), 0);  // 1: behind, 2: and in a component
-    for (int f = 0; f < body_->facet_count(); ++f) state[at(f)] = is_behind_all(f) ? 1 : 0;
+    IndexedVector<BodyFacetId, int> state(at(body_->facet_count()),
+                                          0);  // 1: behind, 2: and in a component
+    for (const BodyFacetId f : body_->facet_ids()) state[f] = is_behind_all(f) ? 1 : 0;
     std::vector<Component> found;
-    for (int start = 0; start < body_->facet_count(); ++start) {
-      if (state[at(start)] != 1) continue;
+    for (const BodyFacetId start : body_->facet_ids()) {
+      if (state[start] != 1) continue;
       Component component{{start}, {}, {}};
-      state[at(start)] = 2;
+      state[start] = 2;
       bool has_bend = false;
       for (std::size_t i = 0; i < component.facets.size(); ++i)
-        body_->for_each_edge(component.facets[i], [&](int e) {
-          const int g = body_->facet_of(body_->twin(e));
-          if (state[at(g)] == 0) {
+        body_->for_each_edge(component.facets[i], [&](EdgeId e) {
+          const BodyFacetId g = body_->facet_of(body_->twin(e));
+          if (state[g] == 0) {
             component.rim.push_back(e);
             return;
           }
           has_bend |= body_->is_reflex(e);
-          if (state[at(g)] != 1) return;
-          state[at(g)] = 2;
+          if (state[g] != 1) return;
+          state[g] = 2;
           component.facets.push_back(g);
         });
       if (!has_bend || !lies_on_all(component)) continue;
@@ -123,9 +125,9 @@ class CornerCutter {
   }
 
   [[nodiscard]] bool lies_on_all(const Component& component) const {
-    std::set<Side> met;
-    for (const int e : component.rim) {
-      const Side side = rim_side(*body_, sides_, e);
+    std::set<PlaneSide> met;
+    for (const EdgeId e : component.rim) {
+      const PlaneSide side = rim_side(*body_, sides_, e);
       if (side < 0) return false;
       met.insert(side);
     }
@@ -134,7 +136,7 @@ class CornerCutter {
 
   int old_edges_, old_points_;
   std::shared_ptr<Boundary> body_;
-  const std::vector<Side>& sides_;
+  const std::vector<PlaneSide>& sides_;
   double weld_m_;
   std::int64_t& work_;
 };
@@ -143,7 +145,7 @@ class CornerHoleFinder {
  public:
   CornerHoleFinder(const Boundary& body, const CornerHoleOptions& options, std::int64_t& work)
       : body_(body), options_(options), work_(work) {
-    for (const int f : body.living_facets()) all_sides_.insert(body.facet(f).side);
+    for (const BodyFacetId f : body.living_facets()) all_sides_.insert(body.facet(f).side);
   }
 
   std::vector<Patch> run() {
@@ -153,7 +155,7 @@ class CornerHoleFinder {
       if (group.facets.size() < 2) continue;
       const Component component = options_.has_all_sides ? with_neighbours(group, groups) : group;
       edges_ = edges_of(component);
-      std::vector<Side> set;
+      std::vector<PlaneSide> set;
       try_sets(sides_for(component), 0, set);
     }
     return std::move(patches_);
@@ -163,14 +165,14 @@ class CornerHoleFinder {
   void number_groups(const std::vector<Component>& groups) {
     group_of_.assign(at(body_.facet_count()), -1);
     for (int g = 0; g < std::ssize(groups); ++g)
-      for (const int f : groups[at(g)].facets) group_of_[at(f)] = g;
+      for (const BodyFacetId f : groups[at(g)].facets) group_of_[f] = g;
   }
 
   /// A pocket with those that open into it: a tunnel from another wall has its own bends.
   [[nodiscard]] Component with_neighbours(const Component& group,
                                           const std::vector<Component>& groups) const {
-    std::set<int> joined{group_of_[at(group.facets[0])]};
-    for (const int e : group.rim) joined.insert(group_of_[at(body_.facet_of(body_.twin(e)))]);
+    std::set<int> joined{group_of_[group.facets[0]]};
+    for (const EdgeId e : group.rim) joined.insert(group_of_[body_.facet_of(body_.twin(e))]);
     Component all;
     for (const int g : joined)
       if (groups[at(g)].facets.size() >= 2)
@@ -180,7 +182,8 @@ class CornerHoleFinder {
   }
 
   /// All sets of the order that can make a corner, each once.
-  void try_sets(const std::vector<Side>& sides, std::size_t first, std::vector<Side>& set) {
+  void try_sets(const std::vector<PlaneSide>& sides, std::size_t first,
+                std::vector<PlaneSide>& set) {
     if (std::ssize(set) == options_.order) return try_set(set);
     for (std::size_t i = first; i < sides.size() && work_ <= options_.budget; ++i) {
       if (!fits(set, sides[i])) continue;
@@ -191,33 +194,33 @@ class CornerHoleFinder {
   }
 
   /// It is a split plane, and equal normals never combine.
-  [[nodiscard]] bool fits(const std::vector<Side>& set, Side side) const {
+  [[nodiscard]] bool fits(const std::vector<PlaneSide>& set, PlaneSide side) const {
     if (std::ranges::find(options_.own_planes, side >> 1) != options_.own_planes.end())
       return false;
     const PlaneTable& planes = body_.world().planes;
-    return std::ranges::none_of(set, [&](Side s) {
+    return std::ranges::none_of(set, [&](PlaneSide s) {
       return planes.class_of(s >> 1) == planes.class_of(side >> 1) && (s & 1) == (side & 1);
     });
   }
 
   /// The sides beyond the rim. If all are asked for, those beyond every convex edge, be it between
   /// two facets of the component, and those of all facets of the body that cross one of its own.
-  [[nodiscard]] std::vector<Side> sides_for(const Component& component) const {
+  [[nodiscard]] std::vector<PlaneSide> sides_for(const Component& component) const {
     if (!options_.has_all_sides) return component.sides;
-    std::set<Side> sides;
-    for (const int f : component.facets)
-      body_.for_each_edge(f, [&](int e) {
+    std::set<PlaneSide> sides;
+    for (const BodyFacetId f : component.facets)
+      body_.for_each_edge(f, [&](EdgeId e) {
         if (!body_.is_reflex(e)) sides.insert(body_.side_of_edge(body_.twin(e)));
       });
-    for (const Side side : all_sides_)
-      if (std::ranges::any_of(component.facets, [&](int f) { return crosses(f, side); }))
+    for (const PlaneSide side : all_sides_)
+      if (std::ranges::any_of(component.facets, [&](BodyFacetId f) { return crosses(f, side); }))
         sides.insert(side);
     return {sides.begin(), sides.end()};
   }
 
-  [[nodiscard]] bool crosses(int f, Side side) const {
+  [[nodiscard]] bool crosses(BodyFacetId f, PlaneSide side) const {
     bool has_front = false, has_back = false;
-    body_.for_each_edge(f, [&](int e) {
+    body_.for_each_edge(f, [&](EdgeId e) {
       const int here = level(body_.origin(e), side);
       has_front |= here > 0;
       has_back |= here < 0;
@@ -226,27 +229,27 @@ class CornerHoleFinder {
   }
 
   /// The edges of a component's facets, each once.
-  [[nodiscard]] std::vector<int> edges_of(const Component& component) const {
-    std::vector<int> edges;
-    for (const int f : component.facets)
-      body_.for_each_edge(f, [&](int e) { edges.push_back(std::min(e, body_.twin(e))); });
+  [[nodiscard]] std::vector<EdgeId> edges_of(const Component& component) const {
+    std::vector<EdgeId> edges;
+    for (const BodyFacetId f : component.facets)
+      body_.for_each_edge(f, [&](EdgeId e) { edges.push_back(std::min(e, body_.twin(e))); });
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
   }
 
-  [[nodiscard]] int level(int point, Side side) const {
+  [[nodiscard]] int level(int point, PlaneSide side) const {
     return body_.world().points.level(point, side);
   }
 
   /// The wall of a hole holds a bend, of which a part lies behind all planes, and each plane meets
   /// an edge of the component where it is not in front of another.
-  [[nodiscard]] bool can_cut(const std::vector<Side>& set) const {
+  [[nodiscard]] bool can_cut(const std::vector<PlaneSide>& set) const {
     bool has_bend = false;
     std::vector<char> is_met(set.size(), 0);
-    for (const int e : edges_) {
+    for (const EdgeId e : edges_) {
       bool is_behind = true, reaches_behind = true;
-      for (const Side side : set) {
+      for (const PlaneSide side : set) {
         const int low = std::min(level(body_.origin(e), side), level(body_.target(e), side));
         is_behind &= low < 0;
         reaches_behind &= low <= 0;
@@ -260,7 +263,7 @@ class CornerHoleFinder {
     return has_bend && std::ranges::find(is_met, 0) == is_met.end();
   }
 
-  void try_set(const std::vector<Side>& set) {
+  void try_set(const std::vector<PlaneSide>& set) {
     work_ += std::ssize(edges_);
     if (!can_cut(set) || !seen_.insert(set).second) return;
     auto& points = body_.world().points;
@@ -273,10 +276,10 @@ class CornerHoleFinder {
   const Boundary& body_;
   const CornerHoleOptions& options_;
   std::int64_t& work_;
-  std::set<Side> all_sides_;
-  std::vector<int> group_of_;  ///< by facet
-  std::vector<int> edges_;     ///< of the component at hand
-  std::set<std::vector<Side>> seen_;
+  std::set<PlaneSide> all_sides_;
+  IndexedVector<BodyFacetId, int> group_of_;
+  std::vector<EdgeId> edges_;  ///< of the component at hand
+  std::set<std::vector<PlaneSide>> seen_;
   std::vector<Patch> patches_;
 };
 
@@ -288,7 +291,7 @@ std::vector<Patch> find_corner_holes(const Boundary& body, const CornerHoleOptio
 }
 
 void remove_seams(Boundary& body) {
-  for (const int f : body.living_facets())
+  for (const BodyFacetId f : body.living_facets())
     if (body.is_alive(f)) body.heal(f);
 }
 

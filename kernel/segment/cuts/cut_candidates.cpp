@@ -13,7 +13,7 @@ namespace {
 /// Ascending.
 std::vector<int> split_planes_of(const Boundary& body, const std::vector<int>& own_planes) {
   std::vector<int> planes;
-  for (const Side side : body.sides())
+  for (const PlaneSide side : body.sides())
     if (planes.empty() || planes.back() != side >> 1) planes.push_back(side >> 1);
   std::erase_if(
       planes, [&](int plane) { return std::ranges::find(own_planes, plane) != own_planes.end(); });
@@ -41,9 +41,9 @@ bool is_without_cuts(const Section& section) {
 
 }  // namespace
 
-CutCandidates::CutCandidates(const Boundary& body, const SegmentOptions& options, Side free_side,
-                             const std::vector<int>& own_planes, SegmentationStats& stats,
-                             std::int64_t& work)
+CutCandidates::CutCandidates(const Boundary& body, const SegmentOptions& options,
+                             PlaneSide free_side, const std::vector<int>& own_planes,
+                             SegmentationStats& stats, std::int64_t& work)
     : body_(body),
       world_(body.world()),
       section_options_{free_side, options.tolerances.weld_m},

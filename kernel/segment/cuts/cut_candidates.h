@@ -55,7 +55,7 @@ class CutCandidates {
  public:
   /// `free_side`: the ground, in which outlines are free. `own_planes`: no split planes of the
   /// body.
-  CutCandidates(const Boundary& body, const SegmentOptions& options, Side free_side,
+  CutCandidates(const Boundary& body, const SegmentOptions& options, PlaneSide free_side,
                 const std::vector<int>& own_planes, SegmentationStats& stats, std::int64_t& work);
 
   /// Tells that the body has changed in this way and in no other since the last call.

@@ -16,19 +16,18 @@ LumpFinder::LumpFinder(const Boundary& body, const Section& section)
       previous_(section.crossings.size(), -1),
       region_of_(section.loops.size(), {-1, -1}),
       crossing_stamp_(section.crossings.size(), 0) {
-  if (std::ssize(scratch_.crossing_of_edge) < body.half_edge_count())
+  if (scratch_.crossing_of_edge.size() < at(body.half_edge_count()))
     scratch_.crossing_of_edge.resize(at(body.half_edge_count()));
-  if (std::ssize(scratch_.last_chord_in) < body.facet_count())
+  if (scratch_.last_chord_in.size() < at(body.facet_count()))
     scratch_.last_chord_in.resize(at(body.facet_count()));
   scratch_.facets_with_chord.start(body.facet_count());
   for (int c = 0; c < std::ssize(section.crossings); ++c) {
     const Crossing& crossing = section.crossings[at(c)];
-    scratch_.crossing_of_edge[at(crossing.edge)] = c;
+    scratch_.crossing_of_edge[crossing.edge] = c;
     previous_[at(crossing.next)] = c;
-    const int f = body.facet_of(crossing.edge);
-    if (!scratch_.facets_with_chord.insert(f))
-      next_in_facet_[at(c)] = scratch_.last_chord_in[at(f)];
-    scratch_.last_chord_in[at(f)] = c;
+    const BodyFacetId f = body.facet_of(crossing.edge);
+    if (!scratch_.facets_with_chord.insert(f)) next_in_facet_[at(c)] = scratch_.last_chord_in[f];
+    scratch_.last_chord_in[f] = c;
   }
   for (int r = 0; r < std::ssize(section.regions); ++r)
     for (const int l : section.regions[at(r)].loops)
@@ -48,7 +47,7 @@ Lump LumpFinder::find(int region) {
   for (const int l : start.loops) push(section_.crossings[at(section_.loops[at(l)].first)].edge);
   do {
     while (!stack_.empty()) {
-      const int e = stack_.back();
+      const EdgeId e = stack_.back();
       stack_.pop_back();
       visit(e);
     }
@@ -61,7 +60,7 @@ Lump LumpFinder::find(int region) {
   } while (!stack_.empty());
 
   std::ranges::sort(lump_.regions);
-  const Side looking = section_.looking();
+  const PlaneSide looking = section_.looking();
   double cap_area = 0;
   for (const int r : lump_.regions) {
     cap_area += section_.regions[at(r)].area;
@@ -72,16 +71,16 @@ Lump LumpFinder::find(int region) {
   return lump_;
 }
 
-void LumpFinder::push(int e) {
+void LumpFinder::push(EdgeId e) {
   if (scratch_.flooded_edges.insert(e)) stack_.push_back(e);
 }
 
 /// Half-edges that start on the looked-at side. From each the flood goes on along its facet and
 /// over to the neighbour.
-void LumpFinder::visit(int e) {
-  const int f = body_.facet_of(e);
+void LumpFinder::visit(EdgeId e) {
+  const BodyFacetId f = body_.facet_of(e);
   if (scratch_.flooded_facets.insert(f)) facets_.push_back(f);
-  const int t = body_.twin(e);
+  const EdgeId t = body_.twin(e);
   if (!lump_.has_bend && body_.is_reflex(e)) lump_.has_bend = true;
   if (is_up(body_.target(e))) {
     add_segment(e, body_.at(e), body_.at(t));
@@ -91,7 +90,7 @@ void LumpFinder::visit(int e) {
     reach(crossing_of(e));
   }
   push(body_.next(t));
-  const int before = body_.prev(e);
+  const EdgeId before = body_.prev(e);
   push(is_up(body_.origin(before)) ? before : body_.twin(before));
 }
 
@@ -100,7 +99,7 @@ void LumpFinder::reach(int c) {
   crossing_stamp_[at(c)] = stamp_;
   const Crossing& crossing = section_.crossings[at(c)];
   const Crossing& partner = section_.crossings[at(crossing.next)];
-  const int up = body_.twin(crossing.edge);
+  const EdgeId up = body_.twin(crossing.edge);
   add_segment(crossing.edge, body_.at(crossing.edge), crossing.at);
   add_segment(crossing.edge, crossing.at, partner.at);
   add_segment(up, crossing.at, body_.at(crossing.edge));
@@ -122,7 +121,7 @@ void LumpFinder::visit_piece(int c, Visit visit) const {
     visit(section_.crossings[at(c)].at);
     c = section_.crossings[at(c)].next;
     visit(section_.crossings[at(c)].at);
-    int e = body_.next(body_.twin(section_.crossings[at(c)].edge));
+    EdgeId e = body_.next(body_.twin(section_.crossings[at(c)].edge));
     for (; is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
     visit(body_.at(e));
     c = crossing_of(e);
@@ -135,7 +134,7 @@ void LumpFinder::visit_lower_piece(int c, Visit visit) const {
   const int start = c;
   do {
     visit(section_.crossings[at(c)].at);
-    int e = body_.next(section_.crossings[at(c)].edge);
+    EdgeId e = body_.next(section_.crossings[at(c)].edge);
     for (; !is_up(body_.target(e)); e = body_.next(e)) visit(body_.at(e));
     visit(body_.at(e));
     const int end = crossing_of(body_.twin(e));
@@ -146,7 +145,7 @@ void LumpFinder::visit_lower_piece(int c, Visit visit) const {
 
 /// The pieces of the facet on both sides of the chord have area.
 bool LumpFinder::has_sound_pieces(int c) const {
-  const int f = body_.facet_of(section_.crossings[at(c)].edge);
+  const BodyFacetId f = body_.facet_of(section_.crossings[at(c)].edge);
   const Vec3 normal = body_.world().planes.normal(body_.facet(f).side);
   const Vec3 start = section_.crossings[at(c)].at;
   const auto area_of = [&](auto visit_points) {
@@ -168,7 +167,7 @@ bool LumpFinder::has_sound_pieces(int c) const {
   const auto lower = [&](auto visit) { visit_lower_piece(c, visit); };
   const double upper_area = area_of(upper);
   // In a facet with one loop and one chord the other piece is what is left.
-  const bool is_only_chord = scratch_.last_chord_in[at(f)] == c && next_in_facet_[at(c)] < 0;
+  const bool is_only_chord = scratch_.last_chord_in[f] == c && next_in_facet_[at(c)] < 0;
   if (is_only_chord && body_.facet(f).loops.size() == 1 && upper_area > 0 &&
       body_.area(f) - upper_area >
           -kThin_m * length(section_.crossings[at(section_.crossings[at(c)].next)].at - start))
@@ -177,8 +176,8 @@ bool LumpFinder::has_sound_pieces(int c) const {
 }
 
 /// What a directed piece of a facet's outline adds to a third of offset × area.
-void LumpFinder::add_segment(int e, Vec3 from, Vec3 to) {
-  const Side side = body_.side_of_edge(e);
+void LumpFinder::add_segment(EdgeId e, Vec3 from, Vec3 to) {
+  const PlaneSide side = body_.side_of_edge(e);
   const auto& planes = body_.world().planes;
   patch_volume_ += planes.offset_m(side) * dot(planes.normal(side), cross(from, to)) / 6;
 }
@@ -187,12 +186,12 @@ void LumpFinder::add_segment(int e, Vec3 from, Vec3 to) {
 /// nor the outline on the way along the loop: whichever was reached brings the other.
 void LumpFinder::tie_enclosed_loops() {
   for (std::size_t i = 0; i < facets_.size(); ++i) {
-    const int f = facets_[i];
+    const BodyFacetId f = facets_[i];
     const bool is_cut = scratch_.facets_with_chord.contains(f);
     const auto& loops = body_.facet(f).loops;
     // The only loop was reached: nothing else to tie.
     if (loops.size() == 1) continue;
-    for (const int l : loops) {
+    for (const LoopId l : loops) {
       if (!is_wholly_up(l)) continue;
       if (is_cut)
         tie_loop_to_piece(f, l);
@@ -202,9 +201,9 @@ void LumpFinder::tie_enclosed_loops() {
   }
 }
 
-bool LumpFinder::is_wholly_up(int loop) const {
-  const int first = body_.loop(loop).first;
-  int e = first;
+bool LumpFinder::is_wholly_up(LoopId loop) const {
+  const EdgeId first = body_.loop(loop).first;
+  EdgeId e = first;
   do {
     if (!is_up(body_.origin(e))) return false;
     e = body_.next(e);
@@ -212,11 +211,11 @@ bool LumpFinder::is_wholly_up(int loop) const {
   return true;
 }
 
-void LumpFinder::tie_loop_to_piece(int facet, int loop) {
-  const int first = body_.loop(loop).first;
+void LumpFinder::tie_loop_to_piece(BodyFacetId facet, LoopId loop) {
+  const EdgeId first = body_.loop(loop).first;
   const bool has_loop = is_reached(first);
   const Vec3 normal = body_.world().planes.normal(body_.facet(facet).side);
-  for (int c = scratch_.last_chord_in[at(facet)]; c >= 0; c = next_in_facet_[at(c)]) {
+  for (int c = scratch_.last_chord_in[facet]; c >= 0; c = next_in_facet_[at(c)]) {
     const bool has_piece = crossing_stamp_[at(c)] == stamp_;
     if (has_piece == has_loop) continue;
     Outline piece;

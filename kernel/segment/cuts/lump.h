@@ -41,14 +41,14 @@ class LumpFinder {
   [[nodiscard]] Lump find(int region);
 
  private:
-  void push(int e);
-  void visit(int e);
+  void push(EdgeId e);
+  void visit(EdgeId e);
   void reach(int crossing);
   [[nodiscard]] bool has_sound_pieces(int crossing) const;
-  void add_segment(int e, Vec3 from, Vec3 to);
+  void add_segment(EdgeId e, Vec3 from, Vec3 to);
   void tie_enclosed_loops();
-  void tie_loop_to_piece(int facet, int loop);
-  [[nodiscard]] bool is_wholly_up(int loop) const;
+  void tie_loop_to_piece(BodyFacetId facet, LoopId loop);
+  [[nodiscard]] bool is_wholly_up(LoopId loop) const;
   template <class Visit>
   void visit_piece(int crossing, Visit visit) const;
   template <class Visit>
@@ -56,10 +56,8 @@ class LumpFinder {
   [[nodiscard]] bool is_up(int point) const {
     return (ranks_[static_cast<std::size_t>(point)] - plane_rank_) * section_.direction > 0;
   }
-  [[nodiscard]] int crossing_of(int e) const {
-    return scratch_.crossing_of_edge[static_cast<std::size_t>(e)];
-  }
-  [[nodiscard]] bool is_reached(int e) const { return scratch_.flooded_edges.contains(e); }
+  [[nodiscard]] int crossing_of(EdgeId e) const { return scratch_.crossing_of_edge[e]; }
+  [[nodiscard]] bool is_reached(EdgeId e) const { return scratch_.flooded_edges.contains(e); }
 
   const Boundary& body_;
   const Section& section_;
@@ -75,7 +73,8 @@ class LumpFinder {
   bool is_material_ = true;
   int stamp_ = 0;
   std::vector<int> crossing_stamp_;
-  std::vector<int> stack_, facets_;
+  std::vector<EdgeId> stack_;
+  std::vector<BodyFacetId> facets_;
   double patch_volume_ = 0;
   Lump lump_;
 };

@@ -1,7 +1,6 @@
 #include "kernel/segment/cuts/patch.h"
 
 #include "kernel/base/index.h"
-#include "kernel/segment/cuts/cap_areas.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +43,7 @@ class PatchFinder {
 
   std::vector<Patch> run() {
     grow_all();
-    for (int f = 0; f < body_.facet_count(); ++f)
+    for (const BodyFacetId f : body_.facet_ids())
       if (body_.is_alive(f)) surface_ += body_.area(f);
     Component alone, widened;
     met_groups_.reserve(4 * grown_.size());
@@ -79,15 +78,15 @@ class PatchFinder {
     sides_.reserve(at(body_.facet_count()));
     grown_.reserve(at(body_.facet_count()));
     rims_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()));
-    for (int f = 0; f < body_.facet_count(); ++f)
-      if (body_.is_alive(f) && number_of_[at(f)] < 0 && !is_ground(f)) grow(f);
+    for (const BodyFacetId f : body_.facet_ids())
+      if (body_.is_alive(f) && number_of_[f] < 0 && !is_ground(f)) grow(f);
     find_neighbours();
   }
 
   /// Inside a hole surfaces meet in reflex edges, on a protrusion in convex ones.
-  [[nodiscard]] bool ties(int e) const { return body_.is_reflex(e) == is_hole_; }
+  [[nodiscard]] bool ties(EdgeId e) const { return body_.is_reflex(e) == is_hole_; }
 
-  [[nodiscard]] bool is_ground(int f) const {
+  [[nodiscard]] bool is_ground(BodyFacetId f) const {
     return !is_hole_ && body_.facet(f).side == options_.free_side;
   }
 
@@ -111,7 +110,8 @@ class PatchFinder {
   };
   /// A half-edge of a rim, and the facet beyond it.
   struct RimEdge {
-    int edge, beyond;
+    EdgeId edge;
+    BodyFacetId beyond;
   };
 
   /// Sorts what stands from `first` on, each once.
@@ -124,30 +124,30 @@ class PatchFinder {
   }
 
   /// Collects the facets that hang together with `start`.
-  void grow(int start) {
+  void grow(BodyFacetId start) {
     const int number = static_cast<int>(grown_.size());
     const std::size_t first = facets_.size(), first_rim = rims_.size(), first_side = sides_.size();
     Grown& group = grown_.emplace_back();
     facets_.push_back(start);
-    number_of_[at(start)] = number;
+    number_of_[start] = number;
     for (std::size_t i = first; i < facets_.size(); ++i) {
       sides_.push_back(body_.facet(facets_[i]).side);
       const double area = body_.area(facets_[i]);
       group.area += area;
       group.open = group.open + area * world_.planes.normal(sides_.back());
-      body_.for_each_edge(facets_[i], [&](int e) {
-        const int g = body_.facet_of(body_.twin(e));
-        if (number_of_[at(g)] == number) return;
-        if (number_of_[at(g)] >= 0 || !ties(e) || is_ground(g)) {
+      body_.for_each_edge(facets_[i], [&](EdgeId e) {
+        const BodyFacetId g = body_.facet_of(body_.twin(e));
+        if (number_of_[g] == number) return;
+        if (number_of_[g] >= 0 || !ties(e) || is_ground(g)) {
           rims_.push_back({e, g});
           return;
         }
-        number_of_[at(g)] = number;
+        number_of_[g] = number;
         facets_.push_back(g);
       });
     }
     // An edge may have been met before its other side joined the group.
-    const auto is_inside = [&](const RimEdge& e) { return number_of_[at(e.beyond)] == number; };
+    const auto is_inside = [&](const RimEdge& e) { return number_of_[e.beyond] == number; };
     const auto rim = rims_.begin() + static_cast<std::ptrdiff_t>(first_rim);
     rims_.erase(std::remove_if(rim, rims_.end(), is_inside), rims_.end());
     group.facets = {first, facets_.size()};
@@ -163,7 +163,7 @@ class PatchFinder {
         if (is_ground(e.beyond))
           group.meets_ground = true;
         else
-          beyond_.emplace_back(body_.facet(e.beyond).side, number_of_[at(e.beyond)]);
+          beyond_.emplace_back(body_.facet(e.beyond).side, number_of_[e.beyond]);
       }
       group.beyond = close(beyond_, first);
     }
@@ -205,7 +205,7 @@ class PatchFinder {
   /// Of the groups at hand as one component: the sides on which its rim lies. False, and not all of
   /// them, if these are more than `most` without the ground.
   bool find_sides(Component& component, std::size_t most) const {
-    std::vector<Side>& sides = component.sides;
+    std::vector<PlaneSide>& sides = component.sides;
     sides.clear();
     component.ground = -1;
     for (const int n : widened_) {
@@ -231,7 +231,7 @@ class PatchFinder {
       const auto facets = group.facets.of(facets_);
       component.facets.insert(component.facets.end(), facets.begin(), facets.end());
       for (const RimEdge& e : group.rim.of(rims_))
-        if (is_ground(e.beyond) || !is_widened(number_of_[at(e.beyond)]))
+        if (is_ground(e.beyond) || !is_widened(number_of_[e.beyond]))
           component.rim.push_back(e.edge);
     }
     std::ranges::sort(component.facets);
@@ -242,21 +242,21 @@ class PatchFinder {
   /// bits of limit_bits_, and between which group `n`, which the component is, can be widened.
   template <class Visit>
   void for_fewer_sides(int n, const Component& component, const Visit& visit) {
-    boost::container::small_vector<Side, kMostLimits> sides;
-    for (const Side side : component.sides)
+    boost::container::small_vector<PlaneSide, kMostLimits> sides;
+    for (const PlaneSide side : component.sides)
       if (side != component.ground) sides.push_back(side);
     if (sides.size() < 3 || sides.size() > kMostLimits) return;
     if (limit_bits_.empty()) limit_bits_.assign(2 * at(world_.planes.size()), 0);
     for (std::size_t i = 0; i < sides.size(); ++i) limit_bits_[at(sides[i])] = 1U << i;
     for (std::size_t i = 0; i < grown_.size(); ++i) {
       unsigned own = 0;
-      for (const Side side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
+      for (const PlaneSide side : grown_[i].sides.of(sides_)) own |= limit_bits_[at(side)];
       at_hand_[i].own_limits = own;
     }
     // Widened once more there, as few as they are: in ascending order, which ties are decided by.
     const auto sets = sets_to_widen_in(n, sides.size());
     for (auto set = sets.rbegin(); set != sets.rend(); ++set) visit(*set);
-    for (const Side side : sides) limit_bits_[at(side)] = 0;
+    for (const PlaneSide side : sides) limit_bits_[at(side)] = 0;
   }
 
   /// Descending. A widening that fails tells of all sets with fewer planes, as it goes further in
@@ -345,7 +345,7 @@ class PatchFinder {
       area += grown_[at(n)].area;
     }
     boost::container::small_vector<Vec3, 4> normals;
-    for (const Side side : component.sides) {
+    for (const PlaneSide side : component.sides) {
       normals.push_back(world_.planes.normal(side));
       old_area += body_.area_on(side);
       covered += body_.area_on(side ^ 1);
@@ -356,7 +356,7 @@ class PatchFinder {
            options_.most_value * old_area + covered + slack;
   }
 
-  [[nodiscard]] bool has_same_normal(Side s, Side t) const {
+  [[nodiscard]] bool has_same_normal(PlaneSide s, PlaneSide t) const {
     return world_.planes.class_of(s >> 1) == world_.planes.class_of(t >> 1) && (s & 1) == (t & 1);
   }
 
@@ -366,13 +366,13 @@ class PatchFinder {
   bool is_hole_;
   const PatchOptions& options_;
   std::int64_t& work_;
-  std::vector<int> number_of_;  ///< by facet, the group it is in
+  IndexedVector<BodyFacetId, int> number_of_;  ///< the group that a facet is in
   std::vector<Grown> grown_;
   // Of the groups, one after the other.
-  std::vector<int> facets_;
+  std::vector<BodyFacetId> facets_;
   std::vector<RimEdge> rims_;
-  std::vector<Side> sides_;
-  std::vector<std::pair<Side, int>> beyond_;
+  std::vector<PlaneSide> sides_;
+  std::vector<std::pair<PlaneSide, int>> beyond_;
   double surface_ = 0;  ///< of the body
   /// A group as widenings ask about it.
   struct AtHand {

@@ -13,8 +13,8 @@ struct PatchOptions {
   std::vector<int> own_planes;
   int max_order = 4;
   /// The ground (-1: none): of protrusions with two planes, the rim may leave out a part of it, see
-  /// Cap::is_taken.
-  Side free_side = -1;
+  /// CutCap::is_taken.
+  PlaneSide free_side = -1;
   /// Patches with more new area than so many times the old one are not asked for; most of them are
   /// left out.
   double most_value = std::numeric_limits<double>::infinity();

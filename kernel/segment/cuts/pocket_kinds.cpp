@@ -37,7 +37,7 @@ bool Pockets::is_like(const PocketKind& kind, Pocket& pocket, const Section& sec
   const Vec3 shift = in_metres(pocket.shift);
   const Vec3 from = body_.at(edges_[at(pockets_[at(kind.first)].first_edge)]) + shift;
   const auto start =
-      std::ranges::find_if(rim_, [&](int e) { return is_same_place(body_.at(e) - from); });
+      std::ranges::find_if(rim_, [&](EdgeId e) { return is_same_place(body_.at(e) - from); });
   return start != rim_.end() && walk_like(kind, *start, shift) &&
          are_corners_like(kind, shift, section) && are_facets_like(kind, pocket) &&
          has_own_sources();
@@ -45,8 +45,8 @@ bool Pockets::is_like(const PocketKind& kind, Pocket& pocket, const Section& sec
 
 /// Lists the half-edges of the pocket at hand from `start` on as those of the kind are listed.
 /// False if its facets hang together otherwise.
-bool Pockets::walk_like(const PocketKind& kind, int start, Vec3 shift) {
-  StampSet& is_found = body_.world().scratch.facets_of_lump;
+bool Pockets::walk_like(const PocketKind& kind, EdgeId start, Vec3 shift) {
+  StampSet<BodyFacetId>& is_found = body_.world().scratch.facets_of_lump;
   is_found.start(body_.facet_count());
   is_found.insert(wall_);
   walk_.clear();
@@ -54,7 +54,7 @@ bool Pockets::walk_like(const PocketKind& kind, int start, Vec3 shift) {
   const auto model = edges_of(pockets_[at(kind.first)]);
   std::span<const int> loops = kind.loops;
   for (std::size_t f = 0; f < kind.sizes.size(); ++f) {
-    const int e = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
+    const EdgeId e = f == 0 ? start : body_.twin(walk_[at(kind.entries[f - 1])]);
     if (!is_found.insert(body_.facet_of(e))) return false;
     if (!walk_facet(e, model.subspan(walk_.size(), at(kind.sizes[f])), loops, shift)) return false;
   }
@@ -67,9 +67,9 @@ bool Pockets::walk_like(const PocketKind& kind, int start, Vec3 shift) {
 
 /// Lists the half-edges of a facet loop by loop, as those of the model's facet are listed. False if
 /// its loops, the first of `loops`, which are taken from there, are others, or if it has marks.
-bool Pockets::walk_facet(int first, std::span<const int> model, std::span<const int>& loops,
+bool Pockets::walk_facet(EdgeId first, std::span<const EdgeId> model, std::span<const int>& loops,
                          Vec3 shift) {
-  const int f = body_.facet_of(first);
+  const BodyFacetId f = body_.facet_of(first);
   if (!body_.facet(f).marks.empty()) return false;
   facets_.push_back(f);
   std::size_t listed = 0, count = 0;
@@ -83,8 +83,8 @@ bool Pockets::walk_facet(int first, std::span<const int> model, std::span<const 
 }
 
 /// Lists the half-edges of a loop. False if they are more or fewer.
-bool Pockets::walk_loop(int first, int size) {
-  int e = first;
+bool Pockets::walk_loop(EdgeId first, int size) {
+  EdgeId e = first;
   for (; size > 0; --size) {
     walk_.push_back(e);
     e = body_.next(e);
@@ -94,9 +94,9 @@ bool Pockets::walk_loop(int first, int size) {
 }
 
 /// A half-edge of a facet that begins at a place.
-std::optional<int> Pockets::find_in_facet(int f, Vec3 place) const {
-  std::optional<int> found;
-  body_.for_each_edge(f, [&](int e) {
+std::optional<EdgeId> Pockets::find_in_facet(BodyFacetId f, Vec3 place) const {
+  std::optional<EdgeId> found;
+  body_.for_each_edge(f, [&](EdgeId e) {
     if (!found && is_same_place(body_.at(e) - place)) found = e;
   });
   return found;
@@ -109,7 +109,7 @@ bool Pockets::are_corners_like(const PocketKind& kind, Vec3 shift, const Section
   const int limit = planes.rank_of(section.plane) * section.direction;
   const auto edges = edges_of(pockets_[at(kind.first)]);
   return std::ranges::all_of(kind.corners, [&](const PocketCorner& corner) {
-    const int e = walk_[at(corner.edge)];
+    const EdgeId e = walk_[at(corner.edge)];
     return is_same_place(body_.at(e) - body_.at(edges[at(corner.edge)]) - shift) &&
            (corner.is_on_rim || ranks[at(body_.origin(e))] * section.direction > limit);
   });
@@ -128,7 +128,8 @@ bool Pockets::are_facets_like(const PocketKind& kind, const Pocket& pocket) {
 }
 
 /// A side, moved, is the other one. The ground is none but itself.
-bool Pockets::is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const {
+bool Pockets::is_moved(PlaneSide from, PlaneSide to,
+                       const std::array<std::int64_t, 3>& shift) const {
   const auto& planes = body_.world().planes;
   if ((from & 1) != (to & 1) || planes.class_of(from >> 1) != planes.class_of(to >> 1))
     return false;
@@ -161,11 +162,12 @@ int Pockets::new_kind(const Section& section, const Region& region) {
 }
 
 void Pockets::list_corners(PocketKind& kind) {
-  StampMap& corner_at = body_.world().scratch.corner_at_point;
+  StampMap<int>& corner_at = body_.world().scratch.corner_at_point;
   corner_at.start(body_.world().points.size());
   kind.corners.reserve(walk_.size() / 2);  // no fewer half-edges begin at a vertex
   for (int i = 0; i < std::ssize(walk_); ++i) {
-    const int e = walk_[at(i)], point = body_.origin(e);
+    const EdgeId e = walk_[at(i)];
+    const int point = body_.origin(e);
     int number = corner_at.find(point);
     if (number < 0) {
       number = static_cast<int>(kind.corners.size());
@@ -178,7 +180,7 @@ void Pockets::list_corners(PocketKind& kind) {
 
 /// What its lump and its leaf ask for, beside convexity.
 void Pockets::judge(PocketKind& kind, bool is_hole) const {
-  const StampMap& corner_at = body_.world().scratch.corner_at_point;
+  const StampMap<int>& corner_at = body_.world().scratch.corner_at_point;
   const auto is_on_rim = [&](int point) {
     return kind.corners[at(corner_at.find(point))].is_on_rim;
   };
@@ -193,7 +195,7 @@ void Pockets::judge(PocketKind& kind, bool is_hole) const {
   for (const int size : kind.sizes) {
     int chords = 0;
     for (const std::size_t last = i + at(size); i < last; ++i) {
-      const int e = walk_[i];
+      const EdgeId e = walk_[i];
       if (kind.twins[i] < 0) {
         ++chords;
         continue;
@@ -217,7 +219,7 @@ std::optional<Pockets::FloodedPocket> Pockets::flooded(int pocket, const Section
   double sum = 0;
   std::size_t first = 0;
   for (const int size : kind.sizes) {
-    const int f = body_.facet_of(edges[first]);
+    const BodyFacetId f = body_.facet_of(edges[first]);
     sum += planes.offset_m(body_.facet(f).side) * body_.area(f);
     first += at(size);
   }
@@ -225,14 +227,14 @@ std::optional<Pockets::FloodedPocket> Pockets::flooded(int pocket, const Section
   return FloodedPocket{((region.is_material ? sum : -sum) - cap) / 3, kind.has_bend};
 }
 
-bool Pockets::is_convex_pocket(const PocketKind& kind, std::span<const int> edges,
+bool Pockets::is_convex_pocket(const PocketKind& kind, std::span<const EdgeId> edges,
                                bool is_hole) const {
   constexpr double kHardly = 0.02;  // sine: flatter edges are left to Boundary::is_reflex
   const auto& planes = body_.world().planes;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     // One answer for both half-edges of an edge.
     if (kind.twins[i] >= 0 && at(kind.twins[i]) < i) continue;
-    const int e = edges[i];
+    const EdgeId e = edges[i];
     const Vec3 mine = planes.normal(body_.side_of_edge(e));
     const Vec3 along = normalised(body_.world().points.at(body_.target(e)) - body_.at(e));
     // A cap in the rest looks the other way than one on the lump, as the walls of a hole do.

@@ -20,7 +20,7 @@ bool is_of_pocket(const Region& region) {
 
 void Pockets::changed(const std::vector<RestChange>& changes) {
   order_.pocket = -1;
-  StampSet& is_touched = body_.world().scratch.met_points;
+  StampSet<int>& is_touched = body_.world().scratch.met_points;
   is_touched.start(body_.world().points.size());
   for (const RestChange& change : changes)
     for (const int p : change.points) is_touched.insert(p);
@@ -53,7 +53,7 @@ int Pockets::find(const Section& section, int region, bool is_alone) {
   if (const int known = find_known(section, here); known >= 0) return known;
   if (!trace_rim(section, here)) return -1;
   Pocket pocket;
-  const Side cap = section.split_side(here);
+  const PlaneSide cap = section.split_side(here);
   for (int k = 0; !is_alone && k < std::ssize(kinds_) && pocket.kind < 0; ++k)
     if (kinds_[at(k)].cap == cap && kinds_[at(k)].direction == section.direction &&
         is_like(kinds_[at(k)], pocket, section))
@@ -81,25 +81,25 @@ bool Pockets::trace_rim(const Section& section, const Region& region) {
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int rank = planes.rank_of(section.plane);
-  StampSet& rim_edges = body_.world().scratch.rim_edges;
+  StampSet<EdgeId>& rim_edges = body_.world().scratch.rim_edges;
   rim_edges.start(body_.half_edge_count());
   rim_.clear();
   Box box;
   const int first = section.loops[at(region.loops[0])].first;
   int c = first;
   do {
-    const int e = body_.next(section.crossings[at(c)].edge);
+    const EdgeId e = body_.next(section.crossings[at(c)].edge);
     c = section.crossings[at(c)].next;
     if (body_.next(e) != body_.twin(section.crossings[at(c)].edge)) return false;
     if (ranks[at(body_.origin(e))] != rank || ranks[at(body_.target(e))] != rank) return false;
-    const int beyond = body_.twin(e);
+    const EdgeId beyond = body_.twin(e);
     if (!rim_.empty() && body_.next(beyond) != body_.twin(rim_.back())) return false;
     rim_.push_back(e);
     rim_edges.insert(e);
     box.grow(body_.at(e));
   } while (c != first);
   corner_ = box.min;
-  const int beyond = body_.twin(rim_.front());
+  const EdgeId beyond = body_.twin(rim_.front());
   if (body_.next(beyond) != body_.twin(rim_.back())) return false;
   wall_ = body_.facet_of(beyond);
   return body_.loop(body_.edge(beyond).loop).is_hole &&
@@ -112,8 +112,8 @@ bool Pockets::list_facets(const Section& section, PocketKind& kind) {
   const auto& planes = body_.world().planes;
   const auto ranks = body_.world().points.ranks(planes.class_of(section.plane));
   const int limit = planes.rank_of(section.plane) * section.direction;
-  StampSet& is_met = body_.world().scratch.facets_of_lump;
-  StampMap& place = body_.world().scratch.place_in_walk;
+  StampSet<BodyFacetId>& is_met = body_.world().scratch.facets_of_lump;
+  StampMap<EdgeId>& place = body_.world().scratch.place_in_walk;
   is_met.start(body_.facet_count());
   is_met.insert(wall_);
   place.start(body_.half_edge_count());
@@ -121,7 +121,8 @@ bool Pockets::list_facets(const Section& section, PocketKind& kind) {
   facets_.clear();
   if (!list_facet(kind, rim_[0])) return false;
   for (std::size_t i = 0; i < walk_.size(); ++i) {
-    const int e = walk_[i], twin = body_.twin(e), beyond = body_.facet_of(twin);
+    const EdgeId e = walk_[i], twin = body_.twin(e);
+    const BodyFacetId beyond = body_.facet_of(twin);
     const int above = ranks[at(body_.origin(e))] * section.direction - limit;
     if (above < 0 || (above == 0 && !is_rim(e) && !is_rim(body_.prev(e)))) return false;
     if (beyond == wall_ && (above > 0 || !is_rim(e))) return false;
@@ -135,8 +136,9 @@ bool Pockets::list_facets(const Section& section, PocketKind& kind) {
 }
 
 /// False if it is none of a pocket.
-bool Pockets::list_facet(PocketKind& kind, int first) {
-  const int f = body_.facet_of(first), loop = body_.edge(first).loop;
+bool Pockets::list_facet(PocketKind& kind, EdgeId first) {
+  const BodyFacetId f = body_.facet_of(first);
+  const LoopId loop = body_.edge(first).loop;
   const auto& facet = body_.facet(f);
   if (!facet.marks.empty() || facets_.size() == kMostPocketFacets) return false;
   body_.world().scratch.facets_of_lump.insert(f);
@@ -144,17 +146,17 @@ bool Pockets::list_facet(PocketKind& kind, int first) {
   kind.sizes.push_back(0);
   list_loop(kind, first);
   if (facet.loops.size() == 1) return true;
-  for (const int l : facet.loops)
+  for (const LoopId l : facet.loops)
     if (l != loop) list_loop(kind, body_.loop(l).first);
   bool has_rim = false;
-  body_.for_each_edge(f, [&](int e) { has_rim |= is_rim(e) || is_rim(body_.prev(e)); });
+  body_.for_each_edge(f, [&](EdgeId e) { has_rim |= is_rim(e) || is_rim(body_.prev(e)); });
   return !has_rim;
 }
 
-void Pockets::list_loop(PocketKind& kind, int first) {
-  StampMap& place = body_.world().scratch.place_in_walk;
+void Pockets::list_loop(PocketKind& kind, EdgeId first) {
+  StampMap<EdgeId>& place = body_.world().scratch.place_in_walk;
   const int before = static_cast<int>(walk_.size());
-  int e = first;
+  EdgeId e = first;
   do {
     place.set(e, static_cast<int>(walk_.size()));
     walk_.push_back(e);
@@ -166,9 +168,9 @@ void Pockets::list_loop(PocketKind& kind, int first) {
 
 /// No two of its facets are made of one facet of the solid.
 bool Pockets::has_own_sources() {
-  StampSet& is_met = body_.world().scratch.met_sources;
+  StampSet<int>& is_met = body_.world().scratch.met_sources;
   is_met.start(0);
-  for (const int f : facets_)
+  for (const BodyFacetId f : facets_)
     for (const int source : body_.facet(f).sources) {
       is_met.make_room(source + 1);
       if (!is_met.insert(source)) return false;
@@ -176,36 +178,36 @@ bool Pockets::has_own_sources() {
   return true;
 }
 
-std::span<const int> Pockets::edges_of(const Pocket& pocket) const {
+std::span<const EdgeId> Pockets::edges_of(const Pocket& pocket) const {
   return std::span(edges_).subspan(at(pocket.first_edge), kinds_[at(pocket.kind)].twins.size());
 }
 
-Cap Pockets::cap_of(int pocket) const {
+CutCap Pockets::cap_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
   const PocketKind& kind = kinds_[at(here.kind)];
-  Cap cap{kind.cap, {}, {}};
+  CutCap cap{kind.cap, {}, {}};
   CapLoop& loop = cap.loops.emplace_back();
   loop.edges.reserve(at(kind.rim));
-  for (const int e : std::span(rims_).subspan(at(here.first_rim), at(kind.rim)))
+  for (const EdgeId e : std::span(rims_).subspan(at(here.first_rim), at(kind.rim)))
     loop.edges.push_back({e, body_.origin(e), body_.target(e)});
   return cap;
 }
 
-PocketLeaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hole) const {
+PocketLeaf Pockets::leaf_of(int pocket, std::span<const BodyFacetId> facets, bool is_hole) const {
   // Facet by facet and edge by edge as take_off() makes a body of it.
   const PocketKind& kind = kinds_[at(pockets_[at(pocket)].kind)];
   const int flip = is_hole ? 1 : 0;
   PocketLeaf leaf;
   leaf.faces.reserve(kind.sizes.size() + 1);
   leaf.sources.reserve(kind.sizes.size());
-  for (const int f : facets) {
+  for (const BodyFacetId f : facets) {
     const auto& facet = body_.facet(f);
     for (const int source : facet.sources)
       leaf.sources.push_back({source, static_cast<int>(leaf.faces.size())});
     PocketLeaf::LeafFace& face = leaf.faces.emplace_back(facet.side ^ flip, Loop{});
-    const int first = body_.loop(facet.loops[0]).first;
+    const EdgeId first = body_.loop(facet.loops[0]).first;
     face.loop.reserve(4);  // mostly
-    int e = first;
+    EdgeId e = first;
     do {
       face.loop.push_back(is_hole ? body_.target(e) : body_.origin(e));
       e = is_hole ? body_.prev(e) : body_.next(e);
@@ -214,7 +216,7 @@ PocketLeaf Pockets::leaf_of(int pocket, std::span<const int> facets, bool is_hol
   const auto rim = std::span(rims_).subspan(at(pockets_[at(pocket)].first_rim), at(kind.rim));
   PocketLeaf::LeafFace& cap = leaf.faces.emplace_back(kind.cap ^ flip ^ 1, Loop{});
   cap.loop.reserve(rim.size());
-  for (const int e : rim) cap.loop.push_back(is_hole ? body_.origin(e) : body_.target(e));
+  for (const EdgeId e : rim) cap.loop.push_back(is_hole ? body_.origin(e) : body_.target(e));
   if (!is_hole) std::ranges::reverse(cap.loop);
   return leaf;
 }
@@ -230,10 +232,10 @@ std::vector<int> Pockets::points_of(int pocket) const {
   return points;
 }
 
-std::vector<int> Pockets::facets_of(int pocket) const {
+std::vector<BodyFacetId> Pockets::facets_of(int pocket) const {
   const Pocket& here = pockets_[at(pocket)];
   const PocketKind& kind = kinds_[at(here.kind)];
-  std::vector<int> facets;
+  std::vector<BodyFacetId> facets;
   facets.reserve(kind.sizes.size());
   int i = here.first_edge;
   for (const int size : kind.sizes) {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "kernel/segment/boundary/leaf.h"
 #include "kernel/segment/cuts/carve.h"
 #include "kernel/segment/cuts/cut_candidates.h"
-#include "kernel/segment/instances/congruence.h"
 #include "kernel/segment/sections/section.h"
+#include "kernel/segment/tree/cells.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +25,7 @@ namespace oriel::detail {
 class Pockets {
  public:
   /// `ground`: the side of the ground, -1: none.
-  Pockets(const Boundary& body, Side ground) : body_(body), ground_plane_(ground >> 1) {}
+  Pockets(const Boundary& body, PlaneSide ground) : body_(body), ground_plane_(ground >> 1) {}
 
   /// Tells that the body has changed in this way and no other: pockets that the changes have no
   /// point of stay known, with their numbers.
@@ -54,13 +53,14 @@ class Pockets {
 
   /// What a pocket that is_leaf() becomes, but for its volume; `facets` are its facets_of(). Needs
   /// the body as it was.
-  [[nodiscard]] PocketLeaf leaf_of(int pocket, std::span<const int> facets, bool is_hole) const;
+  [[nodiscard]] PocketLeaf leaf_of(int pocket, std::span<const BodyFacetId> facets,
+                                   bool is_hole) const;
   /// Its vertices, sorted; needs the body as it was.
   [[nodiscard]] std::vector<int> points_of(int pocket) const;
   /// The cap that closes the rest, as imprint() makes it; needs the body as it was.
-  [[nodiscard]] Cap cap_of(int pocket) const;
+  [[nodiscard]] CutCap cap_of(int pocket) const;
   /// Its facets, ascending.
-  [[nodiscard]] std::vector<int> facets_of(int pocket) const;
+  [[nodiscard]] std::vector<BodyFacetId> facets_of(int pocket) const;
   /// How one pocket is another one of its kind, moved; needs both as they were in the body.
   [[nodiscard]] Congruence congruence(int model, int other) const;
 
@@ -79,7 +79,7 @@ class Pockets {
   /// What pockets of one kind have in common, and the first of them. Half-edges of their facets are
   /// listed facet by facet, in the order in which these are met.
   struct PocketKind {
-    Side cap = -1;  ///< -1: the first has gone, and with it the kind
+    PlaneSide cap = -1;  ///< -1: the first has gone, and with it the kind
     int direction = 0;
     bool is_convex = false, is_leaf = false;
     /// Its lump has a bend, and has to be flooded.
@@ -104,26 +104,28 @@ class Pockets {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] int find_known(const Section& section, const Region& region) const;
   bool trace_rim(const Section& section, const Region& region);
-  [[nodiscard]] bool is_rim(int e) const { return body_.world().scratch.rim_edges.contains(e); }
+  [[nodiscard]] bool is_rim(EdgeId e) const { return body_.world().scratch.rim_edges.contains(e); }
   [[nodiscard]] bool is_like(const PocketKind& kind, Pocket& pocket, const Section& section);
-  bool walk_like(const PocketKind& kind, int start, Vec3 shift);
-  bool walk_facet(int first, std::span<const int> model, std::span<const int>& loops, Vec3 shift);
-  bool walk_loop(int first, int size);
-  [[nodiscard]] std::optional<int> find_in_facet(int f, Vec3 place) const;
+  bool walk_like(const PocketKind& kind, EdgeId start, Vec3 shift);
+  bool walk_facet(EdgeId first, std::span<const EdgeId> model, std::span<const int>& loops,
+                  Vec3 shift);
+  bool walk_loop(EdgeId first, int size);
+  [[nodiscard]] std::optional<EdgeId> find_in_facet(BodyFacetId f, Vec3 place) const;
   [[nodiscard]] bool are_corners_like(const PocketKind& kind, Vec3 shift,
                                       const Section& section) const;
   [[nodiscard]] bool are_facets_like(const PocketKind& kind, const Pocket& pocket);
   [[nodiscard]] bool has_own_sources();
-  [[nodiscard]] bool is_moved(Side from, Side to, const std::array<std::int64_t, 3>& shift) const;
+  [[nodiscard]] bool is_moved(PlaneSide from, PlaneSide to,
+                              const std::array<std::int64_t, 3>& shift) const;
   int new_kind(const Section& section, const Region& region);
   bool list_facets(const Section& section, PocketKind& kind);
-  bool list_facet(PocketKind& kind, int first);
-  void list_loop(PocketKind& kind, int first);
+  bool list_facet(PocketKind& kind, EdgeId first);
+  void list_loop(PocketKind& kind, EdgeId first);
   void list_corners(PocketKind& kind);
   void judge(PocketKind& kind, bool is_hole) const;
-  [[nodiscard]] bool is_convex_pocket(const PocketKind& kind, std::span<const int> edges,
+  [[nodiscard]] bool is_convex_pocket(const PocketKind& kind, std::span<const EdgeId> edges,
                                       bool is_hole) const;
-  [[nodiscard]] std::span<const int> edges_of(const Pocket& pocket) const;
+  [[nodiscard]] std::span<const EdgeId> edges_of(const Pocket& pocket) const;
   [[nodiscard]] Vec3 in_metres(const std::array<std::int64_t, 3>& shift) const;
   [[nodiscard]] PocketOrder order_of(int pocket) const;
 
@@ -131,13 +133,14 @@ class Pockets {
   int ground_plane_;
   std::vector<Pocket> pockets_;
   std::vector<PocketKind> kinds_;
-  std::vector<int> edges_, rims_;  ///< of the pockets
-  StampMap at_edge_;               ///< pockets, by the first crossing of their regions
-  mutable PocketOrder order_;      ///< of the model that was asked for last
+  std::vector<EdgeId> edges_, rims_;  ///< of the pockets
+  StampMap<EdgeId> at_edge_;          ///< pockets, by the first crossing of their regions
+  mutable PocketOrder order_;         ///< of the model that was asked for last
 
   // The pocket at hand.
-  std::vector<int> rim_, facets_, walk_;
-  int wall_ = -1;
+  std::vector<EdgeId> rim_, walk_;
+  std::vector<BodyFacetId> facets_;
+  BodyFacetId wall_;
   Vec3 corner_;
 };
 

@@ -2,7 +2,6 @@
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/segment/boundary/reach.h"
 #include "kernel/segment/flush/contained_polygons.h"
 #include "kernel/segment/flush/subdivisions.h"
 #include "kernel/segment/flush/unassigned_polygons.h"

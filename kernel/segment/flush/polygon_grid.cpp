@@ -64,7 +64,7 @@ std::vector<int> PolygonGrid::within(const Box& box) const {
     return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&
            p.z >= box.min.z && p.z <= box.max.z;
   };
-  const auto take = [&](const Cell& cell) {
+  const auto take = [&](const PolygonsOfCell& cell) {
     for (const int i : cell)
       if (is_in(polygons_[static_cast<std::size_t>(i)].middle())) found.push_back(i);
   };

@@ -48,8 +48,8 @@ class PolygonGrid {
   static GridPlace place_of(Vec3 point);
 
   std::vector<PlacedPolygon> polygons_;
-  using Cell = boost::container::small_vector<int, 4>;  ///< polygons
-  std::unordered_map<GridPlace, Cell, Hash> cells_;
+  using PolygonsOfCell = boost::container::small_vector<int, 4>;  ///< polygons
+  std::unordered_map<GridPlace, PolygonsOfCell, Hash> cells_;
 };
 
 }  // namespace oriel::detail

@@ -4,7 +4,6 @@
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/vec3.h"
-#include "kernel/segment/boundary/reach.h"
 
 #include <algorithm>
 #include <cmath>

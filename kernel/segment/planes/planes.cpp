@@ -37,9 +37,9 @@ void PlaneTable::add(const Plane& plane, bool is_flipped, PlaneId id) {
   const bool is_new_class =
       planes_.empty() || planes_.back().plane.coefficients != plane.coefficients;
   if (is_new_class) classes_.emplace_back();
-  NormalClass& c = classes_.back();
+  ParallelPlanes& c = classes_.back();
   if (is_new_class || planes_.back().plane.offset != plane.offset) {
-    Entry& entry = planes_.emplace_back();
+    TablePlane& entry = planes_.emplace_back();
     entry.normal_class = class_count() - 1;
     entry.rank = 2 * static_cast<int>(c.planes.size()) + 1;
     c.planes.push_back(size() - 1);
@@ -52,7 +52,7 @@ void PlaneTable::add(const Plane& plane, bool is_flipped, PlaneId id) {
   sides_[id.index()] = 2 * (size() - 1) + (is_flipped ? 1 : 0);
 }
 
-std::optional<Side> PlaneTable::find(const Plane& plane) const {
+std::optional<PlaneSide> PlaneTable::find(const Plane& plane) const {
   const Plane turned = exact::opposite(plane);
   const auto is_same = [](const Plane& p, const Plane& q) {
     return p.offset == q.offset && p.coefficients == q.coefficients;

@@ -107,7 +107,7 @@ int PointTable::own_rank(int p, int k) const {
 }
 
 /// The rank of a point that is not known to lie on a plane of the class.
-int PointTable::rank_beside(int p, const PlaneTable::NormalClass& c) const {
+int PointTable::rank_beside(int p, const PlaneTable::ParallelPlanes& c) const {
   const double along = dot(c.normal, at(p));
   if (along + kCertain_m < c.offsets_m.front()) return 0;
   if (along - kCertain_m > c.offsets_m.back()) return 2 * static_cast<int>(c.offsets_m.size());
@@ -115,7 +115,7 @@ int PointTable::rank_beside(int p, const PlaneTable::NormalClass& c) const {
 }
 
 /// The same where the point, `along` the normal, is not outside all planes.
-int PointTable::rank_between(int p, const PlaneTable::NormalClass& c, double along) const {
+int PointTable::rank_between(int p, const PlaneTable::ParallelPlanes& c, double along) const {
   auto i = std::ranges::lower_bound(c.offsets_m, along - kCertain_m) - c.offsets_m.begin();
   for (; i < std::ssize(c.offsets_m) &&
          c.offsets_m[static_cast<std::size_t>(i)] <= along + kCertain_m;
@@ -250,7 +250,7 @@ void PointTable::forget_since(const PointMark& mark) {
     if (std::ssize(ranks) > mark.points) ranks.resize(index(mark.points));
 }
 
-PointTable::Cell PointTable::cell_of(Vec3 p) const {
+PointTable::GridCell PointTable::cell_of(Vec3 p) const {
   const auto cell = [&](double c) { return static_cast<std::int64_t>(std::floor(c / near_m_)); };
   return {cell(p.x), cell(p.y), cell(p.z)};
 }
@@ -258,7 +258,7 @@ PointTable::Cell PointTable::cell_of(Vec3 p) const {
 /// A point that was met so near by that it is the same one: more than three planes meet there. It
 /// counts as lying on the new planes.
 std::optional<int> PointTable::met_near(const TablePoint& point, Vec3 where) {
-  const Cell middle = cell_of(where);
+  const GridCell middle = cell_of(where);
   for (int i = 0; i < 27; ++i) {
     const auto found =
         met_in_.find({middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1});

@@ -2,9 +2,9 @@
 
 #include "kernel/geometry/exact.h"
 #include "kernel/model/solid.h"
-#include "kernel/segment/boundary/number_map.h"
 #include "kernel/segment/planes/planes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +17,17 @@
 #include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
+
+/// A number for each of some numbers, sorted.
+using NumberMap = std::vector<std::pair<int, int>>;
+
+/// What `key` is mapped to in a sorted list of pairs; nothing if there is nothing.
+template <class Key, class Value>
+std::optional<Value> find_in(const std::vector<std::pair<Key, Value>>& map, Key key) {
+  const auto found = std::ranges::lower_bound(map, key, {}, &std::pair<Key, Value>::first);
+  if (found == map.end() || found->first != key) return std::nullopt;
+  return found->second;
+}
 
 /// For each plane the points that are known to lie on it, ascending.
 class Incidence {
@@ -75,7 +86,7 @@ class PointTable {
     return (difference > 0) - (difference < 0);
   }
   /// The same for an oriented plane: +1 where its normal points.
-  [[nodiscard]] int level(int point, Side of) {
+  [[nodiscard]] int level(int point, PlaneSide of) {
     const int level = side(point, of >> 1);
     return (of & 1) != 0 ? -level : level;
   }
@@ -115,13 +126,13 @@ class PointTable {
     Vec3 at;
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  using Cell = std::array<std::int64_t, 3>;
+  using GridCell = std::array<std::int64_t, 3>;
   [[nodiscard]] std::optional<int> known_meeting(const std::array<int, 3>& planes);
   const Incidence& incidence();
   [[nodiscard]] std::optional<Vec3> meeting_of(const TablePoint& point) const;
   void list_planes(const std::vector<Facet>& facets);
   void rank_by_incidence(int k);
-  [[nodiscard]] Cell cell_of(Vec3 p) const;
+  [[nodiscard]] GridCell cell_of(Vec3 p) const;
   std::optional<int> met_near(const TablePoint& point, Vec3 where);
   bool lies_on_too(int p, const boost::container::small_vector<int, 4>& planes);
   void add(TablePoint point, const ExactPlace& place);
@@ -133,8 +144,8 @@ class PointTable {
   [[nodiscard]] int exact_side(const exact::Rational& point, int plane) const;
   int compute_rank(int point, int k);
   [[nodiscard]] int own_rank(int p, int k) const;
-  [[nodiscard]] int rank_beside(int p, const PlaneTable::NormalClass& c) const;
-  [[nodiscard]] int rank_between(int p, const PlaneTable::NormalClass& c, double along) const;
+  [[nodiscard]] int rank_beside(int p, const PlaneTable::ParallelPlanes& c) const;
+  [[nodiscard]] int rank_between(int p, const PlaneTable::ParallelPlanes& c, double along) const;
 
   double grid_m_;
   double near_m_;  ///< points that were met closer than this are one
@@ -145,10 +156,10 @@ class PointTable {
   std::vector<std::vector<int>> ranks_;
   Incidence incidence_;  ///< of the solid's vertices; made when it is asked for
   int solid_points_ = 0;
-  std::map<std::array<int, 3>, int> meetings_;  ///< points that meet() has made, by three planes
-  std::vector<std::array<int, 3>> met_;         ///< their keys, in order
-  std::vector<std::pair<int, int>> widened_;    ///< points and planes that lies_on_too() gave them
-  std::map<Cell, std::vector<int>> met_in_;     ///< points made by meet(), by cells of near_m_
+  std::map<std::array<int, 3>, int> meetings_;   ///< points that meet() has made, by three planes
+  std::vector<std::array<int, 3>> met_;          ///< their keys, in order
+  std::vector<std::pair<int, int>> widened_;     ///< points and planes that lies_on_too() gave them
+  std::map<GridCell, std::vector<int>> met_in_;  ///< points made by meet(), by cells of near_m_
 };
 
 }  // namespace oriel::detail

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kernel/geometry/planar.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/tolerances.h"
-#include "kernel/segment/boundary/reach.h"
 #include "kernel/segment/rings/rings.h"
 
 #include <vector>

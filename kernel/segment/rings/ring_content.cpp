@@ -1,8 +1,7 @@
 #include "kernel/segment/rings/ring_content.h"
 
 #include "kernel/base/index.h"
-#include "kernel/geometry/visible_level.h"
-#include "kernel/segment/boundary/reach.h"
+#include "kernel/geometry/planar.h"
 
 #include <algorithm>
 #include <cmath>

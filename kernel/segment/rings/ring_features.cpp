@@ -2,7 +2,6 @@
 
 #include "kernel/base/index.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/segment/boundary/reach.h"
 #include "kernel/segment/flush/polygon_grid.h"
 #include "kernel/segment/rings/feature_index.h"
 #include "kernel/segment/rings/ring_content.h"
@@ -262,6 +261,25 @@ class RingWriter {
 void add_ring_features(const Building& building, const Solid& solid, Segmentation& segmentation,
                        const Tolerances& tolerances) {
   RingWriter(building, solid, segmentation, tolerances).run();
+}
+
+Segmentation segment_open(const Solid& open_shell) {
+  Segmentation out;
+  out.grid_m = open_shell.grid_m;
+  out.planes = open_shell.planes;
+  out.vertices = open_shell.vertices;
+  Cell cell;
+  cell.is_convex = false;
+  cell.flag = LeafFlag::open;
+  cell.node = NodeId{0};
+  cell.facets = open_shell.facets;
+  out.cells.push_back(std::move(cell));
+  CsgNode leaf;
+  leaf.cell = CellId{0};
+  out.nodes.push_back(std::move(leaf));
+  out.root = NodeId{0};
+  out.stats.leaves = out.stats.recursions = 1;
+  return out;
 }
 
 }  // namespace oriel

@@ -7,6 +7,11 @@
 
 namespace oriel {
 
+/// What can be said of a building that stayed open (open_shell): its planes and vertices, a tree of
+/// one leaf, and one cell, flagged `open`, that holds all facets and has no volume. Nothing is cut
+/// and there are no features yet: add_ring_features and add_imprints find them.
+Segmentation segment_open(const Solid& open_shell);
+
 /// Adds the features that only a ring tells of: what lies in an inner ring of a facet is a feature
 /// though no cut frees it (docs/segmentation.md, "Ring features"). On a building that stayed open
 /// (segment_open) that is every opening; there the inner rings of input polygons count, too (what

@@ -1,7 +1,7 @@
 #include "kernel/segment/rings/rings.h"
 
 #include "kernel/base/index.h"
-#include "kernel/segment/boundary/reach.h"
+#include "kernel/geometry/planar.h"
 #include "kernel/segment/rings/feature_index.h"
 
 #include <algorithm>

@@ -24,11 +24,12 @@ EdgeIndex::EdgeIndex(const Boundary& body, const std::vector<int>& planes) : bod
 void EdgeIndex::update() {
   const int count = body_.half_edge_count();
   if (known_ == 0) edges_.reserve(at(count) / 2);
-  for (int e = known_; e < count; ++e) {
+  for (int number = known_; number < count; ++number) {
+    const EdgeId e{number};
     if (!body_.is_alive_edge(e)) continue;
-    const int twin = body_.twin(e);
+    const EdgeId twin = body_.twin(e);
     // Of two new half-edges the first speaks for both.
-    if (twin >= known_ && twin < e) continue;
+    if (twin.value >= known_ && twin < e) continue;
     edges_.push_back({e, body_.origin(e), body_.origin(twin)});
   }
   known_ = count;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernel/segment/boundary/boundary.h"
-#include "kernel/segment/boundary/growing_lists.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,6 +8,59 @@
 #include <vector>
 
 namespace oriel::detail {
+
+/// Lists that only grow, in one piece of memory: a list that is full moves to the end
+/// and gets twice the room. For many short lists that are made at one time.
+template <class T>
+class GrowingLists {
+ public:
+  /// Makes empty lists with room for that many items each.
+  void make(std::span<const int> rooms) {
+    lists_.clear();
+    std::size_t begin = 0;
+    for (const int room : rooms) {
+      lists_.push_back({begin, 0, static_cast<std::size_t>(room)});
+      begin += static_cast<std::size_t>(room);
+    }
+    items_.assign(begin, T{});
+  }
+
+  /// Valid until the next push_back().
+  [[nodiscard]] std::span<const T> operator[](std::size_t i) const {
+    return std::span(items_).subspan(lists_[i].begin, lists_[i].size);
+  }
+
+  void push_back(std::size_t i, T item) { push_back(i, i, item); }
+  /// To the lists from `first` to `last`, which have room left.
+  void push_back_in_room(std::size_t first, std::size_t last, T item) {
+    for (List *list = &lists_[first], *end = &lists_[last] + 1; list != end; ++list)
+      items_[list->begin + list->size++] = item;
+  }
+  /// To the lists from `first` to `last`.
+  void push_back(std::size_t first, std::size_t last, T item) {
+    for (std::size_t i = first; i <= last; ++i) {
+      List& list = lists_[i];
+      if (list.size == list.room) move_to_end(list);
+      items_[list.begin + list.size++] = item;
+    }
+  }
+
+ private:
+  struct List {
+    std::size_t begin, size, room;
+  };
+  void move_to_end(List& list) {
+    const std::size_t begin = items_.size();
+    list.room = std::max<std::size_t>(4, 2 * list.room);
+    items_.resize(begin + list.room);
+    std::copy_n(items_.begin() + static_cast<std::ptrdiff_t>(list.begin), list.size,
+                items_.begin() + static_cast<std::ptrdiff_t>(begin));
+    list.begin = begin;
+  }
+
+  std::vector<T> items_;
+  std::vector<List> lists_;
+};
 
 /// The ranks of some planes of one normal class, ascending.
 class PlaneRanks {
@@ -60,7 +112,7 @@ class EdgeIndex {
   /// A half-edge of every living edge that runs through the gap in front of a plane (`direction`
   /// +1, as its class has it), or behind it (-1); dead edges and some that were shortened since may
   /// be among them. `entry` counts in `planes`.
-  [[nodiscard]] std::span<const int> edges_at(std::size_t entry, int direction) {
+  [[nodiscard]] std::span<const EdgeId> edges_at(std::size_t entry, int direction) {
     const GapPlace& place = places_[entry];
     EdgesOfClass& c = classes_[place.number];
     if (c.entered < edges_.size()) enter(c);
@@ -80,17 +132,18 @@ class EdgeIndex {
  private:
   /// A living half-edge that speaks for its edge.
   struct IndexedEdge {
-    int half, from, to;
+    EdgeId half;
+    int from, to;
   };
   struct EdgesOfClass {
     int number;
     PlaneRanks ranks;
-    GrowingLists lists = {};  ///< half-edges by gap
-    std::size_t entered = 0;  ///< how many of edges_
+    GrowingLists<EdgeId> lists = {};  ///< half-edges by gap
+    std::size_t entered = 0;          ///< how many of edges_
   };
   /// A half-edge whose edge is not level, and the gaps that it runs through.
   struct GapRun {
-    int half;
+    EdgeId half;
     std::size_t first, last;
   };
   /// The gap behind a plane.

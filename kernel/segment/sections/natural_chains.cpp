@@ -8,7 +8,8 @@
 
 namespace oriel::detail {
 
-NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side)
+NaturalChains::NaturalChains(const Boundary& body, const std::vector<int>& planes,
+                             PlaneSide free_side)
     : body_(body),
       world_(body.world()),
       planes_(planes),
@@ -52,8 +53,8 @@ bool NaturalChains::refresh() {
 void NaturalChains::find_living_edges() {
   edges_.clear();
   edges_.reserve(at(body_.half_edge_count() - body_.dead_edge_count()) / 2);
-  for (int e = 0; e < body_.half_edge_count(); ++e) {
-    const int twin = body_.twin(e);
+  for (const EdgeId e : body_.half_edge_ids()) {
+    const EdgeId twin = body_.twin(e);
     if (!body_.is_alive_edge(e) || e > twin) continue;
     edges_.push_back({e, twin, body_.origin(e), body_.origin(twin), body_.side_of_edge(e) >> 1,
                       body_.side_of_edge(twin) >> 1});
@@ -63,10 +64,10 @@ void NaturalChains::find_living_edges() {
 /// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
 /// it along `e` and goes back; none if it goes through the plane or lies in it.
 [[gnu::always_inline]] inline void NaturalChains::add_step(int entry, std::span<const int> ranks,
-                                                           int e, int from, int to) {
+                                                           EdgeId e, int from, int to) {
   const int rank = ranks[at(from)];
   const auto& half = body_.edge(e);
-  const int last = half.prev, second = body_.next(half.next);
+  const EdgeId last = half.prev, second = body_.next(half.next);
   int rank_before = ranks[at(body_.origin(last))], rank_after = ranks[at(body_.origin(second))];
   if (rank_before == rank || rank_after == rank)
     std::tie(rank_before, rank_after) = ranks_around(ranks, e, rank);
@@ -81,9 +82,10 @@ void NaturalChains::find_living_edges() {
 
 /// The ranks of the last point before the half-edge `e` and the first one behind it that have
 /// another rank than those of `e`; the same rank if there is none.
-std::pair<int, int> NaturalChains::ranks_around(std::span<const int> ranks, int e, int rank) const {
-  const auto rank_at = [&](int half) { return ranks[at(body_.origin(half))]; };
-  int before = body_.prev(e), after = body_.next(body_.next(e));
+std::pair<int, int> NaturalChains::ranks_around(std::span<const int> ranks, EdgeId e,
+                                                int rank) const {
+  const auto rank_at = [&](EdgeId half) { return ranks[at(body_.origin(half))]; };
+  EdgeId before = body_.prev(e), after = body_.next(body_.next(e));
   while (before != e && rank_at(before) == rank) before = body_.prev(before);
   if (before == e) return {rank, rank};
   while (rank_at(after) == rank) after = body_.next(after);
@@ -134,7 +136,7 @@ void NaturalChains::sort_steps(const ChainsOfClass& c) {
 
 /// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
 /// only of edges between points where their planes meet.
-bool NaturalChains::hangs_below(int e, int from, int to, bool is_up) const {
+bool NaturalChains::hangs_below(EdgeId e, int from, int to, bool is_up) const {
   if (!world_.points.is_meeting(from) || !world_.points.is_meeting(to)) return false;
   const Vec3 up = is_up ? normal_ : -normal_;
   const Vec3 along = world_.points.at(to) - world_.points.at(from);
@@ -180,7 +182,7 @@ bool NaturalChains::has_chain(std::span<ChainStep> steps, std::size_t slot) {
 /// clockwise around air, for which it has some on the other one. Told only of closed chains that do
 /// not touch.
 bool NaturalChains::may_bound(std::span<const ChainStep> steps, std::size_t slot) {
-  const Side looking = 2 * planes_[slot / 2] + static_cast<int>(slot & 1);
+  const PlaneSide looking = 2 * planes_[slot / 2] + static_cast<int>(slot & 1);
   const auto has_facets = body_.on_plane(looking >> 1).has_facets;
   const bool has_material = has_facets[at(looking & 1)], has_air = has_facets[at(~looking & 1)];
   if (has_material && has_air) return true;

@@ -21,7 +21,7 @@ namespace oriel::detail {
 class NaturalChains {
  public:
   /// `planes`: ascending. `free_side`: the ground, -1: none.
-  NaturalChains(const Boundary& body, const std::vector<int>& planes, Side free_side);
+  NaturalChains(const Boundary& body, const std::vector<int>& planes, PlaneSide free_side);
 
   /// The body has these edges since. Chains over others have not become more.
   void expect(const std::vector<std::pair<int, int>>& new_edges);
@@ -50,7 +50,7 @@ class NaturalChains {
   /// A living edge, as far as all classes ask of it: its half-edge and the twin of that, where they
   /// begin, and the planes of their facets.
   struct LivingEdge {
-    int half, twin;
+    EdgeId half, twin;
     int from, to;
     int plane, twin_plane;
   };
@@ -59,9 +59,10 @@ class NaturalChains {
   void look(const ChainsOfClass& c);
   void sort_steps(const ChainsOfClass& c);
   /// `entry`: of the plane that the half-edge `e` lies in.
-  void add_step(int entry, std::span<const int> ranks, int e, int from, int to);
-  [[nodiscard]] std::pair<int, int> ranks_around(std::span<const int> ranks, int e, int rank) const;
-  [[nodiscard]] bool hangs_below(int e, int from, int to, bool is_up) const;
+  void add_step(int entry, std::span<const int> ranks, EdgeId e, int from, int to);
+  [[nodiscard]] std::pair<int, int> ranks_around(std::span<const int> ranks, EdgeId e,
+                                                 int rank) const;
+  [[nodiscard]] bool hangs_below(EdgeId e, int from, int to, bool is_up) const;
   bool has_chain(std::span<ChainStep> steps, std::size_t slot);
   [[nodiscard]] bool may_bound(std::span<const ChainStep> steps, std::size_t slot);
   [[nodiscard]] bool is_free(int point) const {
@@ -71,7 +72,7 @@ class NaturalChains {
   const Boundary& body_;
   World& world_;
   const std::vector<int>& planes_;
-  Side free_side_;
+  PlaneSide free_side_;
   std::vector<ChainsOfClass> classes_;
   std::vector<char> answers_;  ///< by slot
 

@@ -28,7 +28,7 @@ void for_each_crossing(const Section& section, int loop, Visit visit) {
 /// A loop by its size; of equal ones the first edge tells.
 struct LoopSize {
   double size;
-  int edge;
+  EdgeId edge;
   int loop;
 };
 
@@ -134,7 +134,7 @@ void nest_loops(Section& section, Vec3 axis) {
 
 class Sectioner {
  public:
-  Sectioner(const Boundary& body, Section& section, std::span<const int> edges,
+  Sectioner(const Boundary& body, Section& section, std::span<const EdgeId> edges,
             const SectionOptions& options)
       : body_(body),
         world_(body.world()),
@@ -180,16 +180,17 @@ class Sectioner {
   }
 
   void find_crossings() {
-    StampSet& crossed = scratch_.crossed_edges;
+    StampSet<EdgeId>& crossed = scratch_.crossed_edges;
     crossed.start(body_.half_edge_count());
     auto& crossings = section_.crossings;
     crossings.reserve(edges_.size());
     const auto ranks = ranks_;
     const int direction = section_.direction, limit = plane_rank_ * direction;
-    for (const int one : edges_) {
+    for (const EdgeId one : edges_) {
       const auto& half = body_.edge(one);
-      if (half.next < 0) continue;
-      int e = one, up = half.origin, down = body_.origin(half.twin);
+      if (!half.next.is_valid()) continue;
+      EdgeId e = one;
+      int up = half.origin, down = body_.origin(half.twin);
       const bool is_one_up = ranks[at(up)] * direction > limit;
       if (is_one_up == (ranks[at(down)] * direction > limit)) continue;
       if (!is_one_up) {
@@ -227,7 +228,7 @@ class Sectioner {
   }
 
   /// Links the two ends of a facet that has no more, as most have.
-  void add_end(int facet, int end) {
+  void add_end(BodyFacetId facet, int end) {
     Chords& here = scratch_.chords_in(facet);
     if (here.ends++ == 0) {
       here.first = end;
@@ -240,7 +241,7 @@ class Sectioner {
   }
 
   /// Of more ends all are listed, to be linked in the order in which they lie along the line.
-  [[gnu::noinline]] void list_end(int facet, Chords& here, int end) {
+  [[gnu::noinline]] void list_end(BodyFacetId facet, Chords& here, int end) {
     if (here.number < 0) {
       here.number = static_cast<int>(scratch_.facets_with_several.size());
       auto& ends = scratch_.add_chord_ends(facet);
@@ -258,7 +259,7 @@ class Sectioner {
 
   /// Sorts the ends along the line; where edges leave one point of the plane, by where they are
   /// just above it.
-  bool link_in_facet(int facet, std::span<ChordEnd> ends) {
+  bool link_in_facet(BodyFacetId facet, std::span<ChordEnd> ends) {
     if (ends.size() % 2 != 0) return false;
     const Vec3 line = line_in(facet);
     for (ChordEnd& end : ends) end.along = dot(line, section_.crossings[at(end.crossing)].at);
@@ -282,7 +283,7 @@ class Sectioner {
     return true;
   }
 
-  [[nodiscard]] Vec3 line_in(int facet) const {
+  [[nodiscard]] Vec3 line_in(BodyFacetId facet) const {
     return cross(axis_, world_.planes.normal(body_.facet(facet).side));
   }
 
@@ -300,7 +301,8 @@ class Sectioner {
       const int number = static_cast<int>(section_.loops.size());
       const Vec3 origin = crossings[at(start)].at;
       Vec3 sum, from;
-      int c = start, first = start, least = crossings[at(start)].edge;
+      int c = start, first = start;
+      EdgeId least = crossings[at(start)].edge;
       do {
         Crossing& here = crossings[at(c)];
         if (here.loop >= 0 || here.next < 0) return false;
@@ -343,7 +345,7 @@ class Sectioner {
     region.is_natural = region.has_natural_outline = region.is_candidate = false;
     region.new_area = region.area;
     if (old_area <= 0) return;
-    const Side opposite = section_.split_side(region) ^ 1;
+    const PlaneSide opposite = section_.split_side(region) ^ 1;
     if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
     region.has_natural_outline = is_natural(region.loops[0]);
     region.is_natural =
@@ -436,12 +438,12 @@ class Sectioner {
     return true;
   }
 
-  void take_off_covered(Region& region, Side opposite) {
-    const std::vector<int> facets = body_.facets_on(opposite);
+  void take_off_covered(Region& region, PlaneSide opposite) {
+    const std::vector<BodyFacetId> facets = body_.facets_on(opposite);
     if (facets.empty()) return;
     std::vector<Outline> shape;
     for (const int l : region.loops) shape.push_back(outline(l));
-    for (const int f : facets) {
+    for (const BodyFacetId f : facets) {
       const auto inside = interior_point(body_.outlines(f), axis_);
       if (!inside || !contains(shape, axis_, *inside)) continue;
       region.covered.push_back(f);
@@ -461,10 +463,10 @@ class Sectioner {
   /// From where the facet's loop comes down to the plane it stays on it until it goes up again; or
   /// the facet lies in the ground, where a chord is free.
   [[nodiscard]] bool is_natural_chord(int c) const {
-    const int begin = section_.crossings[at(c)].edge;
-    const int end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+    const EdgeId begin = section_.crossings[at(c)].edge;
+    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
     if (body_.side_of_edge(begin) == options_.free_side) return true;
-    int e = begin;
+    EdgeId e = begin;
     do {
       if (level(body_.target(e)) != 0) return false;
       e = body_.next(e);
@@ -474,10 +476,10 @@ class Sectioner {
 
   const Boundary& body_;
   World& world_;
-  std::span<const int> edges_;
+  std::span<const EdgeId> edges_;
   SectionOptions options_;
   Scratch& scratch_;
-  Side looking_;
+  PlaneSide looking_;
   Vec3 axis_;
   double offset_m_;
   std::span<const int> ranks_;
@@ -488,7 +490,7 @@ class Sectioner {
 
 }  // namespace
 
-void section_at(const Boundary& body, Section& section, std::span<const int> edges,
+void section_at(const Boundary& body, Section& section, std::span<const EdgeId> edges,
                 const SectionOptions& options) {
   section.crossings.clear();
   section.loops.clear();

@@ -12,9 +12,9 @@ namespace oriel::detail {
 
 /// Where an edge of a body crosses a section plane.
 struct Crossing {
-  int edge = -1;  ///< the half-edge that leads from the looked-at side to the other
-  Vec3 at;        ///< on the plane
-  int next = -1;  ///< the crossing at the other end of the chord in the facet of `edge`
+  EdgeId edge = {};  ///< the half-edge that leads from the looked-at side to the other
+  Vec3 at;           ///< on the plane
+  int next = -1;     ///< the crossing at the other end of the chord in the facet of `edge`
   int loop = -1;
 };
 
@@ -36,7 +36,7 @@ struct Region {
   double area = 0;
   double new_area = 0;
   /// Those facets.
-  std::vector<int> covered = {};
+  std::vector<BodyFacetId> covered = {};
   /// It is natural or smaller than the old area, and no sliver: a feature may begin here.
   bool is_candidate = false;
   /// Every chord follows existing edges (or lies in the ground): the cut splits no facet.
@@ -60,13 +60,13 @@ struct Section {
   bool is_by_loop = false;  ///< crossings stand loop by loop, in their order
 
   /// The side that looks to where the section looks.
-  [[nodiscard]] Side looking() const { return 2 * plane + (direction > 0 ? 0 : 1); }
+  [[nodiscard]] PlaneSide looking() const { return 2 * plane + (direction > 0 ? 0 : 1); }
   [[nodiscard]] double old_area(const Region& region) const {
     return old_areas[region.is_material ? 1 : 0];
   }
   /// The side of the split plane for features of a region: a protrusion's is the side that looks
   /// the same way, a hole's the opposite one.
-  [[nodiscard]] Side split_side(const Region& region) const {
+  [[nodiscard]] PlaneSide split_side(const Region& region) const {
     return region.is_material ? looking() : looking() ^ 1;
   }
 };
@@ -77,7 +77,7 @@ Outline outline_of(const Section& section, int loop);
 /// What a section needs to know beside the body.
 struct SectionOptions {
   /// Chords in facets of this side are as good as edges (-1: none): the ground.
-  Side free_side = -1;
+  PlaneSide free_side = -1;
   /// A region thinner than this is none.
   double weld_m = 0;
 };
@@ -87,7 +87,7 @@ struct SectionOptions {
 /// others do no harm. The air around the body has no region. A body whose crossings do not
 /// alternate along a facet (possible only where vertices are rounded) gives no loops
 /// and no regions.
-void section_at(const Boundary& body, Section& section, std::span<const int> edges,
+void section_at(const Boundary& body, Section& section, std::span<const EdgeId> edges,
                 const SectionOptions& options);
 
 /// Brings a section up to date after natural cuts whose parts it met in whole loops or not at all:

@@ -65,7 +65,7 @@ std::vector<Vec3> samples_of(const std::vector<Outline>& polygon, Vec3 normal) {
 
 }  // namespace
 
-PlaneId CellWriter::plane_id(Side side) {
+PlaneId CellWriter::plane_id(PlaneSide side) {
   if (const PlaneId id = world_.planes.id_of(side); id.is_valid()) return id;
   if (extra_planes_.empty()) extra_planes_.resize(2 * at(world_.planes.size()));
   PlaneId& id = extra_planes_[at(side)];
@@ -78,7 +78,7 @@ PlaneId CellWriter::plane_id(Side side) {
   return id;
 }
 
-Side CellWriter::side_of(PlaneId id) const {
+PlaneSide CellWriter::side_of(PlaneId id) const {
   const std::size_t own = out_.planes.size() - extra_sides_.size();
   return id.index() < own ? world_.planes.side_of(id) : extra_sides_[id.index() - own];
 }
@@ -96,10 +96,10 @@ CellId CellWriter::add(const Boundary& body, NodeId node, int sign, bool is_conv
                        FeatureId feature) {
   const CellId id{static_cast<int>(out_.cells.size())};
   Cell cell{sign, body.volume(), is_convex, flag, node, feature, {}};
-  const Corners all_corners(body);
-  const std::vector<int> facets = body.living_facets();
+  const CornerLoops all_corners(body);
+  const std::vector<BodyFacetId> facets = body.living_facets();
   cell.facets.reserve(facets.size());
-  for (const int f : facets) {
+  for (const BodyFacetId f : facets) {
     const auto& record = body.facet(f);
     const CellFacet here{id, static_cast<int>(cell.facets.size())};
     Facet& facet = cell.facets.emplace_back();

@@ -2,11 +2,15 @@
 
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
+#include "kernel/model/solid.h"
+#include "kernel/model/vec3.h"
 #include "kernel/segment/boundary/boundary.h"
-#include "kernel/segment/boundary/leaf.h"
-#include "kernel/segment/instances/congruence.h"
+#include "kernel/segment/planes/planes.h"
+#include "kernel/segment/planes/points.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +18,32 @@
 #include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
+
+/// How a pocket is another one, the model, moved by a whole number of grid units: so every answer
+/// about the one is that about the other.
+struct Congruence {
+  std::array<std::int64_t, 3> shift{};  ///< in grid units
+  Vec3 shift_m;
+  NumberMap points;   ///< of the model, of the other
+  NumberMap planes;   ///< likewise
+  NumberMap sources;  ///< of their facets, likewise
+  NumberMap marks;    ///< features with marks on their facets, likewise
+};
+
+/// A convex body that is told to be a leaf before it is made: all that its cell is written from.
+struct PocketLeaf {
+  struct LeafFace {
+    PlaneSide side;
+    Loop loop;
+  };
+  std::vector<LeafFace> faces;
+  /// Facets of the solid that faces are made of, face by face.
+  struct LeafSource {
+    int source, face;
+  };
+  std::vector<LeafSource> sources;
+  double volume = 0;
+};
 
 /// Writes the leaves into the segmentation: their boundaries as cells, and which feature and which
 /// input polygon ended up where.
@@ -24,7 +54,7 @@ class CellWriter {
       : world_(world), out_(out), made_of_(facets) {}
 
   /// The id of an oriented plane; planes that only caps of parts have are added behind the solid's.
-  PlaneId plane_id(Side side);
+  PlaneId plane_id(PlaneSide side);
 
   /// Adds a leaf that lies in `feature` (invalid: in no feature).
   CellId add(const Boundary& body, NodeId node, int sign, bool is_convex, LeafFlag flag,
@@ -32,7 +62,7 @@ class CellWriter {
   CellId add(PocketLeaf leaf, NodeId node, int sign, FeatureId feature);
 
   /// The side that such an id stands for.
-  [[nodiscard]] Side side_of(PlaneId id) const;
+  [[nodiscard]] PlaneSide side_of(PlaneId id) const;
 
   /// The cells from `first` up to `last` were copied, to where `copies` begins: what is made of a
   /// facet of the solid among them has a copy made of the facet that `sources` says.
@@ -62,9 +92,9 @@ class CellWriter {
 
   World& world_;
   Segmentation& out_;
-  std::vector<PlaneId> extra_planes_;  ///< by side
-  std::vector<Side> extra_sides_;      ///< in the order of their ids
-  FeatureId innermost_;                ///< that was asked for last, and what it is in
+  std::vector<PlaneId> extra_planes_;   ///< by side
+  std::vector<PlaneSide> extra_sides_;  ///< in the order of their ids
+  FeatureId innermost_;                 ///< that was asked for last, and what it is in
   std::vector<FeatureId> around_;
   /// By facet of the solid, the cell facets made of it.
   std::vector<boost::container::small_vector<CellFacet, 2>> made_of_;

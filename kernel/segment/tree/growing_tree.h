@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernel/segment/instances/instances.h"
 #include "kernel/segment/segment.h"
 #include "kernel/segment/tree/cells.h"
+#include "kernel/segment/tree/instances.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,7 +31,7 @@ struct GrowingTree {
   World world;
   CellWriter cells;
   Instances instances;
-  Side ground = -1;
+  PlaneSide ground = -1;
   std::vector<WaitingBody> waiting;  ///< the last is split next
   std::int64_t work = 0;             ///< half-edges that were looked at
 };

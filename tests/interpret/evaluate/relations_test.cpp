@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include <rapidcheck.h>
 
@@ -50,6 +51,12 @@ constexpr const char* kRows =
 }  // namespace
 
 TEST_SUITE("interpret") {
+  TEST_CASE("a graph of other features than its table is refused") {
+    Scene scene = storey({1.0, 1.1});
+    scene.relate("beside", FeatureId{0}, FeatureId{7});
+    CHECK_THROWS_AS(labels_with("", "exists(beside)", scene), std::invalid_argument);
+  }
+
   TEST_CASE("a declared relation is the pairs of another one that fit its condition") {
     const Scene scene = storey({1.0, 1.1, 1.25, 2.0});
     CHECK(labels_with(kInRow, "count(in_row) = 2", scene) == Labels{"-", "window", "-", "-"});

@@ -1,6 +1,6 @@
 #include "kernel/segment/flush/subdivisions.h"
 
-#include "kernel/segment/segment_open.h"
+#include "kernel/segment/rings/ring_features.h"
 #include "kernel/solidify/open_shell.h"
 #include "tests/support/shapes.h"
 

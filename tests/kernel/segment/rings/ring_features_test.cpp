@@ -2,7 +2,6 @@
 
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/remove.h"
-#include "kernel/segment/segment_open.h"
 #include "kernel/solidify/open_shell.h"
 #include "tests/support/changed.h"
 #include "tests/support/corpus.h"

@@ -27,7 +27,7 @@ ChainCounts compare(const Building& building) {
   const Solid solid = test::solid_of(building, {});
   World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
   const Boundary body = boundary_of(solid, 0, world);
-  const detail::Side ground = ground_side(solid, world.planes, 0.5);
+  const detail::PlaneSide ground = ground_side(solid, world.planes, 0.5);
   std::vector<int> planes;
   for (int plane = 0; plane < world.planes.size(); ++plane) planes.push_back(plane);
   detail::NaturalChains chains(body, planes, ground);

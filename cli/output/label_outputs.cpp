@@ -1,0 +1,114 @@
+#include "cli/output/label_outputs.h"
+
+#include "cli/terminal/logging.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace oriel::cli {
+
+LabelOptions LabellingArguments::label_options(StageObserver observer) const {
+  LabelOptions options = RunOptions::label_options(std::move(observer));
+  options.codelist = codelist;
+  options.has_reasons = has_reasons;
+  return options;
+}
+
+LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& rules)
+    : arguments_(arguments), rules_(rules), options_(arguments.label_options()) {
+  const auto codelists = rules.codelists();
+  if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
+    throw CLI::ValidationError(
+        "--codelist", fmt::format("the pack has codes for {}", fmt::join(codelists, ", ")));
+  if (!arguments.out.empty())
+    sink_.emplace(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format,
+                  arguments.stl_solids);
+  if (arguments.is_isolated && sink_ && sink_->is_gathering(0))
+    throw CLI::ValidationError("--isolate", "needs an output that is CityJSON or CityJSONSeq");
+  if (!arguments.reuse.empty() && (recipe().empty() || (sink_ && sink_->is_stdout())))
+    throw CLI::ValidationError(
+        "--reuse", "needs outputs that are files: -o in .city.jsonl, --features in .csv or .jsonl");
+  if (arguments.is_resumable && (!has_any() || (sink_ && sink_->is_stdout())))
+    throw CLI::ValidationError("--resume", "needs outputs that are files: -o, --features");
+}
+
+LabelledBuilding LabelOutputs::annotated(const Building& building,
+                                         const PipelineResult& line) const {
+  return annotate(building, line, rules_, options_);
+}
+
+bool LabelOutputs::is_streaming() const { return !sink_ || sink_->is_streaming(); }
+
+void LabelOutputs::begin(std::size_t input, bool is_rehearsal) {
+  if (sink_) sink_->begin(input, is_rehearsal);
+  if (!is_rehearsal) open_features();
+}
+
+void LabelOutputs::reopen() {
+  open_features();
+  has_ended_ = true;
+}
+
+void LabelOutputs::open_features() {
+  if (!features_ && !arguments_.features.empty())
+    features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
+}
+
+PartPlaces LabelOutputs::places() const {
+  PartPlaces places;
+  if (sink_) places[static_cast<std::size_t>(OutputPart::buildings)] = sink_->place();
+  if (features_)
+    places[static_cast<std::size_t>(OutputPart::features)] = {arguments_.features,
+                                                              features_->size()};
+  return places;
+}
+
+std::string LabelOutputs::recipe() const {
+  if (!has_any() || !is_streaming() || arguments_.features.ends_with(".json")) return {};
+  return fmt::format("codelist={} buildings={} features={} ignores={}", arguments_.codelist,
+                     has_buildings(),
+                     std::filesystem::path(arguments_.features).extension().string(),
+                     arguments_.ignores_semantics);
+}
+
+void LabelOutputs::make_buildings(std::size_t input, const Document& document, OutputRecord output,
+                                  Product& product) const {
+  if (!sink_) return;
+  product[OutputPart::buildings] = sink_->text(input, document, output);
+  if (sink_->is_gathering(input)) product.labelled = std::move(output.buildings);
+}
+
+void LabelOutputs::make_features(const Building& building, const PipelineResult& line,
+                                 Product& product) const {
+  if (arguments_.features.empty()) return;
+  const RecordFormat format = *record_format_of(arguments_.features);
+  std::string& text = product[OutputPart::features];
+  const std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
+  if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
+  text += more;
+}
+
+void LabelOutputs::take(const Document& document, const Product& product) {
+  if (sink_) sink_->take(document, product.labelled, product[OutputPart::buildings]);
+  if (features_) features_->append(product[OutputPart::features]);
+  std::fputs(product[OutputPart::listing].c_str(), stdout);
+}
+
+void LabelOutputs::end() {
+  has_ended_ = true;
+  if (!sink_) return;
+  const std::string path = sink_->end();
+  if (path != "-" && arguments_.is_verbose) run_log().info("wrote {}", path);
+}
+
+void LabelOutputs::commit() {
+  if (features_ && has_ended_) features_->commit();
+}
+
+}  // namespace oriel::cli

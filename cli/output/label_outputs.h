@@ -1,0 +1,82 @@
+#pragma once
+
+#include "cli/batch/outcome.h"
+#include "cli/batch/run_options.h"
+#include "cli/output/output_sink.h"
+#include "oriel/rules.h"
+#include "oriel/write.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Arguments of the commands that label buildings and write them.
+struct LabellingArguments : RunOptions {
+  std::string rules = "residential";
+  std::string out;
+  std::string to;
+  std::string features;
+  std::string codelist = "sig3d";
+  /// Every surface and installation gets its reason, oriel_why.
+  bool has_reasons = false;
+  /// What the solids of an STL are called by.
+  StlSolids stl_solids = StlSolids::by_label;
+
+  /// With what is written, too.
+  [[nodiscard]] LabelOptions label_options(StageObserver observer = {}) const;
+};
+
+/// What those commands write: the buildings (-o) and the records of features (--features), each if
+/// asked for.
+class LabelOutputs {
+ public:
+  /// Throws CLI::ValidationError if the arguments make no sense together.
+  LabelOutputs(const LabellingArguments& arguments, const RuleBase& rules);
+
+  [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
+  [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
+
+  /// What was added is written by the next flush: nothing waits for the end of the input.
+  [[nodiscard]] bool is_streaming() const;
+
+  /// What is to be written of a building that has surfaces; without features if it was rejected.
+  [[nodiscard]] LabelledBuilding annotated(const Building& building,
+                                           const PipelineResult& line) const;
+
+  /// `is_rehearsal`: what follows is not to be kept.
+  void begin(std::size_t input, bool is_rehearsal);
+  /// All inputs were done by an earlier run; only `commit` is to come.
+  void reopen();
+  /// The outputs and what is in them so far.
+  [[nodiscard]] PartPlaces places() const;
+  /// What a product depends on besides source, configuration and rules; empty if products are no
+  /// stretches of the outputs' bytes.
+  [[nodiscard]] std::string recipe() const;
+  /// Adds to `product` what the labelled buildings of a record, and the features of a building,
+  /// become in the outputs. Several threads may call them.
+  void make_buildings(std::size_t input, const Document& document, OutputRecord output,
+                      Product& product) const;
+  void make_features(const Building& building, const PipelineResult& line, Product& product) const;
+  /// Puts a product into the outputs.
+  void take(const Document& document, const Product& product);
+  /// An input is done: its file is put in its place.
+  void end();
+  /// All inputs are done. Records are written if one of them could be read.
+  void commit();
+
+ private:
+  void open_features();
+
+  const LabellingArguments& arguments_;
+  const RuleBase& rules_;
+  /// Of the arguments as they are when the outputs are made.
+  LabelOptions options_;
+  std::optional<OutputSink> sink_;
+  std::unique_ptr<FeatureRecordWriter> features_;
+  bool has_ended_ = false;  ///< an input did
+};
+
+}  // namespace oriel::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace oriel::cli {
+
+/// Rows of texts in columns, the first row as a head; numbers to the right.
+std::string table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace oriel::cli

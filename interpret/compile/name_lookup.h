@@ -1,0 +1,40 @@
+#pragma once
+
+#include "interpret/language/findings.h"
+#include "interpret/language/parser.h"
+#include "interpret/pack/names.h"
+#include "interpret/pack/pack.h"
+#include "kernel/model/description/feature_table.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oriel::rules {
+
+/// wall, roof, ground: by HostKind.
+const std::vector<std::string>& host_kinds();
+
+/// Finds what expressions name in a pack; what is not there is an error with a suggestion. Names
+/// whose declaration is wrong are not reported again.
+class NameLookup {
+ public:
+  NameLookup(const Pack& pack, Names& names, Findings& findings)
+      : pack_(&pack), names_(&names), findings_(&findings) {}
+
+  /// The index of the param, which counts as used; or nothing and R206.
+  std::optional<int> param(const Syntax& syntax);
+  /// The class, or kNoClass and R205.
+  ClassId class_of(const Syntax& syntax);
+  /// The number of the relation, which counts as used; or nothing and R207.
+  std::optional<int> relation(const Syntax& syntax);
+  /// R204, or R208 if it is like the name of a macro.
+  void report_unknown(const Syntax& syntax, const std::vector<AttributeInfo>& schema);
+
+ private:
+  const Pack* pack_;
+  Names* names_;
+  Findings* findings_;
+};
+
+}  // namespace oriel::rules

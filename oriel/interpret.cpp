@@ -1,0 +1,56 @@
+#include "oriel/interpret.h"
+
+#include "interpret/labelling/interpret.h"
+
+namespace oriel {
+
+std::vector<Interpretation> interpret(const RuleBase& rules,
+                                      std::span<const DescribedBuilding> buildings) {
+  std::vector<Interpretation> run;
+  run.reserve(buildings.size());
+  for (const DescribedBuilding& building : buildings)
+    run.push_back(interpret(rules, building.table, building.graph));
+  return run;
+}
+
+LabelDiff diff_labels(std::span<const DescribedBuilding> buildings,
+                      std::span<const Interpretation> before, std::span<const Interpretation> after,
+                      std::size_t most_examples) {
+  LabelDiff diff(most_examples);
+  for (std::size_t b = 0; b < buildings.size(); ++b)
+    for (std::size_t row = 0; row < before[b].verdicts.size(); ++row) {
+      const Verdict& p = before[b].verdicts[row];
+      const Verdict& q = after[b].verdicts[row];
+      const FeatureTable& table = buildings[b].table;
+      diff.add(table.building(), table.id(p.feature), {p.label, p.rule}, {q.label, q.rule});
+    }
+  return diff;
+}
+
+bool RecordLabeller::label(FeatureRecord& record) {
+  const auto row = find(record);
+  if (!row) return false;
+  if (groups_of_ != building_) groups_ = groups_by_feature(run_[building_]);
+  groups_of_ = building_;
+  set_verdict(record, run_[building_].verdicts[*row], groups_[*row]);
+  return true;
+}
+
+/// The row of the record, not before those that were found so far.
+std::optional<std::size_t> RecordLabeller::find(const FeatureRecord& record) {
+  std::size_t row = row_;
+  for (std::size_t b = building_; b < buildings_.size(); ++b, row = 0) {
+    const FeatureTable& table = buildings_[b].table;
+    if (table.building() != record.building) continue;
+    for (; row < table.rows(); ++row) {
+      const FeatureId feature{static_cast<int>(row)};
+      if (table.id(feature) != record.id) continue;
+      building_ = b;
+      row_ = row + 1;
+      return row;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace oriel

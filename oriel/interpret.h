@@ -1,0 +1,52 @@
+#pragma once
+
+#include "interpret/pack/rule_base.h"
+#include "interpret/score/label_diff.h"
+#include "kernel/io/records/feature_records.h"
+#include "kernel/io/records/feature_tables.h"
+#include "kernel/model/description/feature_graph.h"
+#include "kernel/model/interpretation.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace oriel {
+
+/// Names features that are stored, such as those that read_feature_tables() gives: one
+/// Interpretation for each building, in their order, with what label() would say of the building.
+/// Buildings do not depend on each other, so shares of them may be interpreted by several threads.
+std::vector<Interpretation> interpret(const RuleBase& rules,
+                                      std::span<const DescribedBuilding> buildings);
+
+/// What two packs say of the same buildings: `before` and `after` are what interpret() made of
+/// them. So many examples of each change are kept.
+LabelDiff diff_labels(std::span<const DescribedBuilding> buildings,
+                      std::span<const Interpretation> before, std::span<const Interpretation> after,
+                      std::size_t most_examples = 3);
+
+/// Puts new verdicts into stored records, which come in the order of their files, as
+/// read_feature_tables() had them. Refers to buildings and run, what interpret() made of them.
+class RecordLabeller {
+ public:
+  RecordLabeller(std::span<const DescribedBuilding> buildings, std::span<const Interpretation> run)
+      : buildings_(buildings), run_(run) {}
+
+  /// Gives the record the verdict of its feature in place of what it says. False, and nothing
+  /// changes, for a record that is not among the buildings: it could not be read as a table.
+  bool label(FeatureRecord& record);
+
+ private:
+  std::optional<std::size_t> find(const FeatureRecord& record);
+
+  std::span<const DescribedBuilding> buildings_;
+  std::span<const Interpretation> run_;
+  std::size_t building_ = 0;
+  std::size_t row_ = 0;  ///< after the last one found
+  std::optional<std::size_t> groups_of_;
+  std::vector<std::vector<std::string>> groups_;  ///< of the features of that building
+};
+
+}  // namespace oriel

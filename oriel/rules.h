@@ -1,0 +1,17 @@
+#pragma once
+
+/// Rule packs and profiles: load_pack_file, format_pack_file, merge_pack_file, pack_schema,
+/// load_profile_file and check_profile, and their tests (docs/rules.md). What is wrong with one
+/// comes back as issues with codes, all at once.
+#include "interpret/pack/pack_schema.h"    // IWYU pragma: export
+#include "interpret/pack/rule_base.h"      // IWYU pragma: export
+#include "interpret/plan/profile.h"        // IWYU pragma: export
+#include "interpret/testing/rule_tests.h"  // IWYU pragma: export
+
+namespace oriel {
+
+/// Runs the tests in the file at `path`. Buildings that they name are read and segmented with the
+/// tolerances as they are, not fitted to noise: tests say what features measure.
+Checked<RuleTestReport> run_rule_tests(const std::string& path);
+
+}  // namespace oriel

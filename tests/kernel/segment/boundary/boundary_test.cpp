@@ -1,0 +1,84 @@
+#include "kernel/segment/boundary/boundary.h"
+
+#include "tests/support/houses.h"
+#include "tests/support/shapes.h"
+#include "tests/support/solidified.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+namespace oriel {
+namespace {
+
+using detail::Boundary;
+using detail::FlatBody;
+using detail::World;
+
+std::vector<std::pair<int, int>> living_edges_of(const Boundary& body) {
+  std::vector<std::pair<int, int>> edges;
+  for (const EdgeId e : body.half_edge_ids())
+    if (body.is_alive_edge(e)) edges.emplace_back(std::minmax(body.origin(e), body.target(e)));
+  std::ranges::sort(edges);
+  return edges;
+}
+
+void check_lists(const Boundary& body) {
+  FlatBody flat(body);
+  std::vector<std::pair<int, int>> twice;
+  for (const FlatBody::EdgePoints& edge : flat.edges())
+    twice.insert(twice.end(), 2, std::minmax(edge.from, edge.to));
+  std::ranges::sort(twice);
+  CHECK(twice == living_edges_of(body));
+  std::vector<detail::BodyFacetId> facets;
+  const detail::PlaneTable& planes = body.world().planes;
+  for (const FlatBody::RankedFacet& facet : flat.facets()) {
+    facets.push_back(facet.number);
+    const int plane = body.facet(facet.number).side >> 1;
+    CHECK(facet.normal_class == planes.class_of(plane));
+    CHECK(facet.rank == planes.rank_of(plane));
+  }
+  CHECK(facets == body.living_facets());
+}
+
+/// Fills the first hole of a facet; what lay inside goes. False if there is none.
+bool fill_a_hole(Boundary& body) {
+  for (const detail::BodyFacetId f : body.living_facets())
+    for (const LoopId l : body.facet(f).loops) {
+      if (!body.loop(l).is_hole) continue;
+      std::vector<detail::BodyFacetId> inside{body.facet_of(body.twin(body.loop(l).first))};
+      for (std::size_t i = 0; i < inside.size(); ++i)
+        body.for_each_edge(inside[i], [&](EdgeId e) {
+          const detail::BodyFacetId g = body.facet_of(body.twin(e));
+          if (g != f && std::ranges::find(inside, g) == inside.end()) inside.push_back(g);
+        });
+      const double area = -body.loop(l).area;
+      body.remove(inside);
+      body.fill_hole(l, area);
+      return true;
+    }
+  return false;
+}
+
+TEST_SUITE("kernel/segment") {
+  TEST_CASE("a flat body lists each living edge once and each living facet with its rank") {
+    int filled = 0;
+    for (const test::NamedBody& named : test::bodies()) {
+      CAPTURE(std::string(named.name));
+      const Solid solid = test::solid_of(named.make(), {});
+      World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+      Boundary body = boundary_of(solid, 0, world);
+      check_lists(body);
+      if (!fill_a_hole(body)) continue;
+      ++filled;
+      check_lists(body);
+    }
+    CHECK(filled > 0);
+  }
+}
+
+}  // namespace
+}  // namespace oriel
