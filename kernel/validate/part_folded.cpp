@@ -19,7 +19,7 @@ namespace oriel {
 namespace {
 
 using Triangle = std::array<int, 3>;
-using DirectedEdge = std::pair<int, int>;
+using WrittenEdge = std::pair<int, int>;
 
 /// Half of what validate() takes for folded: what stays together is triangulated anew, otherwise
 /// maybe.
@@ -61,7 +61,7 @@ Vec3 normal_of(const WrittenFacet& facet, const Triangle& t) {
 }
 
 /// The edges of a triangle as it runs.
-std::array<DirectedEdge, 3> edges_of(const Triangle& t) {
+std::array<WrittenEdge, 3> edges_of(const Triangle& t) {
   return {{{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}}};
 }
 
@@ -69,9 +69,9 @@ std::array<DirectedEdge, 3> edges_of(const Triangle& t) {
 std::vector<char> find_main(const WrittenFacet& facet, std::span<const Triangle> triangles) {
   std::vector<Vec3> normals;
   for (const Triangle& t : triangles) normals.push_back(normal_of(facet, t));
-  std::map<DirectedEdge, int> owner;
+  std::map<WrittenEdge, int> owner;
   for (int t = 0; t < std::ssize(triangles); ++t)
-    for (const DirectedEdge& e : edges_of(triangles[at(t)])) owner[e] = t;
+    for (const WrittenEdge& e : edges_of(triangles[at(t)])) owner[e] = t;
   const auto largest = std::ranges::max_element(normals, {}, length) - normals.begin();
   std::vector<char> is_main(triangles.size(), 0);
   std::vector<int> reached{static_cast<int>(largest)};
@@ -94,10 +94,10 @@ std::vector<char> find_main(const WrittenFacet& facet, std::span<const Triangle>
 
 /// The loops round the main triangles; none if they touch themselves in a point.
 std::vector<Loop> loops_round(std::span<const Triangle> triangles, std::span<const char> is_main) {
-  std::set<DirectedEdge> rim;
+  std::set<WrittenEdge> rim;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (is_main[t])
-      for (const DirectedEdge& e : edges_of(triangles[t]))
+      for (const WrittenEdge& e : edges_of(triangles[t]))
         if (rim.erase({e.second, e.first}) == 0) rim.insert(e);
   std::map<int, int> next;
   for (const auto& [from, to] : rim)

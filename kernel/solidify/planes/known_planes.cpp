@@ -28,7 +28,7 @@ double residual_of(const OffsetSpan& span, std::int64_t offset) {
 KnownPlanes::KnownPlanes(double angle_tolerance, std::size_t most)
     : cell_size_(std::max(2 * std::sin(angle_tolerance / 2), kLeastCell)), exact_places_(most) {}
 
-const ParallelPlanes& KnownPlanes::class_at(int place) const {
+const PlaneClass& KnownPlanes::class_at(int place) const {
   return classes_[at(places_[at(place)].normal_class)];
 }
 
@@ -66,11 +66,11 @@ std::vector<int> KnownPlanes::near_classes(Vec3 u) const {
 
 std::optional<PlaneFit> KnownPlanes::known_fit(int k, const OffsetSpan& span,
                                                double tolerance) const {
-  const ParallelPlanes& c = classes_[at(k)];
+  const PlaneClass& c = classes_[at(k)];
   const double reach = tolerance * c.size;
   std::optional<PlaneFit> best;
   const auto from = static_cast<std::int64_t>(std::ceil(static_cast<double>(span.high) - reach));
-  auto o = std::ranges::lower_bound(c.offsets, from, {}, &ParallelPlanes::Offset::offset);
+  auto o = std::ranges::lower_bound(c.offsets, from, {}, &PlaneClass::Offset::offset);
   for (; o != c.offsets.end(); ++o) {
     if (residual_of(span, o->offset) > reach) break;
     const double residual = residual_of(span, o->offset) / c.size;
@@ -80,8 +80,8 @@ std::optional<PlaneFit> KnownPlanes::known_fit(int k, const OffsetSpan& span,
 }
 
 int KnownPlanes::number_of(int k, std::int64_t offset) {
-  ParallelPlanes& c = classes_[at(k)];
-  const auto o = std::ranges::lower_bound(c.offsets, offset, {}, &ParallelPlanes::Offset::offset);
+  PlaneClass& c = classes_[at(k)];
+  const auto o = std::ranges::lower_bound(c.offsets, offset, {}, &PlaneClass::Offset::offset);
   if (o != c.offsets.end() && o->offset == offset) return o->place;
   const int place = static_cast<int>(places_.size());
   c.offsets.insert(o, {offset, place});
@@ -95,7 +95,7 @@ int KnownPlanes::number_of(int k, std::int64_t offset) {
 }
 
 int KnownPlanes::add_class(const IntegerNormal& normal) {
-  ParallelPlanes c;
+  PlaneClass c;
   c.normal = normal;
   c.unit = unit(normal);
   c.size = length({static_cast<double>(normal[0]), static_cast<double>(normal[1]),

@@ -24,7 +24,7 @@ inline IntegerNormal unoriented(const IntegerNormal& normal) {
 using NormalCell = std::array<int, 3>;
 
 /// Planes of one direction.
-struct ParallelPlanes {
+struct PlaneClass {
   IntegerNormal normal{};
   Vec3 unit;
   NormalCell cell{};
@@ -61,9 +61,9 @@ class KnownPlanes {
     int normal_class = -1;
     std::int64_t offset = 0;
   };
-  [[nodiscard]] const std::vector<ParallelPlanes>& classes() const { return classes_; }
+  [[nodiscard]] const std::vector<PlaneClass>& classes() const { return classes_; }
   [[nodiscard]] const std::vector<KnownPlane>& places() const { return places_; }
-  [[nodiscard]] const ParallelPlanes& class_at(int place) const;
+  [[nodiscard]] const PlaneClass& class_at(int place) const;
 
   /// The place of the first class with exactly that normal, at that offset; or -1.
   [[nodiscard]] int exact_place(const IntegerNormal& normal, std::int64_t offset) const;
@@ -94,7 +94,7 @@ class KnownPlanes {
   [[nodiscard]] NormalCell cell_of(Vec3 u) const;
 
   double cell_size_;
-  std::vector<ParallelPlanes> classes_;
+  std::vector<PlaneClass> classes_;
   std::vector<KnownPlane> places_;
   std::unordered_map<NormalCell, std::vector<int>, Hash> cells_;  ///< classes by unit normal
   NumberTable exact_places_;

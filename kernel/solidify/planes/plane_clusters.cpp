@@ -185,7 +185,7 @@ class Clusterer {
 
   /// `uncertainty` is the polygon's.
   [[nodiscard]] bool is_tilted_too_far(const PolygonShape& shape, double uncertainty,
-                                       const ParallelPlanes& c) const {
+                                       const PlaneClass& c) const {
     const double allowed = angle_tolerance_ + uncertainty;
     if (!shape.normal || allowed >= std::numbers::pi / 2) return false;
     return is_arcsine_above(length(cross(shape.unit, c.unit)), allowed);
@@ -193,7 +193,7 @@ class Clusterer {
 
   /// The best place for the polygon in one class, if there is one.
   [[nodiscard]] std::optional<PlaneFit> fit(int polygon, double uncertainty, int k) const {
-    const ParallelPlanes& c = planes_.classes()[at(k)];
+    const PlaneClass& c = planes_.classes()[at(k)];
     if (is_tilted_too_far(shapes_[at(polygon)], uncertainty, c)) return std::nullopt;
     const OffsetSpan span = span_along(soup_, polygon, c.normal);
     if (const auto known = planes_.known_fit(k, span, offset_tolerance_)) return known;

@@ -118,7 +118,7 @@ inline Box flat_box(const std::vector<FlatPoint>& points) {
 
 /// Calls visit(i, j), i < j, for all boxes that overlap, until it returns false.
 template <class Visit>
-void for_each_pair(std::span<const Box> boxes, const Visit& visit) {
+void for_each_pair(const std::vector<Box>& boxes, const Visit& visit) {
   // Below this trying all pairs takes less than making a tree.
   constexpr std::size_t kFew = 24;
   if (boxes.size() <= kFew) {

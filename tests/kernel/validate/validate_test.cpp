@@ -57,6 +57,7 @@ Building prism_with_shafts(const std::vector<double>& xs) {
   const auto count = static_cast<std::ptrdiff_t>(polygons.size());
   polygons.insert(polygons.end(), holes.begin(), holes.end());
   Building building = test::building_of(polygons);
+  building.is_solid = true;
   for (auto hole = building.polygons.begin() + count; hole != building.polygons.end(); ++hole)
     building.polygons[1].rings.push_back(hole->rings[0]);
   building.polygons.erase(building.polygons.begin() + count, building.polygons.end());
