@@ -1,7 +1,7 @@
 #include "interpret/explain/explain.h"
 
-#include "interpret/explain/flip.h"
 #include "interpret/explain/proof.h"
+#include "interpret/explain/what_if.h"
 #include "interpret/labelling/labelling.h"
 
 #include <utility>

@@ -1,6 +1,5 @@
-#include "interpret/explain/turning_points.h"
-
 #include "interpret/evaluate/evaluator.h"
+#include "interpret/explain/what_if.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "interpret/plan/plan.h"
 
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 #include "interpret/labelling/groups.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/names.h"

@@ -24,7 +24,7 @@ struct Profile {
   enum class Form { as_is, block, blocks };
 
   /// What is a part of the building and not a detail on it, so that it does not go for its size
-  /// (detail::MainParts): what has this height and, seen from above, on average this area; a
+  /// (plan_by_profile): what has this height and, seen from above, on average this area; a
   /// protrusion that covers the least area of the sizes; all of a building that is smaller than
   /// that area times c; the highest part, if it rises by more than c over the rest.
   struct MainPart {
