@@ -190,8 +190,8 @@ class Differences {
     const auto at_said = differences(turn, asked, said);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       auto& values = asked[i].is_own ? points.own : points.others;
-      const auto root = [&](const Chord& chord) {
-        if (const auto value = root_of(turn, asked[i].rows, chord)) values.push_back(*value);
+      const auto root = [&](const Bracket& bracket) {
+        if (const auto value = root_of(turn, asked[i].rows, bracket)) values.push_back(*value);
       };
       root({low, at_low[i], said, at_said[i]});
       root({said, at_said[i], high, at_high[i]});
@@ -200,7 +200,7 @@ class Differences {
   }
 
  private:
-  struct Chord {
+  struct Bracket {
     double x, dx, y, dy;
   };
 
@@ -226,9 +226,9 @@ class Differences {
     return all;
   }
 
-  /// Where the difference is 0 between the ends of the chord: exactly where a side is the param
+  /// Where the difference is 0 between the ends of the bracket: exactly where a side is the param
   /// itself, else as a straight line goes, else by halving.
-  std::optional<double> root_of(const Turn& turn, const FeatureRows& rows, Chord s) {
+  std::optional<double> root_of(const Turn& turn, const FeatureRows& rows, Bracket s) {
     if (s.x == s.y || std::isnan(s.dx) || std::isnan(s.dy) || s.dx == s.dy) return std::nullopt;
     if ((s.dx < 0) == (s.dy < 0) && s.dx != 0 && s.dy != 0) return std::nullopt;
     const Expr& left = pack_.code[static_cast<std::size_t>(turn.left)];
