@@ -72,7 +72,7 @@ struct Profile {
 Profile with_edge_min(Profile profile, double edge_min_m);
 
 /// A level of the profile in `text`, called `file` in places. `level` may be empty if there is only
-/// one. Findings have codes: R2xx as in packs, R270 sizes that are no chain, R271 no such level,
+/// one. Findings have codes: R2xx as in packs, R274 sizes that are no chain, R275 no such level,
 /// R272 both sizes and a length on the map, or neither where verdicts need them.
 Checked<Profile> load_profile(std::string text, std::string file, const std::string& level);
 
