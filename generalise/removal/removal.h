@@ -27,7 +27,7 @@ Remainder remove_cells(const Solid& solid, const Segmentation& segmentation, Rem
                        const SolidValidator& validator, double unseen_m = 0,
                        const SegmentOptions& options = {});
 
-/// Takes off those of the refused features of `remainder` that only a ring tells of
+/// Takes off those of the refused features of `remainder` that are known by a ring only
 /// (Feature::is_uncut): a balcony before its loggia is material and air at once, so no cut frees
 /// it. The facet that the ring lies in is closed over it, and all surface that hangs on the ring
 /// goes: the facet's own plane is the only cut, so the result is closed by construction.

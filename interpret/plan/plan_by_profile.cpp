@@ -248,7 +248,7 @@ class ProfilePlanner {
     }
   }
 
-  /// A feature that goes takes along what sits on it. If the profile holds on to that, and the
+  /// What sits on a feature is removed with it. If the profile holds on to that, and the
   /// feature goes for its size only, or hangs over the ground that the other one stands on, it
   /// stays too.
   void spare_carriers() {
