@@ -159,7 +159,8 @@ std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
                           pack.code[static_cast<std::size_t>(turn.right)].levels;
   if (levels == 0) return {{rows_of(-1), true}};
   const int level = std::countr_zero(levels);
-  const Links& links = context.relations[static_cast<std::size_t>(turn.relations[at(level)])];
+  const Links& links =
+      context.relations[static_cast<std::size_t>(turn.relations[oriel::at(level)])];
   std::vector<AskedFeatures> asked;
   for (const int self : context.row_numbers) {
     AskedFeatures features{rows_of(self, level), level == 0 && self == row};
@@ -168,7 +169,7 @@ std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
       continue;
     }
     for (const int other : links.others_of(self)) {
-      features.rows[at(level + 1)] = other;
+      features.rows[oriel::at(level + 1)] = other;
       asked.push_back(features);
     }
   }

@@ -42,17 +42,17 @@ std::vector<Cluster> connected_members(const EvaluationContext& context, const L
   }
   std::vector<Cluster> by_root(context.rows);
   for (const int row : context.row_numbers)
-    if (is_member(row)) by_root[at(sets.find(row))].push_back(FeatureId{row});
+    if (is_member(row)) by_root[oriel::at(sets.find(row))].push_back(FeatureId{row});
   return by_root;
 }
 
 std::vector<Cluster> clusters_of(const GroupKind& kind, const EvaluationContext& context) {
-  const auto& members = context.membership[at(kind.of)];
-  const Links& links = context.relations[at(kind.by)];
-  const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
+  const auto& members = context.membership[oriel::at(kind.of)];
+  const Links& links = context.relations[oriel::at(kind.by)];
+  const auto is_member = [&](int row) { return members[oriel::at(row)] == Truth::yes; };
   auto clusters = links.lists->are_classes ? members_of_classes(links, is_member)
                                            : connected_members(context, links, is_member);
-  const std::size_t least = std::max<std::size_t>(1, at(kind.at_least));
+  const std::size_t least = std::max<std::size_t>(1, oriel::at(kind.at_least));
   std::erase_if(clusters, [&](const Cluster& cluster) { return cluster.size() < least; });
   return clusters;
 }

@@ -20,7 +20,7 @@ void sort_by_id(std::vector<NamedFeature>& features) {
 
 using rules::json_string;
 
-std::string shown(const std::string& label) { return label.empty() ? "unknown" : label; }
+std::string label_text(const std::string& label) { return label.empty() ? "unknown" : label; }
 
 /// The most frequent first; the order of names where they are equally frequent.
 std::vector<const LabelDiff::Changes::value_type*> by_count(const LabelDiff& diff) {
@@ -43,7 +43,7 @@ std::string rule_text(const Naming& naming) { return naming.rule.empty() ? "-" :
 
 std::string change_line(const LabelDiff::Changes::value_type& entry) {
   const auto& [before, after] = entry.first;
-  const auto labels = fmt::format("{} -> {}", shown(before.label), shown(after.label));
+  const auto labels = fmt::format("{} -> {}", label_text(before.label), label_text(after.label));
   const auto rules = fmt::format("{} -> {}", rule_text(before), rule_text(after));
   return fmt::format("{:>7}  {:<22} {:<40} {}\n", entry.second.count, labels, rules,
                      examples_text(entry.second));
@@ -51,8 +51,8 @@ std::string change_line(const LabelDiff::Changes::value_type& entry) {
 
 std::string count_line(const std::string& label, LabelDiff::Count count) {
   const auto gain = static_cast<long long>(count.after) - static_cast<long long>(count.before);
-  return fmt::format("  {:<12} {:>7} -> {:>7}  {:+}\n", shown(label), count.before, count.after,
-                     gain);
+  return fmt::format("  {:<12} {:>7} -> {:>7}  {:+}\n", label_text(label), count.before,
+                     count.after, gain);
 }
 
 std::string only_line(const char* which, const LabelDiff::LabelChange& change) {

@@ -29,7 +29,7 @@ struct MatchCandidate {
   const Prediction* prediction = nullptr;
 };
 
-bool is_better(const MatchCandidate& p, const MatchCandidate& q) {
+bool is_better_match(const MatchCandidate& p, const MatchCandidate& q) {
   if (p.iou != q.iou) return p.iou > q.iou;
   return std::tie(p.truth->id, p.prediction->id) < std::tie(q.truth->id, q.prediction->id);
 }
@@ -66,7 +66,7 @@ class Matcher {
                                                        grown(prediction->box, options_.grow_m));
         if (overlap >= options_.min_iou) pairs_.push_back({overlap, truth, prediction});
       }
-    std::ranges::stable_sort(pairs_, is_better);
+    std::ranges::stable_sort(pairs_, is_better_match);
   }
 
   /// One to one, the best first, among what is not matched yet.

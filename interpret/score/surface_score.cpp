@@ -55,7 +55,7 @@ std::pair<double, double> areas_of(const SurfaceScore& score, const std::string&
   return areas;
 }
 
-std::string shown(double share) {
+std::string share_text(double share) {
   return std::isnan(share) ? std::string("-") : fmt::format("{:.4f}", share);
 }
 
@@ -119,9 +119,9 @@ std::string to_text(const SurfaceScore& score) {
   for (const std::string& type : types_of(score)) {
     const auto [theirs, ours] = areas_of(score, type);
     text += fmt::format("{:<20}{:>13.2f}{:>13.2f}{:>11}{:>9}\n", type, theirs, ours,
-                        shown(score.precision(type)), shown(score.recall(type)));
+                        share_text(score.precision(type)), share_text(score.recall(type)));
   }
-  text += fmt::format("agreement {} of {} polygons", shown(score.agreement()), score.polygons);
+  text += fmt::format("agreement {} of {} polygons", share_text(score.agreement()), score.polygons);
   if (score.openings_m2 > 0)
     text += fmt::format("; {:.2f} m2 of windows and doors left out", score.openings_m2);
   if (score.unnamed_m2 > 0) text += fmt::format("; {:.2f} m2 have no name", score.unnamed_m2);

@@ -74,7 +74,7 @@ class CoverageCounter {
   std::vector<std::vector<rules::ExprId>> conditions_;
 };
 
-const char* name_of(Outcome outcome) {
+const char* outcome_word(Outcome outcome) {
   if (outcome == Outcome::unknown) return "unknown";
   return outcome == Outcome::holds ? "holds" : "fails";
 }
@@ -153,8 +153,8 @@ class TestRun {
     const auto rule = std::ranges::find(why.rules, reason.rule, &RuleReport::id);
     if (reason.condition.empty()) {
       if (rule->outcome != reason.outcome)
-        fail(fmt::format("{}: {} {}, expected that it {}", id, reason.rule, name_of(rule->outcome),
-                         name_of(reason.outcome)));
+        fail(fmt::format("{}: {} {}, expected that it {}", id, reason.rule,
+                         outcome_word(rule->outcome), outcome_word(reason.outcome)));
       return;
     }
     if (rule->outcome == reason.outcome &&
@@ -162,7 +162,7 @@ class TestRun {
          has_condition(rule->unless, reason.condition, Outcome::holds)))
       return;
     fail(fmt::format("{}: {} {}, expected that it {} at \"{}\"", id, reason.rule,
-                     name_of(rule->outcome), name_of(reason.outcome), reason.condition));
+                     outcome_word(rule->outcome), outcome_word(reason.outcome), reason.condition));
   }
 
   /// Every copy with noise must have the labels of the original.

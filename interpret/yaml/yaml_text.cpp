@@ -285,11 +285,12 @@ std::string to_yaml(const YamlNode& root, std::string_view text) {
 }
 
 bool is_same(const YamlNode& p, const YamlNode& q) {
+  const auto is_item_same = [](const YamlNode& a, const YamlNode& b) { return is_same(a, b); };
   const auto is_entry_same = [](const YamlEntry& a, const YamlEntry& b) {
     return is_same(a.key, b.key) && is_same(a.value, b.value);
   };
   return p.kind == q.kind && p.text == q.text && p.is_plain == q.is_plain &&
-         std::ranges::equal(p.items, q.items, is_same) &&
+         std::ranges::equal(p.items, q.items, is_item_same) &&
          std::ranges::equal(p.entries, q.entries, is_entry_same);
 }
 
