@@ -26,11 +26,6 @@ struct Ends {
   double to = 0;
 };
 
-std::optional<Ends> ends_of(const Pack& pack, const std::optional<Ramp>& ramp) {
-  if (!ramp) return std::nullopt;
-  return Ends{fold(pack, ramp->from).value_or(kUnknown), fold(pack, ramp->to).value_or(kUnknown)};
-}
-
 /// 0 below the ramp, 1 above it; a ramp without width is a step that belongs to the upper side.
 double climb(Ends ends, double x) {
   if (x >= ends.to) return 1;
@@ -124,10 +119,9 @@ void Labelling::run_predicates(const RuleStep& step) {
 
 bool Labelling::apply_predicate(const Rule& rule) {
   evaluator_.forget();
-  std::vector<Truth> truths;
-  truths.reserve(context_->rows);
-  for (const int row : context_->row_numbers)
-    truths.push_back(judge(*pack_, rule, evaluator_, row).truth);
+  std::vector<Truth> truths(context_->rows, Truth::no);
+  for (const Judgement& judgement : judge(*pack_, rule, evaluator_, context_->row_numbers))
+    truths[oriel::at(judgement.row)] = judgement.truth;
   bool has_changed = false;
   for (const ClassId at : pack_->classes[oriel::at(rule.label)].raised)
     has_changed = raise_all(context_->membership[oriel::at(at)], truths) || has_changed;
@@ -161,13 +155,14 @@ bool Labelling::is_open(ClassId decided, ClassId label) const {
 
 void Labelling::collect(int id) {
   const ClassId label = rule(id).label;
-  for (const int row : context_->row_numbers) {
-    if (!is_open(decided_[oriel::at(row)], label)) continue;
-    const Judgement judgement = judge(*pack_, rule(id), evaluator_, row);
+  open_rows_.clear();
+  for (const int row : context_->row_numbers)
+    if (is_open(decided_[oriel::at(row)], label)) open_rows_.push_back(row);
+  for (const Judgement& judgement : judge(*pack_, rule(id), evaluator_, open_rows_)) {
     if (judgement.truth == Truth::yes)
-      candidates_[oriel::at(row)].push_back({id, judgement.score});
-    else if (judgement.truth == Truth::unknown)
-      unknown_rows_[oriel::at(label)].push_back(row);
+      candidates_[oriel::at(judgement.row)].push_back({id, judgement.score});
+    else
+      unknown_rows_[oriel::at(label)].push_back(judgement.row);
   }
 }
 
@@ -221,20 +216,29 @@ double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
   }
   const double value = evaluator.number(term.value, rows);
   if (std::isnan(value)) return kUnknown;
-  const auto rise = ends_of(pack, term.rise);
-  const auto fall = ends_of(pack, term.fall);
-  return std::min(rise ? climb(*rise, value) : 1, fall ? descend(*fall, value) : 1);
+  const auto ends_of = [&](const Ramp& ramp) {
+    return Ends{evaluator.number(ramp.from, rows), evaluator.number(ramp.to, rows)};
+  };
+  return std::min(term.rise ? climb(ends_of(*term.rise), value) : 1,
+                  term.fall ? descend(ends_of(*term.fall), value) : 1);
 }
 
-Judgement judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, int row) {
-  const FeatureRows rows = rows_of(row);
-  const Truth truth = evaluator.all_hold(rule.require, rows);
-  if (truth == Truth::no) return {};
+std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+                             std::span<const int> rows) {
+  std::vector<Judgement> judged(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) judged[i].row = rows[i];
+  for (const ExprId id : rule.require) evaluator.narrow(judged, id);
   for (const ExprId id : rule.unless)
-    if (evaluator.truth(id, rows) == Truth::yes) return {};
-  if (truth != Truth::yes || rule.score.empty()) return {truth, 1};
-  const auto scored = score(pack, rule, evaluator, rows);
-  return scored ? Judgement{Truth::yes, *scored} : Judgement{Truth::unknown, 0};
+    std::erase_if(judged, [&](const Judgement& judgement) {
+      return evaluator.truth(id, rows_of(judgement.row)) == Truth::yes;
+    });
+  if (rule.score.empty()) return judged;
+  for (Judgement& judgement : judged) {
+    const auto scored = score(pack, rule, evaluator, rows_of(judgement.row));
+    if (!scored) judgement.truth = Truth::unknown;
+    judgement.score = scored.value_or(0);
+  }
+  return judged;
 }
 
 }  // namespace oriel::rules
