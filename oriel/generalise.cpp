@@ -3,7 +3,7 @@
 #include "generalise/invariants/fineness.h"
 #include "generalise/to_lod.h"
 #include "interpret/plan/plan.h"
-#include "kernel/mesh/hausdorff.h"
+#include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "generalise/feature_outcome.h"
 #include "generalise/generalise.h"
 #include "interpret/pack/rule_base.h"
 #include "interpret/plan/profile.h"

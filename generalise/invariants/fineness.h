@@ -84,8 +84,8 @@ struct Fineness {
 /// What of a building that was redrawn as `after` is finer: for each feature with such edges a
 /// G415, and everywhere for each with such gaps a G416, warnings. It says if the feature was to
 /// change and was refused. Of new edges (new_short_edges) it says why they could not be cleared.
-/// Notes are those of features that were refused, which is told already, those that nobody tried to
-/// clear (blocks) and, apart from others, those of parts that stay as they were
+/// Notes are those of features that were refused, which is reported already, those that nobody
+/// tried to clear (blocks) and, apart from others, those of parts that stay as they were
 /// (without_whole_edges).
 std::vector<Issue> fineness_issues(const Building& building, const Solid& before,
                                    const Solid& after, const Segmentation& segmentation,

@@ -1,17 +1,58 @@
 #pragma once
 
-#include "generalise/invariants/party_walls.h"
-#include "generalise/invariants/roof_lines.h"
 #include "kernel/base/code.h"
+#include "kernel/geometry/planar.h"
+#include "kernel/model/building.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/solid.h"
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace oriel {
+
+/// A level edge.
+struct LevelLine {
+  double height_m = 0;  ///< z in the frame
+  double length_m = 0;
+};
+
+/// The level edges at which the facets of a roof begin and end: facets of no more than 75 degrees,
+/// the default pack's steepest roof.
+struct RoofLines {
+  /// Between a facet that rises from there, or is level, and what is no roof: a wall, a verge.
+  std::vector<LevelLine> eaves;
+  /// Between facets of which one falls off from there and the other is a roof that falls off, too,
+  /// or no roof.
+  std::vector<LevelLine> ridges;
+};
+
+RoofLines roof_lines(const Solid& solid);
+
+/// The height at which most of the length lies, to the centimetre; of equal ones the highest.
+/// Nothing if there are no lines.
+std::optional<double> main_height_m(const std::vector<LevelLine>& lines);
+
+/// The length of lines no more than `within_m` above or below a height.
+double length_near_m(const std::vector<LevelLine>& lines, double height_m, double within_m);
+
+/// A wall of another building, in the frame of the building that it may stand against.
+struct PartyWall {
+  std::vector<detail::Outline> outlines;  ///< the outer one first
+  Vec3 normal;                            ///< out of the other building
+};
+
+/// The upright polygons of those of `buildings` with another id that a facet of `solid`, which is
+/// `building`'s, lies against: it looks the opposite way, no more than a centimetre off, and they
+/// overlap.
+std::vector<PartyWall> party_walls(const Building& building, const Solid& solid,
+                                   std::span<const Building> buildings);
+
+/// The area of the solid's facets that lies against the walls.
+double shared_m2(const Solid& solid, const std::vector<PartyWall>& walls);
 
 /// Whether a solid is fit to be written.
 enum class Fitness {

@@ -1,7 +1,6 @@
 #include "generalise/operators/operators.h"
 
-#include "generalise/removal/fill_rings.h"
-#include "generalise/removal/remove_cells.h"
+#include "generalise/removal/removal.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,5 @@
-#include "generalise/removal/fill_rings.h"
-
 #include "generalise/invariants/stays.h"
+#include "generalise/removal/removal.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/planar.h"
 

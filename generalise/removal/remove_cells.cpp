@@ -1,6 +1,5 @@
-#include "generalise/removal/remove_cells.h"
-
 #include "generalise/invariants/stays.h"
+#include "generalise/removal/removal.h"
 #include "generalise/removal/take_out.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"

@@ -149,7 +149,7 @@ class LevelOperations {
     for (SeriesStep& one : steps_) std::ranges::sort(one.with);
   }
 
-  /// Orders steps that together make `change` of `state`, each with its own, behind steps_;
+  /// Orders steps that together make `change` of `state`, each with its own, after steps_;
   /// `done` is what is carried out in the state.
   void separate(const std::vector<SeriesStep>& steps, LevelState state, const Change& change,
                 std::vector<Step>& done) {
@@ -183,7 +183,7 @@ class LevelOperations {
   }
 
   /// Steps that together lead from `state` to `next`. One is carried out, those at the rim of a
-  /// facet first; of the others it may then be told what each does. What cannot be carried out
+  /// facet first; of the others it may then be known what each does. What cannot be carried out
   /// alone goes with the next one.
   void in_turn(std::vector<SeriesStep> some, LevelState state, const LevelState& next,
                std::vector<Step>& done) {

@@ -251,7 +251,7 @@ ExprId Checker::check_distance(const Syntax& syntax) {
   return other ? code_.distance_along(syntax.span, *self, *other) : kNoExpr;
 }
 
-/// A column behind those of the schema, which plan() fills (groups.h).
+/// A column after those of the schema, which plan() fills (groups.h).
 ExprId Checker::check_group_gap(const Syntax& syntax) {
   if (!is_of_group_)
     return code_.fail(Code::R271, syntax.span,

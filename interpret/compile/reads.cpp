@@ -25,12 +25,12 @@ Reads find_reads(const Pack& pack) {
     if (expr.op == Op::attribute || expr.op == Op::flag)
       (expr.type == Type::text ? reads.texts : reads.numbers).push_back(at(expr.index));
   }
-  // What is behind the schema is of groups, which are known after labelling.
+  // Columns after the schema are of groups, which are known after labelling.
   std::erase_if(reads.numbers, [](std::size_t c) { return c >= kAttributes.size(); });
   keep_each_once(reads.texts);
   keep_each_once(reads.numbers);
   for (const GroupKind& kind : pack.groups) reads.relations[at(kind.by)] = true;
-  // A relation stands behind the one that it narrows.
+  // A relation follows the one that it narrows.
   for (std::size_t i = pack.relations.size(); i-- > 0;)
     if (reads.relations[built_in + i]) reads.relations[at(pack.relations[i].within)] = true;
   for (std::size_t i = 0; i < pack.words.size(); ++i) reads.words.emplace(pack.words[i], i);

@@ -3,6 +3,9 @@
 #include "interpret/language/findings.h"
 #include "interpret/pack/pack.h"
 
+#include <utility>
+#include <vector>
+
 namespace oriel::rules {
 
 /// Finds in which order the rules of `pack` are to be run, and sets `pack.steps`.
@@ -23,5 +26,16 @@ void find_strata(Pack& pack, Findings& findings);
 /// The classes whose members make up `id`: itself, if it has rules of its own and is abstract; else
 /// itself and all classes beneath it.
 std::vector<ClassId> members_of(const std::vector<Class>& classes, ClassId id);
+
+/// The strongly connected components of a graph. Numbered so that an edge leads to the same or to a
+/// lower number.
+struct Components {
+  int count = 0;
+  /// The component of every node.
+  std::vector<int> of_node;
+};
+
+/// Tarjan 1972, without recursion. Nodes are 0 … nodes - 1, edges lead from first to second.
+Components find_components(int nodes, const std::vector<std::pair<int, int>>& edges);
 
 }  // namespace oriel::rules

@@ -1,6 +1,6 @@
 #include "interpret/compile/typed_code.h"
 
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/quantity.h"
 
 #include <algorithm>

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "interpret/language/expr.h"
+#include "interpret/pack/pack.h"
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace oriel::rules {
 
@@ -57,5 +59,9 @@ inline Truth is_similar(double x, double y, double tolerance) {
   const double allowed = tolerance * std::fmax(std::abs(x), std::abs(y));
   return compare(Op::less_equal, std::abs(x - y), allowed);
 }
+
+/// The value of a constant number at the params' values: NaN if it has none (0 / 0). Nothing if it
+/// depends on a feature, or on the map's scale and no `scale` is given.
+std::optional<double> fold(const Pack& pack, ExprId expr, std::optional<double> scale = {});
 
 }  // namespace oriel::rules

@@ -59,16 +59,16 @@ double Evaluator::number(ExprId id, const FeatureRows& rows) {
     default:
       break;
   }
-  double result = number(expr.args[0], rows);
+  double result = operand(expr.args[0], rows);
   if (expr.args.size() == 1) return apply(expr.op, result);
   for (std::size_t k = 1; k < expr.args.size(); ++k)
-    result = apply(expr.op, result, number(expr.args[k], rows));
+    result = apply(expr.op, result, operand(expr.args[k], rows));
   return result;
 }
 
 Truth Evaluator::truth(ExprId id, const FeatureRows& rows) {
   const Expr& expr = at(id);
-  const auto arg = [&](std::size_t k) { return number(expr.args[k], rows); };
+  const auto arg = [&](std::size_t k) { return operand(expr.args[k], rows); };
   switch (expr.op) {
     case Op::flag:
       return compare(Op::not_equal, attribute(expr, rows), 0);
@@ -86,9 +86,9 @@ Truth Evaluator::truth(ExprId id, const FeatureRows& rows) {
     case Op::any_of:
       return any_holds(expr.args, rows);
     case Op::is_class:
-      return is_member(expr, rows);
+      return members_of(expr)[row_of(expr, rows)];
     case Op::facet_is:
-      return is_on(expr, rows);
+      return is_on(expr, row_of(expr, rows));
     case Op::exists:
       return exists(expr, rows);
     case Op::none:
@@ -100,16 +100,75 @@ Truth Evaluator::truth(ExprId id, const FeatureRows& rows) {
   }
 }
 
-double Evaluator::attribute(const Expr& expr, const FeatureRows& rows) const {
-  const int row = rows[oriel::at(expr.level)];
-  return context_->columns[oriel::at(expr.index)][oriel::at(row)];
+namespace {
+
+template <class Ask>
+void keep(std::vector<Judgement>& judged, Ask ask) {
+  std::size_t kept = 0;
+  for (Judgement judgement : judged) {
+    judgement.truth = std::min(judgement.truth, ask(oriel::at(judgement.row)));
+    if (judgement.truth != Truth::no) judged[kept++] = judgement;
+  }
+  judged.resize(kept);
+}
+
+Truth is_among(const std::vector<double>& members, double value) {
+  Truth most = Truth::no;
+  for (const double member : members) most = std::max(most, compare(Op::equal, value, member));
+  return most;
+}
+
+}  // namespace
+
+/// What an expression is and what is constant in it is looked at once for all features.
+void Evaluator::narrow(std::vector<Judgement>& judged, ExprId condition) {
+  if (judged.empty()) return;
+  const Expr& expr = at(condition);
+  if (expr.op == Op::all_of) {
+    for (const ExprId part : expr.args) narrow(judged, part);
+  } else if (expr.op == Op::is_class) {
+    const auto& members = members_of(expr);
+    keep(judged, [&](std::size_t row) { return members[row]; });
+  } else if (expr.op == Op::facet_is) {
+    keep(judged, [&](std::size_t row) { return is_on(expr, row); });
+  } else if (compares_attribute(expr)) {
+    narrow_by_attribute(judged, expr);
+  } else {
+    keep(judged, [&](std::size_t row) { return truth(condition, rows_of(static_cast<int>(row))); });
+  }
+}
+
+/// With constants only.
+bool Evaluator::compares_attribute(const Expr& expr) const {
+  const bool is_comparison = expr.op >= Op::less && expr.op <= Op::in_list;
+  return is_comparison && at(expr.args[0]).op == Op::attribute &&
+         std::all_of(expr.args.begin() + 1, expr.args.end(),
+                     [&](ExprId arg) { return is_constant(at(arg)); });
+}
+
+void Evaluator::narrow_by_attribute(std::vector<Judgement>& judged, const Expr& expr) {
+  const auto values = context_->columns[oriel::at(at(expr.args[0]).index)];
+  const auto constant = [&](std::size_t k) { return operand(expr.args[k], rows_of(-1)); };
+  if (expr.op == Op::in_list) {
+    std::vector<double> members;
+    for (std::size_t k = 1; k < expr.args.size(); ++k) members.push_back(constant(k));
+    return keep(judged, [&](std::size_t row) { return is_among(members, values[row]); });
+  }
+  const double bound = constant(1);
+  if (expr.op != Op::in_range)
+    return keep(judged, [&](std::size_t row) { return compare(expr.op, values[row], bound); });
+  const double high = constant(2);
+  keep(judged, [&](std::size_t row) {
+    return std::min(compare(Op::greater_equal, values[row], bound),
+                    compare(Op::less_equal, values[row], high));
+  });
 }
 
 Truth Evaluator::in_list(const Expr& expr, const FeatureRows& rows) {
-  const double value = number(expr.args[0], rows);
+  const double value = operand(expr.args[0], rows);
   Truth most = Truth::no;
   for (std::size_t k = 1; k < expr.args.size() && most != Truth::yes; ++k)
-    most = std::max(most, compare(Op::equal, value, number(expr.args[k], rows)));
+    most = std::max(most, compare(Op::equal, value, operand(expr.args[k], rows)));
   return most;
 }
 
@@ -131,16 +190,9 @@ Truth Evaluator::any_holds(const std::vector<ExprId>& ids, const FeatureRows& ro
   return most;
 }
 
-Truth Evaluator::is_member(const Expr& expr, const FeatureRows& rows) const {
-  const auto& classes = expr.is_previous ? context_->previous : context_->membership;
-  return classes[oriel::at(expr.index)][oriel::at(rows[oriel::at(expr.level)])];
-}
-
 /// Whether the host's facet is of a kind.
-Truth Evaluator::is_on(const Expr& expr, const FeatureRows& rows) const {
-  const double inclination_deg =
-      context_
-          ->columns[column_of(Attribute::host_inclination)][oriel::at(rows[oriel::at(expr.level)])];
+Truth Evaluator::is_on(const Expr& expr, std::size_t row) const {
+  const double inclination_deg = context_->columns[column_of(Attribute::host_inclination)][row];
   if (std::isnan(inclination_deg)) return Truth::unknown;
   return truth_of(kind_of_facet(pack_->hosts, inclination_deg) ==
                   static_cast<HostKind>(expr.index));

@@ -36,6 +36,14 @@ struct Tally {
   [[nodiscard]] int total() const { return yes + unknown + no; }
 };
 
+/// A feature as a rule judges it.
+struct Judgement {
+  int row = -1;
+  Truth truth = Truth::yes;
+  /// 0…1.
+  double score = 1;
+};
+
 /// Evaluates expressions of a pack for features of a building. Both must outlive it.
 class Evaluator {
  public:
@@ -50,6 +58,9 @@ class Evaluator {
   [[nodiscard]] Truth truth(ExprId id, const FeatureRows& rows);
   /// Whether all of them hold.
   [[nodiscard]] Truth all_hold(const std::vector<ExprId>& ids, const FeatureRows& rows);
+  /// Takes the features away for which the condition does not hold; where it is unknown they become
+  /// unknown.
+  void narrow(std::vector<Judgement>& judged, ExprId condition);
   /// For a quantifier or an aggregate.
   [[nodiscard]] Tally tally(ExprId id, const FeatureRows& rows);
 
@@ -58,14 +69,30 @@ class Evaluator {
     return pack_->code[static_cast<std::size_t>(id)];
   }
 
-  [[nodiscard]] double attribute(const Expr& expr, const FeatureRows& rows) const;
+  [[nodiscard]] double attribute(const Expr& expr, const FeatureRows& rows) const {
+    return context_->columns[static_cast<std::size_t>(expr.index)][row_of(expr, rows)];
+  }
+  [[nodiscard]] static std::size_t row_of(const Expr& expr, const FeatureRows& rows) {
+    return static_cast<std::size_t>(rows[static_cast<std::size_t>(expr.level)]);
+  }
+  /// number() for what is compared, which is nearly always an attribute or a constant.
+  double operand(ExprId id, const FeatureRows& rows) {
+    const Expr& expr = at(id);
+    if (expr.op == Op::attribute) return attribute(expr, rows);
+    return expr.op == Op::constant ? expr.number : number(id, rows);
+  }
   double count(const Expr& expr, const FeatureRows& rows);
   double aggregate(const Expr& expr, const FeatureRows& rows);
 
   Truth in_list(const Expr& expr, const FeatureRows& rows);
   Truth any_holds(const std::vector<ExprId>& ids, const FeatureRows& rows);
-  [[nodiscard]] Truth is_member(const Expr& expr, const FeatureRows& rows) const;
-  [[nodiscard]] Truth is_on(const Expr& expr, const FeatureRows& rows) const;
+  [[nodiscard]] const std::vector<Truth>& members_of(const Expr& expr) const {
+    const auto& classes = expr.is_previous ? context_->previous : context_->membership;
+    return classes[static_cast<std::size_t>(expr.index)];
+  }
+  [[nodiscard]] bool compares_attribute(const Expr& expr) const;
+  void narrow_by_attribute(std::vector<Judgement>& judged, const Expr& expr);
+  [[nodiscard]] Truth is_on(const Expr& expr, std::size_t row) const;
   Truth exists(const Expr& expr, const FeatureRows& rows);
   Truth all(const Expr& expr, const FeatureRows& rows);
 

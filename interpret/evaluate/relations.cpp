@@ -25,9 +25,9 @@ bool are_mirrored(const Pack& pack, const std::vector<ExprId>& p, const std::vec
 
 /// Of `f(self) = f(other)` what is asked of self; else kNoExpr.
 ExprId compared_in(const Pack& pack, ExprId id) {
-  const Expr& expr = pack.code[at(id)];
+  const Expr& expr = pack.code[oriel::at(id)];
   if (expr.op != Op::equal || !is_mirrored(pack, expr.args[0], expr.args[1])) return kNoExpr;
-  const bool is_first = pack.code[at(expr.args[0])].levels == kSelf;
+  const bool is_first = pack.code[oriel::at(expr.args[0])].levels == kSelf;
   return expr.args[is_first ? 0 : 1];
 }
 
@@ -73,7 +73,8 @@ NarrowedRelation narrowed_pairs(const EvaluationContext& context, Evaluator& eva
     for (std::size_t link = begin; link < end; ++link) {
       const int other = from.other(link);
       if (other == self) continue;
-      Truth fits = std::min({selves[at(self)], others[at(other)], from.is_other(self, link)});
+      Truth fits =
+          std::min({selves[oriel::at(self)], others[oriel::at(other)], from.is_other(self, link)});
       FeatureRows pair = rows_of(self);
       pair[1] = other;
       if (fits != Truth::no) fits = std::min(fits, evaluator.all_hold(sides.of_both, pair));
@@ -99,12 +100,12 @@ FeatureLinks divided(const FeatureLinks& from, const std::vector<Truth>& fits,
   for (std::size_t list = 0; list < from.lists(); ++list) {
     members.clear();
     for (const int row : from.list(list))
-      if (fits[at(row)] != Truth::no) members.push_back(row);
-    std::ranges::stable_sort(members, {}, [&](int row) { return values[at(row)]; });
+      if (fits[oriel::at(row)] != Truth::no) members.push_back(row);
+    std::ranges::stable_sort(members, {}, [&](int row) { return values[oriel::at(row)]; });
     for (std::size_t i = 0; i < members.size(); ++i) {
-      if (i == 0 || values[at(members[i])] != values[at(members[i - 1])])
+      if (i == 0 || values[oriel::at(members[i])] != values[oriel::at(members[i - 1])])
         parts.starts.push_back(static_cast<int>(parts.others.size()));
-      parts.list_of[at(members[i])] = static_cast<int>(parts.starts.size()) - 1;
+      parts.list_of[oriel::at(members[i])] = static_cast<int>(parts.starts.size()) - 1;
       parts.others.push_back(members[i]);
     }
   }
@@ -126,8 +127,8 @@ std::optional<NarrowedRelation> divided_classes(const EvaluationContext& context
   std::vector<double> values(context.rows);
   for (const ExprId key : *sides.keys) {
     for (const int row : result.lists.others) {
-      values[at(row)] = evaluator.number(key, rows_of(row));
-      if (std::isnan(values[at(row)])) return std::nullopt;
+      values[oriel::at(row)] = evaluator.number(key, rows_of(row));
+      if (std::isnan(values[oriel::at(row)])) return std::nullopt;
     }
     result.lists = divided(result.lists, fits, values);
   }
@@ -139,10 +140,10 @@ std::optional<NarrowedRelation> divided_classes(const EvaluationContext& context
 
 RelationSides sides_of(const Pack& pack, const RelationDefinition& relation) {
   RelationSides sides;
-  const Expr& where = pack.code[at(relation.where)];
+  const Expr& where = pack.code[oriel::at(relation.where)];
   const std::vector<ExprId> whole{relation.where};
   for (const ExprId id : where.op == Op::all_of ? where.args : whole) {
-    const unsigned levels = pack.code[at(id)].levels;
+    const unsigned levels = pack.code[oriel::at(id)].levels;
     auto& list = (levels & kOther) == 0  ? sides.of_self
                  : (levels & kSelf) == 0 ? sides.of_other
                                          : sides.of_both;
@@ -154,7 +155,7 @@ RelationSides sides_of(const Pack& pack, const RelationDefinition& relation) {
 
 NarrowedRelation narrowed(const Pack& pack, const EvaluationContext& context,
                           const RelationDefinition& relation) {
-  const Links& from = context.relations[at(relation.within)];
+  const Links& from = context.relations[oriel::at(relation.within)];
   Evaluator evaluator(pack, context);
   if (relation.sides.keys && from.lists->are_classes)
     if (auto classes = divided_classes(context, evaluator, from, relation.sides))

@@ -1,6 +1,6 @@
 #include "interpret/explain/constraints.h"
 
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/pack/names.h"
 

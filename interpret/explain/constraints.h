@@ -37,7 +37,7 @@ struct AttributeTest {
 /// `host is wall`; with `is_negated` of its opposite. Nothing for every other kind of condition.
 std::optional<AttributeTest> attribute_test(const Pack& pack, ExprId id, bool is_negated);
 
-/// What must be true of a feature for which all of some conditions hold, as far as it can be told
+/// What must be true of a feature for which all of some conditions hold, as far as that is known
 /// from attributes compared with constants, words, and classes with and without `not`.
 class Constraints {
  public:

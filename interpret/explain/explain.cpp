@@ -1,7 +1,7 @@
 #include "interpret/explain/explain.h"
 
-#include "interpret/explain/flip.h"
 #include "interpret/explain/proof.h"
+#include "interpret/explain/what_if.h"
 #include "interpret/labelling/labelling.h"
 
 #include <utility>
@@ -41,11 +41,11 @@ RuleReport report_of(const Pack& pack, const Rule& rule, Evaluator& evaluator, i
   report.priority = rule.priority;
   report.is_predicate = label.is_abstract;
   report.place = pack.source.place(rule.span.begin);
-  const rules::Judgement judgement = rules::judge(pack, rule, evaluator, row);
-  report.outcome = judgement.truth == Truth::yes       ? Outcome::holds
-                   : judgement.truth == Truth::unknown ? Outcome::unknown
-                                                       : Outcome::fails;
-  if (report.outcome == Outcome::holds) report.score = judgement.score;
+  const auto judged = rules::judge(pack, rule, evaluator, std::span(&row, 1));
+  report.outcome = judged.empty()                      ? Outcome::fails
+                   : judged[0].truth == Truth::unknown ? Outcome::unknown
+                                                       : Outcome::holds;
+  if (report.outcome == Outcome::holds) report.score = judged[0].score;
   report.require = prove(prover, rule.require);
   report.unless = prove_vetoes(prover, rule.unless);
   for (const rules::ScoreTerm& term : rule.score) report.terms.push_back(prover.term(term));

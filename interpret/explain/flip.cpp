@@ -1,6 +1,3 @@
-#include "interpret/explain/flip.h"
-
-#include "interpret/explain/turning_points.h"
 #include "interpret/explain/what_if.h"
 #include "interpret/language/quantity.h"
 

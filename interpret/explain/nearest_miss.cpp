@@ -1,4 +1,3 @@
-#include "interpret/compile/fold.h"
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/explain/proof.h"
 

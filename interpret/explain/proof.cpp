@@ -1,6 +1,5 @@
 #include "interpret/explain/proof.h"
 
-#include "interpret/compile/fold.h"
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/language/quantity.h"

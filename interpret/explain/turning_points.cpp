@@ -1,6 +1,5 @@
-#include "interpret/explain/turning_points.h"
-
 #include "interpret/evaluate/evaluator.h"
+#include "interpret/explain/what_if.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -160,7 +159,8 @@ std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
                           pack.code[static_cast<std::size_t>(turn.right)].levels;
   if (levels == 0) return {{rows_of(-1), true}};
   const int level = std::countr_zero(levels);
-  const Links& links = context.relations[static_cast<std::size_t>(turn.relations[at(level)])];
+  const Links& links =
+      context.relations[static_cast<std::size_t>(turn.relations[oriel::at(level)])];
   std::vector<AskedFeatures> asked;
   for (const int self : context.row_numbers) {
     AskedFeatures features{rows_of(self, level), level == 0 && self == row};
@@ -169,7 +169,7 @@ std::vector<AskedFeatures> features_of(const Pack& pack, const Turn& turn,
       continue;
     }
     for (const int other : links.others_of(self)) {
-      features.rows[at(level + 1)] = other;
+      features.rows[oriel::at(level + 1)] = other;
       asked.push_back(features);
     }
   }
@@ -191,8 +191,8 @@ class Differences {
     const auto at_said = differences(turn, asked, said);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       auto& values = asked[i].is_own ? points.own : points.others;
-      const auto root = [&](const Chord& chord) {
-        if (const auto value = root_of(turn, asked[i].rows, chord)) values.push_back(*value);
+      const auto root = [&](const Bracket& bracket) {
+        if (const auto value = root_of(turn, asked[i].rows, bracket)) values.push_back(*value);
       };
       root({low, at_low[i], said, at_said[i]});
       root({said, at_said[i], high, at_high[i]});
@@ -201,7 +201,7 @@ class Differences {
   }
 
  private:
-  struct Chord {
+  struct Bracket {
     double x, dx, y, dy;
   };
 
@@ -227,9 +227,9 @@ class Differences {
     return all;
   }
 
-  /// Where the difference is 0 between the ends of the chord: exactly where a side is the param
+  /// Where the difference is 0 between the ends of the bracket: exactly where a side is the param
   /// itself, else as a straight line goes, else by halving.
-  std::optional<double> root_of(const Turn& turn, const FeatureRows& rows, Chord s) {
+  std::optional<double> root_of(const Turn& turn, const FeatureRows& rows, Bracket s) {
     if (s.x == s.y || std::isnan(s.dx) || std::isnan(s.dy) || s.dx == s.dy) return std::nullopt;
     if ((s.dx < 0) == (s.dy < 0) && s.dx != 0 && s.dy != 0) return std::nullopt;
     const Expr& left = pack_.code[static_cast<std::size_t>(turn.left)];

@@ -1,6 +1,6 @@
 #include "interpret/explain/what_if.h"
 
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 
 #include <algorithm>
 

@@ -16,13 +16,13 @@ namespace oriel::rules {
 
 namespace {
 
-using Members = std::vector<FeatureId>;
+using Cluster = std::vector<FeatureId>;
 
 /// The members of each class of the relation.
-std::vector<Members> members_of_classes(const Links& links, auto is_member) {
-  std::vector<Members> clusters;
+std::vector<Cluster> members_of_classes(const Links& links, auto is_member) {
+  std::vector<Cluster> clusters;
   for (std::size_t l = 0; l < links.lists->lists(); ++l) {
-    Members& members = clusters.emplace_back();
+    Cluster& members = clusters.emplace_back();
     for (const int row : links.lists->list(l))
       if (is_member(row) && links.is_certain(row)) members.push_back(FeatureId{row});
   }
@@ -30,7 +30,7 @@ std::vector<Members> members_of_classes(const Links& links, auto is_member) {
 }
 
 /// Members that pairs of members connect.
-std::vector<Members> connected_members(const EvaluationContext& context, const Links& links,
+std::vector<Cluster> connected_members(const EvaluationContext& context, const Links& links,
                                        auto is_member) {
   oriel::detail::DisjointSets sets(context.rows);
   for (const int row : context.row_numbers) {
@@ -40,25 +40,25 @@ std::vector<Members> connected_members(const EvaluationContext& context, const L
       if (links.is_other(row, link) == Truth::yes && is_member(links.other(link)))
         sets.unite(row, links.other(link));
   }
-  std::vector<Members> by_root(context.rows);
+  std::vector<Cluster> by_root(context.rows);
   for (const int row : context.row_numbers)
-    if (is_member(row)) by_root[at(sets.find(row))].push_back(FeatureId{row});
+    if (is_member(row)) by_root[oriel::at(sets.find(row))].push_back(FeatureId{row});
   return by_root;
 }
 
-std::vector<Members> clusters_of(const GroupKind& kind, const EvaluationContext& context) {
-  const auto& members = context.membership[at(kind.of)];
-  const Links& links = context.relations[at(kind.by)];
-  const auto is_member = [&](int row) { return members[at(row)] == Truth::yes; };
+std::vector<Cluster> clusters_of(const GroupKind& kind, const EvaluationContext& context) {
+  const auto& members = context.membership[oriel::at(kind.of)];
+  const Links& links = context.relations[oriel::at(kind.by)];
+  const auto is_member = [&](int row) { return members[oriel::at(row)] == Truth::yes; };
   auto clusters = links.lists->are_classes ? members_of_classes(links, is_member)
                                            : connected_members(context, links, is_member);
-  const std::size_t least = std::max<std::size_t>(1, at(kind.at_least));
-  std::erase_if(clusters, [&](const Members& cluster) { return cluster.size() < least; });
+  const std::size_t least = std::max<std::size_t>(1, oriel::at(kind.at_least));
+  std::erase_if(clusters, [&](const Cluster& cluster) { return cluster.size() < least; });
   return clusters;
 }
 
 /// Named by the smallest id of its members.
-Group group_of(const GroupKind& kind, Members members, const FeatureTable& table) {
+Group group_of(const GroupKind& kind, Cluster members, const FeatureTable& table) {
   const auto id_of = [&](FeatureId member) -> const std::string& { return table.id(member); };
   const FeatureId first = *std::ranges::min_element(members, {}, id_of);
   return {kind.name + "." + table.id(first), kind.name, std::move(members)};
@@ -116,7 +116,7 @@ std::vector<Group> find_groups(const Pack& pack, const EvaluationContext& contex
   if (context.rows == 0) return groups;
   for (const GroupKind& kind : pack.groups) {
     std::vector<Group> found;
-    for (Members& members : clusters_of(kind, context))
+    for (Cluster& members : clusters_of(kind, context))
       found.push_back(group_of(kind, std::move(members), table));
     std::ranges::sort(found, {}, &Group::id);
     std::ranges::move(found, std::back_inserter(groups));

@@ -1,5 +1,6 @@
 #include "interpret/labelling/labelling.h"
 
+#include "interpret/evaluate/arithmetic.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -17,6 +18,40 @@ bool raise_all(std::vector<Truth>& members, const std::vector<Truth>& truths) {
     members[row] = std::max(members[row], truths[row]);
   }
   return has_changed;
+}
+
+/// A ramp's ends at the params' values.
+struct Ends {
+  double from = 0;
+  double to = 0;
+};
+
+/// 0 below the ramp, 1 above it; a ramp without width is a step that belongs to the upper side.
+double climb(Ends ends, double x) {
+  if (x >= ends.to) return 1;
+  if (x <= ends.from) return 0;
+  return (x - ends.from) / (ends.to - ends.from);
+}
+
+/// The same downhill: 1 up to the ramp's start, 0 from its end on.
+double descend(Ends ends, double x) {
+  if (x <= ends.from) return 1;
+  if (x >= ends.to) return 0;
+  return (ends.to - x) / (ends.to - ends.from);
+}
+
+/// The weighted mean of the known terms; nothing if none is known.
+std::optional<double> score(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+                            const FeatureRows& rows) {
+  double sum = 0, weight = 0;
+  for (const ScoreTerm& term : rule.score) {
+    const double judged = judge_term(pack, term, evaluator, rows);
+    if (std::isnan(judged)) continue;
+    sum += term.weight * judged;
+    weight += term.weight;
+  }
+  if (weight == 0) return std::nullopt;
+  return sum / weight;
 }
 
 }  // namespace
@@ -84,10 +119,9 @@ void Labelling::run_predicates(const RuleStep& step) {
 
 bool Labelling::apply_predicate(const Rule& rule) {
   evaluator_.forget();
-  std::vector<Truth> truths;
-  truths.reserve(context_->rows);
-  for (const int row : context_->row_numbers)
-    truths.push_back(judge(*pack_, rule, evaluator_, row).truth);
+  std::vector<Truth> truths(context_->rows, Truth::no);
+  for (const Judgement& judgement : judge(*pack_, rule, evaluator_, context_->row_numbers))
+    truths[oriel::at(judgement.row)] = judgement.truth;
   bool has_changed = false;
   for (const ClassId at : pack_->classes[oriel::at(rule.label)].raised)
     has_changed = raise_all(context_->membership[oriel::at(at)], truths) || has_changed;
@@ -121,13 +155,14 @@ bool Labelling::is_open(ClassId decided, ClassId label) const {
 
 void Labelling::collect(int id) {
   const ClassId label = rule(id).label;
-  for (const int row : context_->row_numbers) {
-    if (!is_open(decided_[oriel::at(row)], label)) continue;
-    const Judgement judgement = judge(*pack_, rule(id), evaluator_, row);
+  open_rows_.clear();
+  for (const int row : context_->row_numbers)
+    if (is_open(decided_[oriel::at(row)], label)) open_rows_.push_back(row);
+  for (const Judgement& judgement : judge(*pack_, rule(id), evaluator_, open_rows_)) {
     if (judgement.truth == Truth::yes)
-      candidates_[oriel::at(row)].push_back({id, judgement.score});
-    else if (judgement.truth == Truth::unknown)
-      unknown_rows_[oriel::at(label)].push_back(row);
+      candidates_[oriel::at(judgement.row)].push_back({id, judgement.score});
+    else
+      unknown_rows_[oriel::at(label)].push_back(judgement.row);
   }
 }
 
@@ -171,6 +206,39 @@ void Labelling::settle_unknown(const RuleStep& step) {
       if (is_open(decided_[oriel::at(row)], label))
         raise_membership(label, oriel::at(row), Truth::unknown);
   }
+}
+
+double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
+                  const FeatureRows& rows) {
+  if (pack.code[static_cast<std::size_t>(term.value)].type == Type::yes_no) {
+    const Truth truth = evaluator.truth(term.value, rows);
+    return truth == Truth::unknown ? kUnknown : truth == Truth::yes ? 1 : 0;
+  }
+  const double value = evaluator.number(term.value, rows);
+  if (std::isnan(value)) return kUnknown;
+  const auto ends_of = [&](const Ramp& ramp) {
+    return Ends{evaluator.number(ramp.from, rows), evaluator.number(ramp.to, rows)};
+  };
+  return std::min(term.rise ? climb(ends_of(*term.rise), value) : 1,
+                  term.fall ? descend(ends_of(*term.fall), value) : 1);
+}
+
+std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+                             std::span<const int> rows) {
+  std::vector<Judgement> judged(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) judged[i].row = rows[i];
+  for (const ExprId id : rule.require) evaluator.narrow(judged, id);
+  for (const ExprId id : rule.unless)
+    std::erase_if(judged, [&](const Judgement& judgement) {
+      return evaluator.truth(id, rows_of(judgement.row)) == Truth::yes;
+    });
+  if (rule.score.empty()) return judged;
+  for (Judgement& judgement : judged) {
+    const auto scored = score(pack, rule, evaluator, rows_of(judgement.row));
+    if (!scored) judgement.truth = Truth::unknown;
+    judgement.score = scored.value_or(0);
+  }
+  return judged;
 }
 
 }  // namespace oriel::rules

@@ -4,20 +4,16 @@
 #include "interpret/evaluate/evaluator.h"
 #include "interpret/pack/pack.h"
 
+#include <span>
 #include <vector>
 
 namespace oriel::rules {
 
-/// How a rule judges a feature.
-struct Judgement {
-  Truth truth = Truth::no;
-  /// Where `truth` is yes: 0…1.
-  double score = 0;
-};
-
-/// `require` holds only on yes, `unless` vetoes only on yes; a rule without score scores 1, and one
-/// of whose score terms none is known is unknown.
-Judgement judge(const Pack& pack, const Rule& rule, Evaluator& evaluator, int row);
+/// Those of some features for which the rule holds or is unknown, in their order. `require` holds
+/// only on yes, `unless` vetoes only on yes; a rule without score scores 1, and one of whose score
+/// terms none is known is unknown.
+std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& evaluator,
+                             std::span<const int> rows);
 
 /// 0…1, or NaN where the term is unknown: how the values of a term are judged.
 double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
@@ -85,6 +81,8 @@ class Labelling {
   std::vector<std::vector<int>> unknown_rows_;
   /// By row: the class that was decided, or -1.
   std::vector<ClassId> decided_;
+  /// The rows that the rule at hand is asked of.
+  std::vector<int> open_rows_;
 };
 
 }  // namespace oriel::rules

@@ -102,8 +102,8 @@ const std::vector<std::string>& functions() {
   return words;
 }
 
-/// What is called with one fixed word, which says of whom it speaks. They are words of the language
-/// only where a bracket follows.
+/// What is called with one fixed word, which says which feature it speaks of. They are words of the
+/// language only where a bracket follows.
 struct FixedCall {
   const char* name;
   const char* argument;

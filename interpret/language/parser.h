@@ -31,7 +31,7 @@ struct Syntax {
     list_test,   ///< children[0] in [children[1]…]
     similarity   ///< children[0] ~ children[1] by children[2]
   };
-  /// Of whom a name speaks: `here` is the feature at hand, inside `where` the other one.
+  /// Which feature a name speaks of: `here` is the feature at hand, inside `where` the other one.
   enum class Scope { here, self, other };
 
   Kind kind = Kind::name;

@@ -1,4 +1,4 @@
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/parser.h"
 #include "interpret/pack/loader.h"
 #include "interpret/yaml/section.h"

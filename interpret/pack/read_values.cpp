@@ -1,4 +1,4 @@
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/parser.h"
 #include "interpret/language/suggest.h"
 #include "interpret/pack/loader.h"

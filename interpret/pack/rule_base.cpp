@@ -1,17 +1,211 @@
 #include "interpret/pack/rule_base.h"
 
+#include "interpret/compile/reach.h"
+#include "interpret/compile/reads.h"
+#include "interpret/compile/strata.h"
+#include "interpret/evaluate/relations.h"
 #include "interpret/language/findings.h"
 #include "interpret/language/suggest.h"
 #include "interpret/pack/embedded.h"
 #include "interpret/pack/extend.h"
-#include "interpret/pack/load.h"
+#include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
+#include "interpret/yaml/section.h"
 #include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"
+#include "kernel/base/sha256.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::rules {
+
+namespace {
+
+constexpr const char* kSchema = "oriel/1";
+
+/// More would make the checks of a pack from a stranger slow.
+constexpr std::size_t kMostClasses = 256;
+constexpr std::size_t kMostNames = 1024;
+
+const std::vector<std::string>& top_keys() {
+  static const std::vector<std::string> keys = {
+      "schema", "pack",   "extends", "params", "hosts", "classes",  "relations",  "macros",
+      "rules",  "decide", "iterate", "groups", "emit",  "surfaces", "generalise", "invariants"};
+  return keys;
+}
+
+void check_schema(YamlSection& top, Findings& findings) {
+  const YamlNode* schema = top.require("schema");
+  if (schema == nullptr) return;
+  const auto text = read_text(*schema, "'schema'", findings);
+  if (text && *text != kSchema)
+    findings.error(Code::R212, schema->span,
+                   "the schema is " + std::string(kSchema) + ", not '" + *text + "'");
+}
+
+std::size_t size_of(const YamlNode* node) {
+  return node == nullptr ? 0 : std::max(node->entries.size(), node->items.size());
+}
+
+bool is_small_enough(const YamlSection& top, Findings& findings) {
+  bool is_small = true;
+  const auto check = [&](const char* key, std::size_t most) {
+    const YamlNode* node = top.find(key);
+    if (size_of(node) <= most) return;
+    is_small = false;
+    findings.error(
+        Code::R213, node->span,
+        std::string("'") + key + "' has no more than " + std::to_string(most) + " entries");
+  };
+  check("classes", kMostClasses);
+  for (const char* key :
+       {"params", "relations", "macros", "rules", "groups", "emit", "surfaces", "generalise"})
+    check(key, kMostNames);
+  return is_small;
+}
+
+void read_sections(YamlSection& top, Loader& loader) {
+  const auto read = [&](const YamlNode* node, void (*reader)(const YamlNode&, Loader&)) {
+    if (node != nullptr) reader(*node, loader);
+  };
+  read(top.require("pack"), read_header);
+  read(top.find("params"), read_params);
+  read(top.find("hosts"), read_hosts);
+  read(top.find("classes"), read_classes);
+  read(top.find("macros"), read_macros);
+  read(top.find("relations"), read_relations);
+  read(top.find("iterate"), read_iterate);
+  read(top.require("rules"), read_rules);
+  read(top.find("decide"), read_decide);
+  read(top.find("groups"), read_groups);
+  read(top.find("emit"), read_emit);
+  read(top.find("surfaces"), read_surfaces);
+  read(top.find("generalise"), read_generalise);
+  read(top.find("invariants"), read_invariants);
+  check_entries(loader.pack, loader.findings);
+}
+
+/// What a pack beneath says and this one has no use for is no fault of this one.
+bool is_own(SourceSpan span, const Loader& loader) {
+  return loader.pack.source.is_in_first(span.begin);
+}
+
+/// A macro that no rule uses is checked all the same.
+void report_unused_macros(Loader& loader) {
+  std::vector<const Macro*> unused;
+  for (const Macro& macro : loader.names.macros)
+    if (!macro.is_used && is_own(macro.span, loader)) unused.push_back(&macro);
+  for (const Macro* macro : unused) {
+    loader.findings.warning(Code::R242, macro->span,
+                            fmt::format("the macro '{}' is never used", macro->name));
+    loader.checker.term(macro->body);
+  }
+}
+
+void report_unused_params(const Loader& loader) {
+  for (std::size_t i = 0; i < loader.pack.params.size(); ++i)
+    if (const Param& param = loader.pack.params[i];
+        !loader.names.is_param_used[i] && is_own(param.span, loader))
+      loader.findings.warning(Code::R241, param.span,
+                              fmt::format("the param '{}' is never used", param.name));
+}
+
+void report_unused_relations(const Loader& loader) {
+  const auto& used = loader.names.used_relations;
+  for (const RelationDefinition& relation : loader.pack.relations)
+    if (is_own(relation.span, loader) &&
+        !used.contains(relation_number(loader.pack, relation.name)))
+      loader.findings.warning(Code::R248, relation.span,
+                              fmt::format("the relation '{}' is never used", relation.name));
+}
+
+/// A class called window or door is written as what it says, unless the pack says otherwise.
+void add_default_emissions(Pack& pack) {
+  for (Class& c : pack.classes) {
+    if (c.emission || (c.name != "window" && c.name != "door")) continue;
+    c.emission = Emission{c.name == "window" ? "Window" : "Door", "", {}, "RoofSurface"};
+  }
+}
+
+void find_raised(std::vector<Class>& classes) {
+  for (std::size_t id = 0; id < classes.size(); ++id)
+    for (auto at = static_cast<ClassId>(id); at != kNoClass;) {
+      const Class& c = classes[static_cast<std::size_t>(at)];
+      const bool is_itself = at == static_cast<ClassId>(id);
+      if (is_itself || !c.is_abstract || !c.has_rules) classes[id].raised.push_back(at);
+      at = c.parent;
+    }
+}
+
+void name_rules(Pack& pack) {
+  for (Rule& rule : pack.rules) {
+    rule.name_of_label = pack.classes[static_cast<std::size_t>(rule.label)].name;
+    pack.names_of_rules.push_back({rule.id, rule.name_of_label});
+  }
+}
+
+void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
+  check_traps(root, findings);
+  YamlSection top(root, "a pack", top_keys(), findings);
+  if (!top.is_map()) return;
+  check_schema(top, findings);
+  if (!is_small_enough(top, findings)) return;
+  Loader loader(pack, findings);
+  read_sections(top, loader);
+  if (findings.has_errors()) return;
+  report_unused_macros(loader);
+  report_unused_params(loader);
+  report_unused_relations(loader);
+  find_strata(pack, findings);
+  if (!findings.has_errors()) check_reach(pack, findings);
+  add_default_emissions(pack);
+  pack.reads = find_reads(pack);
+  find_raised(pack.classes);
+  for (RelationDefinition& relation : pack.relations) relation.sides = sides_of(pack, relation);
+  name_rules(pack);
+}
+
+/// Takes the mark away that some editors put before UTF-8.
+void drop_byte_order_mark(std::string& text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+}
+
+/// The pack in `text`, put over those that it extends, or null if it has errors; `issues` is set to
+/// all findings. `file` names it in places.
+std::shared_ptr<const Pack> load(std::string text, std::string file, const PackFinder& find,
+                                 std::vector<Issue>& issues) {
+  std::string digest = sha256(text);
+  drop_byte_order_mark(text);
+  const PackFinder find_and_digest = [&](const std::string& name) {
+    auto found = find(name);
+    if (!found) return found;
+    digest = sha256(digest + sha256(found->text));
+    drop_byte_order_mark(found->text);
+    return found;
+  };
+  auto pack = std::make_shared<Pack>(Source(std::move(file), std::move(text)));
+  Findings findings(pack->source);
+  const std::size_t bad = find_bad_byte(pack->source.text());
+  if (bad != std::string_view::npos)
+    findings.error(Code::R200, {bad, bad}, "this is no UTF-8 text");
+  else if (const auto root = read_tree(pack->source, find_and_digest, findings))
+    read_pack(*root, *pack, findings);
+  pack->sha256 = std::move(digest);
+  issues = findings.issues();
+  return findings.has_errors() ? nullptr : pack;
+}
+
+}  // namespace
+
+}  // namespace oriel::rules
 
 namespace oriel {
 

@@ -1,6 +1,6 @@
 #include "interpret/plan/plan.h"
 
-#include "interpret/compile/fold.h"
+#include "interpret/evaluate/arithmetic.h"
 #include "interpret/labelling/groups.h"
 #include "interpret/labelling/labelling.h"
 #include "interpret/pack/names.h"
@@ -137,7 +137,7 @@ Plan plan(const RuleBase& base, const FeatureTable& table, const FeatureGraph& g
 
   std::vector<const GeneraliseEntry*> chosen(context.rows, nullptr);
   std::vector<Truth> fits(context.rows);
-  // gap(members) stands behind the columns of the schema.
+  // gap(members) follows the columns of the schema.
   std::vector<double> gaps;
   context.columns.emplace_back();
   rules::Evaluator evaluator(pack, context);

@@ -1,4 +1,3 @@
-#include "interpret/labelling/main_parts.h"
 #include "interpret/pack/names.h"
 #include "interpret/pack/pack.h"
 #include "interpret/plan/profile.h"
@@ -7,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,6 +23,73 @@ constexpr double kWallDepth_m = 0.5;
 
 /// What was enlarged to a length is as long as that when it is read again, rounded.
 constexpr double kGrownEnough_m = 0.001;
+
+/// Which features are parts of a building, not details on it, though they are short or thin. No
+/// such feature goes for its size. Profile::MainPart says when.
+class MainParts {
+ public:
+  MainParts(const Segmentation& segmentation, const FeatureTable& table,
+            const Profile::MainPart& part, const Thresholds& sizes);
+
+  /// The whole building is smaller than the least that the sizes let stand alone, or the feature is
+  /// a storey, or a part of the main roof.
+  [[nodiscard]] bool has(FeatureId id) const;
+
+  /// Of features that go for their size the highest one, if without them the top of the building
+  /// would sink by more than c, the height that a level is true to; else invalid. By feature:
+  /// `goes` what goes, with all that it carries, `goes_for_size` what goes for its size.
+  [[nodiscard]] FeatureId holder_of_ridge(const std::vector<char>& goes,
+                                          const std::vector<char>& goes_for_size) const;
+
+ private:
+  const Segmentation& segmentation_;
+  const FeatureTable& table_;
+  const Profile::MainPart& part_;
+  const Thresholds& sizes_;
+  double building_m3_ = 0;
+};
+
+MainParts::MainParts(const Segmentation& segmentation, const FeatureTable& table,
+                     const Profile::MainPart& part, const Thresholds& sizes)
+    : segmentation_(segmentation), table_(table), part_(part), sizes_(sizes) {
+  for (const Cell& cell : segmentation.cells) building_m3_ += cell.sign * cell.volume_m3;
+}
+
+bool MainParts::has(FeatureId id) const {
+  if (building_m3_ <= sizes_.area_m2 * sizes_.c_m) return true;
+  const auto height = table_.number(id, Attribute::height);
+  const auto a = table_.number(id, Attribute::a), b = table_.number(id, Attribute::b),
+             c = table_.number(id, Attribute::c);
+  if (!height || !a || !b || !c || *height <= 0) return false;
+  const Feature& feature = segmentation_.features[id.index()];
+  const bool is_storey = *height >= part_.height_m && feature.volume_m3 >= part_.area_m2 * *height;
+  const bool is_roof = feature.sense == Sense::protrusion &&
+                       *a * *b * *c >= sizes_.area_m2 * *height;  // the standing box in plan
+  return is_storey || is_roof;
+}
+
+FeatureId MainParts::holder_of_ridge(const std::vector<char>& goes,
+                                     const std::vector<char>& goes_for_size) const {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  double rest_m = kNone;
+  for (const Cell& cell : segmentation_.cells) {
+    if (cell.sign < 0 || (cell.feature.is_valid() && goes[cell.feature.index()] != 0)) continue;
+    for (const Facet& facet : cell.facets)
+      for (const int v : facet.loops[0])
+        rest_m = std::max(rest_m, segmentation_.vertices[at(v)].point.z);
+  }
+  FeatureId highest;
+  double top_m = rest_m + sizes_.c_m;
+  if (rest_m == kNone) return highest;
+  for (int i = 0; i < std::ssize(segmentation_.features); ++i) {
+    const Feature& feature = segmentation_.features[at(i)];
+    if (goes_for_size[at(i)] == 0 || feature.sense != Sense::protrusion) continue;
+    if (feature.box.max.z <= top_m) continue;
+    top_m = feature.box.max.z;
+    highest = FeatureId{i};
+  }
+  return highest;
+}
 
 class ProfilePlanner {
  public:
@@ -181,7 +248,7 @@ class ProfilePlanner {
     }
   }
 
-  /// A feature that goes takes along what sits on it. If the profile holds on to that, and the
+  /// What sits on a feature is removed with it. If the profile holds on to that, and the
   /// feature goes for its size only, or hangs over the ground that the other one stands on, it
   /// stays too.
   void spare_carriers() {
@@ -212,7 +279,7 @@ class ProfilePlanner {
   const FeatureTable& table_;
   const Interpretation& interpretation_;
   std::optional<Thresholds> thresholds_;
-  std::optional<detail::MainParts> main_parts_;
+  std::optional<MainParts> main_parts_;
   std::vector<std::string> reason_;  ///< by feature: why it goes; empty: it stays
   std::vector<char> is_open_;        ///< by feature: the plan had no step for it
   std::vector<char> is_held_;        ///< by feature: the profile wants it to stay

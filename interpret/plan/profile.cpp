@@ -56,7 +56,7 @@ class ProfileReader {
     if (chosen)
       profile_ = *chosen;
     else
-      findings_.error(Code::R271, levels->span,
+      findings_.error(Code::R275, levels->span,
                       fmt::format("{}; the levels of '{}' are {}",
                                   level.empty() ? "a level is needed"
                                                 : fmt::format("there is no level '{}'", level),
@@ -154,7 +154,7 @@ class ProfileReader {
     const Thresholds& t = *profile_.sizes;
     if (!t.is_chain())
       findings_.error(
-          Code::R270, sizes->span,
+          Code::R274, sizes->span,
           fmt::format("the sizes are no chain: c <= b < a and a*a > area > a*b must hold; "
                       "here c = {}, b = {}, a = {}, a*a = {}, area = {}, a*b = {}",
                       t.c_m, t.b_m, t.a_m, t.a_m * t.a_m, t.area_m2, t.a_m * t.b_m));

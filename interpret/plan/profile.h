@@ -23,7 +23,7 @@ struct Profile {
   enum class Form { as_is, block, blocks };
 
   /// What is a part of the building and not a detail on it, so that it does not go for its size
-  /// (detail::MainParts): what has this height and, seen from above, on average this area; a
+  /// (plan_by_profile): what has this height and, seen from above, on average this area; a
   /// protrusion that covers the least area of the sizes; all of a building that is smaller than
   /// that area times c; the highest part, if it rises by more than c over the rest.
   struct MainPart {
@@ -71,7 +71,7 @@ struct Profile {
 Profile with_edge_min(Profile profile, double edge_min_m);
 
 /// A level of the profile in `text`, called `file` in places. `level` may be empty if there is only
-/// one. Findings have codes: R2xx as in packs, R270 sizes that are no chain, R271 no such level,
+/// one. Findings have codes: R2xx as in packs, R274 sizes that are no chain, R275 no such level,
 /// R272 both sizes and a length on the map, or neither where verdicts need them.
 Checked<Profile> load_profile(std::string text, std::string file, const std::string& level);
 

@@ -57,7 +57,9 @@ double area_m2(const Building& building, const Polygon& polygon) {
   return area;
 }
 
-std::string shown(double ratio) { return std::isnan(ratio) ? "-" : fmt::format("{:.3f}", ratio); }
+std::string ratio_text(double ratio) {
+  return std::isnan(ratio) ? "-" : fmt::format("{:.3f}", ratio);
+}
 
 }  // namespace
 
@@ -96,10 +98,11 @@ std::string to_text(const AreaScore& score) {
   std::string text = fmt::format("{:<12} {:>9} {:>9} {:>9} {:>10} {:>7} {:>6}\n", "by area",
                                  "both m2", "ours m2", "true m2", "precision", "recall", "F1");
   for (const auto& [label, area] : score.classes)
-    text += fmt::format("{:<12} {:>9.2f} {:>9.2f} {:>9.2f} {:>10} {:>7} {:>6}\n", label,
-                        area.both_m2, area.predicted_m2, area.expected_m2, shown(area.precision()),
-                        shown(area.recall()), shown(area.f1()));
-  return text + fmt::format("macro-F1 by area {}, of {:.2f} m2\n", shown(score.macro_f1()),
+    text +=
+        fmt::format("{:<12} {:>9.2f} {:>9.2f} {:>9.2f} {:>10} {:>7} {:>6}\n", label, area.both_m2,
+                    area.predicted_m2, area.expected_m2, ratio_text(area.precision()),
+                    ratio_text(area.recall()), ratio_text(area.f1()));
+  return text + fmt::format("macro-F1 by area {}, of {:.2f} m2\n", ratio_text(score.macro_f1()),
                             score.compared_m2);
 }
 

@@ -1,8 +1,12 @@
 #include "interpret/score/label_diff.h"
 
+#include "interpret/yaml/json_text.h"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel {
 
@@ -12,6 +16,62 @@ void sort_by_id(std::vector<NamedFeature>& features) {
   std::ranges::stable_sort(features, [](const NamedFeature& p, const NamedFeature& q) {
     return std::tie(p.building, p.id) < std::tie(q.building, q.id);
   });
+}
+
+using rules::json_string;
+
+std::string label_text(const std::string& label) { return label.empty() ? "unknown" : label; }
+
+/// The most frequent first; the order of names where they are equally frequent.
+std::vector<const LabelDiff::Changes::value_type*> by_count(const LabelDiff& diff) {
+  std::vector<const LabelDiff::Changes::value_type*> changes;
+  for (const auto& change : diff.changes()) changes.push_back(&change);
+  std::ranges::stable_sort(
+      changes, [](const auto* p, const auto* q) { return p->second.count > q->second.count; });
+  return changes;
+}
+
+std::string examples_text(const LabelDiff::LabelChange& change) {
+  std::string text;
+  for (const auto& [building, id] : change.examples)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", building, id);
+  if (change.count > change.examples.size()) text += ", …";
+  return text;
+}
+
+std::string rule_text(const Naming& naming) { return naming.rule.empty() ? "-" : naming.rule; }
+
+std::string change_line(const LabelDiff::Changes::value_type& entry) {
+  const auto& [before, after] = entry.first;
+  const auto labels = fmt::format("{} -> {}", label_text(before.label), label_text(after.label));
+  const auto rules = fmt::format("{} -> {}", rule_text(before), rule_text(after));
+  return fmt::format("{:>7}  {:<22} {:<40} {}\n", entry.second.count, labels, rules,
+                     examples_text(entry.second));
+}
+
+std::string count_line(const std::string& label, LabelDiff::Count count) {
+  const auto gain = static_cast<long long>(count.after) - static_cast<long long>(count.before);
+  return fmt::format("  {:<12} {:>7} -> {:>7}  {:+}\n", label_text(label), count.before,
+                     count.after, gain);
+}
+
+std::string only_line(const char* which, const LabelDiff::LabelChange& change) {
+  if (change.count == 0) return "";
+  return fmt::format("{} features are only in the {} run: {}\n", change.count, which,
+                     examples_text(change));
+}
+
+std::string naming_json(const Naming& naming) {
+  return fmt::format(R"({{"label":{},"rule":{}}})", json_string(naming.label),
+                     json_string(naming.rule));
+}
+
+std::string change_json(const LabelDiff::LabelChange& change) {
+  std::string examples;
+  for (const auto& [building, id] : change.examples)
+    examples += fmt::format(R"({}{{"building":{},"id":{}}})", examples.empty() ? "" : ",",
+                            json_string(building), json_string(id));
+  return fmt::format(R"("count":{},"examples":[{}])", change.count, examples);
 }
 
 }  // namespace
@@ -64,6 +124,36 @@ LabelDiff diff_labels(std::vector<NamedFeature> before, std::vector<NamedFeature
     }
   }
   return diff;
+}
+
+std::string to_text(const LabelDiff& diff) {
+  std::string text =
+      fmt::format("{} of {} features have another label", diff.changed(), diff.compared());
+  if (diff.renamed_rules() > 0)
+    text += fmt::format(", {} the same by another rule", diff.renamed_rules());
+  text += '\n';
+  for (const auto& [label, count] : diff.counts())
+    if (count.before != count.after) text += count_line(label, count);
+  for (const auto* change : by_count(diff)) text += change_line(*change);
+  text += only_line("first", diff.only_before());
+  text += only_line("second", diff.only_after());
+  return text;
+}
+
+std::string to_json(const LabelDiff& diff) {
+  std::string classes, changes;
+  for (const auto& [label, count] : diff.counts())
+    classes += fmt::format(R"({}{}:{{"before":{},"after":{}}})", classes.empty() ? "" : ",",
+                           json_string(label), count.before, count.after);
+  for (const auto* change : by_count(diff))
+    changes += fmt::format(R"({}{{"before":{},"after":{},{}}})", changes.empty() ? "" : ",",
+                           naming_json(change->first.first), naming_json(change->first.second),
+                           change_json(change->second));
+  return fmt::format(
+      R"({{"compared":{},"changed":{},"other_rule":{},"classes":{{{}}},"changes":[{}],)"
+      R"("only_before":{{{}}},"only_after":{{{}}}}})",
+      diff.compared(), diff.changed(), diff.renamed_rules(), classes, changes,
+      change_json(diff.only_before()), change_json(diff.only_after()));
 }
 
 }  // namespace oriel

@@ -1,8 +1,16 @@
 #include "interpret/score/surface_score.h"
 
 #include "interpret/surfaces/polygon_shape.h"
+#include "interpret/yaml/json_text.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
 
 namespace oriel {
 
@@ -25,6 +33,30 @@ std::string our_type(const LabelledBuilding& labelled, int polygon, const std::s
 
 double ratio(double part, double whole) {
   return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::set<std::string> types_of(const SurfaceScore& score) {
+  std::set<std::string> types;
+  for (const auto& [pair, area] : score.area_m2) {
+    types.insert(pair.first);
+    types.insert(pair.second);
+  }
+  types.erase("");
+  return types;
+}
+
+/// The area that they (first) or we (second) call `type`.
+std::pair<double, double> areas_of(const SurfaceScore& score, const std::string& type) {
+  std::pair<double, double> areas;
+  for (const auto& [pair, area] : score.area_m2) {
+    if (pair.first == type) areas.first += area;
+    if (pair.second == type) areas.second += area;
+  }
+  return areas;
+}
+
+std::string share_text(double share) {
+  return std::isnan(share) ? std::string("-") : fmt::format("{:.4f}", share);
 }
 
 }  // namespace
@@ -79,6 +111,70 @@ double SurfaceScore::agreement() const {
     if (types.first == types.second) agreed += area;
   }
   return ratio(agreed, all);
+}
+
+std::string to_text(const SurfaceScore& score) {
+  std::string text = fmt::format("{:<20}{:>13}{:>13}{:>11}{:>9}\n", "surface", "theirs m2",
+                                 "ours m2", "precision", "recall");
+  for (const std::string& type : types_of(score)) {
+    const auto [theirs, ours] = areas_of(score, type);
+    text += fmt::format("{:<20}{:>13.2f}{:>13.2f}{:>11}{:>9}\n", type, theirs, ours,
+                        share_text(score.precision(type)), share_text(score.recall(type)));
+  }
+  text += fmt::format("agreement {} of {} polygons", share_text(score.agreement()), score.polygons);
+  if (score.openings_m2 > 0)
+    text += fmt::format("; {:.2f} m2 of windows and doors left out", score.openings_m2);
+  if (score.unnamed_m2 > 0) text += fmt::format("; {:.2f} m2 have no name", score.unnamed_m2);
+  text += '\n';
+  if (!score.differences.empty()) text += "theirs -> ours\n";
+  for (const auto& [pair, area] : score.area_m2)
+    if (pair.first != pair.second)
+      text += fmt::format("  {:<20} -> {:<20}{:>11.2f} m2\n", pair.first,
+                          pair.second.empty() ? "-" : pair.second, area);
+  return text;
+}
+
+std::string differences_text(const SurfaceScore& score) {
+  std::vector<const SurfaceDifference*> sorted;
+  for (const SurfaceDifference& d : score.differences) sorted.push_back(&d);
+  std::ranges::stable_sort(sorted, std::greater{}, &SurfaceDifference::area_m2);
+  std::string text;
+  for (const SurfaceDifference* d : sorted)
+    text += fmt::format(
+        "{}: polygon {} is {}, by the rules {}: {:.2f} m2 at ({:.3f}, {:.3f}, {:.3f})\n",
+        d->building, d->polygon, d->theirs, d->ours.empty() ? "nothing" : d->ours, d->area_m2,
+        d->place.x, d->place.y, d->place.z);
+  return text;
+}
+
+std::string to_json(const SurfaceScore& score, bool with_differences) {
+  std::string classes, confusion;
+  for (const std::string& type : types_of(score)) {
+    const auto [theirs, ours] = areas_of(score, type);
+    classes += fmt::format(R"({}{}:{{"theirs_m2":{},"ours_m2":{},"precision":{},"recall":{}}})",
+                           classes.empty() ? "" : ",", rules::json_string(type),
+                           rules::json_number(theirs), rules::json_number(ours),
+                           rules::json_number(score.precision(type)),
+                           rules::json_number(score.recall(type)));
+  }
+  for (const auto& [pair, area] : score.area_m2)
+    confusion += fmt::format(R"({}{{"theirs":{},"ours":{},"area_m2":{}}})",
+                             confusion.empty() ? "" : ",", rules::json_string(pair.first),
+                             rules::json_string(pair.second), rules::json_number(area));
+  std::string differences;
+  for (const SurfaceDifference& d : score.differences)
+    differences += fmt::format(
+        R"({}{{"building":{},"polygon":{},"theirs":{},"ours":{},"area_m2":{},"place":[{},{},{}]}})",
+        differences.empty() ? "" : ",", rules::json_string(d.building), d.polygon,
+        rules::json_string(d.theirs), rules::json_string(d.ours), rules::json_number(d.area_m2),
+        rules::json_number(d.place.x), rules::json_number(d.place.y),
+        rules::json_number(d.place.z));
+  std::string text = fmt::format(
+      R"({{"surfaces":{{{}}},"agreement":{},"polygons":{},"openings_m2":{},"unnamed_m2":{},"confusion":[{}])",
+      classes, rules::json_number(score.agreement()), score.polygons,
+      rules::json_number(score.openings_m2), rules::json_number(score.unnamed_m2), confusion);
+  if (with_differences) text += fmt::format(R"(,"differences":[{}])", differences);
+  return text + "}";
 }
 
 }  // namespace oriel

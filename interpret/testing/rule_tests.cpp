@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -40,8 +41,7 @@ class CoverageCounter {
     if (context.rows == 0) return;
     rules::Labelling(*pack_, context).run();
     rules::Evaluator evaluator(*pack_, context);
-    for (const int row : context.row_numbers)
-      for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, row);
+    for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, context.row_numbers);
   }
 
   [[nodiscard]] const std::vector<RuleCoverage>& rules() const { return rules_; }
@@ -58,15 +58,16 @@ class CoverageCounter {
         {std::string(pack_->source.text_of(expr.span)), pack_->source.place(expr.span.begin)});
   }
 
-  void count_rule(std::size_t i, rules::Evaluator& evaluator, int row) {
-    const auto judgement = rules::judge(*pack_, pack_->rules[i], evaluator, row);
-    if (judgement.truth == rules::Truth::yes) ++rules_[i].held;
-    for (std::size_t c = 0; c < conditions_[i].size(); ++c) {
-      const rules::Truth truth = evaluator.truth(conditions_[i][c], rules::rows_of(row));
-      ConditionCoverage& coverage = rules_[i].conditions[c];
-      if (truth == rules::Truth::yes) ++coverage.held;
-      if (truth == rules::Truth::no) ++coverage.failed;
-    }
+  void count_rule(std::size_t i, rules::Evaluator& evaluator, std::span<const int> rows) {
+    for (const auto& judgement : rules::judge(*pack_, pack_->rules[i], evaluator, rows))
+      if (judgement.truth == rules::Truth::yes) ++rules_[i].held;
+    for (std::size_t c = 0; c < conditions_[i].size(); ++c)
+      for (const int row : rows) {
+        const rules::Truth truth = evaluator.truth(conditions_[i][c], rules::rows_of(row));
+        ConditionCoverage& coverage = rules_[i].conditions[c];
+        if (truth == rules::Truth::yes) ++coverage.held;
+        if (truth == rules::Truth::no) ++coverage.failed;
+      }
   }
 
   const rules::Pack* pack_;
@@ -74,7 +75,7 @@ class CoverageCounter {
   std::vector<std::vector<rules::ExprId>> conditions_;
 };
 
-const char* name_of(Outcome outcome) {
+const char* outcome_word(Outcome outcome) {
   if (outcome == Outcome::unknown) return "unknown";
   return outcome == Outcome::holds ? "holds" : "fails";
 }
@@ -153,8 +154,8 @@ class TestRun {
     const auto rule = std::ranges::find(why.rules, reason.rule, &RuleReport::id);
     if (reason.condition.empty()) {
       if (rule->outcome != reason.outcome)
-        fail(fmt::format("{}: {} {}, expected that it {}", id, reason.rule, name_of(rule->outcome),
-                         name_of(reason.outcome)));
+        fail(fmt::format("{}: {} {}, expected that it {}", id, reason.rule,
+                         outcome_word(rule->outcome), outcome_word(reason.outcome)));
       return;
     }
     if (rule->outcome == reason.outcome &&
@@ -162,7 +163,7 @@ class TestRun {
          has_condition(rule->unless, reason.condition, Outcome::holds)))
       return;
     fail(fmt::format("{}: {} {}, expected that it {} at \"{}\"", id, reason.rule,
-                     name_of(rule->outcome), name_of(reason.outcome), reason.condition));
+                     outcome_word(rule->outcome), outcome_word(reason.outcome), reason.condition));
   }
 
   /// Every copy with noise must have the labels of the original.

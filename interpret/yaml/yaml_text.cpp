@@ -85,9 +85,9 @@ std::vector<YamlComment> find_comments(const YamlNode& root, std::string_view te
   std::vector<YamlComment> comments;
   bool is_start = true;  // of a line, but for blanks
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const std::size_t behind = scalars.skip(at);
-    if (behind > at) {
-      at = behind - 1;
+    const std::size_t end_of_scalar = scalars.skip(at);
+    if (end_of_scalar > at) {
+      at = end_of_scalar - 1;
       is_start = false;
     } else if (text[at] == '\n') {
       const bool is_again = !comments.empty() && comments.back().text.empty() &&
@@ -185,7 +185,7 @@ class Printer {
     out_.append(indent, ' ');
   }
 
-  /// Puts the comments behind the line at hand that stood behind it, or in what it says.
+  /// Puts the comments that stood after the line at hand, or in what it says, at its end.
   void end_line(std::size_t offset) {
     if (out_.empty() || out_.back() == '\n') return;
     while (next_ < comments_.size() && comments_[next_].offset < offset &&
@@ -207,7 +207,7 @@ class Printer {
     return line == std::string::npos ? out_.size() : out_.size() - line - 1;
   }
 
-  /// Prints the node behind what stands on the line, if there is room for all of it.
+  /// Prints the node after what stands on the line, if there is room for all of it.
   bool print_inline(const YamlNode& node) {
     std::string text;
     if (!append_inline(node, text) || column() + text.size() > kMostColumns) return false;
@@ -285,11 +285,12 @@ std::string to_yaml(const YamlNode& root, std::string_view text) {
 }
 
 bool is_same(const YamlNode& p, const YamlNode& q) {
+  const auto is_item_same = [](const YamlNode& a, const YamlNode& b) { return is_same(a, b); };
   const auto is_entry_same = [](const YamlEntry& a, const YamlEntry& b) {
     return is_same(a.key, b.key) && is_same(a.value, b.value);
   };
   return p.kind == q.kind && p.text == q.text && p.is_plain == q.is_plain &&
-         std::ranges::equal(p.items, q.items, is_same) &&
+         std::ranges::equal(p.items, q.items, is_item_same) &&
          std::ranges::equal(p.entries, q.entries, is_entry_same);
 }
 

@@ -13,7 +13,7 @@ namespace oriel::rules {
 std::string to_yaml(const YamlNode& root);
 
 /// The same with the comments of `text`, from which all of the tree was read: those on lines of
-/// their own stay before what they stand before, others stay behind what they stand behind. One
+/// their own stay before what they stand before, others stay after what they follow. One
 /// empty line stays where there are some.
 std::string to_yaml(const YamlNode& root, std::string_view text);
 

@@ -7,8 +7,8 @@
 
 /// Every code that a finding can have: X(code, the number of val3dity's error that means the same
 /// or 0, what the code means), sorted. A code never changes its meaning and is never used again.
-/// Each has a section with this title in docs/errors.md, or in docs/rules.md for rule packs; what
-/// R27x mean in a profile is in docs/generalisation.md.
+/// Each has a section with this title in docs/errors.md, or in docs/rules.md for rule packs; those
+/// of profiles, R272 to R275, are in docs/generalisation.md.
 ///
 /// E1xx the text of a file, E2xx the building model, E3xx geometry, E5xx limits, E6xx output, E9xx
 /// ours, G4xx operators of generalisation, R2xx rules.
@@ -164,7 +164,9 @@
   X(R270, 0, "A file of tests that tests nothing") \
   X(R271, 0, "`gap(members)` without members") \
   X(R272, 0, "Sizes of a profile that decide nothing, or twice") \
-  X(R273, 0, "A class of a profile that the pack does not have")
+  X(R273, 0, "A class of a profile that the pack does not have") \
+  X(R274, 0, "Sizes of a profile that are no chain") \
+  X(R275, 0, "No such level of a profile")
 // clang-format on
 
 namespace oriel {

@@ -92,7 +92,7 @@ TEST_SUITE("cli") {
     CHECK(run({"generalise", sample("block"), "--to-lod", "two", "-o", "-"}).exit == 2);
     const Outcome unknown = run({"generalise", sample("block"), "--to-lod", "3.3", "-o", "-"});
     CHECK(unknown.exit == 4);
-    CHECK(unknown.says("R271"));
+    CHECK(unknown.says("R275"));
   }
 
   TEST_CASE("an account says what became of each feature and figures tell before from after") {
@@ -248,7 +248,7 @@ TEST_SUITE("cli") {
               .exit == 2);
     CHECK(run({"generalise", sample("house"), "--profile", "cfd", "--edge-min", "0", "-o", "-"})
               .exit == 2);
-    CHECK(run({"generalise", sample("house"), "--profile", "plateau", "-o", "-"}).says("R271"));
+    CHECK(run({"generalise", sample("house"), "--profile", "plateau", "-o", "-"}).says("R275"));
     const Outcome noted = run(
         {"generalise", sample("house"), "--scale", "1:2500", "--profile", "map", "-o", "-", "-v"});
     CHECK(noted.exit == 0);

@@ -266,6 +266,24 @@ TEST_SUITE("interpret") {
     CHECK(alone.runner_up == "door");
   }
 
+  TEST_CASE("a verdict that a rule for a subclass refines is close only if it is itself") {
+    const RuleBase base = load(
+        "schema: oriel/1\n"
+        "pack: {name: t, version: 1.0.0}\n"
+        "classes: {window: {}, oval: {is: window}, door: {}}\n"
+        "rules:\n"
+        "  - {id: w, label: window, require: natural, score: [a: {rise: 0 m .. 1 m}]}\n"
+        "  - {id: d, label: door, require: natural, score: [b: {rise: 0 m .. 1 m}]}\n"
+        "  - {id: o, label: oval, require: self is window}\n"
+        "decide: {ambiguous_below: 0.1}\n");
+    Scene scene;
+    scene.add({{"natural", 1.0}, {"a", 0.75}, {"b", 0.6875}});
+    const Interpretation refined = interpret(base, scene.table(), scene.graph());
+    CHECK(refined.verdicts[0].label == "oval");
+    CHECK(refined.verdicts[0].margin == 1);
+    CHECK(refined.issues.empty());
+  }
+
   TEST_CASE("rules without scores decide as rules that all score one") {
     const auto pack = [](const char* score) {
       const auto rule = [&](const char* id, const char* label, const char* where, int priority) {

@@ -1,5 +1,3 @@
-#include "interpret/compile/fold.h"
-
 #include "interpret/evaluate/arithmetic.h"
 
 #include <vector>
