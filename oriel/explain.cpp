@@ -2,8 +2,8 @@
 
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/vec3.h"
 #include "kernel/model/polygon_owners.h"
+#include "kernel/model/vec3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
-#include "kernel/geometry/outlines.h"
 #include "kernel/geometry/boxes.h"
+#include "kernel/geometry/outlines.h"
 #include "kernel/model/vec3.h"
 
 #include <algorithm>
