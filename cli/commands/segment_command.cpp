@@ -27,7 +27,7 @@ struct SegmentArguments : RunOptions {
 };
 
 /// The features of a building for a reader at a terminal.
-std::string listing(const Building& building, const PipelineResult& line) {
+std::string segment_listing(const Building& building, const PipelineResult& line) {
   const Segmentation& segmentation = *line.segmentation;
   const FeatureTable& table_of = line.description.table;
   std::vector<std::vector<std::string>> rows{
@@ -152,7 +152,7 @@ class Segmenter final : public VisitingCommand {
         arguments_.has_tree ? tree_text(building, line)
         : arguments_.is_json
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
-            : listing(building, line);
+            : segment_listing(building, line);
     if (text_) text_->append(text);
     if (features_) features_->append(feature_records(building, line));
   }
