@@ -106,8 +106,6 @@ void compare(const std::string& file) {
   run({"label", file, "-o", out, "--features", records});
   CHECK(bytes_of(out) == expected.labelled);
   CHECK(bytes_of(records) == expected.features);
-  run({"label", file, "-o", out});
-  CHECK(bytes_of(out) == expected.labelled);
   run({"generalise", file, "--scale", "1:5000", "-o", out});
   CHECK(bytes_of(out) == expected.generalised);
   run({"repair", file, "-o", out, "--report", repairs});
