@@ -1,7 +1,7 @@
 #pragma once
 
-#include "examples/generator/cityjson.h"
 #include "examples/generator/generate.h"
+#include "examples/generator/output/cityjson.h"
 #include "examples/generator/random.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/reader.h"

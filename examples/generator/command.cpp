@@ -1,11 +1,11 @@
 #include "examples/generator/command.h"
 
 #include "examples/generator/arguments.h"
-#include "examples/generator/citygml.h"
-#include "examples/generator/cityjson.h"
 #include "examples/generator/generate.h"
-#include "examples/generator/output.h"
-#include "examples/generator/truth.h"
+#include "examples/generator/output/citygml.h"
+#include "examples/generator/output/cityjson.h"
+#include "examples/generator/output/output.h"
+#include "examples/generator/output/truth.h"
 
 #include <functional>
 #include <optional>

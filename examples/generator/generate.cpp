@@ -1,10 +1,10 @@
 #include "examples/generator/generate.h"
 
-#include "examples/generator/check.h"
-#include "examples/generator/facade_layout.h"
-#include "examples/generator/plan.h"
-#include "examples/generator/roof_layout.h"
-#include "examples/generator/triangulate.h"
+#include "examples/generator/facade/facade_layout.h"
+#include "examples/generator/geometry/triangulate.h"
+#include "examples/generator/house/plan.h"
+#include "examples/generator/house/roof_layout.h"
+#include "examples/generator/output/check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "examples/generator/body.h"
+#include "examples/generator/house/body.h"
 #include "examples/generator/options.h"
 
 namespace oriel::generator {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "examples/generator/house.h"
+#include "examples/generator/house/house.h"
 
 #include <bitset>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "examples/generator/point.h"
+#include "examples/generator/geometry/point.h"
 
 #include <cstdint>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "examples/generator/citygml.h"
+#include "examples/generator/output/citygml.h"
 
 #include "examples/generator/generate.h"
 #include "kernel/io/reader.h"

@@ -1,5 +1,5 @@
-#include "examples/generator/cityjson.h"
 #include "examples/generator/generate.h"
+#include "examples/generator/output/cityjson.h"
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 #include "tests/cli/json_lines.h"

@@ -1,5 +1,5 @@
-#include "examples/generator/citygml.h"
 #include "examples/generator/generate.h"
+#include "examples/generator/output/citygml.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/reader.h"
 #include "kernel/io/writer.h"

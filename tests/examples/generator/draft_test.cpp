@@ -1,5 +1,5 @@
-#include "examples/generator/check.h"
-#include "examples/generator/extrude.h"
+#include "examples/generator/house/extrude.h"
+#include "examples/generator/output/check.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 #include "examples/generator/generate.h"
-#include "examples/generator/truth.h"
+#include "examples/generator/output/truth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "examples/generator/generate.h"
 
-#include "examples/generator/check.h"
+#include "examples/generator/output/check.h"
 #include "tests/examples/generator/crossings.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "examples/generator/citygml.h"
 #include "examples/generator/generate.h"
+#include "examples/generator/output/citygml.h"
 #include "tests/kernel/io/files.h"
 #include "tests/support/citygml_samples.h"
 #include "tests/support/shared.h"

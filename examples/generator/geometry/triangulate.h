@@ -1,0 +1,12 @@
+#pragma once
+
+#include "examples/generator/house/body.h"
+#include "examples/generator/random.h"
+
+namespace oriel::generator {
+
+/// The same body with every polygon cut into triangles without new vertices, in a random way: ears
+/// are clipped in random order. Needs exact planes, so call it before vertices are moved.
+Body triangulated(const Body& body, Random& random);
+
+}  // namespace oriel::generator
