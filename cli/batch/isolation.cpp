@@ -118,7 +118,7 @@ void now_at_building(std::size_t building) {
   ::setitimer(ITIMER_REAL, is_timed ? &most_time : &none, nullptr);
 }
 
-struct Isolation::Place {
+struct Isolation::SharedReport {
   std::size_t building = kNoBuilding;
 };
 
@@ -128,7 +128,7 @@ struct Isolation::Batch {
   std::size_t settled = 0;
   pid_t worker = 0;
   int pipe = -1;
-  Place* place = nullptr;
+  SharedReport* report = nullptr;
   std::string received;
 
   void pass_over_workless() {
@@ -141,11 +141,11 @@ struct Isolation::Batch {
 Isolation::Isolation(int jobs, double most_seconds, Callbacks callbacks)
     : jobs_(jobs), most_seconds_(most_seconds), callbacks_(std::move(callbacks)) {
   const auto count = static_cast<std::size_t>(jobs_);
-  void* shared = ::mmap(nullptr, count * sizeof(Place), PROT_READ | PROT_WRITE,
+  void* shared = ::mmap(nullptr, count * sizeof(SharedReport), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) give_up("no memory to share with workers");
-  places_ = new (shared) Place[count];
-  for (std::size_t i = 0; i < count; ++i) free_places_.push_back(places_ + i);
+  reports_ = new (shared) SharedReport[count];
+  for (std::size_t i = 0; i < count; ++i) free_reports_.push_back(reports_ + i);
 }
 
 Isolation::~Isolation() {
@@ -155,7 +155,7 @@ Isolation::~Isolation() {
     ::close(batch->pipe);
     ::waitpid(batch->worker, nullptr, 0);
   }
-  ::munmap(places_, static_cast<std::size_t>(jobs_) * sizeof(Place));
+  ::munmap(reports_, static_cast<std::size_t>(jobs_) * sizeof(SharedReport));
 }
 
 void Isolation::run() {
@@ -171,7 +171,7 @@ void Isolation::run() {
 /// Reads a batch and gives it to a worker; false if there is nothing to read or nobody to work.
 bool Isolation::fill() {
   const auto most = kBatchesPerJob * static_cast<std::size_t>(jobs_);
-  if (is_over_ || free_places_.empty() || batches_.size() >= most) return false;
+  if (is_over_ || free_reports_.empty() || batches_.size() >= most) return false;
   auto batch = std::make_unique<Batch>();
   for (std::size_t bytes = 0; batch->items.size() < kMostBatchRecords && bytes < kMostBatchBytes;) {
     auto item = callbacks_.next();
@@ -190,9 +190,9 @@ bool Isolation::fill() {
 void Isolation::start(Batch& batch) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) give_up("no pipe to a worker");
-  batch.place = free_places_.back();
-  free_places_.pop_back();
-  batch.place->building = kNoBuilding;
+  batch.report = free_reports_.back();
+  free_reports_.pop_back();
+  batch.report->building = kNoBuilding;
   const pid_t parent = ::getpid();
   batch.worker = ::fork();
   if (batch.worker < 0) give_up("no process for a worker");
@@ -211,7 +211,7 @@ void Isolation::be_worker(const Batch& batch, int pipe) const noexcept {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, SIG_IGN);
   for (const int signal : {SIGALRM, SIGPIPE, SIGXCPU, SIGXFSZ}) std::signal(signal, SIG_DFL);
   most_time = once_after(most_seconds_);
-  building_at_hand = &batch.place->building;
+  building_at_hand = &batch.report->building;
   for (std::size_t i = batch.answered; i < batch.items.size(); ++i) {
     WorkItem& item = *batch.items[i];
     if (!item.needs_work()) continue;
@@ -264,7 +264,7 @@ void Isolation::end(Batch& batch) {
   }
   ::close(batch.pipe);
   batch.pipe = -1;
-  free_places_.push_back(batch.place);
+  free_reports_.push_back(batch.report);
   if (batch.is_answered()) return;
   blame(batch, status);
   batch.received.clear();
@@ -284,7 +284,7 @@ void Isolation::blame(Batch& batch, int status) {
   WorkItem& item = *batch.items[batch.answered];
   const std::vector<Building>& buildings = item.record()->document.value->buildings;
   const std::string how = cause_of(status);
-  const std::size_t at = batch.place->building;
+  const std::size_t at = batch.report->building;
   std::size_t from = at, to = at + 1;
   if (at >= buildings.size() || item.lost.contains(at)) from = 0, to = buildings.size();
   bool is_new = false;

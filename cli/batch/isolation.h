@@ -38,7 +38,7 @@ class Isolation {
 
  private:
   struct Batch;
-  struct Place;
+  struct SharedReport;
 
   bool fill();
   void start(Batch& batch);
@@ -55,9 +55,9 @@ class Isolation {
   double most_seconds_;
   Callbacks callbacks_;
   std::vector<std::unique_ptr<Batch>> batches_;  ///< in the order of their records
-  std::vector<Place*> free_places_;
-  Place* places_ = nullptr;  ///< shared with the workers, one for each
-  bool is_over_ = false;     ///< nothing more comes
+  std::vector<SharedReport*> free_reports_;
+  SharedReport* reports_ = nullptr;  ///< shared with the workers, one for each
+  bool is_over_ = false;             ///< nothing more comes
 };
 
 }  // namespace oriel::cli

@@ -114,6 +114,12 @@ class TypeNameFinder {
  private:
   enum class Scope { name_space, type, code };
 
+  /// Without a name: none.
+  struct DefinedType {
+    std::string name;
+    bool is_inner = false;
+  };
+
   static bool is_type_key(const std::string& word) {
     return word == "class" || word == "struct" || word == "enum" || word == "union";
   }
@@ -126,9 +132,9 @@ class TypeNameFinder {
     Scope scope = Scope::code;
     if (says("namespace"))
       scope = Scope::name_space;
-    else if (const std::string name = defined_type(); !name.empty()) {
+    else if (const DefinedType type = defined_type(); !type.name.empty()) {
       scope = Scope::type;
-      add(name);
+      add(type.name, type.is_inner);
     }
     scopes_.push_back(scope);
     statement_.clear();
@@ -147,9 +153,9 @@ class TypeNameFinder {
     statement_.clear();
   }
 
-  /// `class NAME` at the beginning of what stands before a brace, after template parameters; a
-  /// specialisation has no name of its own, and of `class OUTER::NAME` the class itself has told.
-  std::string defined_type() const {
+  /// `class NAME` or `class OUTER::NAME` at the beginning of what stands before a brace, after
+  /// template parameters; a specialisation has no name of its own.
+  DefinedType defined_type() const {
     auto at = after_template_parameters();
     while (at != statement_.end() && !is_type_key(*at)) {
       if (*at == "(" || *at == "=") return {};
@@ -158,11 +164,12 @@ class TypeNameFinder {
     while (at != statement_.end() && is_type_key(*at)) ++at;
     at = after_attributes(at);
     if (at == statement_.end() || !is_name(*at)) return {};
-    const auto next = at + 1;
-    if (next == statement_.end()) return *at;
-    const bool is_outer = *next == ":" && next + 1 != statement_.end() && *(next + 1) == ":";
-    const bool is_special = *next == "<" || *next == "(" || is_name_but_final(*next);
-    return is_outer || is_special ? std::string() : *at;
+    DefinedType type{*at, false};
+    for (; statement_.end() - at > 3 && at[1] == ":" && at[2] == ":"; at += 3) type = {at[3], true};
+    if (at + 1 == statement_.end()) return type;
+    const std::string& next = at[1];
+    const bool is_special = next == "<" || next == "(" || is_name_but_final(next);
+    return is_special ? DefinedType{} : type;
   }
 
   static bool is_name(const std::string& word) {
@@ -190,8 +197,8 @@ class TypeNameFinder {
     return at;
   }
 
-  void add(const std::string& name) {
-    const bool is_inner = std::ranges::find(scopes_, Scope::type) != scopes_.end();
+  void add(const std::string& name, bool is_qualified = false) {
+    const bool is_inner = is_qualified || std::ranges::find(scopes_, Scope::type) != scopes_.end();
     if (std::ranges::find(scopes_, Scope::code) != scopes_.end()) return;
     (is_inner ? found.of_types : found.of_namespaces).push_back(name);
   }
@@ -263,7 +270,7 @@ TEST_SUITE("repository") {
       }  // namespace oriel
     )cpp");
     CHECK(names.of_namespaces == std::vector<std::string>{"Template", "Marked", "Alias", "Colour"});
-    CHECK(names.of_types == std::vector<std::string>{"Kind", "Id", "Inner"});
+    CHECK(names.of_types == std::vector<std::string>{"Kind", "Id", "Inner", "Part"});
   }
 
   TEST_CASE("a name of a type means one thing in the whole product") {
