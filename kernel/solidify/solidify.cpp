@@ -121,6 +121,14 @@ Issue not_closed(const Building& building, std::span<const OpenEdge> edges) {
                            edges.size(), count_loops(edges), places));
 }
 
+/// The repair is none: it would lose what can be seen.
+Issue not_enclosed(const Building& building, const detail::ExposedFaces& exposed) {
+  return error(building, Code::E302,
+               fmt::format("not closed: a repair would leave out {} polygons ({:.2f} m², {:.0f} % "
+                           "of the surface) that can be seen from outside (val3dity 302)",
+                           exposed.polygons, exposed.area, 100 * exposed.share));
+}
+
 /// A soup and its mesh: closed, or issues have an error.
 struct MeshedSoup {
   Soup soup;
@@ -137,8 +145,9 @@ MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
   tell_repairs(building, out.report, mended.is_open, out.issues);
   MeshedSoup shells;
   if (mended.is_open) {
+    if (mended.exposed.polygons > 0) out.issues.push_back(not_enclosed(building, mended.exposed));
     // Without open edges it is not a hole that keeps it from being a solid.
-    if (!out.report.open_edges.empty())
+    else if (!out.report.open_edges.empty())
       out.issues.push_back(not_closed(building, out.report.open_edges));
     else if (has_errors(why))
       out.issues.insert(out.issues.end(), why.begin(), why.end());

@@ -1,12 +1,12 @@
 #include "kernel/solidify/mend/mend.h"
 
 #include "kernel/base/index.h"
-#include "kernel/geometry/box_tree.h"
-#include "kernel/geometry/planar.h"
 #include "kernel/solidify/crossings/crossings.h"
+#include "kernel/solidify/mend/boundary_rays.h"
 #include "kernel/solidify/mend/caps.h"
 #include "kernel/solidify/mend/cells.h"
 #include "kernel/solidify/mend/duplicates.h"
+#include "kernel/solidify/mend/exposed_faces.h"
 #include "kernel/solidify/mend/t_vertices.h"
 #include "kernel/solidify/shells/edge_groups.h"
 #include "kernel/solidify/soup/polygon_shape.h"
@@ -84,37 +84,19 @@ class RoleFinder {
     return is_solid_ ? soup_.polygons[at(piece.polygon)].shell > 0 : piece.input_volume < 0;
   }
 
-  [[nodiscard]] Box box_of_polygon(int p) const {
-    Box box;
-    for (const int v : soup_.corners_of(p)) box.grow(place(v));
-    return box;
-  }
-
   /// Of every piece that encloses something the others of its body whose boundary it lies in: a ray
   /// from its first point crosses that an odd number of times.
   [[nodiscard]] std::vector<Numbers> pieces_around(std::span<const PieceBoundary> pieces) const {
-    Numbers polygons;
-    std::vector<Box> boxes;
-    Box all;
-    for (int p = 0; p < soup_.polygon_count(); ++p) {
-      if (!cells_.is_boundary(p)) continue;
-      polygons.push_back(p);
-      boxes.push_back(box_of_polygon(p));
-      all.grow(boxes.back());
-    }
-    const BoxTree tree(std::move(boxes));
+    const BoundaryRays rays(soup_, shapes_, cells_);
     std::vector<Numbers> around(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (pieces[i].polygon < 0) continue;
       const Vec3 eye = place(soup_.corners_of(pieces[i].polygon).front());
-      const Vec3 far = eye + 2 * length(all.max - all.min) * kRay;
       std::map<int, int> crossings;
-      tree.search([&](const Box& box) { return comes_near(box, eye, far, 0); },
-                  [&](int item) {
-                    const int p = polygons[at(item)], piece = cells_.piece[at(p)];
-                    if (piece == static_cast<int>(i) || body(p) != body(pieces[i].polygon)) return;
-                    if (is_hit(p, eye)) ++crossings[piece];
-                  });
+      rays.for_each_hit(eye, [&](int p) {
+        const int piece = cells_.piece[at(p)];
+        if (piece != static_cast<int>(i) && body(p) == body(pieces[i].polygon)) ++crossings[piece];
+      });
       for (const auto& [piece, count] : crossings)
         if (count % 2 == 1) around[i].push_back(piece);
     }
@@ -122,23 +104,6 @@ class RoleFinder {
   }
 
   [[nodiscard]] int body(int polygon) const { return soup_.polygons[at(polygon)].body; }
-
-  [[nodiscard]] bool is_hit(int p, Vec3 eye) const {
-    const Vec3 normal = shapes_[at(p)].unit;
-    const double slope = dot(normal, kRay);
-    if (slope == 0) return false;
-    const double way = dot(normal, place(soup_.corners_of(p).front()) - eye) / slope;
-    if (way <= 0) return false;
-    std::vector<Outline> outlines;
-    for (const int r : soup_.rings_of(p)) {
-      outlines.emplace_back();
-      for (const int v : soup_.ring(r)) outlines.back().push_back(place(v));
-    }
-    return contains(outlines, normal, eye + way * kRay);
-  }
-
-  /// A direction that no wall, roof or edge of a building has.
-  static constexpr Vec3 kRay{0.3127716, 0.5418393, 0.7801215};
 
   const Soup& soup_;
   std::span<const PolygonShape> shapes_;
@@ -160,6 +125,11 @@ constexpr double kCapReach = 5;
 
 constexpr int kCapSource = -1;
 
+/// How much of what can be seen a repair may leave out: what a ray misjudges at polygons out of
+/// plane, and a sheet or two. The smallest wall, roof or ground of a house is several times as much
+/// of its surface, and losing one is no repair.
+constexpr double kMostExposed = 0.01;
+
 /// A soup with what is known of it.
 struct MendStage {
   Soup soup;
@@ -178,6 +148,16 @@ struct MendStage {
       if (cells.is_front_outside(p) && cells.is_back_outside(p)) dangling += shapes[at(p)].area;
     }
     return boundary <= dangling;
+  }
+
+  /// What would be left out of the solid though it can be seen from outside.
+  [[nodiscard]] ExposedFaces exposed(const Tolerances& tolerances) const {
+    return find_exposed_faces(soup, shapes, cells, tolerances.plane_offset_m / soup.grid_m,
+                              kCapSource);
+  }
+  /// It encloses something, and shows what the polygons show.
+  [[nodiscard]] bool is_solid(const Tolerances& tolerances) const {
+    return !is_open() && exposed(tolerances).share <= kMostExposed;
   }
 };
 
@@ -217,7 +197,7 @@ Soup with_caps(const MendStage& stage, double reach, double max_area) {
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
 MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2) {
-  if (cap_area_m2 <= 0 || !stage.is_open()) return stage;
+  if (cap_area_m2 <= 0 || stage.is_solid(tolerances)) return stage;
   const double grid_m = stage.soup.grid_m;
   const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
   return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
@@ -239,11 +219,11 @@ MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& op
                 RepairReport& report) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
   MendStage stage = close_holes(MendStage(soup), tolerances, area_m2);
-  if (stage.is_open() && options.crossings != Crossings::leave) {
+  if (options.crossings != Crossings::leave && !stage.is_solid(tolerances)) {
     soup = without_crossings(soup, tolerances, report);
     stage = close_holes(MendStage(soup), tolerances, area_m2);
   }
-  if (options.close != Closing::any || !stage.is_open()) return stage;
+  if (options.close != Closing::any || stage.is_solid(tolerances)) return stage;
   return close_holes(MendStage(std::move(soup)), tolerances,
                      std::numeric_limits<double>::infinity());
 }
@@ -330,11 +310,14 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
   MendStage stage = close(std::move(whole), tolerances, options, report);
-  mended.is_open = stage.is_open();
-  if (mended.is_open)
+  mended.is_open = !stage.is_solid(tolerances);
+  if (mended.is_open) {
+    if (!stage.is_open()) mended.exposed = stage.exposed(tolerances);
+    mended.exposed.area *= soup.grid_m * soup.grid_m;
     report.open_edges = std::move(open);
-  else
+  } else {
     keep_boundary(stage, is_solid, mended);
+  }
   return mended;
 }
 

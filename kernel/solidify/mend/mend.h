@@ -2,6 +2,7 @@
 
 #include "kernel/model/repair.h"
 #include "kernel/model/tolerances.h"
+#include "kernel/solidify/mend/exposed_faces.h"
 #include "kernel/solidify/soup/soup.h"
 
 namespace oriel::detail {
@@ -11,8 +12,11 @@ struct Mended {
   /// The boundary of what the polygons enclose, every polygon's front outside (of cavities: in the
   /// void). Caps have source -1.
   Soup soup;
-  /// The polygons enclose less of themselves than is left over: a hole lets the outside in.
+  /// The polygons enclose less of themselves than is left over (a hole lets the outside in), or the
+  /// solid would leave out polygons that can be seen from outside.
   bool is_open = false;
+  /// If it stays open because the solid would not show them (area in m²); else none.
+  ExposedFaces exposed;
   RepairReport report;
 };
 
@@ -23,8 +27,9 @@ struct Mended {
 /// 4. the cells between the polygons are found, polygons sorted round the edges (cells.h);
 /// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h); before larger
 ///    ones, polygons are cut where they run through each other, if asked for (crossings.h);
-/// 6. shells in the material of others are dropped or become cavities;
-/// 7. what has the outer cell on one side only stays.
+/// 6. if the solid would not show what can be seen from outside it is none (exposed_faces.h);
+/// 7. shells in the material of others are dropped or become cavities;
+/// 8. what has the outer cell on one side only stays.
 /// `is_solid`: Building::is_solid.
 Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
             const RepairOptions& options);

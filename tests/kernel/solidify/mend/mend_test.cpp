@@ -3,6 +3,7 @@
 #include "tests/support/solidified.h"
 
 #include <algorithm>
+#include <string>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -202,6 +203,49 @@ TEST_SUITE("kernel/solidify") {
       sum += length(edge.to - edge.from);
     }
     CHECK(sum == doctest::Approx(14).epsilon(1e-9));
+  }
+
+  /// A hall without ground, and at the lower edge of its wall a wedge without one end, into whose
+  /// inside the wall runs: once the end is closed the wedge is all that is enclosed, and both sides
+  /// of every wall of the hall are in it, as far as edges tell.
+  Building hall_with_open_wedge() {
+    const Building wedge = test::building_of(
+        {Points{{5, 0, 0}, {5, -0.3, 0.3}, {5, 0.3, 0.3}},
+         Points{{5, 0, 0}, {5.4, 0, 0}, {5.4, -0.3, 0.3}, {5, -0.3, 0.3}},
+         Points{{5, 0, 0}, {5, 0.3, 0.3}, {5.4, 0.3, 0.3}, {5.4, 0, 0}},
+         Points{{5, -0.3, 0.3}, {5.4, -0.3, 0.3}, {5.4, 0.3, 0.3}, {5, 0.3, 0.3}}});
+    const Building hall = test::building_of(
+        {Points{{0, 0, 0}, {5, 0, 0}, {5.4, 0, 0}, {20, 0, 0}, {20, 0, 8}, {0, 0, 8}},
+         Points{{20, 0, 0}, {20, 10, 0}, {20, 10, 8}, {20, 0, 8}},
+         Points{{20, 10, 0}, {0, 10, 0}, {0, 10, 8}, {20, 10, 8}},
+         Points{{0, 10, 0}, {0, 0, 0}, {0, 0, 8}, {0, 10, 8}},
+         Points{{0, 0, 8}, {20, 0, 8}, {20, 10, 8}, {0, 10, 8}}});
+    return together(hall, wedge);
+  }
+
+  TEST_CASE("a closed hole that costs the walls that can be seen is no repair") {
+    const Solidified out = solidify(hall_with_open_wedge());
+    CHECK_FALSE(out.value);
+    CHECK_FALSE(out.report.open_edges.empty());
+    CHECK(out.report.inner.empty());
+    CHECK(out.report.caps.empty());
+    REQUIRE(out.issues.size() >= 1);
+    CHECK(out.issues.back().code == Code::E302);
+    CHECK(out.issues.back().sentence.find("can be seen from outside") != std::string::npos);
+  }
+
+  TEST_CASE("what is enclosed may be left out however large it is") {
+    // Floors and partitions of a closed hall, more than its outside has.
+    Building building = box({0, 0, 0}, {4, 4, 4});
+    for (int i = 1; i < 20; ++i) {
+      const double z = 0.2 * i;
+      building =
+          together(building, test::building_of({{{0, 0, z}, {4, 0, z}, {4, 4, z}, {0, 4, z}}}));
+    }
+    const Repaired out = repaired(building);
+    CHECK(out.volume_m3 == doctest::Approx(64));
+    CHECK(out.report.inner.size() == 19);
+    CHECK(out.report.inner_area_m2 == doctest::Approx(19 * 16));
   }
 
   TEST_CASE("what is repaired does not depend on the order of the input") {
