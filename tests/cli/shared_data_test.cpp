@@ -51,12 +51,30 @@ TEST_SUITE("cli") {
   TEST_CASE("buildings that made label run for ever or crash are labelled or set aside") {
     ORIEL_NEEDS_SHARED(shared);
     for (const char* name : {"hang-insets-real.city.jsonl", "hang-insets.city.jsonl",
-                             "crash-ground-facet.city.jsonl", "crash-conformance-file.city.json"}) {
+                             "hang-noise-5mm.stripped.city.json", "crash-ground-facet.city.jsonl",
+                             "crash-conformance-file.city.json"}) {
       CAPTURE(name);
       const Outcome outcome = run({"label", shared / "data/faults" / name});
       CHECK((outcome.exit == 0 || outcome.exit == 3));
       CHECK(outcome.says(" of 1 building"));
     }
+  }
+
+  TEST_CASE("a block keeps its walls and windows where a closed hole would cost them") {
+    ORIEL_NEEDS_SHARED(shared);
+    const std::string block = shared / "data/delft-blocks/yitong_4.stripped.city.json";
+    const Outcome outcome = run({"label", block});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("can be seen from outside"));
+    CHECK(outcome.says(" window"));
+    CHECK_FALSE(outcome.says("E310"));
+  }
+
+  TEST_CASE("a district of which every hole is closed is segmented to the end") {
+    ORIEL_NEEDS_SHARED(shared);
+    const std::string district = shared / "data/delfshaven/delfshaven.city.json";
+    const Outcome outcome = run({"label", district, "--close", "any"});
+    CHECK(outcome.says("853 of 853 buildings labelled"));
   }
 
   TEST_CASE("the houses of random3dcity are all segmented and labelled as the truth says") {

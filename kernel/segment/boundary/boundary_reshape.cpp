@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace oriel::detail {
@@ -111,20 +112,28 @@ void Boundary::cover(BodyFacetId cap, BodyFacetId covered) {
   merge(cap, covered);
 }
 
-/// Puts the corners of a facet on those of its edges that they lie on.
+/// Puts the corners of a facet on those of its edges that they lie on, each once on each edge: two
+/// corners that are closer than the grid each lie on every piece that ends at the other one.
 void Boundary::split_at_corners(BodyFacetId f) {
-  std::vector<EdgeId> edges;
-  for_each_edge(f, [&](EdgeId e) { edges.push_back(e); });
-  const std::vector<EdgeId> corners = edges;
-  for (std::size_t i = 0; i < edges.size(); ++i)
+  struct Piece {
+    EdgeId edge;
+    std::size_t of;  ///< the edge it is a piece of, by its place among the corners
+  };
+  std::vector<EdgeId> corners;
+  for_each_edge(f, [&](EdgeId e) { corners.push_back(e); });
+  std::vector<Piece> pieces;
+  for (const EdgeId e : corners) pieces.push_back({e, pieces.size()});
+  std::set<std::pair<std::size_t, PointId>> put;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
     for (const EdgeId corner : corners) {
-      const EdgeId e = edges[i];
+      const auto [e, of] = pieces[i];
       const PointId point = origin(corner);
       const Vec3 p = world_->points.at(point), from = at(e), to = world_->points.at(target(e));
       if (p == from || p == to || distance_to_segment(p, from, to) > world_->points.grid_m())
         continue;
+      if (!put.emplace(of, point).second) continue;
       split_edge(e, point);
-      edges.push_back(next(e));
+      pieces.push_back({next(e), of});
     }
 }
 

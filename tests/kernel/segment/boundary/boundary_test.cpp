@@ -64,6 +64,21 @@ bool fill_a_hole(Boundary& body) {
 }
 
 TEST_SUITE("kernel/segment") {
+  TEST_CASE("corners closer than the grid are each put on an edge once") {
+    // A U whose two inner corners come down to its lower edge.
+    const Building u =
+        test::BoxBody().add({0, 0, 0}, {4, 4, 1}).remove({1, 2, 0}, {3, 4, 1}).build();
+    Solid solid = test::solid_of(u);
+    for (Vertex& v : solid.vertices)
+      if (v.point.y == 2) v = {{v.point.x < 2 ? 2 : 2 + 0.6 * solid.grid_m, 0, v.point.z}, false};
+    World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+    Boundary body = boundary_of(solid, 0, world);
+    const int before = body.half_edge_count();
+    for (const detail::BodyFacetId f : body.living_facets()) body.zip(f);
+    CHECK(body.half_edge_count() > before);
+    CHECK(body.half_edge_count() <= before * before);
+  }
+
   TEST_CASE("a flat body lists each living edge once and each living facet with its rank") {
     int filled = 0;
     for (const test::NamedBody& named : test::bodies()) {
