@@ -91,6 +91,8 @@ class ReachChecker {
     if (step_of_[oriel::at(static_cast<int>(j))] != step_of_[oriel::at(static_cast<int>(i))])
       return step_of_[j] < step_of_[i] && first.label != second.label;
     if (first.priority != second.priority) return first.priority > second.priority;
+    // Evidence may turn what scores say.
+    if (pack_->decide.evidence.is_written() && first.label != second.label) return false;
     return first.id < second.id;
   }
 

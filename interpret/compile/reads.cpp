@@ -1,5 +1,6 @@
 #include "interpret/compile/reads.h"
 
+#include "interpret/compile/counts.h"
 #include "kernel/base/index.h"
 #include "kernel/model/description/feature_table.h"
 
@@ -30,6 +31,7 @@ Reads find_reads(const Pack& pack) {
   keep_each_once(reads.texts);
   keep_each_once(reads.numbers);
   for (const GroupKind& kind : pack.groups) reads.relations[at(kind.by)] = true;
+  for (const int relation : evidence_relations(pack)) reads.relations[at(relation)] = true;
   // A relation follows the one that it narrows.
   for (std::size_t i = pack.relations.size(); i-- > 0;)
     if (reads.relations[built_in + i]) reads.relations[at(pack.relations[i].within)] = true;

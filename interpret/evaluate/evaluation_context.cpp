@@ -61,6 +61,7 @@ EvaluationContext::EvaluationContext(const Pack& pack, const FeatureTable& table
       columns(feature_schema().size()),
       relations(relation_schema().size() + pack.relations.size()),
       membership(pack.classes.size(), std::vector<Truth>(rows, Truth::no)),
+      table_(&table),
       coded_texts_(columns.size()) {
   std::iota(row_numbers.begin(), row_numbers.end(), 0);
   if (rows == 0) return;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace oriel::rules {
@@ -65,6 +66,9 @@ struct EvaluationContext {
   EvaluationContext(const EvaluationContext&) = delete;
   EvaluationContext& operator=(const EvaluationContext&) = delete;
 
+  /// The id of a feature.
+  [[nodiscard]] const std::string& id_of(int row) const { return table_->id(FeatureId{row}); }
+
   std::size_t rows = 0;
   /// 0, 1, … rows - 1.
   std::vector<int> row_numbers;
@@ -83,6 +87,8 @@ struct EvaluationContext {
  private:
   void link(const Pack& pack, const FeatureGraph& graph);
 
+  /// Null where the rows are surfaces.
+  const FeatureTable* table_ = nullptr;
   /// The lists of the relations that the pack declares.
   std::vector<FeatureLinks> narrowed_;
   std::vector<std::vector<double>> coded_texts_;

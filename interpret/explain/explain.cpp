@@ -3,7 +3,9 @@
 #include "interpret/explain/proof.h"
 #include "interpret/explain/what_if.h"
 #include "interpret/labelling/labelling.h"
+#include "interpret/pack/names.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace oriel {
@@ -59,9 +61,49 @@ RoundReport round_report(const Pack& pack, const rules::Choice& choice) {
   return {label.name, choice.score, choice.margin, rule.id};
 }
 
+EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence,
+                               const FeatureTable& table) {
+  const rules::EvidenceSettings& settings = pack.decide.evidence;
+  EvidenceReport report;
+  report.shift = evidence.shift;
+  report.place = pack.source.place(settings.span.begin);
+  const auto names = rules::relation_names(pack);
+  for (const int relation : settings.company)
+    report.relations.push_back(names[static_cast<std::size_t>(relation)]);
+  report.company = evidence.company;
+  for (const int row : evidence.holders) report.holders.push_back(table.id(FeatureId{row}));
+  std::ranges::sort(report.holders);
+  report.company_shift = settings.most * evidence.company_share();
+  for (const rules::CountEvidence& count : evidence.counts) {
+    const rules::Class& of = pack.classes[static_cast<std::size_t>(count.of)];
+    const rules::Typical& typical = of.typical[count.typical];
+    CountReport& said = report.counts.emplace_back();
+    said.label = of.name;
+    said.per = typical.per;
+    said.others = count.others;
+    said.low = typical.low;
+    if (typical.high != rules::Typical::kNoEnd) said.high = typical.high;
+    said.shift = settings.most * count.judged;
+    said.place = pack.source.place(typical.span.begin);
+  }
+  return report;
+}
+
+/// A decision in which the feature was weighed: what evidence says of each of its rules, and what
+/// they would have decided without it.
+void add_evidence(const Pack& pack, const rules::Weighed& weighed, const FeatureTable& table,
+                  Explanation& explanation) {
+  for (const rules::Evidence& evidence : weighed.evidence)
+    explanation.rules[static_cast<std::size_t>(evidence.rule)].evidence =
+        evidence_report(pack, evidence, table);
+  RoundReport without = round_report(pack, weighed.without);
+  if (without.label != round_report(pack, weighed.with).label)
+    explanation.without_evidence = std::move(without);
+}
+
 bool is_better(const RuleReport& p, const RuleReport& q) {
   if (p.priority != q.priority) return p.priority > q.priority;
-  return p.score != q.score ? p.score > q.score : p.id < q.id;
+  return p.total() != q.total() ? p.total() > q.total() : p.id < q.id;
 }
 
 std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
@@ -130,6 +172,8 @@ Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
     explanation.rules.push_back(report_of(pack, rule, evaluator, feature.value, prover));
   for (const auto& round : labelling.rounds())
     explanation.rounds.push_back(round_report(pack, round[feature.index()]));
+  for (const rules::Weighed& weighed : labelling.weighed())
+    if (weighed.row == feature.value) add_evidence(pack, weighed, *table, explanation);
   explanation.best = find_best(explanation.rules);
   return explanation;
 }

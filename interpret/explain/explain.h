@@ -54,6 +54,35 @@ struct TermReport {
   std::vector<ConditionReport> nearest_misses;
 };
 
+/// How many others are of a class, and how many are typical.
+struct CountReport {
+  std::string label;
+  /// "storey", "facade" or "building".
+  std::string per;
+  int others = 0;
+  int low = 0;
+  /// Nothing: no most.
+  std::optional<int> high;
+  /// What it adds to the score or takes from it, before both are bounded.
+  double shift = 0;
+  Place place;
+};
+
+/// What the others of a feature say of a rule's label: `decide: evidence`.
+struct EvidenceReport {
+  /// What they add to the score or take from it.
+  double shift = 0;
+  /// The relations that are company, how many others they lead to, and the ids of those that hold
+  /// the label, sorted.
+  std::vector<std::string> relations;
+  std::size_t company = 0;
+  std::vector<std::string> holders;
+  double company_shift = 0;
+  std::vector<CountReport> counts;
+  /// Of `evidence` in the pack.
+  Place place;
+};
+
 struct RuleReport {
   std::string id;
   std::string label;
@@ -62,14 +91,18 @@ struct RuleReport {
   bool is_predicate = false;
   Place place;
   Outcome outcome = Outcome::unknown;
-  /// Where the rule holds.
+  /// Where the rule holds; without evidence.
   double score = 0;
+  /// Where the decision is close, of the rules between which it is.
+  std::optional<EvidenceReport> evidence;
   std::vector<ConditionReport> require;
   std::vector<ConditionReport> unless;
   std::vector<TermReport> terms;
+
+  [[nodiscard]] double total() const { return score + (evidence ? evidence->shift : 0); }
 };
 
-/// What one round of a pack with `iterate:` said of the feature.
+/// What one round of a pack with `iterate:` said of the feature, or the rules without evidence.
 struct RoundReport {
   /// Empty: unknown.
   std::string label;
@@ -116,6 +149,8 @@ struct Explanation {
   std::vector<RuleReport> rules;
   /// Round by round; empty if the pack has no `iterate:`. `rules` are judged as in the last.
   std::vector<RoundReport> rounds;
+  /// What the rules alone say, if evidence made another label of it.
+  std::optional<RoundReport> without_evidence;
   /// Only if it was searched for.
   std::optional<FlipSearch> flip;
 };

@@ -74,6 +74,29 @@ std::string nearest_json(const std::string& feature, const std::vector<Condition
   return fmt::format("{{{}}}", text);
 }
 
+std::string count_json(const CountReport& count) {
+  std::string text = member("label", json_string(count.label));
+  text += next("per", json_string(count.per));
+  text += next("others", std::to_string(count.others));
+  text += next("low", std::to_string(count.low));
+  text += next("high", count.high ? std::to_string(*count.high) : "null");
+  text += next("shift", json_number(count.shift));
+  text += next("place", place_json(count.place));
+  return fmt::format("{{{}}}", text);
+}
+
+std::string evidence_json(const EvidenceReport& evidence) {
+  std::string company = member("relations", list(evidence.relations, json_string));
+  company += next("others", std::to_string(evidence.company));
+  company += next("holders", list(evidence.holders, json_string));
+  company += next("shift", json_number(evidence.company_shift));
+  std::string text = member("shift", json_number(evidence.shift));
+  text += next("place", place_json(evidence.place));
+  text += next("company", fmt::format("{{{}}}", company));
+  text += next("counts", list(evidence.counts, count_json));
+  return fmt::format("{{{}}}", text);
+}
+
 std::string rule_json(const RuleReport& rule) {
   std::string text = member("id", json_string(rule.id));
   text += next("label", json_string(rule.label));
@@ -82,6 +105,7 @@ std::string rule_json(const RuleReport& rule) {
   text += next("place", place_json(rule.place));
   text += next("outcome", json_string(name_of(rule.outcome)));
   text += next("score", rule.outcome == Outcome::holds ? json_number(rule.score) : "null");
+  if (rule.evidence) text += next("evidence", evidence_json(*rule.evidence));
   text += next("require", list(rule.require, condition_json));
   text += next("unless", list(rule.unless, condition_json));
   text += next("terms", list(rule.terms, term_json));
@@ -133,6 +157,8 @@ std::string to_json(const Explanation& explanation) {
   text += next("best",
                explanation.best ? json_string(explanation.rules[*explanation.best].id) : "null");
   if (!explanation.rounds.empty()) text += next("rounds", list(explanation.rounds, round_json));
+  if (explanation.without_evidence)
+    text += next("without_evidence", round_json(*explanation.without_evidence));
   text += next("rules", list(explanation.rules, rule_json));
   if (explanation.flip) text += next("flip", search_json(*explanation.flip));
   return fmt::format("{{{}}}", text);

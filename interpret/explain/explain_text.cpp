@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@ namespace {
 
 /// Cells wider than this do not push the others aside.
 constexpr std::size_t kWidestCell = 56;
+/// So many names are printed of those that hold a label.
+constexpr std::size_t kMostHolders = 5;
 
 const char* mark_of(Outcome outcome) {
   if (outcome == Outcome::unknown) return "unknown";
@@ -73,6 +76,52 @@ std::string one_line(const ExplanationRow& row) {
   return found.empty() ? row.cells[0] : row.cells[0] + ": " + found;
 }
 
+/// "+0.04"; nothing is added without a sign.
+std::string signed_text(double shift) {
+  return std::abs(shift) < 0.005 ? "0.00" : fmt::format("{:+.2f}", shift);
+}
+
+std::string evidence_mark(double shift) { return "evidence " + signed_text(shift); }
+
+/// "5 of 6 alike are window"; who they are.
+void add_company(const EvidenceReport& evidence, const std::string& label,
+                 std::vector<ExplanationRow>& rows) {
+  if (evidence.company == 0) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMostHolders, evidence.holders.size()); ++i)
+    add(names, evidence.holders[i]);
+  if (evidence.holders.size() > kMostHolders)
+    names += fmt::format(" and {} more", evidence.holders.size() - kMostHolders);
+  rows.push_back({4,
+                  {evidence_mark(evidence.company_shift),
+                   fmt::format("{} of {} {} are {}", evidence.holders.size(), evidence.company,
+                               fmt::join(evidence.relations, " or "), label),
+                   names},
+                  evidence.place});
+}
+
+void add_evidence(const RuleReport& rule, std::vector<ExplanationRow>& rows) {
+  if (!rule.evidence) return;
+  add_company(*rule.evidence, rule.label, rows);
+  for (const CountReport& count : rule.evidence->counts)
+    rows.push_back({4,
+                    {evidence_mark(count.shift),
+                     fmt::format("{} in the {}: {} other{}", count.label, count.per, count.others,
+                                 count.others == 1 ? "" : "s"),
+                     fmt::format("typical {} ..{}", count.low,
+                                 count.high ? fmt::format(" {}", *count.high) : "")},
+                    count.place});
+}
+
+/// "; without evidence door 0.62 by door.on_ground", if that is another label.
+std::string without_evidence(const Explanation& explanation) {
+  if (!explanation.without_evidence) return "";
+  const RoundReport& without = *explanation.without_evidence;
+  if (without.label.empty()) return "; without evidence unknown";
+  return fmt::format("; without evidence {} {:.2f} by {}", without.label, without.score,
+                     without.rule);
+}
+
 void pad(std::string& text, std::size_t column) {
   text += std::string(text.size() < column ? column - text.size() : 1, ' ');
 }
@@ -89,13 +138,15 @@ std::string headline(const Explanation& explanation) {
     std::string text = explanation.feature + " -> unknown";
     if (!explanation.best) return text + "   no rule for a label holds";
     const RuleReport& best = explanation.rules[*explanation.best];
-    return text + fmt::format("   best candidate: {} {:.2f} (< min_score {:.2f})", best.label,
-                              best.score, explanation.min_score);
+    return text +
+           fmt::format("   best candidate: {} {:.2f} (< min_score {:.2f})", best.label,
+                       best.total(), explanation.min_score) +
+           without_evidence(explanation);
   }
   std::string text = fmt::format("{} -> {} {:.2f} by {}, margin {:.2f}", explanation.feature,
                                  verdict.label, verdict.score, verdict.rule, verdict.margin);
   if (!verdict.runner_up.empty()) text += ", then " + verdict.runner_up.text();
-  return text;
+  return text + without_evidence(explanation);
 }
 
 std::vector<ExplanationRow> rows_of(const RuleReport& rule) {
@@ -103,6 +154,7 @@ std::vector<ExplanationRow> rows_of(const RuleReport& rule) {
   std::string outcome = mark_of(rule.outcome);
   if (rule.outcome == Outcome::holds && !rule.is_predicate)
     outcome += fmt::format(", score {:.2f}", rule.score);
+  if (rule.evidence) outcome += fmt::format(", evidence {}", signed_text(rule.evidence->shift));
   rows.push_back({2, {rule.id, outcome, rule.label}, rule.place});
   for (const ConditionReport& report : rule.require)
     add_condition(report, mark_of(report.outcome), 4, rows);
@@ -117,6 +169,7 @@ std::vector<ExplanationRow> rows_of(const RuleReport& rule) {
     rows.push_back(
         {4, {fmt::format("{} x{:g}", judged, term.weight), term.value, bound}, term.place});
   }
+  add_evidence(rule, rows);
   return rows;
 }
 
@@ -134,7 +187,7 @@ std::string reason(const Explanation& explanation) {
     is_first = false;
     text += one_line(rows[i]);
   }
-  return text;
+  return text + without_evidence(explanation);
 }
 
 std::string flip_line(const FlipSearch& search) {

@@ -40,7 +40,8 @@ class TurnFinder {
       relations_[0] = root_of(relation.within);
       visit(relation.where);
     }
-    is_gradual_ = is_gradual_ || depends_on(pack_, pack_.decide.min_score_of, param_, true);
+    for (const ExprId id : {pack_.decide.min_score_of, pack_.decide.evidence.most_of})
+      is_gradual_ = is_gradual_ || depends_on(pack_, id, param_, true);
     return std::move(turns_);
   }
 

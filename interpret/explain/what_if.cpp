@@ -56,7 +56,9 @@ bool WhatIf::set(std::size_t param, double value) {
     refold(pack_, range->low, range->low_deg);
     refold(pack_, range->high, range->high_deg);
   }
-  refold(pack_, pack_.decide.min_score_of, pack_.decide.min_score);
+  Decide& decide = pack_.decide;
+  refold(pack_, decide.min_score_of, decide.min_score);
+  refold(pack_, decide.evidence.most_of, decide.evidence.most);
   return is_sound();
 }
 
@@ -70,8 +72,11 @@ bool WhatIf::is_sound() const {
   const Hosts& hosts = pack_.hosts;
   if (!is_sound_range(hosts.wall) || !is_sound_range(hosts.roof) || !is_sound_range(hosts.ground) ||
       is_overlapping(hosts.wall, hosts.roof) || is_overlapping(hosts.wall, hosts.ground) ||
-      is_overlapping(hosts.roof, hosts.ground) || pack_.decide.min_score < 0 ||
-      pack_.decide.min_score > 1)
+      is_overlapping(hosts.roof, hosts.ground))
+    return false;
+  const Decide& decide = pack_.decide;
+  if (decide.min_score < 0 || decide.min_score > 1 || decide.evidence.most < 0 ||
+      (decide.evidence.is_written() && 2 * decide.evidence.most > decide.ambiguous_below))
     return false;
   for (const Expr& expr : pack_.code)
     if (expr.op == Op::in_range && !is_sound(Ramp{expr.args[1], expr.args[2]})) return false;

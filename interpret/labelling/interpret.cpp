@@ -51,15 +51,15 @@ void add_ambiguities(const rules::Pack& pack, std::span<const rules::Choice> cho
 }
 
 /// Ids are sorted, so that the sentence does not depend on the order of features.
-Issue unsettled(const rules::Pack& pack, const std::vector<int>& rows, const FeatureTable& table) {
+Issue unsettled(const std::string& what, const std::vector<int>& rows, const FeatureTable& table) {
   constexpr std::size_t kShown = 5;
   std::vector<std::string> ids;
   for (const int row : rows) ids.push_back(table.id(FeatureId{row}));
   std::ranges::sort(ids);
   const std::size_t more = ids.size() - std::min(ids.size(), kShown);
   ids.resize(ids.size() - more);
-  std::string sentence = fmt::format("after {} rounds {} features still change: {}", pack.rounds,
-                                     rows.size(), fmt::join(ids, ", "));
+  std::string sentence =
+      fmt::format("after {} {} features still change: {}", what, rows.size(), fmt::join(ids, ", "));
   if (more > 0) sentence += fmt::format(" and {} more", more);
   return building_issue(Severity::warning, Code::R261, table.building(), std::move(sentence));
 }
@@ -77,7 +77,10 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   if (pack.decide.ambiguous_below > 0) add_ambiguities(pack, choices, table, result);
   result.groups = rules::find_groups(pack, context, table);
   if (const auto rows = labelling.unsettled(); !rows.empty())
-    result.issues.push_back(unsettled(pack, rows, table));
+    result.issues.push_back(unsettled(fmt::format("{} rounds", pack.rounds), rows, table));
+  if (const auto& rows = labelling.unsettled_by_evidence(); !rows.empty())
+    result.issues.push_back(unsettled(
+        fmt::format("{} looks at their neighbours", rules::JointPass::kMostSweeps), rows, table));
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include "kernel/base/index.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace oriel::rules {
@@ -98,6 +99,8 @@ std::vector<int> Labelling::unsettled() const {
 }
 
 void Labelling::run_round() {
+  weighed_.clear();
+  restless_.clear();
   for (const RuleStep& step : pack_->steps) {
     if (step.is_decision)
       run_decision(step);
@@ -140,6 +143,8 @@ void Labelling::run_decision(const RuleStep& step) {
   evaluator_.forget();
   for (const int id : step.rules) unknown_rows_[oriel::at(rule(id).label)].clear();
   for (const int id : step.rules) collect(id);
+  for (auto& candidates : candidates_) sort_candidates(*pack_, candidates);
+  if (pack_->decide.evidence.most > 0) weigh_evidence();
   for (std::size_t row = 0; row < candidates_.size(); ++row) {
     if (candidates_[row].empty()) continue;
     decide(row);
@@ -166,36 +171,19 @@ void Labelling::collect(int id) {
   }
 }
 
-/// By what wins: enough score, then priority, then score, then the rule's id.
-bool Labelling::beats(const Candidate& p, const Candidate& q) const {
-  const bool is_p_enough = p.score >= pack_->decide.min_score;
-  const bool is_q_enough = q.score >= pack_->decide.min_score;
-  if (is_p_enough != is_q_enough) return is_p_enough;
-  const int p_priority = rule(p.rule).priority, q_priority = rule(q.rule).priority;
-  if (p_priority != q_priority) return p_priority > q_priority;
-  if (p.score != q.score) return p.score > q.score;
-  return rule(p.rule).id < rule(q.rule).id;
+/// What is close is decided with what the others say.
+void Labelling::weigh_evidence() {
+  JointPass pass(*pack_, *context_, candidates_, decided_);
+  std::ranges::move(pass.run(), std::back_inserter(weighed_));
+  std::ranges::copy(pass.unsettled(), std::back_inserter(restless_));
 }
 
 void Labelling::decide(std::size_t row) {
-  auto& candidates = candidates_[row];
-  const auto is_first = [&](const Candidate& p, const Candidate& q) { return beats(p, q); };
-  std::ranges::sort(candidates, is_first);
-  const Candidate& best = candidates.front();
-  if (best.score < pack_->decide.min_score) return;
-  const Rule& winner = rule(best.rule);
-  Choice choice{.rule = best.rule, .score = best.score, .margin = best.score};
-  for (const Candidate& other : candidates) {
-    const Rule& rival = rule(other.rule);
-    if (rival.label == winner.label) continue;
-    if (choice.runner_up < 0) choice.runner_up = other.rule;
-    if (rival.priority != winner.priority) continue;
-    choice.margin = std::min(choice.margin, best.score - other.score);
-    choice.is_ambiguous = choice.margin < pack_->decide.ambiguous_below;
-  }
+  const Choice choice = choose(*pack_, candidates_[row]);
+  if (choice.rule < 0) return;
   choices_[row] = choice;
-  decided_[row] = winner.label;
-  raise_membership(winner.label, row, Truth::yes);
+  decided_[row] = rule(choice.rule).label;
+  raise_membership(decided_[row], row, Truth::yes);
 }
 
 /// A feature that is decided is no other class of this stratum, though a rule for it was unknown.

@@ -2,6 +2,8 @@
 
 #include "interpret/evaluate/evaluation_context.h"
 #include "interpret/evaluate/evaluator.h"
+#include "interpret/labelling/candidates.h"
+#include "interpret/labelling/evidence.h"
 #include "interpret/pack/pack.h"
 
 #include <span>
@@ -18,17 +20,6 @@ std::vector<Judgement> judge(const Pack& pack, const Rule& rule, Evaluator& eval
 /// 0…1, or NaN where the term is unknown: how the values of a term are judged.
 double judge_term(const Pack& pack, const ScoreTerm& term, Evaluator& evaluator,
                   const FeatureRows& rows);
-
-/// What was decided for one feature.
-struct Choice {
-  /// The rule that won, or -1.
-  int rule = -1;
-  double score = 0;
-  double margin = 0;
-  /// The best rule for another label, or -1.
-  int runner_up = -1;
-  bool is_ambiguous = false;
-};
 
 /// Runs the rules of a pack over one building, stratum by stratum. Afterwards `context.membership`
 /// says of every feature and class whether it is one.
@@ -48,22 +39,23 @@ class Labelling {
   /// The rows whose memberships the last round still changed.
   [[nodiscard]] std::vector<int> unsettled() const;
 
+  /// The features to whose labels evidence was asked, decision by decision; of several rounds in
+  /// the last.
+  [[nodiscard]] const std::vector<Weighed>& weighed() const { return weighed_; }
+  /// The rows whose labels evidence still changed when it was asked for the last time.
+  [[nodiscard]] const std::vector<int>& unsettled_by_evidence() const { return restless_; }
+
  private:
   void run_round();
-
-  struct Candidate {
-    int rule = -1;
-    double score = 0;
-  };
 
   void run_predicates(const RuleStep& step);
   bool apply_predicate(const Rule& rule);
   void run_decision(const RuleStep& step);
   void collect(int rule);
   [[nodiscard]] bool is_open(ClassId decided, ClassId label) const;
+  void weigh_evidence();
   void decide(std::size_t row);
   void settle_unknown(const RuleStep& step);
-  [[nodiscard]] bool beats(const Candidate& p, const Candidate& q) const;
   void raise_membership(ClassId id, std::size_t row, Truth truth);
 
   [[nodiscard]] const Rule& rule(int id) const {
@@ -81,6 +73,8 @@ class Labelling {
   std::vector<std::vector<int>> unknown_rows_;
   /// By row: the class that was decided, or -1.
   std::vector<ClassId> decided_;
+  std::vector<Weighed> weighed_;
+  std::vector<int> restless_;
   /// The rows that the rule at hand is asked of.
   std::vector<int> open_rows_;
 };

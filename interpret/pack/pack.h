@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,11 +30,18 @@ struct Param {
   SourceSpan span;
 };
 
-/// How often a class is expected: `typical: {per storey: 2 .. 12}`.
+/// How many of a class there are as a rule: `typical: {per storey: 2 .. 12}`.
 struct Typical {
+  /// No most: `1 ..`.
+  static constexpr int kNoEnd = std::numeric_limits<int>::max();
+
+  /// "storey", "facade" or "building".
   std::string per;
-  double low = 0;
-  double high = 0;
+  int low = 0;
+  int high = 0;
+  /// The relation that leads to the others of the storey or the facade; -1: those of the building.
+  int relation = -1;
+  SourceSpan span;
 };
 
 /// How objects of a class are written: `emit:`.
@@ -125,11 +133,25 @@ struct Hosts {
   double ground_reach_m = 0.5;
 };
 
+/// How much the labels of its others count for a feature: `decide: {evidence, company}`.
+struct EvidenceSettings {
+  /// The most that a score is moved by.
+  double most = 0;
+  /// What it was folded from; kNoExpr: it was not written.
+  ExprId most_of = kNoExpr;
+  /// The numbers of the relations that lead to what is comparable.
+  std::vector<int> company;
+  SourceSpan span;
+
+  [[nodiscard]] bool is_written() const { return most_of != kNoExpr; }
+};
+
 struct Decide {
   double min_score = 0;
   double ambiguous_below = 0;
   /// What min_score was folded from; kNoExpr: it was not written.
   ExprId min_score_of = kNoExpr;
+  EvidenceSettings evidence;
 };
 
 /// What a relation asks of its pairs.

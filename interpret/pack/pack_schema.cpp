@@ -118,6 +118,8 @@ constexpr const char* kSchema = R"json({
       "type": "object", "additionalProperties": false,
       "properties": {
         "min_score": {"$ref": "#/definitions/expression"}, "ambiguous_below": {"$ref": "#/definitions/expression"},
+        "evidence": {"$ref": "#/definitions/expression", "description": "the most that neighbours move a score by"},
+        "company": {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}], "description": "relations to what is comparable"},
         "otherwise": {"enum": ["unknown"]}
       }
     },

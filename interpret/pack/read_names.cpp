@@ -5,6 +5,8 @@
 #include "interpret/yaml/section.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,12 +60,51 @@ std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   return param;
 }
 
+/// More are never counted.
+constexpr double kMostCounted = 1e6;
+
+bool is_count(double value) {
+  return value >= 0 && value <= kMostCounted && value == std::floor(value);
+}
+
+/// The node of a range that has no end, without the points after its low one; else nothing.
+std::optional<YamlNode> without_end(const YamlNode& node) {
+  if (node.kind != YamlNode::Kind::scalar || !node.text.ends_with("..")) return std::nullopt;
+  YamlNode low = node;
+  low.text.resize(low.text.find_last_not_of(". ") + 1);
+  low.span.end -= node.text.size() - low.text.size();
+  return low;
+}
+
+/// `lo .. hi` or `lo ..`; what stands there is checked, and nothing is given if it is wrong.
+std::optional<std::pair<double, double>> read_counts(const YamlNode& node, Loader& loader) {
+  if (const auto low = without_end(node)) {
+    const auto value = read_quantity(*low, Dimension{}, loader);
+    if (value) return std::pair(value->value, static_cast<double>(Typical::kNoEnd));
+    return std::nullopt;
+  }
+  const auto range = read_range(node, Dimension{}, loader);
+  if (range) return std::pair(range->low, range->high);
+  return std::nullopt;
+}
+
+/// What is wrong with a key was said by the section.
 void read_typical(const YamlNode& node, Class& c, Loader& loader) {
-  YamlSection section(node, "'typical'", {"per storey", "per facade", "per building"},
-                      loader.findings);
-  for (const YamlEntry& entry : node.entries)
-    if (const auto range = read_range(entry.value, Dimension{}, loader))
-      c.typical.push_back({entry.key.text, range->low, range->high});
+  const std::vector<std::string> keys = {"per storey", "per facade", "per building"};
+  const YamlSection section(node, "'typical'", keys, loader.findings);
+  for (const YamlEntry& entry : node.entries) {
+    if (!contains(keys, entry.key.text)) continue;
+    const auto counts = read_counts(entry.value, loader);
+    if (!counts) continue;
+    const auto [low, high] = *counts;
+    if (!is_count(low) || (high != Typical::kNoEnd && !is_count(high))) {
+      loader.findings.error(Code::R212, entry.value.span,
+                            "a count is a whole number, 0 or more, at most 1000000");
+      continue;
+    }
+    const std::string per = entry.key.text.substr(std::string_view("per ").size());
+    c.typical.push_back({per, static_cast<int>(low), static_cast<int>(high), -1, entry.key.span});
+  }
 }
 
 void read_class_body(const YamlNode& node, Class& c, Loader& loader) {

@@ -89,6 +89,41 @@ ExprId read_share(const YamlNode* node, const std::string& what, double& share, 
   return value->expr;
 }
 
+/// A relation by its name alone, or a list of them.
+std::vector<int> read_company(const YamlNode& node, Loader& loader) {
+  std::vector<int> relations;
+  const auto read = [&](const YamlNode& name) {
+    const int relation = read_relation(name, "a relation", loader);
+    if (relation < 0) return;
+    relations.push_back(relation);
+  };
+  if (node.kind == YamlNode::Kind::sequence)
+    for (const YamlNode& item : node.items) read(item);
+  else
+    read(node);
+  return relations;
+}
+
+void read_evidence(const YamlSection& section, Loader& loader) {
+  EvidenceSettings& evidence = loader.pack.decide.evidence;
+  const YamlNode* most = section.find("evidence");
+  evidence.most_of = read_share(most, "'evidence'", evidence.most, loader);
+  const YamlNode* company = section.find("company");
+  if (company != nullptr) evidence.company = read_company(*company, loader);
+  if (evidence.is_written()) {
+    evidence.span = most->span;
+    if (company == nullptr) evidence.company = {relation_number(loader.pack, "alike")};
+    if (2 * evidence.most > loader.pack.decide.ambiguous_below)
+      loader.findings.error(
+          Code::R212, most->span,
+          "'evidence' is at most half of 'ambiguous_below': it decides what is close only");
+  } else if (most == nullptr && company != nullptr &&
+             loader.pack.source.is_in_first(company->span.begin)) {
+    loader.findings.warning(Code::R257, company->span,
+                            "'company' says nothing: 'evidence' says how much it may add");
+  }
+}
+
 }  // namespace
 
 void read_hosts(const YamlNode& node, Loader& loader) {
@@ -107,12 +142,14 @@ void read_hosts(const YamlNode& node, Loader& loader) {
 }
 
 void read_decide(const YamlNode& node, Loader& loader) {
-  YamlSection section(node, "'decide'", {"min_score", "ambiguous_below", "otherwise"},
+  YamlSection section(node, "'decide'",
+                      {"min_score", "ambiguous_below", "evidence", "company", "otherwise"},
                       loader.findings);
   Decide& decide = loader.pack.decide;
   decide.min_score_of =
       read_share(section.find("min_score"), "'min_score'", decide.min_score, loader);
   read_share(section.find("ambiguous_below"), "'ambiguous_below'", decide.ambiguous_below, loader);
+  read_evidence(section, loader);
   if (const YamlNode* otherwise = section.find("otherwise"))
     read_choice(*otherwise, "'otherwise'", {"unknown"}, loader.findings);
 }

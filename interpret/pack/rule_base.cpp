@@ -1,5 +1,6 @@
 #include "interpret/pack/rule_base.h"
 
+#include "interpret/compile/counts.h"
 #include "interpret/compile/reach.h"
 #include "interpret/compile/reads.h"
 #include "interpret/compile/strata.h"
@@ -160,9 +161,12 @@ void read_pack(const YamlNode& root, Pack& pack, Findings& findings) {
   Loader loader(pack, findings);
   read_sections(top, loader);
   if (findings.has_errors()) return;
+  relate_counts(pack);
+  for (const int relation : evidence_relations(pack)) loader.names.used_relations.insert(relation);
   report_unused_macros(loader);
   report_unused_params(loader);
   report_unused_relations(loader);
+  check_counts(pack, findings);
   find_strata(pack, findings);
   if (!findings.has_errors()) check_reach(pack, findings);
   add_default_emissions(pack);

@@ -37,12 +37,13 @@ BuildingReader no_buildings() {
   return [](const std::string&) { return Checked<std::vector<DescribedBuilding>>{}; };
 }
 
-Checked<RuleTestReport> run(const std::string& tests, const BuildingReader& read = no_buildings()) {
+Checked<RuleTestReport> run(const std::string& tests, const BuildingReader& read = no_buildings(),
+                            const std::string& pack = kWindowsAndDoors) {
   static int count = 0;
   const auto folder = std::filesystem::temp_directory_path() /
                       fmt::format("oriel-rule-tests-{}-{}", ::getpid(), ++count);
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "t.yaml") << kWindowsAndDoors;
+  std::ofstream(folder / "t.yaml") << pack;
   std::ofstream(folder / "t.test.yaml") << kFixture << tests;
   auto report = run_rule_tests((folder / "t.test.yaml").string(), read);
   std::filesystem::remove_all(folder);
@@ -174,6 +175,25 @@ TEST_SUITE("interpret") {
         read);
     REQUIRE(checked.value);
     CHECK(checked.value->failed() == 0);
+  }
+
+  TEST_CASE("what is close is tested as it is labelled with evidence") {
+    const std::string pack =
+        "schema: oriel/1\n"
+        "pack: {name: t, version: 1.0.0}\n"
+        "classes: {window: {}, door: {typical: {per building: 1 ..}}}\n"
+        "rules:\n"
+        "  - {id: w, label: window, require: sense = hole, score: [b: {fall: 1 m .. 2 m}]}\n"
+        "  - {id: d, label: door, require: sense = hole, score: [b: {rise: 1 m .. 2 m}]}\n"
+        "decide: {ambiguous_below: 0.2, evidence: 0.1}\n";
+    const auto checked =
+        run("  - {name: t, given: {front: {w.*.b: 1.2 m, d.b: 1.48 m}}, expect: {w.*: window, d: "
+            "door}, "
+            "because: {w: holds}}\n",
+            no_buildings(), pack);
+    REQUIRE(checked.value);
+    REQUIRE(checked.value->tests.size() == 1);
+    for (const std::string& failure : checked.value->tests[0].failures) FAIL_CHECK(failure);
   }
 
   TEST_CASE("the tests of the default pack pass and cover all its rules") {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "interpret/language/findings.h"
+#include "interpret/pack/pack.h"
+
+#include <vector>
+
+namespace oriel::rules {
+
+/// Finds the relations that lead to the others of a storey and a facade, for every `typical:`.
+void relate_counts(Pack& pack);
+
+/// The numbers of the relations that evidence leads over: of company and of counts.
+std::vector<int> evidence_relations(const Pack& pack);
+
+/// What `typical:` says that cannot be so (R212): of a class more in one storey or on one facade
+/// than in the building, or more than of a class above it. And what is never counted (R257): a
+/// class that no rule labels anything with, and counts of a pack without `evidence:`.
+void check_counts(const Pack& pack, Findings& findings);
+
+}  // namespace oriel::rules
