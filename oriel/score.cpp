@@ -7,8 +7,13 @@ namespace oriel {
 void add(std::vector<FeatureRecord> records, LabelsAndTruth& all) {
   for (FeatureRecord& r : records) {
     const auto& b = r.aabb_m;
-    all.predictions.push_back(
-        {r.building, r.id, r.label, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}}, r.score.value_or(0)});
+    all.predictions.push_back({r.building,
+                               r.id,
+                               r.label,
+                               {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}},
+                               r.score.value_or(0),
+                               r.rule,
+                               r.runner_up});
     all.faces[r.building].predictions.push_back({r.id, r.label, std::move(r.source_polygons)});
   }
 }

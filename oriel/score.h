@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/score/area_score.h"
+#include "interpret/score/rule_score.h"
 #include "interpret/score/score.h"
 #include "interpret/score/score_spread.h"
 #include "interpret/score/surface_score.h"

@@ -34,6 +34,7 @@ struct ScoreArguments : RunOptions {
   std::string per_building;
   std::string curve;
   std::size_t samples = 0;
+  bool is_by_rule = false;
   bool is_json = false;
 };
 
@@ -158,6 +159,11 @@ ExitCode score_features(const ScoreArguments& arguments) {
     text += to_text(areas);
     members.push_back(area_json(areas));
   }
+  if (arguments.is_by_rule) {
+    const auto rules = score_by_rule(all.predictions, result);
+    text += to_text(rules, arguments.is_verbose ? result.misses.size() : kShown);
+    members.push_back(rules_json(rules));
+  }
   if (arguments.samples > 0) {
     const Intervals intervals = bootstrap(buildings, arguments.samples);
     text += to_text(intervals);
@@ -201,6 +207,9 @@ void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
       ->capture_default_str();
   command.add_option("--models", arguments.models,
                      "The models that were labelled: also compare by the area of polygons");
+  command.add_flag("--by-rule", arguments.is_by_rule,
+                   "Also of every rule what it decided, how much of it is right, what it was wrong "
+                   "about and contests with");
   command.add_option("--per-building", arguments.per_building,
                      "Write what was found in each building, as CSV");
   command.add_option("--curve", arguments.curve,

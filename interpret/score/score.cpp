@@ -88,7 +88,10 @@ class Matcher {
 
   void drop_neutral() {
     for (const MatchCandidate& pair : pairs_)
-      if (is_left_out(*pair.truth) && is_done_.insert(pair.prediction).second) ++score_.neutral;
+      if (is_left_out(*pair.truth) && is_done_.insert(pair.prediction).second) {
+        ++score_.neutral;
+        score_.left_out.emplace_back(pair.prediction->building, pair.prediction->id);
+      }
   }
 
   void add_confusion(const MatchCandidate& pair) {
@@ -227,6 +230,7 @@ Score total(const std::map<std::string, Score>& buildings) {
     for (const auto& [labels, count] : score.confusion) sum.confusion[labels] += count;
     sum.misses.insert(sum.misses.end(), score.misses.begin(), score.misses.end());
     sum.neutral += score.neutral;
+    sum.left_out.insert(sum.left_out.end(), score.left_out.begin(), score.left_out.end());
   }
   std::ranges::stable_sort(sum.misses, {}, [](const Miss& m) {
     return std::tie(m.building, m.truth_label, m.truth_id, m.prediction_label, m.prediction_id);

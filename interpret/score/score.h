@@ -20,6 +20,9 @@ struct Prediction {
   Box box;
   /// How sure the labelling is, 0…1.
   double score = 0;
+  /// The rule that decided, and the label that came second; empty where nobody says.
+  std::string rule = {};
+  std::string runner_up = {};
 };
 
 /// Something that is there.
@@ -79,6 +82,8 @@ struct Score {
   std::vector<Miss> misses;
   /// Predictions on objects that are left out.
   std::size_t neutral = 0;
+  /// Building and id of these.
+  std::vector<std::pair<std::string, std::string>> left_out;
 
   /// The mean F1 of the classes that the truth has; NaN if it has none.
   [[nodiscard]] double macro_f1() const;

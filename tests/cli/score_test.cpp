@@ -113,6 +113,26 @@ TEST_SUITE("cli") {
     CHECK(json::parse(outcome.out)["classes"]["window"]["tp"] == 16);
   }
 
+  TEST_CASE("score tells how well each rule does") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    const Outcome text = run({"score", records, "--truth", truth_of("house"), "--by-rule"});
+    CHECK(text.exit == 0);
+    CHECK(text.out.find("\nrule ") != std::string::npos);
+    CHECK(text.out.find("\nwindow.in_wall ") != std::string::npos);
+    const Outcome outcome =
+        run({"score", records, "--truth", truth_of("house"), "--by-rule", "--json"});
+    CHECK(outcome.exit == 0);
+    const json scored = json::parse(outcome.out);
+    std::size_t right = 0, hits = 0;
+    for (const json& rule : scored["rules"]) right += rule["right"].get<std::size_t>();
+    for (const json& counts : scored["classes"]) hits += counts["tp"].get<std::size_t>();
+    CHECK(right == hits);
+    CHECK(hits > 16);
+    CHECK_FALSE(json::parse(run({"score", records, "--truth", truth_of("house"), "--json"}).out)
+                    .contains("rules"));
+  }
+
   TEST_CASE("flush openings are found as recessed ones are") {
     const Folder folder;
     for (const std::string name : {"house", "house-flush"}) {

@@ -1,0 +1,175 @@
+#include "interpret/score/rule_score.h"
+
+#include "interpret/yaml/json_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+using rules::json_number;
+using rules::json_string;
+
+constexpr const char* kNoRule = "-";
+constexpr const char* kNoObject = "-";
+
+using FeatureKey = std::pair<std::string, std::string>;
+
+std::string truth_of(const Miss& miss) {
+  return miss.truth_label.empty() ? kNoObject : miss.truth_label;
+}
+
+std::map<FeatureKey, const Miss*> mistakes_of(const Score& score) {
+  std::map<FeatureKey, const Miss*> mistakes;
+  for (const Miss& miss : score.misses)
+    if (!miss.prediction_id.empty()) mistakes[{miss.building, miss.prediction_id}] = &miss;
+  return mistakes;
+}
+
+/// `miss` is null where the prediction is right.
+void add_contest(const Prediction& prediction, const Miss* miss, RuleScore& rule) {
+  if (prediction.runner_up.empty()) return;
+  RuleScore::Contest& contest = rule.contests[prediction.runner_up];
+  ++contest.count;
+  if (miss == nullptr) return;
+  ++contest.wrong;
+  if (miss->truth_label == prediction.runner_up) ++contest.second_is_right;
+}
+
+void add_mistake(const Miss& miss, RuleScore& rule) {
+  ++rule.wrong;
+  ++rule.taken_for[truth_of(miss)];
+  rule.mistakes.push_back(miss);
+}
+
+std::string rule_line(const std::string& id, const RuleScore& rule, std::size_t width) {
+  const double precision = rule.precision();
+  return fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>8} {:>10}\n", id, width, rule.label,
+                     rule.decided(), rule.right, rule.wrong, rule.left_out,
+                     std::isnan(precision) ? "-" : fmt::format("{:.3f}", precision));
+}
+
+/// "    wrong: 3 door, 12 nothing".
+std::string wrong_line(const RuleScore& rule) {
+  std::string text;
+  for (const auto& [label, count] : rule.taken_for)
+    text += fmt::format("{}{} {}", text.empty() ? "    wrong: " : ", ", count,
+                        label == kNoObject ? "nothing there" : label);
+  return text.empty() ? text : text + "\n";
+}
+
+/// "    contested: 14 by window (3 wrong, 2 of them a window)".
+std::string contest_line(const RuleScore& rule) {
+  std::string text;
+  for (const auto& [label, contest] : rule.contests) {
+    text +=
+        fmt::format("{}{} by {}", text.empty() ? "    contested: " : ", ", contest.count, label);
+    if (contest.wrong == 0) continue;
+    text +=
+        fmt::format(" ({} wrong, {} of them a {})", contest.wrong, contest.second_is_right, label);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+std::string mistake_line(const std::string& id, const Miss& miss) {
+  const std::string where = fmt::format("  {} {}: {} was called {}", id, miss.building,
+                                        miss.prediction_id, miss.prediction_label);
+  if (miss.truth_id.empty()) return where + ", but nothing is there\n";
+  return fmt::format("{}, is {} {} (IoU {:.2f})\n", where, miss.truth_label, miss.truth_id,
+                     miss.iou);
+}
+
+void append_to(std::string& list, const std::string& element) {
+  list += (list.empty() ? "" : ",") + element;
+}
+
+std::string mistake_json(const Miss& miss) {
+  return fmt::format(R"({{"building":{},"prediction_id":{},"truth_id":{},"truth":{},"iou":{}}})",
+                     json_string(miss.building), json_string(miss.prediction_id),
+                     json_string(miss.truth_id), json_string(miss.truth_label),
+                     json_number(miss.iou));
+}
+
+std::string rule_json(const std::string& id, const RuleScore& rule) {
+  std::string taken, contests, mistakes;
+  for (const auto& [label, count] : rule.taken_for)
+    append_to(taken, fmt::format("{}:{}", json_string(label), count));
+  for (const auto& [label, contest] : rule.contests)
+    append_to(contests, fmt::format(R"({}:{{"count":{},"wrong":{},"second_is_right":{}}})",
+                                    json_string(label), contest.count, contest.wrong,
+                                    contest.second_is_right));
+  for (const Miss& miss : rule.mistakes) append_to(mistakes, mistake_json(miss));
+  return fmt::format(
+      R"({}:{{"label":{},"decided":{},"right":{},"wrong":{},"left_out":{},"precision":{},)"
+      R"("taken_for":{{{}}},"contests":{{{}}},"mistakes":[{}]}})",
+      json_string(id), json_string(rule.label), rule.decided(), rule.right, rule.wrong,
+      rule.left_out, json_number(rule.precision()), taken, contests, mistakes);
+}
+
+}  // namespace
+
+double RuleScore::precision() const {
+  if (right + wrong == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(right) / static_cast<double>(right + wrong);
+}
+
+std::map<std::string, RuleScore> score_by_rule(const std::vector<Prediction>& predictions,
+                                               const Score& score) {
+  const auto mistakes = mistakes_of(score);
+  const std::set<FeatureKey> left_out(score.left_out.begin(), score.left_out.end());
+  std::map<std::string, RuleScore> by_rule;
+  for (const Prediction& prediction : predictions) {
+    if (prediction.label.empty()) continue;
+    RuleScore& rule = by_rule[prediction.rule.empty() ? kNoRule : prediction.rule];
+    rule.label = prediction.rule.empty() ? kNoRule : prediction.label;
+    const FeatureKey key(prediction.building, prediction.id);
+    if (left_out.contains(key)) {
+      ++rule.left_out;
+      continue;
+    }
+    const auto found = mistakes.find(key);
+    const Miss* miss = found == mistakes.end() ? nullptr : found->second;
+    if (miss == nullptr)
+      ++rule.right;
+    else
+      add_mistake(*miss, rule);
+    add_contest(prediction, miss, rule);
+  }
+  for (auto& [id, rule] : by_rule)
+    std::ranges::stable_sort(rule.mistakes, {}, [](const Miss& miss) {
+      return std::pair(miss.building, miss.prediction_id);
+    });
+  return by_rule;
+}
+
+std::string to_text(const std::map<std::string, RuleScore>& rules, std::size_t max_mistakes) {
+  std::size_t width = 4, mistakes = 0;
+  for (const auto& [id, rule] : rules) width = std::max(width, id.size());
+  std::string text = fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>8} {:>10}\n", "rule", width,
+                                 "label", "decided", "right", "wrong", "left out", "precision");
+  std::string lines;
+  for (const auto& [id, rule] : rules) {
+    text += rule_line(id, rule, width) + wrong_line(rule) + contest_line(rule);
+    for (const Miss& miss : rule.mistakes)
+      if (mistakes++ < max_mistakes) lines += mistake_line(id, miss);
+  }
+  if (mistakes == 0) return text;
+  text += fmt::format("mistakes by rule: {}\n{}", mistakes, lines);
+  if (mistakes > max_mistakes) text += fmt::format("  ... and {} more\n", mistakes - max_mistakes);
+  return text;
+}
+
+std::string rules_json(const std::map<std::string, RuleScore>& rules) {
+  std::string text;
+  for (const auto& [id, rule] : rules) append_to(text, rule_json(id, rule));
+  return fmt::format(R"("rules":{{{}}})", text);
+}
+
+}  // namespace oriel
