@@ -62,7 +62,7 @@ RoundReport round_report(const Pack& pack, const rules::Choice& choice) {
 }
 
 EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence,
-                               const FeatureTable& table) {
+                               std::vector<std::string> holders) {
   const rules::EvidenceSettings& settings = pack.decide.evidence;
   EvidenceReport report;
   report.shift = evidence.shift;
@@ -70,8 +70,8 @@ EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence
   const auto names = rules::relation_names(pack);
   for (const int relation : settings.company)
     report.relations.push_back(names[static_cast<std::size_t>(relation)]);
-  report.company = evidence.company;
-  for (const int row : evidence.holders) report.holders.push_back(table.id(FeatureId{row}));
+  report.company = static_cast<std::size_t>(evidence.company);
+  report.holders = std::move(holders);
   std::ranges::sort(report.holders);
   report.company_shift = settings.most * evidence.company_share();
   for (const rules::CountEvidence& count : evidence.counts) {
@@ -91,11 +91,16 @@ EvidenceReport evidence_report(const Pack& pack, const rules::Evidence& evidence
 
 /// A decision in which the feature was weighed: what evidence says of each of its rules, and what
 /// they would have decided without it.
-void add_evidence(const Pack& pack, const rules::Weighed& weighed, const FeatureTable& table,
+void add_evidence(const Pack& pack, const rules::Labelling& labelling,
+                  const rules::Weighed& weighed, const FeatureTable& table,
                   Explanation& explanation) {
-  for (const rules::Evidence& evidence : weighed.evidence)
+  for (const rules::Evidence& evidence : weighed.evidence) {
+    std::vector<std::string> holders;
+    for (const int row : labelling.holders(weighed, evidence.rule))
+      holders.push_back(table.id(FeatureId{row}));
     explanation.rules[static_cast<std::size_t>(evidence.rule)].evidence =
-        evidence_report(pack, evidence, table);
+        evidence_report(pack, evidence, std::move(holders));
+  }
   RoundReport without = round_report(pack, weighed.without);
   if (without.label != round_report(pack, weighed.with).label)
     explanation.without_evidence = std::move(without);
@@ -173,7 +178,7 @@ Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
   for (const auto& round : labelling.rounds())
     explanation.rounds.push_back(round_report(pack, round[feature.index()]));
   for (const rules::Weighed& weighed : labelling.weighed())
-    if (weighed.row == feature.value) add_evidence(pack, weighed, *table, explanation);
+    if (weighed.row == feature.value) add_evidence(pack, labelling, weighed, *table, explanation);
   explanation.best = find_best(explanation.rules);
   return explanation;
 }

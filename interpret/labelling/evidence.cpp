@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -36,18 +36,15 @@ double distance_to_turn(const Pack& pack, const std::vector<Candidate>& candidat
   return distance;
 }
 
-/// How many others are of the class; nothing where there are no others. What is not sure to be an
-/// other is none.
-std::optional<int> count_others(const Pack& pack, const Links& links, int row,
-                                const std::vector<ClassId>& labels, ClassId of) {
+/// Those that are surely others.
+template <class Visit>
+void for_each_other(const Links& links, int row, Visit visit) {
+  const bool are_certain = links.are_all_certain();
   const auto [begin, end] = links.range_of(row);
-  std::optional<int> count;
   for (std::size_t link = begin; link < end; ++link) {
     const int other = links.other(link);
-    if (other == row || links.is_other(row, link) != Truth::yes) continue;
-    count = count.value_or(0) + (is_within(pack.classes, labels[oriel::at(other)], of) ? 1 : 0);
+    if (other != row && (are_certain || links.is_other(row, link) == Truth::yes)) visit(other);
   }
-  return count;
 }
 
 int judge_count(const Typical& typical, int others) {
@@ -56,6 +53,16 @@ int judge_count(const Typical& typical, int others) {
 }
 
 }  // namespace
+
+std::vector<int> company_of(const Pack& pack, const EvaluationContext& context, int row) {
+  std::vector<int> company;
+  for (const int relation : pack.decide.evidence.company)
+    for_each_other(context.relations[oriel::at(relation)], row,
+                   [&](int other) { company.push_back(other); });
+  std::ranges::sort(company);
+  company.erase(std::unique(company.begin(), company.end()), company.end());
+  return company;
+}
 
 JointPass::JointPass(const Pack& pack, const EvaluationContext& context,
                      std::vector<std::vector<Candidate>>& candidates,
@@ -67,29 +74,37 @@ std::vector<Weighed> JointPass::run() {
   for (const int row : context_->row_numbers) find_close(row);
   std::vector<Weighed> weighed;
   if (close_.empty()) return weighed;
-  labels_ = *decided_;
-  for (const int row : context_->row_numbers) labels_[oriel::at(row)] = label_of(row);
-  in_building_.assign(pack_->classes.size(), 0);
-  for (const ClassId label : labels_)
-    if (label != kNoClass) ++in_building_[oriel::at(label)];
-  seen_.assign(context_->rows, 0);
   sort_close();
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    unsettled_.clear();
-    for (const Close& close : close_)
-      if (reconsider(close.row)) unsettled_.push_back(close.row);
-    if (unsettled_.empty()) break;
-  }
+  prepare();
+  settle();
   for (const Close& close : close_) {
+    tally(close.row);
     const auto& candidates = (*candidates_)[oriel::at(close.row)];
     Weighed& one = weighed.emplace_back();
     one.row = close.row;
     one.without = without_[oriel::at(close.row)];
     one.with = choose(*pack_, candidates);
     for (const Candidate& candidate : candidates)
-      if (is_contender(close.row, candidate)) one.evidence.push_back(weigh(close.row, candidate));
+      if (is_contender(close.row, candidate)) one.evidence.push_back(weigh(candidate));
   }
   return weighed;
+}
+
+/// Where no label has changed since, a second look says the same.
+void JointPass::settle() {
+  int changes = 0;
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    unsettled_.clear();
+    for (Close& close : close_) {
+      if (close.looked_at == changes) continue;
+      if (reconsider(close.row)) {
+        unsettled_.push_back(close.row);
+        ++changes;
+      }
+      close.looked_at = changes;
+    }
+    if (unsettled_.empty()) break;
+  }
 }
 
 void JointPass::find_close(int row) {
@@ -127,69 +142,113 @@ ClassId JointPass::label_of(int row) const {
 
 void JointPass::set_label(int row, ClassId label) {
   ClassId& said = labels_[oriel::at(row)];
-  if (said != kNoClass) --in_building_[oriel::at(said)];
-  if (label != kNoClass) ++in_building_[oriel::at(label)];
+  if (said != kNoClass) --building_.of[oriel::at(said)];
+  if (label != kNoClass) ++building_.of[oriel::at(label)];
   said = label;
+}
+
+/// The labels as the rules alone say, and room for what is counted.
+void JointPass::prepare() {
+  const std::size_t classes = pack_->classes.size();
+  labels_.assign(context_->rows, kNoClass);
+  building_.of.assign(classes, 0);
+  for (const int row : context_->row_numbers) set_label(row, label_of(row));
+  seen_.assign(context_->rows, 0);
+  company_.of.assign(classes, 0);
+  beneath_.resize(classes);
+  for (ClassId id = 0; id < static_cast<ClassId>(classes); ++id)
+    for (ClassId of = id; of != kNoClass; of = pack_->classes[oriel::at(of)].parent)
+      beneath_[oriel::at(of)].push_back(id);
+  for (const Class& c : pack_->classes)
+    for (const Typical& typical : c.typical) {
+      const bool is_there =
+          std::ranges::find(counted_, typical.relation, &Tallied::relation) != counted_.end();
+      if (typical.relation >= 0 && !is_there)
+        counted_.push_back({typical.relation, 0, std::vector<int>(classes, 0)});
+    }
 }
 
 /// True if the label is another one than before.
 bool JointPass::reconsider(int row) {
+  tally(row);
   auto& candidates = (*candidates_)[oriel::at(row)];
   for (Candidate& candidate : candidates)
-    if (is_contender(row, candidate)) candidate.evidence = weigh(row, candidate).shift;
+    if (is_contender(row, candidate)) candidate.evidence = weigh(candidate).shift;
   sort_candidates(*pack_, candidates);
   const ClassId label = label_of(row);
-  if (label == labels_[oriel::at(row)]) return false;
+  const ClassId before = labels_[oriel::at(row)];
   set_label(row, label);
-  return true;
+  return label != before;
 }
 
-Evidence JointPass::weigh(int row, const Candidate& candidate) {
+void JointPass::add(int other, Tallied& tallied) const {
+  ++tallied.all;
+  const ClassId label = labels_[oriel::at(other)];
+  if (label != kNoClass) ++tallied.of[oriel::at(label)];
+}
+
+/// Counts the others of a feature, once for all its candidates.
+void JointPass::tally(int row) {
+  row_ = row;
+  tally_company(row);
+  for (Tallied& tallied : counted_) {
+    clear(tallied);
+    for_each_other(context_->relations[oriel::at(tallied.relation)], row,
+                   [&](int other) { add(other, tallied); });
+  }
+}
+
+/// An other to which several relations lead is counted once.
+void JointPass::tally_company(int row) {
+  ++question_;
+  clear(company_);
+  for (const int relation : pack_->decide.evidence.company)
+    for_each_other(context_->relations[oriel::at(relation)], row, [&](int other) {
+      int& seen = seen_[oriel::at(other)];
+      if (seen != question_) add(other, company_);
+      seen = question_;
+    });
+}
+
+void JointPass::clear(Tallied& tallied) {
+  tallied.all = 0;
+  std::ranges::fill(tallied.of, 0);
+}
+
+int JointPass::count(const Tallied& tallied, ClassId of) const {
+  int sum = 0;
+  for (const ClassId id : beneath_[oriel::at(of)]) sum += tallied.of[oriel::at(id)];
+  return sum;
+}
+
+/// Of the feature that was tallied.
+Evidence JointPass::weigh(const Candidate& candidate) const {
   Evidence evidence;
   evidence.rule = candidate.rule;
-  ask_company(row, rule(candidate).label, evidence);
-  ask_counts(row, rule(candidate).label, evidence);
+  evidence.company = company_.all;
+  evidence.held_by = count(company_, rule(candidate).label);
+  ask_counts(rule(candidate).label, evidence);
   double sum = evidence.company_share();
-  for (const CountEvidence& count : evidence.counts) sum += count.judged;
+  for (const CountEvidence& counted : evidence.counts) sum += counted.judged;
   evidence.shift = pack_->decide.evidence.most * std::clamp(sum, -1.0, 1.0);
   return evidence;
 }
 
-/// An other to which several relations lead is asked once.
-void JointPass::ask_company(int row, ClassId label, Evidence& evidence) {
-  ++question_;
-  for (const int relation : pack_->decide.evidence.company) {
-    const Links& links = context_->relations[oriel::at(relation)];
-    const auto [begin, end] = links.range_of(row);
-    for (std::size_t link = begin; link < end; ++link) {
-      const int other = links.other(link);
-      if (other == row || seen_[oriel::at(other)] == question_) continue;
-      if (links.is_other(row, link) != Truth::yes) continue;
-      seen_[oriel::at(other)] = question_;
-      ++evidence.company;
-      if (is_within(pack_->classes, labels_[oriel::at(other)], label))
-        evidence.holders.push_back(other);
-    }
-  }
-}
-
-/// Of the label and of all that it is a kind of.
-void JointPass::ask_counts(int row, ClassId label, Evidence& evidence) const {
+/// Of the label and of all that it is a kind of; nothing where there are no others.
+void JointPass::ask_counts(ClassId label, Evidence& evidence) const {
   for (ClassId of = label; of != kNoClass; of = pack_->classes[oriel::at(of)].parent) {
     const auto& all = pack_->classes[oriel::at(of)].typical;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const Typical& typical = all[i];
-      std::optional<int> others;
-      if (typical.relation >= 0) {
-        others = count_others(*pack_, context_->relations[oriel::at(typical.relation)], row,
-                              labels_, of);
+      int others = 0;
+      if (all[i].relation < 0) {
+        const bool is_itself = is_within(pack_->classes, labels_[oriel::at(row_)], of);
+        others = count(building_, of) - (is_itself ? 1 : 0);
       } else {
-        const bool is_itself = is_within(pack_->classes, labels_[oriel::at(row)], of);
-        others = is_itself ? -1 : 0;
-        for (ClassId id = 0; id < static_cast<ClassId>(in_building_.size()); ++id)
-          if (is_within(pack_->classes, id, of)) *others += in_building_[oriel::at(id)];
+        const Tallied& tallied = *std::ranges::find(counted_, all[i].relation, &Tallied::relation);
+        if (tallied.all == 0) continue;
+        others = count(tallied, of);
       }
-      if (others) evidence.counts.push_back({of, i, *others, judge_count(typical, *others)});
+      evidence.counts.push_back({of, i, others, judge_count(all[i], others)});
     }
   }
 }

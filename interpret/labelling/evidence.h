@@ -26,15 +26,15 @@ struct Evidence {
   int rule = -1;
   /// What it adds to the score or takes from it.
   double shift = 0;
-  /// The others by the relations that are company, and those of them that hold the label.
-  std::size_t company = 0;
-  std::vector<int> holders;
+  /// How many others the relations that are company lead to, and how many hold the label.
+  int company = 0;
+  int held_by = 0;
   std::vector<CountEvidence> counts;
 
   /// 0…1; 0 without company.
   [[nodiscard]] double company_share() const {
     if (company == 0) return 0;
-    return static_cast<double>(holders.size()) / static_cast<double>(company);
+    return static_cast<double>(held_by) / company;
   }
 };
 
@@ -44,7 +44,12 @@ struct Weighed {
   /// What the rules alone would have decided, and what was.
   Choice without, with;
   std::vector<Evidence> evidence;
+  /// The number of the decision among those in which something was weighed.
+  std::size_t decision = 0;
 };
+
+/// The company of a feature, each once.
+std::vector<int> company_of(const Pack& pack, const EvaluationContext& context, int row);
 
 /// Joint evidence in one decision of a building. Every decision that is close is made again with
 /// what the labels of the others say: how many of its company hold a label, and whether as many are
@@ -62,6 +67,8 @@ class JointPass {
   /// Sets the evidence of candidates and sorts them anew. Returns what was weighed.
   std::vector<Weighed> run();
 
+  /// By row: the label that came of it, or -1; empty where nothing was close.
+  [[nodiscard]] const std::vector<ClassId>& labels() const { return labels_; }
   /// The rows whose labels the last sweep still changed.
   [[nodiscard]] const std::vector<int>& unsettled() const { return unsettled_; }
 
@@ -70,14 +77,31 @@ class JointPass {
     int row = -1;
     /// The least evidence that could turn it.
     double distance = 0;
+    /// How many labels had changed when it was looked at.
+    int looked_at = -1;
+  };
+
+  /// Others of a feature by what they are labelled.
+  struct Tallied {
+    /// The relation that leads to them; -1: no single one.
+    int relation = -1;
+    int all = 0;
+    /// By class: how many have that very label.
+    std::vector<int> of;
   };
 
   void find_close(int row);
   void sort_close();
+  void prepare();
+  void settle();
   bool reconsider(int row);
-  [[nodiscard]] Evidence weigh(int row, const Candidate& candidate);
-  void ask_company(int row, ClassId label, Evidence& evidence);
-  void ask_counts(int row, ClassId label, Evidence& evidence) const;
+  void tally(int row);
+  void tally_company(int row);
+  void add(int other, Tallied& tallied) const;
+  static void clear(Tallied& tallied);
+  [[nodiscard]] int count(const Tallied& tallied, ClassId of) const;
+  [[nodiscard]] Evidence weigh(const Candidate& candidate) const;
+  void ask_counts(ClassId label, Evidence& evidence) const;
   [[nodiscard]] bool is_contender(int row, const Candidate& candidate) const;
   [[nodiscard]] ClassId label_of(int row) const;
   void set_label(int row, ClassId label);
@@ -92,8 +116,14 @@ class JointPass {
   const std::vector<ClassId>* decided_;
   /// By row: the label as it stands.
   std::vector<ClassId> labels_;
-  /// By class: how many features of the building have that very label.
-  std::vector<int> in_building_;
+  /// The others of the feature at hand: its company, all others of the building, and those of each
+  /// relation along which something is counted.
+  Tallied company_, building_;
+  std::vector<Tallied> counted_;
+  /// The feature at hand.
+  int row_ = -1;
+  /// By class: itself and those beneath it.
+  std::vector<std::vector<ClassId>> beneath_;
   std::vector<Close> close_;
   /// What the rules alone decide of the close ones, by row; for others not looked at.
   std::vector<Choice> without_;

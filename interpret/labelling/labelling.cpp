@@ -100,6 +100,7 @@ std::vector<int> Labelling::unsettled() const {
 
 void Labelling::run_round() {
   weighed_.clear();
+  labels_weighed_.clear();
   restless_.clear();
   for (const RuleStep& step : pack_->steps) {
     if (step.is_decision)
@@ -174,8 +175,21 @@ void Labelling::collect(int id) {
 /// What is close is decided with what the others say.
 void Labelling::weigh_evidence() {
   JointPass pass(*pack_, *context_, candidates_, decided_);
-  std::ranges::move(pass.run(), std::back_inserter(weighed_));
+  for (Weighed& one : pass.run()) {
+    one.decision = labels_weighed_.size();
+    weighed_.push_back(std::move(one));
+  }
+  if (!pass.labels().empty()) labels_weighed_.push_back(pass.labels());
   std::ranges::copy(pass.unsettled(), std::back_inserter(restless_));
+}
+
+std::vector<int> Labelling::holders(const Weighed& weighed, int rule_id) const {
+  std::vector<int> rows = company_of(*pack_, *context_, weighed.row);
+  const std::vector<ClassId>& labels = labels_weighed_[weighed.decision];
+  std::erase_if(rows, [&](int other) {
+    return !is_within(pack_->classes, labels[oriel::at(other)], rule(rule_id).label);
+  });
+  return rows;
 }
 
 void Labelling::decide(std::size_t row) {

@@ -42,6 +42,8 @@ class Labelling {
   /// The features to whose labels evidence was asked, decision by decision; of several rounds in
   /// the last.
   [[nodiscard]] const std::vector<Weighed>& weighed() const { return weighed_; }
+  /// The company of a feature that was weighed which held the label of that rule.
+  [[nodiscard]] std::vector<int> holders(const Weighed& weighed, int rule) const;
   /// The rows whose labels evidence still changed when it was asked for the last time.
   [[nodiscard]] const std::vector<int>& unsettled_by_evidence() const { return restless_; }
 
@@ -74,6 +76,8 @@ class Labelling {
   /// By row: the class that was decided, or -1.
   std::vector<ClassId> decided_;
   std::vector<Weighed> weighed_;
+  /// By Weighed::decision and row: the labels that came of it.
+  std::vector<std::vector<ClassId>> labels_weighed_;
   std::vector<int> restless_;
   /// The rows that the rule at hand is asked of.
   std::vector<int> open_rows_;
