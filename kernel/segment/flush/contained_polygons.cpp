@@ -1,6 +1,7 @@
 #include "kernel/segment/flush/contained_polygons.h"
 
 #include "kernel/base/index.h"
+#include "kernel/segment/flush/inset_rectangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,7 @@ class ContainedFinder {
       normal_ = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()].normal;
       for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) look_into({p});
       if (subdivision.has_hints) look_into_hints(subdivision);
+      if (!subdivision.has_host) look_for_rectangles(subdivision);
     }
     const auto key = [](const ContainedPolygons& i) {
       return std::tuple(i.subdivision, -i.area_m2, i.polygons);
@@ -61,6 +63,18 @@ class ContainedFinder {
       for (const int member : host) is_done[at(member - subdivision.first_polygon)] = 1;
       if (host.size() > 1) look_into(host);
     }
+  }
+
+  /// Where there are only pieces of polygons.
+  void look_for_rectangles(const Subdivision& subdivision) {
+    for (InsetRectangle& inset :
+         find_inset_rectangles(subdivisions_, subdivision, normal_, tolerances_))
+      for (const EdgeLoop& loop : loops_of(inset.polygons)) {
+        Outline outline = outline_of(loop);
+        if (signed_area(outline, normal_) <= 0) continue;
+        add({inset.host}, std::move(inset.polygons), std::move(outline), {});
+        break;
+      }
   }
 
   [[nodiscard]] const SubdivisionEdge& edge(int e) const { return subdivisions_.edges[at(e)]; }

@@ -30,9 +30,9 @@ struct ContainedPolygons {
 ///
 /// A host is one polygon or, where hints differ, the connected polygons of one hint. Polygons lie
 /// inset in it if they fill an inner ring of it, or if it runs along three sides of them, as a wall
-/// does around a door: a chain of its edges that turns inward only, by kTurn_deg or more. Pieces
-/// of a triangulation, or of any division into convex pieces, share one side with each other and so
-/// are never contained. What is thinner than weld_m is no contained.
+/// does around a door: a chain of its edges that turns inward only, by kTurn_deg or more. Convex
+/// pieces, as of a triangulation, share one side with each other and so are never contained; among
+/// them inset rectangles are (inset_rectangles.h). What is thinner than weld_m is no contained.
 std::vector<ContainedPolygons> find_contained(const Solid& solid, const Subdivisions& subdivisions,
                                               const Tolerances& tolerances);
 

@@ -14,7 +14,8 @@ namespace oriel {
 /// An imprint is an input polygon, or several, in one facet of the solid, inset in another polygon
 /// of it: they fill an inner ring of it, or it runs along three sides of them. Where the hints of
 /// polygons differ, connected polygons of one hint count as one. So what tells is how the input was
-/// drawn, before planes were clustered; no mere triangulation has imprints.
+/// drawn, before planes were clustered. Of what was cut into triangles the rectangles are found
+/// that these leave; the triangles of a plain wall have no imprints.
 ///
 /// An imprint has sense imprint, no node, no value and no quality; `planes` is the plane it lies
 /// in, `new_area_m2` the area within its outline. `parent` is the feature of the cell on its solid

@@ -128,6 +128,9 @@ bool may_host(const Building& building, const Polygon& polygon, Vec3 normal, dou
   return std::min(left, right) >= 2;
 }
 
+/// A wall around a door on its lower edge has eight corners, so six triangles; the door has two.
+constexpr std::size_t kFewestAroundRectangle = 8;
+
 class SubdivisionMaker {
  public:
   SubdivisionMaker(const Building& building, const Solid& solid, const Tolerances& tolerances)
@@ -158,10 +161,10 @@ class SubdivisionMaker {
         has_hints |= by_source[at(source)]->hint != hint;
         has_host = has_host || may_host(building_, *by_source[at(source)], normal, solid_.grid_m);
       }
-      if (!has_host && !has_hints) continue;
+      if (!has_host && !has_hints && facet.polygons.size() < kFewestAroundRectangle) continue;
       for (const int source : facet.polygons)
         subdivision_of_source_[at(source)] = static_cast<int>(out_.subdivisions.size());
-      out_.subdivisions.push_back({FacetId{f}, -1, -1, has_hints});
+      out_.subdivisions.push_back({FacetId{f}, -1, -1, has_hints, has_host});
     }
   }
 
@@ -213,27 +216,45 @@ class SubdivisionMaker {
         for (const int v : soup.corners_of(polygon)) point_of(v);
       const std::vector<Vec3> points(out_.points.begin() + first_point, out_.points.end());
       const PointsOnEdges on_edges(points, axes_in(plane.normal), tolerances_.weld_m);
+      const std::vector<PointPair> edges = edges_of(soup, members[s]);
+      // An edge that two polygons share needs no points, however near some are to it.
+      const auto between = [&](int v, int w) {
+        if (std::ranges::binary_search(edges, PointPair{w, v})) return std::vector<int>{};
+        return on_edges.between(point_of(v) - first_point, point_of(w) - first_point);
+      };
       for (const int polygon : members[s])
         add_polygon(soup, polygon, static_cast<int>(s), plane.normal,
                     [&](std::span<const int> ring) {
-                      return with_points_between(ring, first_point, point_of, on_edges);
+                      return with_points_between(ring, first_point, point_of, between);
                     });
       subdivision.past_polygon = static_cast<int>(out_.polygons.size());
     }
   }
 
+  /// The directed edges of polygons, sorted.
+  static std::vector<PointPair> edges_of(const Soup& soup, const std::vector<int>& polygons) {
+    std::vector<PointPair> edges;
+    for (const int polygon : polygons)
+      for (const int r : soup.rings_of(polygon)) {
+        const std::span<const int> ring = soup.ring(r);
+        for (std::size_t i = 0; i < ring.size(); ++i)
+          edges.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
+      }
+    std::ranges::sort(edges);
+    return edges;
+  }
+
   /// The points of a ring, also those of other polygons that lie on its edges.
-  template <class PointOf>
+  template <class PointOf, class Between>
   static std::vector<int> with_points_between(std::span<const int> ring, int first_point,
-                                              PointOf point_of, const PointsOnEdges& on_edges) {
+                                              PointOf point_of, Between points_between) {
     std::vector<int> corners, points;
     for (const int v : ring) corners.push_back(point_of(v));
     const std::set<int> own(corners.begin(), corners.end());
     std::set<int> taken;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       points.push_back(corners[i]);
-      const int to = corners[(i + 1) % corners.size()];
-      for (const int between : on_edges.between(corners[i] - first_point, to - first_point))
+      for (const int between : points_between(ring[i], ring[(i + 1) % ring.size()]))
         if (const int p = between + first_point; !own.contains(p) && taken.insert(p).second)
           points.push_back(p);
     }

@@ -30,10 +30,12 @@ struct Subdivision {
   FacetId facet;
   int first_polygon = -1, past_polygon = -1;
   bool has_hints = false;  ///< its polygons differ in their hints
+  bool has_host = false;   ///< another polygon may lie inset in one of them
 };
 
-/// The subdivisions in which one polygon may lie inset in another: facets of several input
-/// polygons, one of which has an inner ring or two inner corners, or whose hints differ. Points are
+/// The subdivisions in which one polygon may lie inset in others: facets of several input
+/// polygons, one of which has an inner ring or two inner corners, or whose hints differ, or which
+/// are as many as a rectangle among triangles makes. Points are
 /// welded and lie in the plane of their facet (a point of several subdivisions is there once for
 /// each), so that subdivisions know steps between polygons that the facet has not.
 struct Subdivisions {

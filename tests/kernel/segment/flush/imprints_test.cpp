@@ -359,12 +359,39 @@ TEST_SUITE("kernel/segment") {
                 .empty());
     }
     generator::Options options;
-    options.flush = 1;
     options.triangulate = true;
     for (int i = 0; i < 10; ++i) {
       const Segmented s = with_imprints(generated_building(generator::generate(options, i)));
       CHECK(features_of(s.segmentation, Sense::imprint).empty());
     }
+  }
+
+  TEST_CASE("triangles leave every flush opening of generated houses and make no other") {
+    generator::Options options;
+    options.seed = 3;
+    options.flush = 0.5;
+    std::size_t flush = 0;
+    const auto boxes = [](const generator::Body& body) {
+      std::multiset<std::array<long, 6>> places;
+      const Segmented s = with_imprints(generated_building(body));
+      check_imprints(s);
+      for (const FeatureId id : features_of(s.segmentation, Sense::imprint)) {
+        const Box b = feature(s, id).box.moved(s.building.frame.origin_m);
+        const auto mm = [](double c) { return std::lround(c * 1e3); };
+        places.insert(
+            {mm(b.min.x), mm(b.min.y), mm(b.min.z), mm(b.max.x), mm(b.max.y), mm(b.max.z)});
+      }
+      return places;
+    };
+    for (int i = 0; i < 10; ++i) {
+      CAPTURE(i);
+      options.triangulate = false;
+      const auto drawn = boxes(generator::generate(options, i));
+      options.triangulate = true;
+      CHECK(boxes(generator::generate(options, i)) == drawn);
+      flush += drawn.size();
+    }
+    CHECK(flush > 70);
   }
 
   TEST_CASE("every flush opening of generated houses is an imprint and nothing else is") {
