@@ -59,7 +59,7 @@ class RectangleFinder {
   }
 
  private:
-  struct Spoke {
+  struct EdgeAtPoint {
     int to;    ///< a point
     int edge;  ///< of the polygon to the left, or -1 where the facet ends
   };
@@ -70,7 +70,7 @@ class RectangleFinder {
     PointChain along, up;
   };
   struct PointOfFacet {
-    std::vector<Spoke> spokes;
+    std::vector<EdgeAtPoint> spokes;
     bool is_inner = true;   ///< polygons all around it
     bool is_needed = true;  ///< the facet's outline turns there
     int taken = 0;          ///< how many rectangles have a corner here
@@ -105,7 +105,7 @@ class RectangleFinder {
   [[nodiscard]] ReachAxes axes_of_rim() const {
     Vec3 longest;
     for (int p = first_point_; p < first_point_ + std::ssize(points_); ++p)
-      for (const Spoke& spoke : point(p).spokes)
+      for (const EdgeAtPoint& spoke : point(p).spokes)
         if (spoke.edge < 0 && length(vector(p, spoke.to)) > length(longest))
           longest = vector(p, spoke.to);
     const Vec3 u = normalised(longest);
@@ -120,7 +120,7 @@ class RectangleFinder {
   [[nodiscard]] bool is_needed(int p) const {
     if (point(p).is_inner) return false;
     std::vector<Vec3> out;
-    for (const Spoke& spoke : point(p).spokes)
+    for (const EdgeAtPoint& spoke : point(p).spokes)
       if (spoke.edge < 0 || all_.edges[at(spoke.edge)].twin < 0) out.push_back(vector(p, spoke.to));
     return out.size() != 2 || !is_along(-1 * out[0], normalised(out[1]));
   }
@@ -137,7 +137,7 @@ class RectangleFinder {
   [[nodiscard]] int ahead(int p, Vec3 direction) const {
     int best = -1;
     std::pair<bool, double> least;
-    for (const Spoke& spoke : point(p).spokes) {
+    for (const EdgeAtPoint& spoke : point(p).spokes) {
       const Vec3 v = vector(p, spoke.to);
       if (!is_along(v, direction)) continue;
       const double off_m = length(cross(v, direction));
@@ -320,7 +320,7 @@ class RectangleFinder {
   }
 
   [[nodiscard]] int edge_between(int from, int to) const {
-    for (const Spoke& spoke : point(from).spokes)
+    for (const EdgeAtPoint& spoke : point(from).spokes)
       if (spoke.to == to && spoke.edge >= 0) return spoke.edge;
     return -1;
   }

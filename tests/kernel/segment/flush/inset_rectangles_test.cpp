@@ -12,7 +12,7 @@ namespace oriel::detail {
 namespace {
 
 /// Corners in a wall, as x and z in decimetres.
-using WallPoint = std::array<int, 2>;
+using WallPoint = std::array<double, 2>;
 using WallPolygon = std::vector<WallPoint>;
 
 /// The inset rectangles of a wall (y = 0, seen from -y) of these polygons, as sets of their
@@ -57,7 +57,7 @@ std::vector<WallPolygon> wall_with_pane() {
 }
 
 /// Rectangles between the lines of a grid, cut along one diagonal each.
-std::vector<WallPolygon> grid_of(const std::vector<int>& x, const std::vector<int>& z) {
+std::vector<WallPolygon> grid_of(const std::vector<double>& x, const std::vector<double>& z) {
   std::vector<WallPolygon> out;
   for (std::size_t i = 0; i + 1 < x.size(); ++i)
     for (std::size_t j = 0; j + 1 < z.size(); ++j) {
@@ -92,6 +92,23 @@ TEST_SUITE("kernel/segment") {
                          {p, c, b}}) == Found{{0, 1}});
   }
 
+  TEST_CASE("a sliver flatter than the weld beside a pane hides nothing") {
+    // A corner of the pane is 0.6 mm beside the edge of two triangles.
+    const WallPoint a{20, 10}, b{40, 10}, c{40, 25}, d{20, 25}, o{0, 0}, p{60, 0}, e{60, 25.012},
+        q{50, 40}, r{0, 40};
+    CHECK(rectangles_of({{a, b, c},
+                         {a, c, d},
+                         {o, p, b},
+                         {o, b, a},
+                         {p, c, b},
+                         {p, e, c},
+                         {d, c, e},
+                         {d, e, q},
+                         {d, q, r},
+                         {r, o, a},
+                         {r, a, d}}) == Found{{0, 1}});
+  }
+
   TEST_CASE("a grid of panels has no inset rectangle") {
     CHECK(rectangles_of(grid_of({0, 10, 30, 40}, {0, 10, 20, 30})).empty());
     CHECK(rectangles_of(grid_of({0, 10, 20, 30, 40, 50}, {0, 10, 20, 30, 40, 50})).empty());
@@ -99,13 +116,14 @@ TEST_SUITE("kernel/segment") {
 
   TEST_CASE("panels in a bond have no inset rectangle") {
     // The middle course is shifted: its joints end at those above and below it.
-    const auto cut = [](int x0, int x1, int z0, int z1, const std::vector<int>& below,
-                        const std::vector<int>& above, std::vector<WallPolygon>& out) {
+    const auto cut = [](double x0, double x1, double z0, double z1,
+                        const std::vector<double>& below, const std::vector<double>& above,
+                        std::vector<WallPolygon>& out) {
       WallPolygon ring{{x0, z0}};
-      for (const int x : below) ring.push_back({x, z0});
+      for (const double x : below) ring.push_back({x, z0});
       ring.push_back({x1, z0});
       ring.push_back({x1, z1});
-      for (const int x : above) ring.push_back({x, z1});
+      for (const double x : above) ring.push_back({x, z1});
       ring.push_back({x0, z1});
       out.push_back(ring);
     };
