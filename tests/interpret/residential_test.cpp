@@ -30,6 +30,7 @@ Values recess(double width, double height, double base_height, double depth = 0.
           {"base_height", base_height},
           {"top", base_height + height},
           {"volume", width * height * depth},
+          {"along", 5.0},
           {"inclination", 90.0},
           {"host_inclination", 90.0},
           {"split_order", base_height == 0 ? 2.0 : 1.0}};
@@ -233,11 +234,27 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("decor stays unknown") {
     CHECK(label_alone(block(1.2, 0.06, 0.12, 0.9)) == "-");   // sill
-    CHECK(label_alone(block(0.5, 1.4, 0.04, 0.95)) == "-");   // shutter
     CHECK(label_alone(block(0.3, 8.0, 0.15, 0)) == "-");      // pilaster
     CHECK(label_alone(block(12.0, 0.14, 0.15, 2.7)) == "-");  // cornice
     CHECK(label_alone(block(9.0, 0.5, 0.1, 0)) == "-");       // plinth
     CHECK(label_alone(recess(0.1, 3.0, 0.5)) == "-");         // joint
+  }
+
+  TEST_CASE("a frame before a wall is a window and a shutter beside it stays unknown") {
+    Scene scene;
+    const FeatureId window = scene.add(block(1.1, 1.4, 0.04, 0.95)),
+                    shutter = scene.add(block(0.5, 1.4, 0.04, 0.95));
+    scene.relate_both("same_facade", window, shutter);
+    scene.relate_both("beside", window, shutter);
+    CHECK(labels(residential(), scene) == Labels{"window", "-"});
+  }
+
+  TEST_CASE("a door elsewhere on the facade makes no balcony") {
+    Scene scene;
+    const FeatureId slab = scene.add(block(3.0, 0.2, 1.2, 2.7)),
+                    window = scene.add(recess(0.9, 2.1, 2.9), {{"along", 9.0}});
+    scene.relate_both("same_facade", slab, window);
+    CHECK(labels(residential(), scene) == Labels{"-", "window"});
   }
 
   TEST_CASE("big parts stay unknown though they have windows") {
