@@ -22,11 +22,16 @@ score() {
   "$oriel" score "$work/parts.jsonl" --truth "$truth" | sed -n '/^class/,/^macro/p'
 }
 
-for set in random3dcity ingolstadt ogc-simple-house; do
+for set in random3dcity ingolstadt ogc-simple-house houses/clean houses/noisy houses/triangles delft-blocks; do
   if [ -d "$shared/data/$set" ]; then
     score "$set" "$shared/data/$set" "$shared/data/$set"/*.stripped.city.json
   fi
 done
+if [ -d "$shared/data/houses/clean" ]; then
+  mkdir "$work/removed"
+  python3 bench/remove_faces.py "$work/removed" "$shared/data/houses/clean"/*.stripped.city.json
+  score "houses/clean without 5 % of the faces" "$shared/data/houses/clean" "$work/removed"/*.city.json
+fi
 while read -r name options; do
   # shellcheck disable=SC2086
   "$generate" --seed 77 --count 100 $options -o "$work/$name.city.jsonl" --truth "$work/$name.truth.jsonl"
