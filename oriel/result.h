@@ -23,8 +23,11 @@ struct PipelineResult {
   /// Missing: nothing could be made of the polygons, and `issues` says why.
   std::optional<Solid> solid;
   RepairReport repair;
-  /// The building stayed open: `solid` is no solid but its open_shell, and nothing was cut.
+  /// The building stayed open: it has no solid, and what is written are its own polygons. `solid`
+  /// is then its supposed_solid, or no solid at all but its open_shell, and nothing was cut.
   bool is_open = false;
+  /// `solid` is a supposed_solid.
+  bool is_supposed = false;
   std::optional<Segmentation> segmentation;
   /// Those it was cut with: fitted to its noise.
   Tolerances tolerances;
@@ -47,6 +50,8 @@ struct PipelineResult {
 
   /// It was segmented; if not, `issues` has an error that says why the building was rejected.
   [[nodiscard]] bool is_done() const { return segmentation.has_value(); }
+  /// `solid` is closed.
+  [[nodiscard]] bool is_solid() const { return solid.has_value() && (!is_open || is_supposed); }
   /// Its surfaces can be named, though the building may have been rejected.
   [[nodiscard]] bool has_surfaces() const { return surfaces.rows() > 0; }
 };

@@ -3,11 +3,9 @@
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/solidify/crossings/uncross.h"
 #include "kernel/solidify/mend/mend.h"
-#include "kernel/solidify/planes/plane_clusters.h"
-#include "kernel/solidify/planes/snap.h"
-#include "kernel/solidify/shells/facets.h"
+#include "kernel/solidify/missing/fill.h"
 #include "kernel/solidify/shells/shell_mesh.h"
-#include "kernel/solidify/shells/shells.h"
+#include "kernel/solidify/shells/solid_of_shells.h"
 #include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
@@ -135,12 +133,35 @@ struct MeshedSoup {
   ShellMesh mesh;
 };
 
+/// Where mending leaves the building open or closes holes: the shell of all polygons and of the
+/// faces that are missing, if such may be as large. Mending knows single loops only: with those of
+/// its windows it would close off what lies in a missing wall.
+std::optional<detail::FilledShell> filled_instead(const detail::Mended& mended, const Soup& soup,
+                                                  const Building& building,
+                                                  const Tolerances& tolerances,
+                                                  const RepairOptions& repair) {
+  const bool has_holes = mended.is_open || !mended.report.caps.empty();
+  if (repair.close == Closing::none || !has_holes) return std::nullopt;
+  auto filled = detail::fill_missing_faces(soup, building.id, tolerances);
+  const auto is_small = [&](const Cap& cap) { return cap.area_m2 <= repair.cap_area_m2; };
+  if (filled && repair.close == Closing::planar &&
+      !std::ranges::all_of(filled->report.caps, is_small))
+    return std::nullopt;
+  return filled;
+}
+
 /// The shells of a building whose polygons are no closed shell as they came.
 MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
                          const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
   std::vector<Issue> told_before;
   const Soup soup = detail::weld(building, tolerances, told_before);
   detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair);
+  if (auto filled = filled_instead(mended, soup, building, tolerances, repair)) {
+    out.report = std::move(filled->report);
+    out.issues.insert(out.issues.end(), filled->issues.begin(), filled->issues.end());
+    tell_repairs(building, out.report, false, out.issues);
+    return {std::move(filled->soup), std::move(filled->mesh)};
+  }
   out.report = std::move(mended.report);
   tell_repairs(building, out.report, mended.is_open, out.issues);
   MeshedSoup shells;
@@ -219,21 +240,6 @@ MeshedSoup closed_shells(const Building& building, const Tolerances& tolerances,
   return whole ? std::move(*whole) : std::move(shells);
 }
 
-/// What the input says of every component: of its last facet, of the facet's first polygon.
-std::vector<detail::ComponentHint> hints_of(const Building& building, const Soup& soup,
-                                            const detail::FacetDraft& draft) {
-  std::vector<const detail::SoupPolygon*> first_of(draft.facet_count(), nullptr);
-  for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
-    auto& first = first_of[static_cast<std::size_t>(draft.facet_of[p])];
-    if (first == nullptr || soup.polygons[p].source <= first->source) first = &soup.polygons[p];
-  }
-  std::vector<detail::ComponentHint> hints(static_cast<std::size_t>(draft.components));
-  for (std::size_t f = 0; f < first_of.size(); ++f)
-    hints[static_cast<std::size_t>(draft.component[f])] = {
-        first_of[f]->body, building.is_solid ? first_of[f]->shell : -1};
-  return hints;
-}
-
 }  // namespace
 
 Solidified solidify(const Building& building, const Tolerances& tolerances,
@@ -246,28 +252,7 @@ Solidified solidify(const Building& building, const Tolerances& tolerances,
   const auto [soup, mesh] = closed_shells(building, tolerances, repair, out);
   if (is_set_aside()) return out;
 
-  const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances);
-  detail::FacetDraft draft = detail::draft_facets(soup, clusters, mesh);
-  const auto hints = hints_of(building, soup, draft);
-  detail::SnappedSolid snapped =
-      detail::snap_vertices(soup, clusters, mesh, std::move(draft), tolerances);
-  Solid& solid = snapped.solid;
-  const int swallowed = snapped.swallowed + clusters.standing;
-  if (swallowed > 0)
-    out.issues.push_back(building_issue(
-        Severity::warning, Code::E309, building.id,
-        fmt::format("{} facets are thinner than the tolerances ({} m) and were swallowed",
-                    swallowed, tolerances.plane_offset_m)));
-  if (solid.facets.empty())
-    out.issues.push_back(error(building, Code::E310, "nothing is left that encloses a volume"));
-  if (is_set_aside()) return out;
-  detail::arrange_shells(solid, snapped.component, hints, building.id, out.issues);
-  const bool may_be_open = snapped.has_united || snapped.swallowed > 0;
-  if (!is_set_aside() && may_be_open && !oriel::is_closed(solid))
-    out.issues.push_back(
-        error(building, Code::E302,
-              "not closed after its vertices were put on their planes (val3dity 302)"));
-  if (!is_set_aside()) out.value = std::move(solid);
+  detail::add_solid(building, soup, mesh, tolerances, out);
   return out;
 }
 

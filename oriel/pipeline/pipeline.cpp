@@ -6,10 +6,12 @@
 #include "kernel/solidify/noise.h"
 #include "kernel/solidify/open_shell.h"
 #include "kernel/solidify/solidify.h"
+#include "kernel/solidify/supposed_solid.h"
 
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -21,22 +23,46 @@ void append(std::vector<Issue>& all, std::vector<Issue> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// The facets of a building that solidify found open, or nothing if it found something else: what
-/// was an error then is a warning.
-std::optional<Solid> opened(const Building& building, std::vector<Issue>& issues,
-                            const Tolerances& tolerances) {
-  const auto is_geometry = [](const Issue& issue) {
-    return issue.severity != Severity::error || is_about_geometry(issue.code);
-  };
-  if (!std::ranges::all_of(issues, is_geometry)) return std::nullopt;
-  auto shell = open_shell(building, tolerances);
-  if (!shell) return shell;
+/// What stood for an error is a warning now, and says how it goes on.
+void continue_with(const char* what, std::vector<Issue>& issues) {
   for (Issue& issue : issues) {
     if (issue.severity != Severity::error) continue;
     issue.severity = Severity::warning;
-    issue.sentence += "; features are taken from its rings, nothing is cut";
+    issue.sentence += what;
   }
-  return shell;
+}
+
+Issue supposed_faces(const Building& building, std::span<const Cap> faces) {
+  double sum = 0, largest = 0;
+  for (const Cap& face : faces) {
+    sum += face.area_m2;
+    largest = std::max(largest, face.area_m2);
+  }
+  return building_issue(Severity::warning, Code::E319, building.id,
+                        fmt::format("{} missing faces were supposed, {:.2f} m² together, the "
+                                    "largest {:.2f} m²: features are found as if they were there",
+                                    faces.size(), sum, largest));
+}
+
+/// Goes on with a building that solidify found open: with the solid that it would be if the faces
+/// that are missing were there, if holes may be closed at all, else with the facets that there are.
+void open_up(const Building& building, const Tolerances& tolerances, Closing closing,
+             PipelineResult& out) {
+  const auto is_geometry = [](const Issue& issue) {
+    return issue.severity != Severity::error || is_about_geometry(issue.code);
+  };
+  if (!std::ranges::all_of(out.issues, is_geometry)) return;
+  auto supposed = closing == Closing::none ? std::nullopt : supposed_solid(building, tolerances);
+  if (supposed) {
+    continue_with("; faces are supposed where they are missing", out.issues);
+    append(out.issues, std::move(supposed->issues));
+    out.issues.push_back(supposed_faces(building, supposed->faces));
+    out.solid = std::move(supposed->solid);
+    out.is_supposed = true;
+  } else if ((out.solid = open_shell(building, tolerances))) {
+    continue_with("; features are taken from its rings, nothing is cut", out.issues);
+  }
+  out.is_open = out.solid.has_value();
 }
 
 /// The building without what its input calls the polygons.
@@ -62,7 +88,7 @@ DescribeOptions describe_options(const RuleBase* rules, const LabelOptions& opti
 Segmentation all_features(const Building& building, const PipelineResult& result,
                           const SegmentOptions& options) {
   const Solid& solid = *result.solid;
-  Segmentation found = result.is_open ? segment_open(solid) : segment(building, solid, options);
+  Segmentation found = result.is_solid() ? segment(building, solid, options) : segment_open(solid);
   add_ring_features(building, solid, found, options.tolerances);
   add_imprints(building, solid, found, options.tolerances);
   return found;
@@ -72,11 +98,9 @@ Segmentation all_features(const Building& building, const PipelineResult& result
 void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
                    const LabelOptions& options, PipelineResult& out) {
   const StageObserver& observer = options.observer;
-  if (!out.solid) {
-    out.solid = measure(observer, Stage::solidify,
-                        [&] { return opened(building, out.issues, tolerances); });
-    out.is_open = out.solid.has_value();
-  }
+  if (!out.solid)
+    measure(observer, Stage::solidify,
+            [&] { open_up(building, tolerances, options.repair.close, out); });
   if (!out.solid) return;
   Segmentation segmentation = measured(
       observer, Stage::segment, "segmented", building,

@@ -17,7 +17,7 @@ namespace {
 
 SurfaceContext context_of(const PipelineResult& result) {
   SurfaceContext context;
-  if (result.solid && !result.is_open) context.solid = &*result.solid;
+  if (result.is_solid()) context.solid = &*result.solid;
   if (result.segmentation) {
     context.segmentation = &*result.segmentation;
     context.features = &result.description.table;

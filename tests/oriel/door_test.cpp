@@ -49,6 +49,41 @@ TEST_SUITE("oriel") {
     CHECK(!repair(document, building).solid);
   }
 
+  TEST_CASE("a building without its largest wall has the features that it had and stays open") {
+    const auto records = records_of("house");
+    const Building& whole = records[0].buildings.at(0);
+    Building open = whole;
+    const auto most_windows = std::ranges::max_element(
+        open.polygons, {}, [](const Polygon& polygon) { return polygon.rings.size(); });
+    REQUIRE(most_windows->rings.size() > 2);
+    open.polygons.erase(most_windows);
+    open.is_solid = false;
+
+    const PipelineResult closed = label(whole, residential()), result = label(open, residential());
+    CHECK(result.is_open);
+    CHECK(result.is_supposed);
+    CHECK(std::ranges::count(result.issues, Code::E319, &Issue::code) == 1);
+    CHECK(std::ranges::count(result.issues, Code::E302, &Issue::code) == 1);
+    CHECK_FALSE(has_errors(result.issues));
+    CHECK(result.description.table.rows() == closed.description.table.rows());
+    std::multiset<std::string> labels, labels_closed;
+    for (const Verdict& verdict : result.interpretation.verdicts) labels.insert(verdict.label);
+    for (const Verdict& verdict : closed.interpretation.verdicts)
+      labels_closed.insert(verdict.label);
+    CHECK(labels == labels_closed);
+    // What is supposed is nobody's surface: it is not written, and nothing is redrawn from it.
+    CHECK_FALSE(result.output.geometry.has_value());
+    const auto drawn = generalise(records[0], open, result, residential(), at_scale(1000));
+    CHECK(drawn.levels.empty());
+    CHECK(std::ranges::count(drawn.issues, Code::G404, &Issue::code) == 1);
+
+    LabelOptions none;
+    none.repair.close = Closing::none;
+    const PipelineResult rings = label(open, residential(), none);
+    CHECK(rings.is_open);
+    CHECK_FALSE(rings.is_supposed);
+  }
+
   TEST_CASE("the observer hears of every stage and changes nothing") {
     const auto records = records_of("house");
     const Building& building = records[0].buildings.at(0);

@@ -1,0 +1,84 @@
+#include "kernel/solidify/missing/fill.h"
+
+#include "kernel/base/index.h"
+#include "kernel/solidify/mend/duplicates.h"
+#include "kernel/solidify/mend/t_vertices.h"
+#include "kernel/solidify/missing/fits.h"
+#include "kernel/solidify/missing/missing_faces.h"
+#include "kernel/solidify/soup/polygon_shape.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+constexpr int kMissing = -1;
+
+/// The polygons as they meet each other: each once, with the vertices that lie on their edges.
+Soup joined(const Soup& soup, double weld, RepairReport& report) {
+  const std::vector<char> is_duplicate = find_duplicates(soup);
+  SoupBuilder builder(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    if (is_duplicate[at(p)])
+      report.duplicates.push_back(soup.polygons[at(p)].source);
+    else
+      builder.add_polygon(soup, p);
+  }
+  std::ranges::sort(report.duplicates);
+  auto [whole, inserted] = insert_t_vertices(builder.finish(), weld);
+  report.t_vertices = inserted;
+  return std::move(whole);
+}
+
+/// Each face behind the polygons of its body.
+Soup with_faces(const Soup& soup, std::vector<MissingFace> faces) {
+  const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
+  std::ranges::stable_sort(faces, {}, [&](const MissingFace& face) { return body(face.beside); });
+  SoupBuilder builder(soup);
+  std::size_t next = 0;
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    builder.add_polygon(soup, p);
+    if (p + 1 < soup.polygon_count() && body(p + 1) == body(p)) continue;
+    for (; next < faces.size() && body(faces[next].beside) == body(p); ++next) {
+      SoupPolygon said = soup.polygons[at(faces[next].beside)];
+      said.source = kMissing;
+      builder.begin_polygon(said);
+      for (const auto& ring : faces[next].rings) builder.add_ring(ring);
+    }
+  }
+  return builder.finish();
+}
+
+Cap missing_cap(const Soup& soup, const MissingFace& face) {
+  Cap cap{face.area * soup.grid_m * soup.grid_m, {}};
+  for (const int v : face.rings[0])
+    cap.centre = cap.centre + exact::to_metres(soup.points[at(v)], soup.grid_m);
+  cap.centre = 1.0 / static_cast<double>(face.rings[0].size()) * cap.centre;
+  return cap;
+}
+
+}  // namespace
+
+std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::string& building,
+                                              const Tolerances& tolerances) {
+  FilledShell filled;
+  filled.report.was_needed = true;
+  Soup soup = joined(welded, tolerances.weld_m / welded.grid_m, filled.report);
+  ShellMesh mesh = build_shell_mesh(soup, building, filled.issues);
+  if (has_errors(filled.issues)) return std::nullopt;
+  const double reach = tolerances.plane_offset_m / soup.grid_m;
+  auto faces = find_missing_faces(soup, mesh, shapes_of(soup), reach);
+  if (!faces) return std::nullopt;
+  for (const MissingFace& face : *faces) filled.report.caps.push_back(missing_cap(soup, face));
+  filled.soup = with_faces(soup, std::move(*faces));
+  if (!fits(filled.soup, shapes_of(filled.soup), reach)) return std::nullopt;
+  filled.mesh = build_shell_mesh(filled.soup, building, filled.issues);
+  if (has_errors(filled.issues) ||
+      std::ranges::find(filled.mesh.twin, -1) != filled.mesh.twin.end())
+    return std::nullopt;
+  return filled;
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "kernel/solidify/soup/polygon_shape.h"
+#include "kernel/solidify/soup/soup.h"
+
+#include <span>
+
+namespace oriel::detail {
+
+/// True if none of the soup's polygons without source runs through another polygon, or lies on one,
+/// by more than `reach` (grid units).
+bool fits(const Soup& soup, std::span<const PolygonShape> shapes, double reach);
+
+}  // namespace oriel::detail

@@ -1,0 +1,60 @@
+#include "kernel/solidify/shells/solid_of_shells.h"
+
+#include "kernel/solidify/planes/plane_clusters.h"
+#include "kernel/solidify/planes/snap.h"
+#include "kernel/solidify/shells/facets.h"
+#include "kernel/solidify/shells/shells.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace oriel::detail {
+
+namespace {
+
+/// What the input says of every component: of its last facet, of the facet's first polygon.
+std::vector<ComponentHint> hints_of(const Building& building, const Soup& soup,
+                                    const FacetDraft& draft) {
+  std::vector<const SoupPolygon*> first_of(draft.facet_count(), nullptr);
+  for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
+    auto& first = first_of[static_cast<std::size_t>(draft.facet_of[p])];
+    if (first == nullptr || soup.polygons[p].source <= first->source) first = &soup.polygons[p];
+  }
+  std::vector<ComponentHint> hints(static_cast<std::size_t>(draft.components));
+  for (std::size_t f = 0; f < first_of.size(); ++f)
+    hints[static_cast<std::size_t>(draft.component[f])] = {
+        first_of[f]->body, building.is_solid ? first_of[f]->shell : -1};
+  return hints;
+}
+
+}  // namespace
+
+void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh,
+               const Tolerances& tolerances, Solidified& out) {
+  const auto is_set_aside = [&] { return has_errors(out.issues); };
+  const auto report = [&](Severity severity, Code code, std::string sentence) {
+    out.issues.push_back(building_issue(severity, code, building.id, std::move(sentence)));
+  };
+  const PlaneClusters clusters = cluster_planes(soup, mesh, tolerances);
+  FacetDraft draft = draft_facets(soup, clusters, mesh);
+  const auto hints = hints_of(building, soup, draft);
+  SnappedSolid snapped = snap_vertices(soup, clusters, mesh, std::move(draft), tolerances);
+  Solid& solid = snapped.solid;
+  const int swallowed = snapped.swallowed + clusters.standing;
+  if (swallowed > 0)
+    report(Severity::warning, Code::E309,
+           fmt::format("{} facets are thinner than the tolerances ({} m) and were swallowed",
+                       swallowed, tolerances.plane_offset_m));
+  if (solid.facets.empty())
+    report(Severity::error, Code::E310, "nothing is left that encloses a volume");
+  if (is_set_aside()) return;
+  arrange_shells(solid, snapped.component, hints, building.id, out.issues);
+  const bool may_be_open = snapped.has_united || snapped.swallowed > 0;
+  if (!is_set_aside() && may_be_open && !oriel::is_closed(solid))
+    report(Severity::error, Code::E302,
+           "not closed after its vertices were put on their planes (val3dity 302)");
+  if (!is_set_aside()) out.value = std::move(solid);
+}
+
+}  // namespace oriel::detail

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "kernel/model/building.h"
+#include "kernel/model/tolerances.h"
+#include "kernel/solidify/shells/shell_mesh.h"
+#include "kernel/solidify/solidify.h"
+#include "kernel/solidify/soup/soup.h"
+
+namespace oriel::detail {
+
+/// Fills the solid that closed shells bound, or adds an error: planes, facets, vertices where the
+/// planes meet, shells. `mesh` is that of the soup and closed.
+void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh,
+               const Tolerances& tolerances, Solidified& out);
+
+}  // namespace oriel::detail
