@@ -121,16 +121,6 @@ std::vector<std::vector<int>> rings_of(const Soup& soup, int polygon) {
   return rings;
 }
 
-std::vector<Outline> outlines_of(const Soup& soup, int polygon) {
-  std::vector<Outline> outlines;
-  for (const int r : soup.rings_of(polygon)) {
-    outlines.emplace_back();
-    for (const int v : soup.ring(r))
-      outlines.back().push_back(exact::to_metres(soup.points[at(v)], 1));
-  }
-  return outlines;
-}
-
 bool add_faces(const Soup& soup, const PolygonShape& shape, const CutPolygon& cut, double slack,
                SoupBuilder& builder) {
   ORIEL_ASSERT(!cut.rings.empty());

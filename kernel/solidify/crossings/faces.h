@@ -26,9 +26,6 @@ struct CutPolygon {
 /// A ring of a polygon as points of the soup.
 std::vector<std::vector<int>> rings_of(const Soup& soup, int polygon);
 
-/// The rings of a polygon as places in grid units.
-std::vector<Outline> outlines_of(const Soup& soup, int polygon);
-
 using Loops = std::vector<std::vector<int>>;
 
 /// What half-edges in a plane part it into. They must meet in common points only.

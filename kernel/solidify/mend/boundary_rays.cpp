@@ -30,12 +30,7 @@ bool BoundaryRays::is_hit(int polygon, Vec3 eye) const {
   if (slope == 0) return false;
   const double way = dot(normal, place(soup_.corners_of(polygon).front()) - eye) / slope;
   if (way <= 0) return false;
-  std::vector<Outline> outlines;
-  for (const int r : soup_.rings_of(polygon)) {
-    outlines.emplace_back();
-    for (const int v : soup_.ring(r)) outlines.back().push_back(place(v));
-  }
-  return contains(outlines, normal, eye + way * kDirection);
+  return contains(outlines_of(soup_, polygon), normal, eye + way * kDirection);
 }
 
 int BoundaryRays::depth_of(Vec3 eye) const {

@@ -60,6 +60,19 @@ std::vector<char> find_duplicates(const Soup& soup) {
   return is_duplicate;
 }
 
+Soup without_duplicates(const Soup& soup, std::vector<int>& duplicates) {
+  const std::vector<char> is_duplicate = find_duplicates(soup);
+  SoupBuilder builder(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    if (is_duplicate[at(p)])
+      duplicates.push_back(soup.polygons[at(p)].source);
+    else
+      builder.add_polygon(soup, p);
+  }
+  std::ranges::sort(duplicates);
+  return builder.finish();
+}
+
 std::vector<char> find_opposites(const Soup& soup) {
   std::vector<char> is_opposite(soup.polygons.size(), 0);
   for_each_group(soup, [&](const Numbers& group) {

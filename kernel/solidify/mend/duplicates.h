@@ -8,6 +8,9 @@ namespace oriel::detail {
 /// equal polygons the first in the soup's order is no duplicate.
 std::vector<char> find_duplicates(const Soup& soup);
 
+/// The soup without duplicates. Adds their sources, sorted.
+Soup without_duplicates(const Soup& soup, std::vector<int>& duplicates);
+
 /// For each polygon 1 if another one of the same body has the same rings the other way round: they
 /// go in pairs, what is left of equal polygons runs one way.
 std::vector<char> find_opposites(const Soup& soup);

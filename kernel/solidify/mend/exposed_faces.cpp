@@ -22,14 +22,8 @@ ExposedFaces find_exposed_faces(const Soup& soup, std::span<const PolygonShape> 
   if (inner.empty()) return exposed;
   const BoundaryRays rays(soup, shapes, cells);
   for (const int p : inner) {
-    std::vector<Outline> outlines;
-    for (const int r : soup.rings_of(p)) {
-      outlines.emplace_back();
-      for (const int v : soup.ring(r))
-        outlines.back().push_back(exact::to_metres(soup.points[at(v)], 1));
-    }
     const Vec3 off = reach * shapes[at(p)].unit;
-    const auto middle = interior_point(outlines, shapes[at(p)].unit);
+    const auto middle = interior_point(outlines_of(soup, p), shapes[at(p)].unit);
     if (!middle || rays.depth_of(*middle + off) > 0 || rays.depth_of(*middle - off) > 0) continue;
     ++exposed.polygons;
     exposed.area += shapes[at(p)].area;

@@ -136,8 +136,17 @@ struct MendStage {
   std::vector<PolygonShape> shapes;
   PolygonCells cells;
 
-  explicit MendStage(Soup polygons)
-      : soup(std::move(polygons)), shapes(shapes_of(soup)), cells(find_cells(soup, shapes)) {}
+  /// What would be left out of the solid though it can be seen from outside.
+  ExposedFaces exposed;
+
+  MendStage(Soup polygons, const Tolerances& tolerances)
+      : soup(std::move(polygons)),
+        shapes(shapes_of(soup)),
+        cells(find_cells(soup, shapes)),
+        exposed(is_open()
+                    ? ExposedFaces{}
+                    : find_exposed_faces(soup, shapes, cells,
+                                         tolerances.plane_offset_m / soup.grid_m, kCapSource)) {}
 
   /// Less is enclosed than is left over.
   [[nodiscard]] bool is_open() const {
@@ -150,29 +159,9 @@ struct MendStage {
     return boundary <= dangling;
   }
 
-  /// What would be left out of the solid though it can be seen from outside.
-  [[nodiscard]] ExposedFaces exposed(const Tolerances& tolerances) const {
-    return find_exposed_faces(soup, shapes, cells, tolerances.plane_offset_m / soup.grid_m,
-                              kCapSource);
-  }
   /// It encloses something, and shows what the polygons show.
-  [[nodiscard]] bool is_solid(const Tolerances& tolerances) const {
-    return !is_open() && exposed(tolerances).share <= kMostExposed;
-  }
+  [[nodiscard]] bool is_solid() const { return !is_open() && exposed.share <= kMostExposed; }
 };
-
-Soup without_duplicates(const Soup& soup, std::vector<int>& duplicates) {
-  const std::vector<char> is_duplicate = find_duplicates(soup);
-  SoupBuilder builder(soup);
-  for (int p = 0; p < soup.polygon_count(); ++p) {
-    if (is_duplicate[at(p)])
-      duplicates.push_back(soup.polygons[at(p)].source);
-    else
-      builder.add_polygon(soup, p);
-  }
-  std::ranges::sort(duplicates);
-  return builder.finish();
-}
 
 /// The soup with caps for its plane holes, each behind the polygons of its body.
 Soup with_caps(const MendStage& stage, double reach, double max_area) {
@@ -197,10 +186,10 @@ Soup with_caps(const MendStage& stage, double reach, double max_area) {
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
 MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2) {
-  if (cap_area_m2 <= 0 || stage.is_solid(tolerances)) return stage;
+  if (cap_area_m2 <= 0 || stage.is_solid()) return stage;
   const double grid_m = stage.soup.grid_m;
   const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
-  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)));
+  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)), tolerances);
 }
 
 /// The polygons cut where others run through them or lie on them.
@@ -218,13 +207,13 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
 MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
                 RepairReport& report) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
-  MendStage stage = close_holes(MendStage(soup), tolerances, area_m2);
-  if (options.crossings != Crossings::leave && !stage.is_solid(tolerances)) {
+  MendStage stage = close_holes(MendStage(soup, tolerances), tolerances, area_m2);
+  if (options.crossings != Crossings::leave && !stage.is_solid()) {
     soup = without_crossings(soup, tolerances, report);
-    stage = close_holes(MendStage(soup), tolerances, area_m2);
+    stage = close_holes(MendStage(soup, tolerances), tolerances, area_m2);
   }
-  if (options.close != Closing::any || stage.is_solid(tolerances)) return stage;
-  return close_holes(MendStage(std::move(soup)), tolerances,
+  if (options.close != Closing::any || stage.is_solid()) return stage;
+  return close_holes(MendStage(std::move(soup), tolerances), tolerances,
                      std::numeric_limits<double>::infinity());
 }
 
@@ -263,7 +252,9 @@ void drop_kept(const Soup& soup, std::vector<int>& polygons) {
 
 /// Fills the soup and the rest of the report.
 void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended) {
-  const auto& [soup, shapes, cells] = stage;
+  const Soup& soup = stage.soup;
+  const auto& shapes = stage.shapes;
+  const PolygonCells& cells = stage.cells;
   const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid);
   RepairReport& report = mended.report;
   const double m2 = soup.grid_m * soup.grid_m;
@@ -310,9 +301,9 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
   MendStage stage = close(std::move(whole), tolerances, options, report);
-  mended.is_open = !stage.is_solid(tolerances);
+  mended.is_open = !stage.is_solid();
   if (mended.is_open) {
-    if (!stage.is_open()) mended.exposed = stage.exposed(tolerances);
+    mended.exposed = stage.exposed;
     mended.exposed.area *= soup.grid_m * soup.grid_m;
     report.open_edges = std::move(open);
   } else {

@@ -18,16 +18,7 @@ constexpr int kMissing = -1;
 
 /// The polygons as they meet each other: each once, with the vertices that lie on their edges.
 Soup joined(const Soup& soup, double weld, RepairReport& report) {
-  const std::vector<char> is_duplicate = find_duplicates(soup);
-  SoupBuilder builder(soup);
-  for (int p = 0; p < soup.polygon_count(); ++p) {
-    if (is_duplicate[at(p)])
-      report.duplicates.push_back(soup.polygons[at(p)].source);
-    else
-      builder.add_polygon(soup, p);
-  }
-  std::ranges::sort(report.duplicates);
-  auto [whole, inserted] = insert_t_vertices(builder.finish(), weld);
+  auto [whole, inserted] = insert_t_vertices(without_duplicates(soup, report.duplicates), weld);
   report.t_vertices = inserted;
   return std::move(whole);
 }

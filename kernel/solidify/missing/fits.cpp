@@ -30,12 +30,8 @@ class FitCheck {
       Figure& figure = figures_.emplace_back();
       figure.normal = shapes[at(p)].unit;
       figure.is_supposed = soup.polygons[at(p)].source < 0;
-      for (const int r : soup.rings_of(p)) {
-        figure.outlines.emplace_back();
-        figure.rings.push_back(soup.ring(r));
-        for (const int v : soup.ring(r))
-          figure.outlines.back().push_back(exact::to_metres(soup.points[at(v)], 1));
-      }
+      figure.outlines = outlines_of(soup, p);
+      for (const int r : soup.rings_of(p)) figure.rings.push_back(soup.ring(r));
       const auto corners = soup.corners_of(p);
       figure.points.assign(corners.begin(), corners.end());
       std::ranges::sort(figure.points);

@@ -95,6 +95,15 @@ std::vector<PolygonShape> shapes_of(const Soup& soup) {
   return shapes;
 }
 
+std::vector<Outline> outlines_of(const Soup& soup, int polygon) {
+  std::vector<Outline> outlines;
+  for (const int r : soup.rings_of(polygon)) {
+    Outline& outline = outlines.emplace_back();
+    for (const int v : soup.ring(r)) outline.push_back(exact::to_metres(soup.points[at(v)], 1));
+  }
+  return outlines;
+}
+
 OffsetSpan span_along(const Soup& soup, int polygon, const IntegerNormal& normal) {
   const auto corners = soup.corners_of(polygon);
   OffsetSpan span;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/geometry/planar.h"
 #include "kernel/solidify/soup/soup.h"
 
 #include <cmath>
@@ -29,6 +30,9 @@ double uncertainty_rad(double height, double offset);
 
 /// Of every polygon of a soup that has any.
 std::vector<PolygonShape> shapes_of(const Soup& soup);
+
+/// The rings of a polygon as points, grid units.
+std::vector<Outline> outlines_of(const Soup& soup, int polygon);
 
 /// Where a polygon's vertices lie along a normal: normal · vertex.
 struct OffsetSpan {
