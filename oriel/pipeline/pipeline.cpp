@@ -46,23 +46,26 @@ Issue supposed_faces(const Building& building, std::span<const Cap> faces) {
 
 /// Goes on with a building that solidify found open: with the solid that it would be if the faces
 /// that are missing were there, if holes may be closed at all, else with the facets that there are.
-void open_up(const Building& building, const Tolerances& tolerances, Closing closing,
-             PipelineResult& out) {
+/// Returns what is to be said of the features that are found so.
+std::vector<Issue> open_up(const Building& building, const Tolerances& tolerances, Closing closing,
+                           PipelineResult& out) {
   const auto is_geometry = [](const Issue& issue) {
     return issue.severity != Severity::error || is_about_geometry(issue.code);
   };
-  if (!std::ranges::all_of(out.issues, is_geometry)) return;
+  if (!std::ranges::all_of(out.issues, is_geometry)) return {};
+  std::vector<Issue> of_features;
   auto supposed = closing == Closing::none ? std::nullopt : supposed_solid(building, tolerances);
   if (supposed) {
     continue_with("; faces are supposed where they are missing", out.issues);
     append(out.issues, std::move(supposed->issues));
-    out.issues.push_back(supposed_faces(building, supposed->faces));
+    of_features.push_back(supposed_faces(building, supposed->faces));
     out.solid = std::move(supposed->solid);
     out.is_supposed = true;
   } else if ((out.solid = open_shell(building, tolerances))) {
     continue_with("; features are taken from its rings, nothing is cut", out.issues);
   }
   out.is_open = out.solid.has_value();
+  return of_features;
 }
 
 /// The building without what its input calls the polygons.
@@ -98,14 +101,16 @@ Segmentation all_features(const Building& building, const PipelineResult& result
 void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
                    const LabelOptions& options, PipelineResult& out) {
   const StageObserver& observer = options.observer;
+  std::vector<Issue> of_features;
   if (!out.solid)
-    measure(observer, Stage::solidify,
-            [&] { open_up(building, tolerances, options.repair.close, out); });
+    of_features = measure(observer, Stage::solidify,
+                          [&] { return open_up(building, tolerances, options.repair.close, out); });
   if (!out.solid) return;
   Segmentation segmentation = measured(
       observer, Stage::segment, "segmented", building,
       [&] { return all_features(building, out, segment_options(options, tolerances)); },
       [](const Segmentation& found) { return fmt::format("features={}", found.features.size()); });
+  segmentation.issues.insert(segmentation.issues.begin(), of_features.begin(), of_features.end());
   append(out.issues, segmentation.issues);
   out.description = measured(
       observer, Stage::describe, "described", building,

@@ -63,6 +63,8 @@ TEST_SUITE("oriel") {
     CHECK(result.is_open);
     CHECK(result.is_supposed);
     CHECK(std::ranges::count(result.issues, Code::E319, &Issue::code) == 1);
+    REQUIRE(result.segmentation.has_value());  // what `segment --json` says
+    CHECK(std::ranges::count(result.segmentation->issues, Code::E319, &Issue::code) == 1);
     CHECK(std::ranges::count(result.issues, Code::E302, &Issue::code) == 1);
     CHECK_FALSE(has_errors(result.issues));
     CHECK(result.description.table.rows() == closed.description.table.rows());
