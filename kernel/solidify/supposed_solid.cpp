@@ -17,7 +17,7 @@ bool is_mostly_supposed(const detail::Soup& soup) {
   double there = 0, supposed = 0;
   const auto shapes = detail::shapes_of(soup);
   for (int p = 0; p < soup.polygon_count(); ++p)
-    (soup.polygons[at(p)].source < 0 ? supposed : there) += shapes[at(p)].area;
+    (soup.polygons[at(p)].source == detail::kNoSource ? supposed : there) += shapes[at(p)].area;
   return supposed > there;
 }
 

@@ -8,12 +8,12 @@
 namespace oriel::detail {
 
 ExposedFaces find_exposed_faces(const Soup& soup, std::span<const PolygonShape> shapes,
-                                const PolygonCells& cells, double reach, int cap_source) {
+                                const PolygonCells& cells, double reach) {
   ExposedFaces exposed;
   double boundary = 0;
   Numbers inner;
   for (int p = 0; p < soup.polygon_count(); ++p) {
-    if (soup.polygons[at(p)].source == cap_source) continue;
+    if (soup.polygons[at(p)].source == kNoSource) continue;
     if (cells.is_boundary(p))
       boundary += shapes[at(p)].area;
     else if (!cells.is_front_outside(p))

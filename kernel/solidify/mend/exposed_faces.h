@@ -20,8 +20,8 @@ struct ExposedFaces {
 /// told by where it lies: what a partition, the double wall between two parts or the back of a
 /// window box has on one side at least is inside the boundary of what is enclosed. What has the
 /// outside on both sides, `reach` (grid units) off, can be seen from there and would be lost.
-/// `cap_source`: that of caps, which are no polygons of the building.
+/// Caps (kNoSource) are no polygons of the building.
 ExposedFaces find_exposed_faces(const Soup& soup, std::span<const PolygonShape> shapes,
-                                const PolygonCells& cells, double reach, int cap_source);
+                                const PolygonCells& cells, double reach);
 
 }  // namespace oriel::detail

@@ -123,8 +123,6 @@ std::vector<PieceRole> find_roles(const Soup& soup, std::span<const PolygonShape
 /// planes.
 constexpr double kCapReach = 5;
 
-constexpr int kCapSource = -1;
-
 /// How much of what can be seen a repair may leave out: what a ray misjudges at polygons out of
 /// plane, and a sheet or two. The smallest wall, roof or ground of a house is several times as much
 /// of its surface, and losing one is no repair.
@@ -143,16 +141,15 @@ struct MendStage {
       : soup(std::move(polygons)),
         shapes(shapes_of(soup)),
         cells(find_cells(soup, shapes)),
-        exposed(is_open()
-                    ? ExposedFaces{}
-                    : find_exposed_faces(soup, shapes, cells,
-                                         tolerances.plane_offset_m / soup.grid_m, kCapSource)) {}
+        exposed(is_open() ? ExposedFaces{}
+                          : find_exposed_faces(soup, shapes, cells,
+                                               tolerances.plane_offset_m / soup.grid_m)) {}
 
   /// Less is enclosed than is left over.
   [[nodiscard]] bool is_open() const {
     double boundary = 0, dangling = 0;
     for (int p = 0; p < soup.polygon_count(); ++p) {
-      if (soup.polygons[at(p)].source == kCapSource) continue;
+      if (soup.polygons[at(p)].source == kNoSource) continue;
       if (cells.is_boundary(p)) boundary += shapes[at(p)].area;
       if (cells.is_front_outside(p) && cells.is_back_outside(p)) dangling += shapes[at(p)].area;
     }
@@ -163,25 +160,12 @@ struct MendStage {
   [[nodiscard]] bool is_solid() const { return !is_open() && exposed.share <= kMostExposed; }
 };
 
-/// The soup with caps for its plane holes, each behind the polygons of its body.
+/// The soup with caps for its plane holes.
 Soup with_caps(const MendStage& stage, double reach, double max_area) {
-  const Soup& soup = stage.soup;
-  std::vector<CapDraft> caps = find_caps(soup, stage.shapes, reach, max_area);
-  const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
-  std::ranges::stable_sort(caps, {}, [&](const CapDraft& cap) { return body(cap.beside); });
-  SoupBuilder builder(soup);
-  std::size_t next = 0;
-  for (int p = 0; p < soup.polygon_count(); ++p) {
-    builder.add_polygon(soup, p);
-    if (p + 1 < soup.polygon_count() && body(p + 1) == body(p)) continue;
-    for (; next < caps.size() && body(caps[next].beside) == body(p); ++next) {
-      SoupPolygon said = soup.polygons[at(caps[next].beside)];
-      said.source = kCapSource;
-      builder.begin_polygon(said);
-      builder.add_ring(caps[next].ring);
-    }
-  }
-  return builder.finish();
+  std::vector<AddedFace> faces;
+  for (CapDraft& cap : find_caps(stage.soup, stage.shapes, reach, max_area))
+    faces.push_back({{std::move(cap.ring)}, cap.beside});
+  return with_faces(stage.soup, std::move(faces));
 }
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
@@ -266,9 +250,9 @@ void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended) {
     if (cells.is_boundary(p) && role != PieceRole::within) {
       const bool is_turned = is_front == (role == PieceRole::cavity);
       builder.add_polygon(soup, p, is_turned);
-      if (source == kCapSource) report.caps.push_back(cap_of(stage, p));
-      report.turned += is_turned && source != kCapSource;
-    } else if (source != kCapSource) {
+      if (source == kNoSource) report.caps.push_back(cap_of(stage, p));
+      report.turned += is_turned && source != kNoSource;
+    } else if (source != kNoSource) {
       const bool is_dangling = is_front && cells.is_back_outside(p);
       (is_dangling ? report.dangling : report.inner).push_back(source);
       (is_dangling ? report.dangling_area_m2 : report.inner_area_m2) += shapes[at(p)].area * m2;

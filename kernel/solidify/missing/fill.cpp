@@ -14,32 +14,11 @@ namespace oriel::detail {
 
 namespace {
 
-constexpr int kMissing = -1;
-
 /// The polygons as they meet each other: each once, with the vertices that lie on their edges.
 Soup joined(const Soup& soup, double weld, RepairReport& report) {
   auto [whole, inserted] = insert_t_vertices(without_duplicates(soup, report.duplicates), weld);
   report.t_vertices = inserted;
   return std::move(whole);
-}
-
-/// Each face behind the polygons of its body.
-Soup with_faces(const Soup& soup, std::vector<MissingFace> faces) {
-  const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
-  std::ranges::stable_sort(faces, {}, [&](const MissingFace& face) { return body(face.beside); });
-  SoupBuilder builder(soup);
-  std::size_t next = 0;
-  for (int p = 0; p < soup.polygon_count(); ++p) {
-    builder.add_polygon(soup, p);
-    if (p + 1 < soup.polygon_count() && body(p + 1) == body(p)) continue;
-    for (; next < faces.size() && body(faces[next].beside) == body(p); ++next) {
-      SoupPolygon said = soup.polygons[at(faces[next].beside)];
-      said.source = kMissing;
-      builder.begin_polygon(said);
-      for (const auto& ring : faces[next].rings) builder.add_ring(ring);
-    }
-  }
-  return builder.finish();
 }
 
 Cap missing_cap(const Soup& soup, const MissingFace& face) {
@@ -62,8 +41,12 @@ std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::str
   const double reach = tolerances.plane_offset_m / soup.grid_m;
   auto faces = find_missing_faces(soup, mesh, shapes_of(soup), reach);
   if (!faces) return std::nullopt;
-  for (const MissingFace& face : *faces) filled.report.caps.push_back(missing_cap(soup, face));
-  filled.soup = with_faces(soup, std::move(*faces));
+  std::vector<AddedFace> added;
+  for (MissingFace& face : *faces) {
+    filled.report.caps.push_back(missing_cap(soup, face));
+    added.push_back({std::move(face.rings), face.beside});
+  }
+  filled.soup = with_faces(soup, std::move(added));
   if (!fits(filled.soup, shapes_of(filled.soup), reach)) return std::nullopt;
   filled.mesh = build_shell_mesh(filled.soup, building, filled.issues);
   if (has_errors(filled.issues) ||

@@ -29,7 +29,7 @@ class FitCheck {
     for (int p = 0; p < soup.polygon_count(); ++p) {
       Figure& figure = figures_.emplace_back();
       figure.normal = shapes[at(p)].unit;
-      figure.is_supposed = soup.polygons[at(p)].source < 0;
+      figure.is_supposed = soup.polygons[at(p)].source == kNoSource;
       figure.outlines = outlines_of(soup, p);
       for (const int r : soup.rings_of(p)) figure.rings.push_back(soup.ring(r));
       const auto corners = soup.corners_of(p);

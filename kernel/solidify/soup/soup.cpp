@@ -346,4 +346,22 @@ void SoupBuilder::append(std::span<const int> simple_ring) {
   soup_.first_corner.push_back(static_cast<int>(soup_.corners.size()));
 }
 
+Soup with_faces(const Soup& soup, std::vector<AddedFace> faces) {
+  const auto body = [&](int polygon) { return soup.polygons[at(polygon)].body; };
+  std::ranges::stable_sort(faces, {}, [&](const AddedFace& face) { return body(face.beside); });
+  SoupBuilder builder(soup);
+  std::size_t next = 0;
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    builder.add_polygon(soup, p);
+    if (p + 1 < soup.polygon_count() && body(p + 1) == body(p)) continue;
+    for (; next < faces.size() && body(faces[next].beside) == body(p); ++next) {
+      SoupPolygon said = soup.polygons[at(faces[next].beside)];
+      said.source = kNoSource;
+      builder.begin_polygon(said);
+      for (const auto& ring : faces[next].rings) builder.add_ring(ring);
+    }
+  }
+  return builder.finish();
+}
+
 }  // namespace oriel::detail

@@ -13,9 +13,12 @@
 
 namespace oriel::detail {
 
+/// The source of a face that no polygon of the input made.
+inline constexpr int kNoSource = -1;
+
 /// What the input says of a welded polygon.
 struct SoupPolygon {
-  int source = -1;
+  int source = kNoSource;
   int body = 0;
   int shell = 0;
 };
@@ -95,5 +98,14 @@ class SoupBuilder {
   bool is_begun_ = false;
   Numbers path_, place_;  ///< of the ring being cut; place_ by point, -1 off the path
 };
+
+/// A face that is put beside the polygons of the input.
+struct AddedFace {
+  std::vector<std::vector<int>> rings;
+  int beside = -1;  ///< a polygon of its body
+};
+
+/// The soup with faces of no source, each behind the polygons of its body.
+Soup with_faces(const Soup& soup, std::vector<AddedFace> faces);
 
 }  // namespace oriel::detail
