@@ -180,7 +180,7 @@ class FeatureRemover {
       detail::EdgeIndex edges(body, std::array{split >> 1});
       detail::Section section{split >> 1, looks_along_class ? 1 : -1};
       section_at(body, section, edges.edges_at(0, section.direction),
-                 {-1, options_.tolerances.weld_m});
+                 {-1, options_.tolerances.weld_m, false, true});
       const auto region = region_around(section, f);
       if (!region) continue;
       const detail::Lump lump = detail::LumpFinder(body, section).find(*region);
@@ -216,7 +216,8 @@ class FeatureRemover {
                body, f.sense == Sense::hole,
                {{},
                 4,
-                detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg)},
+                detail::ground_side(solid_, world_.planes, options_.tolerances.coplanar_deg),
+                f.sense == Sense::protrusion},
                work)) {
         if (patch.sides() != sides || !has_cap_at(patch, f.cap_point)) continue;
         return take(body, copy_of(body), patch.caps, f);

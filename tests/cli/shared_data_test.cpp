@@ -60,6 +60,14 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("a door is found level with the floor of its loggia as well as behind a threshold") {
+    ORIEL_NEEDS_SHARED(shared);
+    for (const char* name : {"mini_level.city.json", "mini_threshold.city.json"}) {
+      CAPTURE(name);
+      CHECK(run({"label", shared / "data/faults" / name}).says(": 1 door, 1 loggia"));
+    }
+  }
+
   TEST_CASE("a block keeps its walls and windows where a closed hole would cost them") {
     ORIEL_NEEDS_SHARED(shared);
     const std::string block = shared / "data/delft-blocks/yitong_4.stripped.city.json";

@@ -129,6 +129,7 @@ struct Scratch {
   // Chains of edges. By point: how many steps lead from it, and to it; 0 between two uses.
   IndexedVector<PointId, int> leaving, entering;
   IndexedVector<PointId, PointId> after;  ///< where the step from a point leads to
+  StampSet<PointId> neck_points;          ///< in the plane at hand
 
   // Floods.
   StampSet<EdgeId> flooded_edges;

@@ -16,7 +16,8 @@ namespace {
 enum class CornerKind {
   convex_outside,  ///< outside of it: a chimney on a ridge; the rest is inside
   convex_inside,   ///< inside of it: a hole in an edge
-  concave          ///< in front of all planes: a post in an inner corner
+  concave,         ///< in front of all planes: a post in an inner corner
+  stepped          ///< neither: planes meet by turns inward and outward, as a wall and a plinth do
 };
 
 /// Two points, by their distances from a plane in ranks, lie on different sides of it.
@@ -54,6 +55,9 @@ class Capper {
     PointId point;
     PlaneSide from, to;
     RimPlace rim;  ///< the first half-edge behind it
+    /// Where the edge between the facets beyond the rim begins that ends here; invalid: there is
+    /// none.
+    PointId edge_from = {};
   };
 
   /// The rim half-edge that follows each on its closed curve.
@@ -72,9 +76,17 @@ class Capper {
       const auto place = static_cast<RimPlace>(places.find(follower));
       followers_.push_back(place);
       if (labels_[i] != labels_[place])
-        switches_.push_back({body_.origin(follower), labels_[i], labels_[place], place});
+        switches_.push_back({body_.origin(follower), labels_[i], labels_[place], place,
+                             edge_beyond(component_.rim[i], labels_[place])});
     }
     return true;
+  }
+
+  /// Where the edge begins that comes to the end of a rim half-edge between the facet beyond it and
+  /// one on `to`.
+  [[nodiscard]] PointId edge_beyond(EdgeId rim, PlaneSide to) const {
+    const EdgeId edge = body_.prev(body_.twin(rim));
+    return body_.side_of_edge(body_.twin(edge)) == to ? body_.origin(edge) : PointId{};
   }
 
   std::optional<CutCap> cap_on(PlaneSide side) {
@@ -137,6 +149,7 @@ class Capper {
   /// The nearest point ahead on the line in which two planes meet: where the rim comes from `other`
   /// to `side`, or where a third plane of the corner meets them.
   std::optional<WalkStop> next_stop(PlaneSide side, PlaneSide other, PointId point) {
+    if (corner_ == CornerKind::stepped) return next_stop_of_step(side, other, point);
     const Vec3 direction = ahead(side, other);
     const double here = dot(direction, world_.points.at(point));
     std::optional<WalkStop> nearest;
@@ -156,6 +169,28 @@ class Capper {
     }
     for (const RimSwitch& s : switches_)
       if (s.from == other && s.to == side) offer({s.point, s.rim, other});
+    return nearest;
+  }
+
+  /// In steps the walk goes on as the edge of the rest did that came to the point, up to where the
+  /// rim comes back.
+  [[nodiscard]] std::optional<WalkStop> next_stop_of_step(PlaneSide side, PlaneSide other,
+                                                          PointId point) const {
+    const auto start = std::ranges::find_if(switches_, [&](const RimSwitch& s) {
+      return s.point == point && s.from == side && s.to == other;
+    });
+    if (start == switches_.end() || !start->edge_from.is_valid()) return std::nullopt;
+    const Vec3 here = world_.points.at(point);
+    const Vec3 direction = here - world_.points.at(start->edge_from);
+    std::optional<WalkStop> nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (const RimSwitch& s : switches_) {
+      if (s.from != other || s.to != side || s.point == point) continue;
+      const double distance = dot(direction, world_.points.at(s.point) - here);
+      if (distance <= 0 || distance >= least) continue;
+      least = distance;
+      nearest = {s.point, s.rim, other};
+    }
     return nearest;
   }
 
@@ -198,11 +233,12 @@ class Judge {
         work_(work) {}
 
   std::optional<Patch> run(const Component& component) {
-    const auto corner = corner_of(component);
+    const auto corner = is_stepped(component) ? CornerKind::stepped : corner_of(component);
     if (!corner) return std::nullopt;
     auto caps = Capper(body_, component, *corner).run();
     if (!caps) return std::nullopt;
     Patch patch{is_hole_, component.facets, std::move(*caps)};
+    if (corner == CornerKind::stepped && !are_edges_paired(patch)) return std::nullopt;
     if (!measure(patch) || !are_edges_free(patch) || is_pierced(patch)) return std::nullopt;
     return patch;
   }
@@ -218,6 +254,32 @@ class Judge {
       return ((difference > 0) - (difference < 0)) * direction;
     }
   };
+
+  /// Two of its planes have one normal.
+  [[nodiscard]] bool is_stepped(const Component& component) const {
+    const auto& sides = component.sides;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if ((sides[i] & 1) == (sides[j] & 1) &&
+            world_.planes.class_of(sides[i] >> 1) == world_.planes.class_of(sides[j] >> 1))
+          return true;
+    return false;
+  }
+
+  /// The caps meet in each of their free edges.
+  [[nodiscard]] static bool are_edges_paired(const Patch& patch) {
+    std::vector<std::pair<PointId, PointId>> ahead, back;
+    for (const CutCap& cap : patch.caps)
+      for (const CapLoop& loop : cap.loops)
+        for (const CapEdge& edge : loop.edges) {
+          if (edge.rim.is_valid()) continue;
+          ahead.emplace_back(edge.from, edge.to);
+          back.emplace_back(edge.to, edge.from);
+        }
+    std::ranges::sort(ahead);
+    std::ranges::sort(back);
+    return ahead == back;
+  }
 
   /// Those of a component, without the ground.
   [[nodiscard]] boost::container::small_vector<SideLimit, 4> limits_of(

@@ -78,7 +78,7 @@ RestChange change_of(const Carved& carved, std::span<const CutCap> caps, std::si
       caps.size() == 1 && caps[0].loops.size() == 1 && caps[0].covered.empty() && !caps[0].is_taken;
   if (is_simple) change.rim = edges_of(caps[0].loops[0]);
   for (const CutCap& cap : caps) {
-    change.has_covered |= !cap.covered.empty() || cap.is_taken;
+    change.has_covered |= !cap.covered.empty();
     if (!carved.has_rim_left) continue;
     for (const CapLoop& loop : cap.loops)
       for (const CapEdge& edge : loop.edges) change.new_edges.emplace_back(edge.from, edge.to);
@@ -111,7 +111,7 @@ struct Snapshot {
 };
 
 Snapshot snapshot_of(const GrowingTree& tree, const WaitingBody& from, const CutChoice& choice) {
-  const bool may_fail = !choice.is_natural || choice.imprinted;
+  const bool may_fail = !choice.is_natural || choice.has_neck || choice.imprinted;
   return {may_fail ? std::optional(from.body) : std::nullopt,
           from.node,
           tree.out.nodes.size(),
@@ -135,7 +135,7 @@ void restore(GrowingTree& tree, WaitingBody& from, Snapshot before) {
 class Cut {
  public:
   Cut(GrowingTree& tree, WaitingBody& from, const CutChoice& choice)
-      : tree_(tree), from_(from), choice_(choice) {}
+      : tree_(tree), from_(from), choice_(choice), takes_rest_(is_most(tree, from, choice)) {}
 
   /// False if a rim separates nothing.
   bool run() {
@@ -166,6 +166,21 @@ class Cut {
   [[nodiscard]] CutResult take_result() { return std::move(result_); }
 
  private:
+  /// The only lump of a cut is nearly all that is left of the solid and hangs on it in one piece:
+  /// it is the body, and what is behind the plane is the part. A house under a roof slab is no part
+  /// of it; walls under a roof that is more than a slab are.
+  static bool is_most(const GrowingTree& tree, const WaitingBody& from, const CutChoice& choice) {
+    if (choice.is_hole || from.feature.is_valid() || tree.options.order != Order::natural)
+      return false;
+    if (choice.lumps.size() != 1 || choice.lumps[0].regions.size() != 1) return false;
+    const Lump& lump = choice.lumps[0];
+    if (!choice.section->regions[at(lump.regions[0])].covered.empty()) return false;
+    const double rest = from.body.volume() - lump.volume;
+    constexpr double kSlab = 0.1;  // of the volume: less than what a coarser scale may leave out
+    return rest < kSlab * from.body.volume() &&
+           rest > tree.options.tolerances.weld_m * lump.new_area;
+  }
+
   struct PartMeasures {
     double new_area;
     double value;
@@ -177,7 +192,8 @@ class Cut {
     here.kind = choice_.is_hole ? CsgNode::Kind::subtract : CsgNode::Kind::unite;
     here.value = choice_.value;
     here.quality = choice_.quality;
-    for (const PlaneSide side : choice_.sides) here.planes.push_back(tree_.cells.plane_id(side));
+    for (const PlaneSide side : choice_.sides)
+      here.planes.push_back(tree_.cells.plane_id(takes_rest_ ? side ^ 1 : side));
     std::ranges::sort(here.planes);
     here.parts.reserve(choice_.lumps.size() + choice_.patches.size());
     const NodeId rest = tree_.add_node();
@@ -193,6 +209,7 @@ class Cut {
       caps = imprint(from_.body, *choice_.section, lump, touched);
     has_changed_body_ |= !touched.empty();
     if (caps.empty()) return false;
+    if (takes_rest_) caps = turned_round(from_.body, caps);
     std::size_t loops = 0;
     for (const CutCap& cap : caps) loops += cap.loops.size() + cap.covered.size();
     result_.may_have_parted |= loops > 1;
@@ -277,6 +294,7 @@ class Cut {
   GrowingTree& tree_;
   WaitingBody& from_;
   const CutChoice& choice_;
+  bool takes_rest_;  ///< instead of the lump
   CutResult result_;
   bool has_changed_body_ = false;
 };

@@ -323,6 +323,19 @@ Filled fill_pocket(Boundary& body, const CutCap& cap, std::span<const BodyFacetI
   return filled;
 }
 
+std::vector<CutCap> turned_round(const Boundary& body, std::span<const CutCap> caps) {
+  std::vector<CutCap> turned(caps.begin(), caps.end());
+  for (CutCap& cap : turned) {
+    ORIEL_ASSERT(cap.covered.empty() && !cap.is_taken);
+    cap.side ^= 1;
+    for (CapLoop& loop : cap.loops) {
+      std::ranges::reverse(loop.edges);
+      for (CapEdge& edge : loop.edges) edge = {body.twin(edge.rim), edge.to, edge.from};
+    }
+  }
+  return turned;
+}
+
 std::optional<Carved> take_off(Boundary& body, std::span<const CutCap> caps, bool is_hole,
                                FeatureId mark, std::vector<PointId> touched) {
   Remover remover(body, caps, is_hole);

@@ -60,6 +60,10 @@ struct Filled {
 std::vector<CutCap> imprint(Boundary& body, const Section& section, const Lump& lump,
                             std::vector<PointId>& touched);
 
+/// The caps that take off what the rims leave, instead of the lump inside them. Nothing may be
+/// covered.
+std::vector<CutCap> turned_round(const Boundary& body, std::span<const CutCap> caps);
+
 /// Takes the lump inside the rims of `caps` off the body. A protrusion goes with its surface; a
 /// hole is filled: its walls leave the body, and the lump is the air that was there, turned right
 /// side out. Caps close both, and facets of the rest are made maximal again. `mark` is left on the

@@ -15,12 +15,18 @@ namespace {
 /// Values closer than this are the same number computed twice.
 constexpr double kSame = 1e-9;  // tolerance of doubles, no tolerance of the model
 
-bool is_same_value(double p, double q) { return std::abs(p - q) <= kSame * std::max(p, q); }
+/// How far apart values may be that are the same but for the grid: what a corner that was put on it
+/// may move of the area of something a hundred times weld_m wide, about 1e-5. On exact input, where
+/// value_rel is nothing, as far as doubles are.
+double tie_of(const Tolerances& tolerances, double grid_m) {
+  constexpr double kWidth = 100;  // times weld_m: few parts are thinner
+  return std::max(kSame, std::min(tolerances.value_rel, grid_m / (kWidth * tolerances.weld_m)));
+}
 
 /// No other one of some sorted values is the same.
-bool is_alone_in(std::span<const double> values, double value) {
-  const auto first = std::ranges::lower_bound(values, value * (1 - kSame));
-  return first + 1 == values.end() || !is_same_value(*(first + 1), value);
+bool is_alone_in(std::span<const double> values, double value, double tie) {
+  const auto first = std::ranges::lower_bound(values, value * (1 - tie));
+  return first + 1 == values.end() || *(first + 1) - value > tie * *(first + 1);
 }
 
 // The keys by which the passes of the orders sort one-plane candidates; nothing: not a candidate of
@@ -59,6 +65,7 @@ Chooser::Chooser(const Boundary& body, const SegmentOptions& options, PlaneSide 
       own_planes_(std::move(own_planes)),
       stats_(stats),
       work_(work),
+      tie_(tie_of(options.tolerances, world_.points.grid_m())),
       candidates_(body, options, free_side, own_planes_, stats, work),
       pockets_(body, free_side) {}
 
@@ -69,7 +76,10 @@ std::optional<CutChoice> Chooser::next(const std::set<CutKey>& banned) {
 
 std::optional<CutChoice> Chooser::natural_next() {
   candidates_.refresh(true);
-  if (auto choice = best_section_cut(Pass::natural)) return choice;
+  if (auto choice = best_section_cut(Pass::natural)) {
+    if (auto part = part_on_steps(*choice)) return part;
+    return choice;
+  }
   if (options_.max_order > 1)
     if (auto choice = first_of_least_order(patches(false, limit()))) return choice;
   if (auto choice = best_section_cut(Pass::wide_natural)) return choice;
@@ -115,10 +125,35 @@ std::optional<CutChoice> Chooser::corner_cut(std::span<const Patch> natural) {
   return std::nullopt;
 }
 
+/// The best patch of those that a cut by one plane would take along with what is flat and they
+/// stand on or before: they lie on its plane, and on one before it that looks the same way. A bay
+/// comes off before the plinth that runs into it.
+std::optional<CutChoice> Chooser::part_on_steps(const CutChoice& choice) {
+  constexpr int kLeastOrder = 3;  // the two planes, and one that joins them
+  if (choice.is_hole || options_.max_order < kLeastOrder) return std::nullopt;
+  const auto has_bend = [](const Lump& lump) { return lump.pocket < 0 && lump.has_bend; };
+  if (std::ranges::none_of(choice.lumps, has_bend)) return std::nullopt;
+  const PlaneTable& planes = world_.planes;
+  const PlaneSide rear = choice.sides[0];
+  const auto is_before = [&](PlaneSide side) {
+    return planes.class_of(side >> 1) == planes.class_of(rear >> 1) && (side & 1) == (rear & 1) &&
+           planes.offset_m(side) > planes.offset_m(rear);
+  };
+  if (std::ranges::none_of(body_.sides(), is_before)) return std::nullopt;
+  std::vector<Patch> on_steps = patches(false, limit());
+  std::erase_if(on_steps, [&](const Patch& patch) {
+    const std::vector<PlaneSide> sides = patch.sides();
+    return !std::ranges::binary_search(sides, rear) || std::ranges::none_of(sides, is_before);
+  });
+  return best_patch_cut(on_steps, kLeastOrder, options_.max_order);
+}
+
 /// Those with a larger value than `most` may be left out.
 std::vector<Patch> Chooser::patches(bool is_hole, double most) {
-  std::vector<Patch> found =
-      find_patches(body_, is_hole, {own_planes_, options_.max_order, free_side_, most}, work_);
+  std::vector<Patch> found = find_patches(body_, is_hole,
+                                          {own_planes_, options_.max_order, free_side_,
+                                           options_.order == Order::natural && !is_hole, most},
+                                          work_);
   (is_hole ? stats_.hole_tests : stats_.protrusion_tests) += found.size();
   stats_.candidates += found.size();
   return found;
@@ -214,10 +249,19 @@ bool Chooser::check(RegionCandidate& candidate, Pass pass, bool is_alone) {
     if (!value) return false;
     candidate.key = *value;
   }
+  if (pass == Pass::wide_natural && is_larger_half(lump, section)) return false;
   // A lump in front of several regions is one candidate, that of the first region that is one.
   const auto first = std::ranges::find_if(
       lump.regions, [&](int r) { return section.regions[at(r)].is_candidate; });
   return *first == candidate.region;
+}
+
+/// What hangs on a body through a neck and is no smaller than what it leaves is no part of it: a
+/// block, whose wall comes down to the ground between two pieces of a plinth, does not end on it.
+bool Chooser::is_larger_half(const Lump& lump, const Section& section) const {
+  const bool has_neck =
+      std::ranges::any_of(lump.regions, [&](int r) { return section.regions[at(r)].has_neck; });
+  return has_neck && 2 * lump.volume > (1 - tie_) * body_.volume();
 }
 
 template <class Visit>
@@ -275,7 +319,7 @@ void Chooser::take_candidates(std::vector<RegionCandidate>& candidates, Pass pas
 /// Floods from the candidates that lead until none of the leaders is unchecked; those that are no
 /// features are dropped.
 void Chooser::check_leaders(std::vector<RegionCandidate>& candidates, Pass pass) {
-  const double group = 1 + std::max(kSame, options_.tolerances.value_rel);
+  const double group = 1 + std::max(tie_, options_.tolerances.value_rel);
   while (!candidates.empty() || !waiting_.empty()) {
     double least = waiting_.empty() ? candidates[0].key : waiting_.front().first;
     for (const RegionCandidate& c : candidates) least = std::min(least, c.key);
@@ -291,7 +335,7 @@ void Chooser::check_leaders(std::vector<RegionCandidate>& candidates, Pass pass)
     // Candidates of one section stand together, so one finder at a time does.
     flooded_ = nullptr;
     std::erase_if(candidates, [&](RegionCandidate& c) {
-      return leads(c) && !check(c, pass, is_alone_in(keys, c.key));
+      return leads(c) && !check(c, pass, is_alone_in(keys, c.key, tie_));
     });
   }
 }
@@ -347,13 +391,16 @@ CutChoice Chooser::choice_of(std::span<const RegionCandidate> candidates,
   choice.pockets = &pockets_;
   for (const RegionCandidate& c : candidates) {
     if (c.section != first.section || c.lump < 0 ||
-        c.key > first.key * (1 + std::max(kSame, options_.tolerances.value_rel)))
+        c.key > first.key * (1 + std::max(tie_, options_.tolerances.value_rel)))
       continue;
     if (section.regions[at(c.region)].is_material != region.is_material) continue;
     choice.lumps.push_back(lump_of(c));
     choice.lumps.back().value = c.key;
     choice.volume += lump_of(c).volume;
-    for (const int r : lump_of(c).regions) choice.is_natural &= section.regions[at(r)].is_natural;
+    for (const int r : lump_of(c).regions) {
+      choice.is_natural &= section.regions[at(r)].is_natural;
+      choice.has_neck |= section.regions[at(r)].has_neck;
+    }
   }
   return choice;
 }
@@ -387,8 +434,8 @@ CutChoice Chooser::choice_of(std::span<const Patch* const> patches, const Patch&
     const Patch& p = *patch;
     const double value = p.new_area / p.old_area;
     if (p.is_hole != first.is_hole) continue;
-    if (value < choice.value * (1 - kSame) ||
-        value > choice.value * (1 + std::max(kSame, options_.tolerances.value_rel)) ||
+    if (value < choice.value * (1 - tie_) ||
+        value > choice.value * (1 + std::max(tie_, options_.tolerances.value_rel)) ||
         p.sides() != choice.sides)
       continue;
     choice.patches.push_back(p);

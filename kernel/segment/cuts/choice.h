@@ -7,7 +7,9 @@
 #include "kernel/segment/cuts/pockets.h"
 #include "kernel/segment/segment.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <memory>
@@ -24,9 +26,10 @@ namespace oriel::detail {
 struct CutChoice {
   bool is_hole = false;
   bool is_natural = false;
-  double value = 0;    ///< the key the order sorts by, of the best part
-  double quality = 0;  ///< new area / old area of the best part
-  double volume = 0;   ///< of all parts
+  bool has_neck = false;  ///< the cut goes through a neck of a facet
+  double value = 0;       ///< the key the order sorts by, of the best part
+  double quality = 0;     ///< new area / old area of the best part
+  double volume = 0;      ///< of all parts
   std::vector<PlaneSide> sides;
   double old_area = 0;
 
@@ -94,6 +97,7 @@ class Chooser {
   void for_each_candidate(const Section& section, Pass pass, Visit visit) const;
   void check_leaders(std::vector<RegionCandidate>& candidates, Pass pass);
   bool check(RegionCandidate& candidate, Pass pass, bool is_alone);
+  [[nodiscard]] bool is_larger_half(const Lump& lump, const Section& section) const;
   Lump lump_at(const RegionCandidate& candidate, bool is_alone);
   Lump lump_of(int pocket, const RegionCandidate& candidate);
   Lump flood(const RegionCandidate& candidate);
@@ -110,8 +114,12 @@ class Chooser {
     return !banned_->empty() && banned_->contains({patch.sides(), patch.is_hole});
   }
   std::vector<Patch> patches(bool is_hole, double most);
+  std::optional<CutChoice> part_on_steps(const CutChoice& choice);
   std::optional<CutChoice> corner_cut(std::span<const Patch> natural);
   std::optional<CutChoice> first_of_least_order(std::span<const Patch> patches);
+  [[nodiscard]] bool is_same_value(double p, double q) const {
+    return std::abs(p - q) <= tie_ * std::max(p, q);
+  }
   [[nodiscard]] double limit() const { return 1 - options_.tolerances.value_rel; }
 
   const Boundary& body_;
@@ -121,6 +129,7 @@ class Chooser {
   std::vector<int> own_planes_;
   SegmentationStats& stats_;
   std::int64_t& work_;
+  double tie_;  ///< values that are closer, relatively, are the same
   CutCandidates candidates_;
   const std::set<CutKey>* banned_ = nullptr;
   Pockets pockets_;

@@ -46,12 +46,12 @@ CutCandidates::CutCandidates(const Boundary& body, const SegmentOptions& options
                              SegmentationStats& stats, std::int64_t& work)
     : body_(body),
       world_(body.world()),
-      section_options_{free_side, options.tolerances.weld_m},
+      section_options_{free_side, options.tolerances.weld_m, options.order == Order::natural},
       stats_(stats),
       work_(work),
       planes_(split_planes_of(body, own_planes)),
       edges_(body, planes_),
-      chains_(body, planes_, free_side),
+      chains_(body, planes_, free_side, section_options_.are_necks_free),
       candidates_(2 * planes_.size()) {
   classes_.reserve(std::min(planes_.size(), at(world_.planes.class_count())));
   for (std::size_t i = 0; i < planes_.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "kernel/segment/cuts/patch.h"
 
 #include "kernel/base/index.h"
+#include "kernel/segment/cuts/flush_patches.h"
 
 #include <algorithm>
 #include <array>
@@ -57,6 +58,7 @@ class PatchFinder {
         if (is_met_first() && find_sides(widened, most)) offer(widened);
       });
     }
+    if (options_.is_natural_order && most > 1) add_flush_patches(flat_, options_, patches_, work_);
     return std::move(patches_);
   }
 
@@ -324,14 +326,14 @@ class PatchFinder {
     const std::ptrdiff_t order = std::ssize(sides) - (component.ground >= 0 ? 1 : 0);
     if (widened_.size() == 1 && grown_[at(widened_[0])].facets.of(facets_).size() < 2) return false;
     if (order < 2 || order > options_.max_order) return false;
-    if (component.ground >= 0 && order > 2) return false;
+    bool is_stepped = false;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       if (std::ranges::find(options_.own_planes, sides[i] >> 1) != options_.own_planes.end())
         return false;
-      for (std::size_t j = 0; j < i; ++j)
-        if (has_same_normal(sides[i], sides[j])) return false;
+      for (std::size_t j = 0; j < i; ++j) is_stepped |= has_same_normal(sides[i], sides[j]);
     }
-    return true;
+    if (is_stepped) return options_.is_natural_order && !is_hole_ && order > 2;
+    return component.ground < 0 || order == 2;
   }
 
   /// Caps that have no more than the areas that are asked for may close the groups at hand. The

@@ -15,6 +15,9 @@ struct PatchOptions {
   /// The ground (-1: none): of protrusions with two planes, the rim may leave out a part of it, see
   /// CutCap::is_taken.
   PlaneSide free_side = -1;
+  /// Protrusions may also lie on planes of one normal that a third one joins, on a wall and the
+  /// plinth before it, and be flush with a facet (cuts/flush_patches.h).
+  bool is_natural_order = false;
   /// Patches with more new area than so many times the old one are not asked for; most of them are
   /// left out.
   double most_value = std::numeric_limits<double>::infinity();
@@ -23,9 +26,9 @@ struct PatchOptions {
 /// The natural patches of holes, or of protrusions, that two to four planes can cap (paper, section
 /// 4, figure 3; the dual for protrusions). A hole's patch hangs together over reflex edges and ends
 /// at convex ones, a protrusion's the other way round; the planes of the facets beyond its rim are
-/// the only ones that can cap it. Equal normals never combine. A patch that does not lie in the
-/// corner its planes make, or whose caps do not close, is none. Half-edges that were looked at are
-/// added to `work`.
+/// the only ones that can cap it. Equal normals never combine, but in steps. A patch that does not
+/// lie in the corner its planes make, or whose caps do not close, is none. Half-edges that were
+/// looked at are added to `work`.
 std::vector<Patch> find_patches(const Boundary& body, bool is_hole, const PatchOptions& options,
                                 std::int64_t& work);
 

@@ -12,6 +12,8 @@ namespace {
 /// The caps of a feature fill this part of a ring's rectangle: it is the ring's. As for the boxes
 /// of objects in bench/recall.sh.
 constexpr double kSameRing = 0.8;
+/// Normals of planes that look away from each other are as far apart as rounding makes them.
+constexpr double kOpposite = 1 - 1e-9;  // tolerance of doubles
 
 /// Of the outline that ring_of() makes of the loop.
 Reach reach_of_ring(const Solid& solid, const Facet& facet, const Loop& loop,
@@ -76,7 +78,24 @@ std::vector<FeatureId> FeatureIndex::within(PlaneId plane, const Reach& reach) {
 
 bool FeatureIndex::fills(PlaneId plane, const Reach& reach) {
   const double least_m2 = kSameRing * reach.area();
-  return any_within(plane, reach, [&](const PlacedCap& r) { return r.cap.area() >= least_m2; });
+  if (any_within(plane, reach, [&](const PlacedCap& r) { return r.cap.area() >= least_m2; }))
+    return true;
+  return std::ranges::any_of(segmentation_.features, [&](const Feature& feature) {
+    return is_cut_off_there(feature, segmentation_.planes[plane.index()], reach);
+  });
+}
+
+/// The cut of a part looks the other way than the plane does, and lies in the rectangle.
+bool FeatureIndex::is_cut_off_there(const Feature& feature, const Plane& plane,
+                                    const Reach& reach) const {
+  if (feature.sense != Sense::protrusion || feature.planes.size() != 1) return false;
+  const Plane& cut = segmentation_.planes[feature.planes[0].index()];
+  if (dot(cut.normal, plane.normal) > -kOpposite ||
+      std::abs(cut.offset_m + plane.offset_m) > tolerances_.plane_offset_m)
+    return false;
+  Reach point;
+  axes_in(plane.normal).grow(point, feature.cap_point);
+  return reach.holds(point, 0);
 }
 
 bool are_all_rings_filled(const Solid& solid, FeatureIndex& caps, const Tolerances& tolerances) {

@@ -18,7 +18,8 @@ class FeatureIndex {
   /// The features with a cap within a rectangle of a plane, from left to right.
   [[nodiscard]] std::vector<FeatureId> within(PlaneId plane, const Reach& reach);
 
-  /// True if the cap of one of them fills 0.8 of the rectangle: it is the ring's.
+  /// True if the cap of one of them fills 0.8 of the rectangle: it is the ring's. So it is if the
+  /// ring runs around what a part with that facet was cut off.
   [[nodiscard]] bool fills(PlaneId plane, const Reach& reach);
 
  private:
@@ -33,6 +34,8 @@ class FeatureIndex {
   };
   const std::vector<PlacedCap>& on(PlaneId plane);
   [[nodiscard]] Reach cap_of(FeatureId id, PlaneId number) const;
+  [[nodiscard]] bool is_cut_off_there(const Feature& feature, const Plane& plane,
+                                      const Reach& reach) const;
   /// One of those with a cap within the rectangle, asked from left to right, passes the test.
   template <class Test>
   bool any_within(PlaneId plane, const Reach& reach, Test test);

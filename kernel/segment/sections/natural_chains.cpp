@@ -8,11 +8,13 @@
 
 namespace oriel::detail {
 
-NaturalChains::NaturalChains(const Boundary& body, std::span<const int> planes, PlaneSide free_side)
+NaturalChains::NaturalChains(const Boundary& body, std::span<const int> planes, PlaneSide free_side,
+                             bool are_necks_free)
     : body_(body),
       world_(body.world()),
       planes_(planes),
       free_side_(free_side),
+      are_necks_free_(are_necks_free),
       answers_(2 * planes.size(), 0),
       entries_(at(world_.planes.size()), -1) {
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -29,6 +31,8 @@ void NaturalChains::expect(std::span<const std::pair<PointId, PointId>> new_edge
       const int rank = world_.points.rank(new_edges[i].first, c.number);
       c.is_known = (rank & 1) == 0 || world_.points.rank(new_edges[i].second, c.number) != rank;
     }
+  if (!are_necks_free_) return;
+  for (const auto& [from, to] : new_edges) grown_.insert(grown_.end(), {from, to});
 }
 
 void NaturalChains::forget() {
@@ -36,8 +40,13 @@ void NaturalChains::forget() {
 }
 
 bool NaturalChains::refresh() {
-  if (std::ranges::all_of(classes_, &ChainsOfClass::is_known)) return false;
+  const auto are_all_known = [&] {
+    return std::ranges::all_of(classes_, &ChainsOfClass::is_known);
+  };
+  if (grown_.empty() && are_all_known()) return false;
   find_living_edges();
+  forget_grown();
+  if (are_all_known()) return false;
   if (free_side_ >= 0) {
     free_ranks_ = world_.points.ranks(world_.planes.class_of(free_side_ >> 1));
     free_rank_ = world_.planes.rank_of(free_side_ >> 1);
@@ -60,6 +69,25 @@ void NaturalChains::find_living_edges() {
   }
 }
 
+/// A facet that has grown at the end of an edge may turn another way there, and the edge be a
+/// shoulder.
+void NaturalChains::forget_grown() {
+  if (grown_.empty()) return;
+  auto& is_grown = world_.scratch.neck_points;
+  is_grown.start(world_.points.size());
+  for (const PointId point : grown_) is_grown.insert(point);
+  grown_.clear();
+  std::vector<std::pair<PointId, PointId>> edges;
+  for (const LivingEdge& edge : edges_)
+    if (is_grown.contains(edge.from) || is_grown.contains(edge.to))
+      edges.emplace_back(edge.from, edge.to);
+  for (ChainsOfClass& c : classes_)
+    for (std::size_t i = 0; c.is_known && i < edges.size(); ++i) {
+      const int rank = world_.points.rank(edges[i].first, c.number);
+      c.is_known = (rank & 1) == 0 || world_.points.rank(edges[i].second, c.number) != rank;
+    }
+}
+
 /// A step on the side from which the facet's outline comes to the plane that `e` lies in, runs in
 /// it along `e` and goes back; none if it goes through the plane or lies in it.
 [[gnu::always_inline]] inline void NaturalChains::add_step(int entry, PointRanks ranks, EdgeId e,
@@ -71,11 +99,22 @@ void NaturalChains::find_living_edges() {
   if (rank_before == rank || rank_after == rank)
     std::tie(rank_before, rank_after) = ranks_around(ranks, e, rank);
   const bool is_up = rank_before > rank;
-  if (rank_before == rank || is_up != (rank_after > rank)) return;
+  if (rank_before == rank) return;
+  if (is_up != (rank_after > rank)) {
+    if (are_necks_free_)
+      shoulders_.push_back({entry, body_.facet(half.facet).side, is_up ? -1 : 1, from, to});
+    return;
+  }
   // The outlines of triangles and quadrangles surround what they run around, holes do not.
   const bool may_hang =
       (second != last && body_.next(second) != last) || body_.loop(half.loop).is_hole;
-  if (may_hang && hangs_below(e, from, to, is_up)) return;
+  if (may_hang) {
+    const bool is_known = world_.points.is_meeting(from) && world_.points.is_meeting(to);
+    const bool hangs = is_known && hangs_below(e, from, to, is_up);
+    if (are_necks_free_ && (hangs || !is_known))
+      shoulders_.push_back({entry, body_.facet(half.facet).side, 0, from, to});
+    if (hangs) return;
+  }
   steps_.push_back({2 * entry + (is_up ? 0 : 1), from, to});
 }
 
@@ -95,6 +134,7 @@ void NaturalChains::look(const ChainsOfClass& c) {
   const auto& [normal, planes, offsets] = world_.planes.normal_class(c.number);
   normal_ = normal;
   steps_.clear();
+  shoulders_.clear();
   Scratch& scratch = world_.scratch;
   if (scratch.leaving.size() < ranks.size()) {
     scratch.leaving.resize(ranks.size(), 0);
@@ -112,9 +152,11 @@ void NaturalChains::look(const ChainsOfClass& c) {
     if (edge.twin_plane != plane) add_step(entry, ranks, edge.twin, edge.to, edge.from);
   }
   sort_steps(c);
+  find_necks();
   for (std::size_t slot = 2 * c.first; slot < 2 * c.last; ++slot) {
     const int first = ends_[slot - 2 * c.first], last = ends_[slot - 2 * c.first + 1];
     const auto steps = std::span(sorted_).subspan(at(first), at(last - first));
+    if (slot % 2 == 0) free_necks(static_cast<int>(slot / 2));
     answers_[slot] = !steps.empty() && has_chain(steps, slot) ? 1 : 0;
   }
 }
@@ -132,10 +174,39 @@ void NaturalChains::sort_steps(const ChainsOfClass& c) {
   for (const ChainStep& step : steps_) sorted_[at(ends[step.slot]++)] = step;
 }
 
-/// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. Told
-/// only of edges between points where their planes meet.
+/// A facet may have a neck between two of its shoulders, but not where its outline leads up, or
+/// down, at all of them. Facets of one side are taken together: they may grow into one.
+void NaturalChains::find_necks() {
+  necks_.clear();
+  std::ranges::sort(shoulders_);
+  const auto place = [](const NeckShoulder& one) { return std::pair(one.entry, one.side); };
+  for (auto first = shoulders_.begin(); first != shoulders_.end();) {
+    const auto last = std::find_if(first, shoulders_.end(), [&](const NeckShoulder& one) {
+      return place(one) != place(*first);
+    });
+    // Those that lead down stand before those that lead up.
+    if (last - first > 1 && (first->turn != (last - 1)->turn || first->turn == 0))
+      for (auto one = first; one != last; ++one) {
+        necks_.emplace_back(one->entry, one->from);
+        necks_.emplace_back(one->entry, one->to);
+      }
+    first = last;
+  }
+}
+
+/// Makes the corners at necks in a plane free. The planes of a class are asked for in their order.
+void NaturalChains::free_necks(int entry) {
+  const auto [first, last] =
+      std::ranges::equal_range(necks_, entry, {}, &std::pair<int, PointId>::first);
+  has_necks_here_ = first != last;
+  if (!has_necks_here_) return;
+  world_.scratch.neck_points.start(world_.points.size());
+  for (auto neck = first; neck != last; ++neck) world_.scratch.neck_points.insert(neck->second);
+}
+
+/// The facet surrounds the run from the other side, as a wall does the sill of a hole in it. To be
+/// asked only of edges between points where their planes meet.
 bool NaturalChains::hangs_below(EdgeId e, PointId from, PointId to, bool is_up) const {
-  if (!world_.points.is_meeting(from) || !world_.points.is_meeting(to)) return false;
   const Vec3 up = is_up ? normal_ : -normal_;
   const Vec3 along = world_.points.at(to) - world_.points.at(from);
   const double inward = dot(cross(world_.planes.normal(body_.side_of_edge(e)), along), up);

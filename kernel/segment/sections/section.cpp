@@ -344,14 +344,15 @@ class Sectioner {
     const bool is_known = region.is_candidate;
     region.covered.clear();
     region.is_natural = region.has_natural_outline = region.is_candidate = false;
+    region.has_neck = false;
     region.new_area = region.area;
-    if (old_area <= 0) return;
+    if (old_area <= 0 && !options_.has_all_regions) return;
     const PlaneSide opposite = section_.split_side(region) ^ 1;
     if (has_facets_[region.is_material ? 0 : 1]) take_off_covered(region, opposite);
-    region.has_natural_outline = is_natural(region.loops[0]);
+    region.has_natural_outline = is_natural(region.loops[0], region);
     region.is_natural =
         region.has_natural_outline && std::all_of(region.loops.begin() + 1, region.loops.end(),
-                                                  [&](int l) { return is_natural(l); });
+                                                  [&](int l) { return is_natural(l, region); });
     region.is_candidate =
         (region.is_natural || region.new_area < old_area) &&
         ((is_known && region.covered.empty()) || !is_sliver(region.loops[0], region.new_area));
@@ -452,10 +453,14 @@ class Sectioner {
     }
   }
 
-  [[nodiscard]] bool is_natural(int l) const {
+  /// Notes in the loop's region if there is a neck.
+  [[nodiscard]] bool is_natural(int l, Region& region) const {
     int c = section_.loops[at(l)].first;
     do {
-      if (!is_natural_chord(c)) return false;
+      if (!is_natural_chord(c)) {
+        if (!options_.are_necks_free || !is_neck_chord(c)) return false;
+        region.has_neck = true;
+      }
       c = section_.crossings[at(c)].next;
     } while (c != section_.loops[at(l)].first);
     return true;
@@ -473,6 +478,55 @@ class Sectioner {
       e = body_.next(e);
     } while (e != end && e != begin);
     return e == end;
+  }
+
+  /// A corner of a facet on the plane.
+  struct NeckStop {
+    double along;
+    EdgeId in, out;
+  };
+
+  /// From corner to corner on the line the chord follows edges of its facet, or goes through a neck
+  /// of it.
+  [[nodiscard]] bool is_neck_chord(int c) const {
+    const EdgeId begin = section_.crossings[at(c)].edge;
+    const EdgeId end = body_.twin(section_.crossings[at(section_.crossings[at(c)].next)].edge);
+    if (level(body_.target(begin)) != 0 || level(body_.origin(end)) != 0) return false;
+    const auto stops = stops_between(begin, end);
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const NeckStop &from = stops[i], &to = stops[i + 1];
+      if (from.out != to.in && !(has_shoulder(from) && has_shoulder(to))) return false;
+    }
+    return stops.size() > 1;
+  }
+
+  /// The facet has an edge on the plane there.
+  [[nodiscard]] bool has_shoulder(const NeckStop& stop) const {
+    return level(body_.origin(stop.in)) == 0 || level(body_.target(stop.out)) == 0;
+  }
+
+  /// The ends of a chord, and the corners between them that touch the plane from the other side.
+  [[nodiscard]] boost::container::small_vector<NeckStop, 8> stops_between(EdgeId begin,
+                                                                          EdgeId end) const {
+    const BodyFacetId f = body_.facet_of(begin);
+    const Vec3 line = line_in(f);
+    const EdgeId first_out = body_.next(begin), last_in = body_.prev(end);
+    const double start = dot(line, body_.at(first_out)), goal = dot(line, body_.at(end));
+    boost::container::small_vector<NeckStop, 8> stops{{start, begin, first_out}};
+    if (body_.target(begin) == body_.origin(end)) return stops;
+    body_.for_each_edge(f, [&](EdgeId e) {
+      const EdgeId out = body_.next(e);
+      if (level(body_.origin(out)) != 0 || level(body_.origin(e)) > 0 ||
+          level(body_.target(out)) > 0)
+        return;
+      const double along = dot(line, body_.at(out));
+      if (along > start && along < goal) stops.push_back({along, e, out});
+    });
+    std::ranges::sort(stops, [](const NeckStop& p, const NeckStop& q) {
+      return std::pair(p.along, p.in) < std::pair(q.along, q.in);
+    });
+    stops.push_back({goal, last_in, end});
+    return stops;
   }
 
   const Boundary& body_;

@@ -39,10 +39,13 @@ struct Region {
   std::vector<BodyFacetId> covered = {};
   /// It is natural or smaller than the old area, and no sliver: a feature may begin here.
   bool is_candidate = false;
-  /// Every chord follows existing edges (or lies in the ground): the cut splits no facet.
+  /// Every chord follows existing edges (or lies in the ground): the cut splits no facet, but for
+  /// the ground and facets that it goes through at a neck.
   bool is_natural = false;
   /// The same of the loop around it alone.
   bool has_natural_outline = false;
+  /// It is natural, and chords of it go through a neck.
+  bool has_neck = false;
 };
 
 /// The section of a body at a plane ± 0: `direction` +1 looks just in front of the plane (as its
@@ -80,6 +83,12 @@ struct SectionOptions {
   PlaneSide free_side = -1;
   /// A region thinner than this is none.
   double weld_m = 0;
+  /// Chords through a neck of a facet are as good as edges: both ends are corners of the facet at
+  /// which an edge of it goes on along the chord's line, as those of a floor do where it runs on
+  /// into a doorway.
+  bool are_necks_free = false;
+  /// Regions without old area are judged, too: what they cover is taken off.
+  bool has_all_regions = false;
 };
 
 /// Makes the section of `section.plane` towards `section.direction`, whatever was in `section`

@@ -1,7 +1,10 @@
 #include "tests/kernel/segment/invariants.h"
+#include "tests/support/changed.h"
 #include "tests/support/houses.h"
 #include "tests/support/near.h"
 #include "tests/support/segmented.h"
+
+#include <numbers>
 
 #include <doctest/doctest.h>
 
@@ -141,6 +144,136 @@ TEST_SUITE("kernel/segment") {
       CHECK(root.parts.size() == 1);
       CHECK(*root.quality == near(1.0 / 7));
       test::check_segmentation(s);
+    }
+  }
+
+  TEST_CASE("a door level with the floor of its loggia is a hole of its own") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {10, 8, 6})
+                                    .remove({3, 0, 3}, {6, 1.3, 5})
+                                    .remove({4, 1.3, 3}, {5, 1.4, 5})
+                                    .build());
+    const FeatureId loggia = feature_in(s.segmentation, {3, 0, 3}, {6, 1.4, 5});
+    const FeatureId door = feature_in(s.segmentation, {4, 1.3, 3}, {5, 1.4, 5});
+    REQUIRE(loggia.is_valid());
+    REQUIRE(door.is_valid());
+    const Feature& f = s.segmentation.features[door.index()];
+    CHECK(f.sense == Sense::hole);
+    CHECK(f.is_natural);
+    CHECK(f.parent == loggia);
+    CHECK(f.host == loggia);
+    CHECK(f.planes.size() == 1);
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("a door level with a slab before it and the slab are two features") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {10, 8, 6})
+                                    .add({3, -1.5, 2.8}, {7, 0, 3})
+                                    .remove({4, 0, 3}, {5, 0.2, 5})
+                                    .build());
+    REQUIRE(s.segmentation.features.size() == 2);
+    CHECK(feature_in(s.segmentation, {3, -1.5, 2.8}, {7, 0, 3}).is_valid());
+    CHECK(feature_in(s.segmentation, {4, 0, 3}, {5, 0.2, 5}).is_valid());
+    for (const Feature& f : s.segmentation.features) {
+      CHECK(f.is_natural);
+      CHECK_FALSE(f.parent.is_valid());
+    }
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("a chimney flush with a wall comes off at the roof through the neck of the wall") {
+    const Segmented s = natural(
+        test::ConvexBody().add(test::gable()).add(test::box({0, 1.6, 6}, {0.6, 2.2, 10})).build());
+    REQUIRE(s.segmentation.features.size() == 1);
+    const Feature& chimney = s.segmentation.features[0];
+    CHECK(chimney.sense == Sense::protrusion);
+    CHECK(chimney.is_natural);
+    CHECK(chimney.box.max.z == near(10));
+    CHECK(s.segmentation.cells.size() == 2);
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("a house stays the body under a flat roof that is wider, and the roof is the part") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {10, 8, 6})
+                                    .add({-0.5, -0.5, 6}, {10.5, 8.5, 6.3})
+                                    .remove({2, 0, 2}, {3, 0.2, 4})
+                                    .build());
+    REQUIRE(s.segmentation.features.size() == 2);
+    const FeatureId roof = feature_in(s.segmentation, {-0.5, -0.5, 6}, {10.5, 8.5, 6.3});
+    const FeatureId window = feature_in(s.segmentation, {2, 0, 2}, {3, 0.2, 4});
+    REQUIRE(roof.is_valid());
+    REQUIRE(window.is_valid());
+    const Feature& f = s.segmentation.features[roof.index()];
+    CHECK(f.sense == Sense::protrusion);
+    REQUIRE(f.planes.size() == 1);
+    CHECK(normal_of(s.segmentation, f.planes[0]) == Vec3{0, 0, 1});
+    CHECK(f.new_area_m2 == near(80));
+    CHECK_FALSE(f.host.is_valid());
+    CHECK_FALSE(s.segmentation.features[window.index()].parent.is_valid());
+    CHECK_FALSE(s.segmentation.features[window.index()].host.is_valid());
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("a bay that a plinth runs into is a feature of its own") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {24, 8, 6})
+                                    .add({0, -0.1, 0}, {24, 0, 0.5})
+                                    .add({4, -1, 0}, {7, 0, 3})
+                                    .build());
+    REQUIRE(s.segmentation.features.size() == 2);
+    const FeatureId bay = feature_in(s.segmentation, {4, -1, 0}, {7, 0, 3});
+    const FeatureId plinth = feature_in(s.segmentation, {0, -0.1, 0}, {24, 0, 0.5});
+    REQUIRE(bay.is_valid());
+    REQUIRE(plinth.is_valid());
+    const Feature& f = s.segmentation.features[bay.index()];
+    CHECK(f.is_natural);
+    CHECK_FALSE(f.parent.is_valid());
+    REQUIRE(f.planes.size() == 3);
+    CHECK(normal_of(s.segmentation, f.planes[0]) == Vec3{0, -1, 0});
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("stairs before a plinth that is higher are a feature of their own") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {24, 8, 6})
+                                    .add({0, -0.1, 0}, {24, 0, 0.6})
+                                    .add({4, -0.6, 0}, {7, -0.1, 0.4})
+                                    .add({4, -1.1, 0}, {7, -0.6, 0.2})
+                                    .build());
+    CHECK(feature_in(s.segmentation, {4, -1.1, 0}, {7, -0.1, 0.4}).is_valid());
+    CHECK(feature_in(s.segmentation, {0, -0.1, 0}, {24, 0, 0.6}).is_valid());
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("a chimney flush with a gable and astride the ridge is one part") {
+    const Segmented s = natural(test::ConvexBody()
+                                    .add(test::gable())
+                                    .add(test::box({0, 3.7, 6}, {0.6, 4.3, 10.5}))
+                                    .build());
+    REQUIRE(s.segmentation.features.size() == 1);
+    CHECK(s.segmentation.features[0].is_natural);
+    CHECK(s.segmentation.features[0].box.max.z == near(10.5));
+    CHECK(s.segmentation.features[0].volume_m3 == near(0.6 * 0.6 * 1.5 + 0.6 * 0.3 * 0.3 * 0.75));
+    test::check_segmentation(s);
+  }
+
+  TEST_CASE("a hole goes before a protrusion of the same value, however the body is turned") {
+    // Both are worth 1/16: 3.75 of 60 square metres, and 5 on 80.
+    const Building building = test::BoxBody()
+                                  .add({0, 0, 0}, {10, 8.5, 6})
+                                  .remove({2, 0, 2}, {3.5, 0.2, 4.5})
+                                  .add({4, 3, 6}, {6, 5.5, 7})
+                                  .build();
+    for (int degrees = 0; degrees < 90; degrees += 5) {
+      CAPTURE(degrees);
+      const double radians = degrees * std::numbers::pi / 180;
+      const Segmented s = natural(test::mapped(building, [&](Vec3 p) {
+        return test::turned(p, {0, 0, 1}, radians);
+      }));
+      REQUIRE(s.segmentation.features.size() == 2);
+      CHECK(s.segmentation.features[0].sense == Sense::hole);
     }
   }
 }

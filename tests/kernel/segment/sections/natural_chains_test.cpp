@@ -30,14 +30,14 @@ ChainCounts compare(const Building& building) {
   const detail::PlaneSide ground = ground_side(solid, world.planes, 0.5);
   std::vector<int> planes;
   for (int plane = 0; plane < world.planes.size(); ++plane) planes.push_back(plane);
-  detail::NaturalChains chains(body, planes, ground);
+  detail::NaturalChains chains(body, planes, ground, true);
   CHECK(chains.refresh());
   CHECK_FALSE(chains.refresh());
   detail::EdgeIndex edges(body, planes);
   ChainCounts counts;
   for (std::size_t slot = 0; slot < 2 * planes.size(); ++slot) {
     detail::Section section{planes[slot / 2], slot % 2 == 0 ? 1 : -1};
-    section_at(body, section, edges.edges_at(slot / 2, section.direction), {ground, 0.001});
+    section_at(body, section, edges.edges_at(slot / 2, section.direction), {ground, 0.001, true});
     const bool is_natural = std::ranges::any_of(
         section.regions, [](const detail::Region& r) { return r.is_natural && r.is_candidate; });
     ++counts.slots;
@@ -66,7 +66,7 @@ TEST_SUITE("kernel/segment") {
     const Boundary body = boundary_of(solid, 0, world);
     std::vector<int> planes;
     for (int plane = 0; plane < world.planes.size(); ++plane) planes.push_back(plane);
-    detail::NaturalChains chains(body, planes, -1);
+    detail::NaturalChains chains(body, planes, -1, false);
     CHECK(chains.refresh());
     int natural = 0;
     for (std::size_t slot = 0; slot < 2 * planes.size(); ++slot)
