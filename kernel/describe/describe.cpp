@@ -300,7 +300,7 @@ void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Pla
   if (gap < Box::kInfinity) table.set(s.id, Attribute::edge_gap, gap);
 }
 
-/// Where it lies within the outline of the host's facet.
+/// Where it lies within the outline of the host's facet, and along its facade.
 void describe_place_in_facet(FeatureTable& table, const DescribedFeature& s,
                              const Segmentation& segmentation) {
   if (!s.feature->host_facet) return;
@@ -308,7 +308,13 @@ void describe_place_in_facet(FeatureTable& table, const DescribedFeature& s,
   const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
   describe_edge_gap(table, s, plane, outline);
   if (is_level(detail::inclination_deg(*s.normal))) return;
-  const double left = detail::extent_along(outline, s.across).low;
+  const CellFacet host = *s.feature->host_facet;
+  const CellFacet facade = *detail::facade_of(segmentation, *s.feature);
+  const bool is_host = facade.cell == host.cell && facade.facet == host.facet;
+  const double left =
+      detail::extent_along(is_host ? outline : detail::outlines_of(segmentation, facade).front(),
+                           s.across)
+          .low;
   table.set(s.id, Attribute::along, s.width.middle() - left);
 }
 

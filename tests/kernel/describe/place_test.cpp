@@ -125,6 +125,22 @@ TEST_SUITE("kernel/describe") {
     CHECK_FALSE(d.has(d.at({4, 4, 9}, {5, 5, 10}), "storey"));
   }
 
+  TEST_CASE("stairs before a plinth are on the facade of the wall and its door") {
+    const Described d = described(BoxBody()
+                                      .add({0, 0, 0}, {24, 8, 6})
+                                      .add({8, -0.1, 0}, {24, 0, 0.6})
+                                      .add({14, -1.1, 0}, {17, -0.1, 0.4})
+                                      .remove({15, 0, 0.6}, {16, 0.2, 2.6})
+                                      .build());
+    const FeatureId door = d.at({15, 0, 0.6}, {16, 0.2, 2.6}),
+                    stairs = d.at({14, -1.1, 0}, {17, -0.1, 0.4}),
+                    plinth = d.at({8, -0.1, 0}, {24, 0, 0.6});
+    for (const FeatureId id : {door, stairs, plinth})
+      check_numbers(d, id, {{"along", id == plinth ? 16.0 : 15.5}});
+    CHECK(holds(d, "same_facade", stairs, door));
+    CHECK(holds(d, "same_facade", stairs, plinth));
+  }
+
   TEST_CASE("what a cavity cannot have is missing and not zero") {
     const Described d = described(test::cavity_and_lumps());
     REQUIRE(d.table().rows() == 1);
