@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -77,6 +80,21 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
   return code;
 }
 
+/// That not one feature is meant, but none or several of `ids`. `matches`: those that are meant.
+[[noreturn]] void refuse(const std::string& meant, const std::vector<std::string>& ids,
+                         const std::vector<std::string>& matches) {
+  constexpr std::size_t kMostShown = 8;
+  const std::vector<std::string>& shown = matches.empty() ? ids : matches;
+  std::string which = matches.empty() ? "there are" : "it may be";
+  if (ids.empty()) which += " none";
+  for (std::size_t i = 0; i < std::min(kMostShown, shown.size()); ++i) which += " " + shown[i];
+  if (shown.size() > kMostShown) which += " ...";
+  throw CLI::ValidationError(
+      "feature", matches.empty() ? fmt::format("no feature starts with '{}'; {}", meant, which)
+                                 : fmt::format("{} features start with '{}'; {}", matches.size(),
+                                               meant, which));
+}
+
 ExitCode work(const ExplainArguments& arguments) {
   if (arguments.surface >= 0) return explain_surfaces(arguments);
   if (!arguments.at.empty()) return explain_place(arguments);
@@ -85,11 +103,12 @@ ExitCode work(const ExplainArguments& arguments) {
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
   BatchRunner runner(arguments, &*rules, report);
-  std::vector<Explanation> explanations;
-  std::vector<std::string> ids;
+  std::optional<Explanation> first;
+  std::vector<std::string> ids, matches;
   const auto clear = [&] {
-    explanations.clear();
+    first.reset();
     ids.clear();
+    matches.clear();
   };
   const auto look_up = [&](const Document&, std::vector<PipelineResult>& lines) {
     for (const PipelineResult& line : lines) {
@@ -97,30 +116,18 @@ ExitCode work(const ExplainArguments& arguments) {
       const FeatureTable& table = line.description.table;
       for (std::size_t i = 0; i < table.rows(); ++i)
         ids.push_back(table.id(FeatureId{static_cast<int>(i)}));
-      for (const FeatureId id : find_features(line, arguments.feature))
-        explanations.push_back(explain(line, *rules, id));
+      for (const FeatureId id : find_features(line, arguments.feature)) {
+        matches.push_back(table.id(id));
+        if (!first) first = explain(line, *rules, id);
+      }
     }
   };
   RecordVisitor visitor(look_up, clear);
   const ExitCode code = runner.run(visitor);
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
-  if (explanations.size() != 1 && !has_said_why) {
-    std::string which = explanations.empty() ? "there are" : "it may be";
-    if (ids.empty()) which += " none";
-    const std::size_t shown =
-        std::min<std::size_t>(8, explanations.empty() ? ids.size() : explanations.size());
-    for (std::size_t i = 0; i < shown; ++i)
-      which += " " + (explanations.empty() ? ids[i] : explanations[i].feature);
-    if (shown < (explanations.empty() ? ids.size() : explanations.size())) which += " ...";
-    throw CLI::ValidationError(
-        "feature", explanations.empty()
-                       ? fmt::format("no feature starts with '{}'; {}", arguments.feature, which)
-                       : fmt::format("{} features start with '{}'; {}", explanations.size(),
-                                     arguments.feature, which));
-  }
-  for (const Explanation& explanation : explanations)
-    std::fputs((arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation)).c_str(),
-               stdout);
+  if (matches.size() != 1 && !has_said_why) refuse(arguments.feature, ids, matches);
+  if (matches.size() == 1)
+    std::fputs((arguments.is_json ? to_json(*first) + "\n" : to_text(*first)).c_str(), stdout);
   return code;
 }
 
