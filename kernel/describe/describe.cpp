@@ -1,6 +1,7 @@
 #include "kernel/describe/describe.h"
 
 #include "kernel/base/index.h"
+#include "kernel/describe/features/facades.h"
 #include "kernel/describe/features/parallel_polygons.h"
 #include "kernel/describe/features/relations.h"
 #include "kernel/describe/features/shape.h"
@@ -302,14 +303,14 @@ void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Pla
 
 /// Where it lies within the outline of the host's facet, and along its facade.
 void describe_place_in_facet(FeatureTable& table, const DescribedFeature& s,
-                             const Segmentation& segmentation) {
+                             const Segmentation& segmentation, detail::Facades& facades) {
   if (!s.feature->host_facet) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
   const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
   describe_edge_gap(table, s, plane, outline);
   if (is_level(detail::inclination_deg(*s.normal))) return;
   const CellFacet host = *s.feature->host_facet;
-  const CellFacet facade = *detail::facade_of(segmentation, *s.feature);
+  const CellFacet facade = *facades.of(*s.feature);
   const bool is_host = facade.cell == host.cell && facade.facet == host.facet;
   const double left =
       detail::extent_along(is_host ? outline : detail::outlines_of(segmentation, facade).front(),
@@ -385,7 +386,8 @@ Description describe(const Building& building, const Segmentation& segmentation,
   std::optional<detail::ParallelPolygons> polygons;
   if (asked.recess) polygons.emplace(building, segmentation.grid_m);
   CellReaches reaches(segmentation);
-  const std::vector<int> facades = detail::facades_of(segmentation);
+  detail::Facades walls(segmentation);
+  const std::vector<int> facades = walls.numbers();
   std::vector<DescribedFeature> subjects;
   std::vector<InFacade> placed;
   std::vector<char> openings;
@@ -402,7 +404,7 @@ Description describe(const Building& building, const Segmentation& segmentation,
     if (polygons) describe_recess(out.table, s, segmentation, *polygons);
     if (asked.growth) describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
-    if (asked.place_in_facet) describe_place_in_facet(out.table, s, segmentation);
+    if (asked.place_in_facet) describe_place_in_facet(out.table, s, segmentation, walls);
     placed.push_back(in_facade(s, facades[i]));
     openings.push_back(is_opening(s) ? 1 : 0);
   }

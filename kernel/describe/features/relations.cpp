@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -57,48 +56,7 @@ std::vector<FeatureGraph::Pair> contained(const Segmentation& segmentation) {
   return pairs;
 }
 
-/// A feature lies in the front of its host, and that is flat before a facet of the same direction.
-bool stands_before_flat(const Segmentation& segmentation, const Feature& feature,
-                        const CellFacet& front) {
-  constexpr double kFlat_m = 0.12;        // plinths, frames and panels stand out 2 to 12 cm
-  constexpr double kParallel = 0.999962;  // of the cosine: 0.5 degrees, as of coplanar facets
-  if (!feature.host.is_valid()) return false;
-  const Feature& host = segmentation.features[feature.host.index()];
-  if (host.sense != Sense::protrusion || !host.host_facet || host.planes.empty()) return false;
-  const Cell& cell = segmentation.cells[front.cell.index()];
-  const Facet& facet = cell.facets[static_cast<std::size_t>(front.facet)];
-  const Plane& before = segmentation.planes[facet.plane.index()];
-  const Plane& behind = segmentation.planes[host.planes.front().index()];
-  return dot(before.normal, behind.normal) > kParallel &&
-         std::abs(before.offset_m - behind.offset_m) <= kFlat_m;
-}
-
 }  // namespace
-
-std::optional<CellFacet> facade_of(const Segmentation& segmentation, const Feature& feature) {
-  const Feature* before = &feature;
-  while (before->host_facet && stands_before_flat(segmentation, *before, *before->host_facet))
-    before = &segmentation.features[before->host.index()];
-  return before->host_facet;
-}
-
-std::vector<int> facades_of(const Segmentation& segmentation) {
-  std::map<std::tuple<CellId, int, FeatureId>, int> numbers;
-  std::vector<int> facades;
-  for (const Feature& feature : segmentation.features) {
-    const auto facade = facade_of(segmentation, feature);
-    if (!facade) {
-      facades.push_back(-1);
-      continue;
-    }
-    const FeatureId host = feature.host;
-    const bool is_in_imprint =
-        host.is_valid() && segmentation.features[host.index()].sense == Sense::imprint;
-    const auto key = std::tuple(facade->cell, facade->facet, is_in_imprint ? host : FeatureId{});
-    facades.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
-  }
-  return facades;
-}
 
 std::vector<int> storeys_of(std::span<const InFacade> features, std::span<const char> is_opening) {
   std::vector<std::size_t> openings;

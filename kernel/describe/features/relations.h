@@ -21,15 +21,6 @@ struct InFacade {
   double a = 0, b = 0;
 };
 
-/// The facet of a feature's facade: that of its host, but of what lies in the front of something
-/// flat before a wall, as stairs do before a plinth, the wall's.
-std::optional<CellFacet> facade_of(const Segmentation& segmentation, const Feature& feature);
-
-/// Facades: features with the same facade_of() share a number, counted in feature
-/// order; -1 without cap. What an imprint owns has the imprint as its facade, as what stands in a
-/// recess has the back of the recess.
-std::vector<int> facades_of(const Segmentation& segmentation);
-
 /// Storeys: openings (holes and imprints in steep facets) grouped by height, two of them together
 /// if their overlap is at least half of the taller; numbered from the lowest. -1: in no storey.
 std::vector<int> storeys_of(std::span<const InFacade> features, std::span<const char> is_opening);

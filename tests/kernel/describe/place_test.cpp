@@ -141,6 +141,22 @@ TEST_SUITE("kernel/describe") {
     CHECK(holds(d, "same_facade", stairs, plinth));
   }
 
+  TEST_CASE(
+      "stairs before a plinth that lies under the whole house are on the facade of the wall") {
+    const Described d = described(BoxBody()
+                                      .add({0, 0, 0.4}, {24, 8, 6})
+                                      .add({-0.05, -0.05, 0}, {24.05, 8.05, 0.4})
+                                      .add({14, -1.1, 0}, {17, -0.05, 0.6})
+                                      .add({14, -0.05, 0.4}, {17, 0, 0.6})
+                                      .remove({15, 0, 0.6}, {16, 0.2, 2.6})
+                                      .build());
+    const FeatureId door = d.at({15, 0, 0.6}, {16, 0.2, 2.6}),
+                    stairs = d.at({14, -1.1, 0}, {17, 0, 0.6});
+    CHECK(holds(d, "same_facade", stairs, door));
+    check_numbers(d, stairs, {{"along", 15.5}});
+    check_numbers(d, door, {{"along", 15.5}});
+  }
+
   TEST_CASE("what a cavity cannot have is missing and not zero") {
     const Described d = described(test::cavity_and_lumps());
     REQUIRE(d.table().rows() == 1);

@@ -1,0 +1,90 @@
+#include "kernel/describe/features/facades.h"
+
+#include "kernel/base/index.h"
+
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace oriel::detail {
+
+namespace {
+
+constexpr double kFlat_m = 0.12;        // plinths, frames and panels stand out 2 to 12 cm
+constexpr double kParallel = 0.999962;  // of the cosine: 0.5 degrees, as of coplanar facets
+constexpr double kSteepFacade = 0.5;    // of the normal's z: 60 degrees, as of openings
+
+/// Lies within the other one, but for the thickness of what is flat.
+bool is_within(const Extent& p, const Extent& q) {
+  return p.low >= q.low - kFlat_m && p.high <= q.high + kFlat_m;
+}
+
+bool do_touch(const Extent& p, const Extent& q) {
+  return p.low <= q.high + kFlat_m && q.low <= p.high + kFlat_m;
+}
+
+}  // namespace
+
+Facades::Facades(const Segmentation& segmentation) : segmentation_(segmentation) {
+  for (std::size_t c = 0; c < segmentation.cells.size(); ++c) {
+    if (segmentation.cells[c].sign < 0) continue;
+    for (std::size_t f = 0; f < segmentation.cells[c].facets.size(); ++f)
+      if (auto wall = wall_of({CellId{static_cast<int>(c)}, static_cast<int>(f)}))
+        walls_.push_back(*wall);
+  }
+}
+
+/// Nothing of a facet that is not steep.
+std::optional<Facades::Wall> Facades::wall_of(CellFacet facet) const {
+  const Cell& cell = segmentation_.cells[facet.cell.index()];
+  const Plane& plane = segmentation_.planes[cell.facets[at(facet.facet)].plane.index()];
+  if (std::abs(plane.normal.z) > kSteepFacade) return std::nullopt;
+  const auto outline = outlines_of(segmentation_, facet).front();
+  const Vec3 across = cross(Vec3{0, 0, 1}, plane.normal);
+  return Wall{facet, plane, extent_along(outline, (1 / length(across)) * across),
+              extent_along(outline, {0, 0, 1})};
+}
+
+/// The largest wall that the front is flat before, or the front itself.
+CellFacet Facades::behind(CellFacet front) const {
+  const auto before = wall_of(front);
+  if (!before) return front;
+  const Wall* largest = &*before;
+  for (const Wall& wall : walls_) {
+    const double gap = before->plane.offset_m - wall.plane.offset_m;
+    if (gap <= 0 || gap > kFlat_m || dot(before->plane.normal, wall.plane.normal) < kParallel)
+      continue;
+    if (wall.size() > largest->size() && is_within(before->across, wall.across) &&
+        do_touch(before->height, wall.height))
+      largest = &wall;
+  }
+  return largest->facet;
+}
+
+std::optional<CellFacet> Facades::of(const Feature& feature) {
+  if (!feature.host_facet) return std::nullopt;
+  const auto [found, is_new] =
+      known_.try_emplace({feature.host_facet->cell, feature.host_facet->facet});
+  if (is_new) found->second = behind(*feature.host_facet);
+  return found->second;
+}
+
+std::vector<int> Facades::numbers() {
+  std::map<std::tuple<CellId, int, FeatureId>, int> numbers;
+  std::vector<int> facades;
+  for (const Feature& feature : segmentation_.features) {
+    const auto facade = of(feature);
+    if (!facade) {
+      facades.push_back(-1);
+      continue;
+    }
+    const FeatureId host = feature.host;
+    const bool is_in_imprint =
+        host.is_valid() && segmentation_.features[host.index()].sense == Sense::imprint;
+    const auto key = std::tuple(facade->cell, facade->facet, is_in_imprint ? host : FeatureId{});
+    facades.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
+  }
+  return facades;
+}
+
+}  // namespace oriel::detail

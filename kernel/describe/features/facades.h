@@ -1,0 +1,41 @@
+#pragma once
+
+#include "kernel/describe/features/shape.h"
+#include "kernel/model/segmentation.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace oriel::detail {
+
+/// The facades of a building. A facade is one facet of a cell; of what lies in the front of
+/// something flat before a wall, as stairs do before a plinth, the wall's.
+class Facades {
+ public:
+  explicit Facades(const Segmentation& segmentation);
+
+  /// The facet of a feature's facade; nothing without cap.
+  [[nodiscard]] std::optional<CellFacet> of(const Feature& feature);
+
+  /// Of each feature, counted in feature order; -1 without cap. What an imprint owns has the
+  /// imprint as its facade, as what stands in a recess has the back of the recess.
+  [[nodiscard]] std::vector<int> numbers();
+
+ private:
+  /// A steep facet of a solid cell, as seen from outside.
+  struct Wall {
+    CellFacet facet;
+    Plane plane;
+    Extent across, height;
+    [[nodiscard]] double size() const { return across.size() * height.size(); }
+  };
+  [[nodiscard]] std::optional<Wall> wall_of(CellFacet facet) const;
+  [[nodiscard]] CellFacet behind(CellFacet front) const;
+
+  const Segmentation& segmentation_;
+  std::vector<Wall> walls_;
+  std::map<std::pair<CellId, int>, CellFacet> known_;
+};
+
+}  // namespace oriel::detail
