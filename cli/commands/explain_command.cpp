@@ -125,8 +125,9 @@ ExitCode work(const ExplainArguments& arguments) {
   RecordVisitor visitor(look_up, clear);
   const ExitCode code = runner.run(visitor);
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
-  if (matches.size() != 1 && !has_said_why) refuse(arguments.feature, ids, matches);
-  if (matches.size() == 1)
+  if (matches.size() > 1 || (matches.empty() && !has_said_why))
+    refuse(arguments.feature, ids, matches);
+  if (first)
     std::fputs((arguments.is_json ? to_json(*first) + "\n" : to_text(*first)).c_str(), stdout);
   return code;
 }

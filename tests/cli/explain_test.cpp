@@ -1,6 +1,7 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 
+#include <fstream>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -66,6 +67,16 @@ TEST_SUITE("cli") {
     CHECK(outcome.exit == 2);
     CHECK(outcome.says("53 features start with 'f'; it may be f"));
     CHECK(outcome.says("..."));
+    CHECK(outcome.out.empty());
+  }
+
+  TEST_CASE("a beginning that fits several features is refused also if the input breaks off") {
+    const Folder folder;
+    const std::string cut = folder / "cut.city.jsonl";
+    std::ofstream(cut, std::ios::binary) << run({"cat", sample("house")}).out << "{\"type\": \n";
+    const Outcome outcome = run({"explain", cut, "f"});
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.says("53 features start with 'f'; it may be f"));
     CHECK(outcome.out.empty());
   }
 
