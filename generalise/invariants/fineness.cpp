@@ -4,6 +4,7 @@
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/tolerances.h"
 
 #include <algorithm>
 #include <array>
@@ -22,9 +23,7 @@ namespace oriel {
 namespace {
 
 /// An edge lies on another one, a facet in front of another one, within the rounding of doubles.
-constexpr double kRounding_m = 1e-6;
-/// The sine of the angle up to which an edge runs along the depth of a recess.
-constexpr double kAlong = 1e-3;
+constexpr double kRounding_m = 1e-6;  // tolerance of doubles
 
 using detail::Outline;
 
@@ -97,7 +96,7 @@ bool is_depth(const ShortEdge& edge, const Segmentation& segmentation) {
   const Feature& feature = segmentation.features[edge.feature.index()];
   if (feature.sense != Sense::hole || feature.planes.empty()) return false;
   const Vec3 normal = segmentation.planes[feature.planes[0].index()].normal;
-  return length(cross(normalised(edge.to - edge.from), normal)) < kAlong;
+  return length(cross(normalised(edge.to - edge.from), normal)) < kDepthLean;
 }
 
 /// By input polygon the feature that an operator drew, or an invalid one if it only went with that.

@@ -4,6 +4,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/boxes.h"
 #include "kernel/geometry/outlines.h"
+#include "kernel/model/tolerances.h"
 #include "kernel/model/vec3.h"
 
 #include <algorithm>
@@ -39,13 +40,6 @@ bool loses(const std::vector<LevelLine>& before, const std::vector<LevelLine>& a
          length_near_m(after, *height_m, within_m) < length_near_m(before, *height_m, within_m) / 2;
 }
 
-/// How far walls of two buildings may be from each other, and how far one may lean: they come to
-/// the millimetre.
-constexpr double kNear_m = 0.01;
-constexpr double kLean = 0.01;
-/// What is smaller is touched along an edge only.
-constexpr double kLeast_m2 = 1e-4;
-
 using detail::HalfSpaceM;
 using detail::Outline;
 
@@ -74,10 +68,10 @@ double shared_m2(const Solid& solid, const PartyWall& wall) {
   double sum_m2 = 0;
   for (const Facet& facet : solid.facets) {
     const Plane& plane = solid.planes[facet.plane.index()];
-    if (length(plane.normal + wall.normal) > kLean) continue;
+    if (length(plane.normal + wall.normal) > kPartyWallLean) continue;
     const auto distance_m = [&](Vec3 p) { return std::abs(dot(plane.normal, p) - plane.offset_m); };
-    const bool is_near =
-        std::ranges::all_of(wall.outlines[0], [&](Vec3 p) { return distance_m(p) <= kNear_m; });
+    const bool is_near = std::ranges::all_of(wall.outlines[0],
+                                             [&](Vec3 p) { return distance_m(p) <= kPartyWall_m; });
     if (!is_near) continue;
     // The outer outline runs round its normal, inner ones the other way: their areas are negative.
     for (const Outline& outline : wall.outlines)
@@ -183,15 +177,15 @@ std::optional<Violation> violation(const Measures& before, const Measures& after
 
 std::vector<PartyWall> party_walls(const Building& building, const Solid& solid,
                                    std::span<const Building> buildings) {
-  const Box near = grown(box_of(solid), kNear_m);
+  const Box near = grown(box_of(solid), kPartyWall_m);
   std::vector<PartyWall> walls;
   for (const Building& other : buildings) {
     if (other.id == building.id) continue;
     const Vec3 moved_m = other.frame.origin_m - building.frame.origin_m;
     for (const Polygon& polygon : other.polygons) {
       PartyWall wall = wall_of(other, polygon, moved_m);
-      if (std::abs(wall.normal.z) > kLean || !is_beside(wall, near)) continue;
-      if (shared_m2(solid, wall) > kLeast_m2) walls.push_back(std::move(wall));
+      if (std::abs(wall.normal.z) > kPartyWallLean || !is_beside(wall, near)) continue;
+      if (shared_m2(solid, wall) > kPartyWall_m2) walls.push_back(std::move(wall));
     }
   }
   return walls;

@@ -148,7 +148,7 @@ void describe_cut(FeatureTable& table, const DescribedFeature& s) {
 
 /// What points of one plane are apart in doubles is nothing: an imprint has no depth.
 double without_dust(double extent_m) {
-  constexpr double kDust_m = 1e-9;
+  constexpr double kDust_m = 1e-9;  // tolerance of doubles
   return extent_m < kDust_m ? 0 : extent_m;
 }
 
@@ -341,7 +341,7 @@ InFacade in_facade(const DescribedFeature& s, int facade) {
 /// A hole or an imprint in a steep facet.
 bool is_opening(const DescribedFeature& s) {
   return detail::kind_of(s.feature->sense) == Sense::hole && s.normal &&
-         std::abs(s.normal->z) < 0.5;
+         std::abs(s.normal->z) < kSteepNormal;
 }
 
 /// "2.2"; nothing if the level of detail is no number.

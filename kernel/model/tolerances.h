@@ -24,4 +24,22 @@ struct Tolerances {
 /// is described, and where roofs are told from walls by it.
 inline constexpr double kWallLean = 0.1736;
 
+/// Openings and facades are in facets steeper than 60 degrees: the z of their normals is less.
+inline constexpr double kSteepNormal = 0.5;
+
+/// What stands out no further than this before a wall is of its facade: plinths, frames and panels
+/// stand out 2 to 12 cm.
+inline constexpr double kFacadeDepth_m = 0.12;
+
+/// How far walls of two buildings may be from each other to be a party wall, and how far they may
+/// lean or be turned (the sine): they come to the millimetre. Walls that share less area meet along
+/// an edge only.
+inline constexpr double kPartyWall_m = 0.01;
+inline constexpr double kPartyWallLean = 0.01;
+inline constexpr double kPartyWall_m2 = 1e-4;
+
+/// An edge runs along the depth of a recess up to this angle (the sine): a millimetre a metre, as
+/// much as welding moves an end.
+inline constexpr double kDepthLean = 1e-3;
+
 }  // namespace oriel

@@ -1,8 +1,10 @@
 #include "kernel/describe/features/facades.h"
 
 #include "kernel/base/index.h"
+#include "kernel/model/tolerances.h"
 
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -10,17 +12,13 @@ namespace oriel::detail {
 
 namespace {
 
-constexpr double kFlat_m = 0.12;        // plinths, frames and panels stand out 2 to 12 cm
-constexpr double kParallel = 0.999962;  // of the cosine: 0.5 degrees, as of coplanar facets
-constexpr double kSteepFacade = 0.5;    // of the normal's z: 60 degrees, as of openings
-
 /// Lies within the other one, but for the thickness of what is flat.
 bool is_within(const Extent& p, const Extent& q) {
-  return p.low >= q.low - kFlat_m && p.high <= q.high + kFlat_m;
+  return p.low >= q.low - kFacadeDepth_m && p.high <= q.high + kFacadeDepth_m;
 }
 
 bool do_touch(const Extent& p, const Extent& q) {
-  return p.low <= q.high + kFlat_m && q.low <= p.high + kFlat_m;
+  return p.low <= q.high + kFacadeDepth_m && q.low <= p.high + kFacadeDepth_m;
 }
 
 }  // namespace
@@ -37,11 +35,14 @@ Facades::Facades(const Segmentation& segmentation) : segmentation_(segmentation)
 /// Nothing of a facet that is not steep.
 std::optional<Facades::Wall> Facades::wall_of(CellFacet facet) const {
   const Cell& cell = segmentation_.cells[facet.cell.index()];
+  // The facets of a void look away from it, into the building.
+  const double outward = cell.sign;
   const Plane& plane = segmentation_.planes[cell.facets[at(facet.facet)].plane.index()];
-  if (std::abs(plane.normal.z) > kSteepFacade) return std::nullopt;
+  if (std::abs(plane.normal.z) > kSteepNormal) return std::nullopt;
   const auto outline = outlines_of(segmentation_, facet).front();
-  const Vec3 across = cross(Vec3{0, 0, 1}, plane.normal);
-  return Wall{facet, plane, extent_along(outline, (1 / length(across)) * across),
+  const Vec3 across = cross(Vec3{0, 0, 1}, outward * plane.normal);
+  return Wall{facet, outward * plane.normal, outward * plane.offset_m,
+              extent_along(outline, (1 / length(across)) * across),
               extent_along(outline, {0, 0, 1})};
 }
 
@@ -49,11 +50,11 @@ std::optional<Facades::Wall> Facades::wall_of(CellFacet facet) const {
 CellFacet Facades::behind(CellFacet front) const {
   const auto before = wall_of(front);
   if (!before) return front;
+  const double parallel = std::cos(Tolerances{}.coplanar_deg * std::numbers::pi / 180);
   const Wall* largest = &*before;
   for (const Wall& wall : walls_) {
-    const double gap = before->plane.offset_m - wall.plane.offset_m;
-    if (gap <= 0 || gap > kFlat_m || dot(before->plane.normal, wall.plane.normal) < kParallel)
-      continue;
+    const double gap = before->offset_m - wall.offset_m;
+    if (gap <= 0 || gap > kFacadeDepth_m || dot(before->normal, wall.normal) < parallel) continue;
     if (wall.size() > largest->size() && is_within(before->across, wall.across) &&
         do_touch(before->height, wall.height))
       largest = &wall;

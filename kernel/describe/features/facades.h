@@ -23,10 +23,11 @@ class Facades {
   [[nodiscard]] std::vector<int> numbers();
 
  private:
-  /// A steep facet of a solid cell, as seen from outside.
+  /// A steep facet of a cell, its normal pointing out of the building.
   struct Wall {
     CellFacet facet;
-    Plane plane;
+    Vec3 normal;
+    double offset_m = 0;
     Extent across, height;
     [[nodiscard]] double size() const { return across.size() * height.size(); }
   };
@@ -34,7 +35,7 @@ class Facades {
   [[nodiscard]] CellFacet behind(CellFacet front) const;
 
   const Segmentation& segmentation_;
-  std::vector<Wall> walls_;
+  std::vector<Wall> walls_;  ///< of solid cells
   std::map<std::pair<CellId, int>, CellFacet> known_;
 };
 

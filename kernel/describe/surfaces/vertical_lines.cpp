@@ -74,7 +74,7 @@ namespace {
 /// spare.
 constexpr int kLargestSide = 64;
 /// Far more than computed heights are off by rounding, far less than surfaces are apart.
-constexpr double kRounding_m = 1e-9;
+constexpr double kRounding_m = 1e-9;  // tolerance of doubles
 
 /// From below, of equal heights by number.
 std::pair<double, int> order(const LineCrossing& c) { return {c.z, c.face}; }

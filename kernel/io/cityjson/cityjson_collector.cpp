@@ -157,7 +157,7 @@ void CityJsonCollector::go_to_micrometres() {
   const MicrometrePoint origin = grid_point({0, 0, 0}, grid_.scale, grid_.translate);
   origin_ = origin;
   for (Triple& vertex : vertices_) vertex = placed(vertex);
-  constexpr double kMicrometre_m = 1e-6;
+  constexpr double kMicrometre_m = 1e-6;  // the unit of the grid, no tolerance
   const Vec3 from = metres_of(origin);
   std::string scale, translate;
   detail::append_json_array(scale, std::array{kMicrometre_m, kMicrometre_m, kMicrometre_m});

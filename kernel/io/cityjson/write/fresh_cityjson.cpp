@@ -14,7 +14,7 @@ namespace {
 
 /// How far a coordinate may lie from a multiple of 0.001 to count as one: doubles in UTM are good
 /// to 1e-9.
-constexpr double kMultiple_m = 1e-8;
+constexpr double kMultiple_m = 1e-8;  // tolerance of doubles
 
 double scale_of(const std::vector<Building>& buildings) {
   for (const Building& building : buildings)
