@@ -94,9 +94,11 @@ class Grouper {
     std::vector<NeighbourPair> pairs = likely_pairs();
     if (pairs.empty()) return std::nullopt;
     for (int p = 0; p < soup_.polygon_count(); ++p) groups_.push_back(group_of(p));
-    unite_all(pairs, Fitting::areas);
-    unite_all(pairs, Fitting::corners);
-    take_in_slivers();
+    do {
+      unite_all(pairs, Fitting::areas);
+      unite_all(pairs, Fitting::corners);
+      pairs = take_in_slivers() ? pairs_of_groups() : std::vector<NeighbourPair>{};
+    } while (!pairs.empty());
     CoplanarGroups groups = numbered();
     if (groups.count == soup_.polygon_count()) return std::nullopt;
     return groups;
@@ -110,6 +112,10 @@ class Grouper {
   /// The plane of least squares goes through the middle of whatever it is given, so it is asked
   /// only where the area vectors are nearly right.
   static constexpr double kMostOfCorners = std::numbers::pi / 36;
+  /// What is more uncertain than that says nothing of the plane it lies in.
+  static constexpr double kSliver = std::numbers::pi / 2;
+  /// The longest side of a sliver is half of its outline; so much of it tells it from the others.
+  static constexpr double kLongest = 0.45;
 
   /// What tells the plane of a group: the area vectors of its polygons, or, as a thin frame has
   /// little area for its reach, the corners of all of them by least squares.
@@ -142,17 +148,40 @@ class Grouper {
       const PolygonShape &a = shapes_[at(p)], &b = shapes_[at(q)];
       // Without area the unit normal is zero.
       if (dot(a.unit, b.unit) < kCosineOfMost || p == q) continue;
-      const double allowed = 2 * angle_ + uncertainty_of(p) + uncertainty_of(q);
+      const double of_a = uncertainty_of(p), of_b = uncertainty_of(q);
+      if (std::max(of_a, of_b) > kSliver) continue;
+      const double allowed = 2 * angle_ + of_a + of_b;
       if (*a.normal != *b.normal && is_angle_above(a.unit, b.unit, allowed)) continue;
       pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
       is_exact &= *a.normal == *b.normal;
     }
     if (is_exact) return {};
+    sort(pairs);
+    return pairs;
+  }
+
+  /// Neighbours in different groups that may lie in one plane: a sliver that went to one of them
+  /// stood between.
+  [[nodiscard]] std::vector<NeighbourPair> pairs_of_groups() {
+    std::vector<NeighbourPair> pairs;
+    for (int h = 0; h < soup_.corner_count(); ++h) {
+      const int twin = mesh_.twin[at(h)];
+      if (twin < h) continue;
+      const int p = sets_.find(mesh_.polygon_of[at(h)]), q = sets_.find(mesh_.polygon_of[at(twin)]);
+      const PlaneGroup &a = groups_[at(p)], &b = groups_[at(q)];
+      if (p == q || std::min(a.area, b.area) <= 0) continue;
+      if (dot(normalised(a.area_vector), normalised(b.area_vector)) < kCosineOfMost) continue;
+      pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
+    }
+    sort(pairs);
+    return pairs;
+  }
+
+  static void sort(std::vector<NeighbourPair>& pairs) {
     std::ranges::sort(pairs, [](const NeighbourPair& x, const NeighbourPair& y) {
       return std::tuple(-x.smaller_area, x.first, x.second) <
              std::tuple(-y.smaller_area, y.first, y.second);
     });
-    return pairs;
   }
 
   [[nodiscard]] PlaneGroup group_of(int polygon) const {
@@ -256,58 +285,144 @@ class Grouper {
     return true;
   }
 
+  /// Slivers that hang together: a fan of them lies along a row of windows, between the wall above
+  /// and the piers below.
+  using Strip = std::vector<int>;
+
   /// Polygons without a normal to speak of join the group that they share more than half of their
   /// outline with, if all their vertices lie in its plane. A sliver in a wall does so, even at the
   /// wall's edge: two sides of a triangle are longer than the third. The side of a recess does not:
-  /// it shares as much with the wall as with the floor.
-  void take_in_slivers() {
-    std::vector<int> slivers;
+  /// it shares as much with the wall as with the floor. First each for itself, then strip by strip.
+  /// Returns whether any did.
+  bool take_in_slivers() {
+    std::vector<Strip> strips;
+    strip_of_.assign(soup_.polygons.size(), -1);
     for (int p = 0; p < soup_.polygon_count(); ++p)
-      if (groups_[at(p)].uncertainty > std::numbers::pi / 2 && is_alone(p)) slivers.push_back(p);
-    while (std::erase_if(slivers, [&](int p) { return take_in(p); }) > 0) {
-    }
+      if (is_sliver(p) && is_alone(p)) add_strip(strips, {p});
+    const bool any = take_in(strips);
+    join_along_longest_sides(strips);
+    return take_in(strips) || any;
   }
+
+  [[nodiscard]] bool is_sliver(int group) const { return groups_[at(group)].uncertainty > kSliver; }
 
   [[nodiscard]] bool is_alone(int p) {
     return sets_.find(p) == p && groups_[at(p)].points.size() == soup_.corners_of(p).size();
   }
 
-  bool take_in(int p) {
-    const int group = group_around(p);
+  void add_strip(std::vector<Strip>& strips, Strip strip) {
+    for (const int p : strip) strip_of_[at(p)] = static_cast<int>(strips.size());
+    strips.push_back(std::move(strip));
+  }
+
+  /// Until none joins a group any more; keeps those that have not.
+  bool take_in(std::vector<Strip>& strips) {
+    const std::size_t before = strips.size();
+    while (std::erase_if(strips, [&](const Strip& strip) { return take_in(strip); }) > 0) {
+    }
+    return strips.size() < before;
+  }
+
+  bool take_in(const Strip& strip) {
+    const int group = group_around(strip);
     if (group < 0) return false;
-    const PlaneGroup& sliver = groups_[at(p)];
     PlaneGroup grown = groups_[at(group)];
-    const double residual = residual_of(sliver, grown.plane);
-    if (residual > reach_) return false;
-    grown.points.insert(grown.points.end(), sliver.points.begin(), sliver.points.end());
-    grown.box.grow(sliver.box);
-    grown.residual = std::max(grown.residual, residual);
-    sets_.unite(p, group);
-    groups_[at(sets_.find(p))] = std::move(grown);
+    for (const int p : strip) {
+      const PlaneGroup& sliver = groups_[at(p)];
+      const double residual = residual_of(sliver, grown.plane);
+      if (residual > reach_) return false;
+      grown.points.insert(grown.points.end(), sliver.points.begin(), sliver.points.end());
+      grown.box.grow(sliver.box);
+      grown.residual = std::max(grown.residual, residual);
+    }
+    for (const int p : strip) sets_.unite(p, group);
+    groups_[at(sets_.find(group))] = std::move(grown);
+    for (const int p : strip) strip_of_[at(p)] = -1;
     return true;
   }
 
-  /// The group with area that a polygon shares more than half of its outline with, or -1.
-  [[nodiscard]] int group_around(int p) {
-    std::vector<std::pair<int, double>> shared;  // groups and lengths
+  /// Makes strips of single slivers longer, where they meet along the longest side of one.
+  void join_along_longest_sides(std::vector<Strip>& strips) {
+    DisjointSets sets(strips.size());
+    for (std::size_t s = 0; s < strips.size(); ++s)
+      strip_of_[at(strips[s].front())] = static_cast<int>(s);
+    for (std::size_t s = 0; s < strips.size(); ++s) {
+      double outline = 0;
+      for_each_edge(strips[s].front(), [&](int, double length) { outline += length; });
+      for_each_edge(strips[s].front(), [&](int twin, double length) {
+        const int other = twin < 0 ? -1 : strip_of_[at(mesh_.polygon_of[at(twin)])];
+        if (other >= 0 && length > kLongest * outline) sets.unite(static_cast<int>(s), other);
+      });
+    }
+    std::vector<Strip> joined(strips.size());
+    for (std::size_t s = 0; s < strips.size(); ++s)
+      joined[at(sets.find(static_cast<int>(s)))].push_back(strips[s].front());
+    strips.clear();
+    for (Strip& strip : joined)
+      if (!strip.empty()) add_strip(strips, std::move(strip));
+  }
+
+  /// Of each edge of a polygon its twin, or -1, and its length.
+  template <typename Visit>
+  void for_each_edge(int polygon, Visit visit) const {
+    for (const int r : soup_.rings_of(polygon))
+      for (int h = soup_.first_corner[at(r)]; h < soup_.first_corner[at(r) + 1]; ++h)
+        visit(mesh_.twin[at(h)],
+              length(point(soup_.corners[at(mesh_.next[at(h)])]) - point(soup_.corners[at(h)])));
+  }
+
+  /// A group that a strip shares so much of its outline with.
+  struct Contact {
+    int group;
+    double length;
+  };
+
+  /// The group with area that a strip shares more than half of its outline with, or -1. Two that
+  /// together have more than half become one if they fit: the wall above a row of windows has no
+  /// more than half of the strip between them, and the piers have the rest.
+  [[nodiscard]] int group_around(const Strip& strip) {
     double outline = 0;
-    for (const int r : soup_.rings_of(p))
-      for (int h = soup_.first_corner[at(r)]; h < soup_.first_corner[at(r) + 1]; ++h) {
-        const double edge =
-            length(point(soup_.corners[at(mesh_.next[at(h)])]) - point(soup_.corners[at(h)]));
-        outline += edge;
-        if (mesh_.twin[at(h)] < 0) continue;
-        const int group = sets_.find(mesh_.polygon_of[at(mesh_.twin[at(h)])]);
-        const auto known = std::ranges::find(shared, group, &std::pair<int, double>::first);
-        if (known != shared.end())
-          known->second += edge;
-        else
-          shared.emplace_back(group, edge);
-      }
-    for (const auto& [group, edges] : shared)
-      if (group != sets_.find(p) && 2 * edges > outline && groups_[at(group)].area > 0)
-        return group;
+    const std::vector<Contact> contacts = contacts_of(strip, outline);
+    for (const Contact& contact : contacts)
+      if (2 * contact.length > outline) return contact.group;
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      for (std::size_t j = i + 1; j < contacts.size(); ++j)
+        if (2 * (contacts[i].length + contacts[j].length) > outline &&
+            unite_across(strip, contacts[i].group, contacts[j].group))
+          return sets_.find(contacts[i].group);
     return -1;
+  }
+
+  bool unite_across(const Strip& strip, int first, int second) {
+    for (const int group : {first, second}) {
+      const RoughPlane& plane = groups_[at(group)].plane;
+      if (is_sliver(group) || std::ranges::any_of(strip, [&](int p) {
+            return residual_of(groups_[at(p)], plane) > reach_;
+          }))
+        return false;
+    }
+    if (dot(groups_[at(first)].plane.normal, groups_[at(second)].plane.normal) < kCosineOfMost)
+      return false;
+    return unite(first, second, Fitting::areas) || unite(first, second, Fitting::corners);
+  }
+
+  /// The groups with area along a strip, and the length of its outline.
+  [[nodiscard]] std::vector<Contact> contacts_of(const Strip& strip, double& outline) {
+    std::vector<Contact> contacts;
+    for (const int p : strip)
+      for_each_edge(p, [&](int twin, double length) {
+        if (twin >= 0 && strip_of_[at(mesh_.polygon_of[at(twin)])] == strip_of_[at(p)]) return;
+        outline += length;
+        if (twin < 0) return;
+        const int group = sets_.find(mesh_.polygon_of[at(twin)]);
+        if (groups_[at(group)].area <= 0) return;
+        const auto known = std::ranges::find(contacts, group, &Contact::group);
+        if (known != contacts.end())
+          known->length += length;
+        else
+          contacts.push_back({group, length});
+      });
+    return contacts;
   }
 
   CoplanarGroups numbered() {
@@ -335,6 +450,7 @@ class Grouper {
   DisjointSets sets_;
   Vec3 origin_;                     ///< of the sums over points: near them
   std::vector<PlaneGroup> groups_;  ///< by the set's smallest member
+  std::vector<int> strip_of_;       ///< by polygon: the strip of slivers it is in, or -1
 };
 
 }  // namespace
