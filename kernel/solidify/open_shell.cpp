@@ -1,13 +1,13 @@
 #include "kernel/solidify/open_shell.h"
 
 #include "kernel/base/index.h"
+#include "kernel/solidify/mend/t_vertices.h"
 #include "kernel/solidify/planes/plane_clusters.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -17,15 +17,18 @@ namespace oriel::detail {
 
 namespace {
 
-/// Polygons that go on in one plane: 1° is what surveyed walls show between neighbours.
-constexpr double kGoesOn_deg = 1;
+/// Between polygons that go on in one plane: 1° is what surveyed walls show between neighbours.
+constexpr double kCosineOfGoingOn = 0.99985;
 /// A patch looks away from the middle clearly if the mean cosine between its normals and the
 /// directions from there is at least this: of a closed box it is above 0.5.
 constexpr double kClearly = 0.3;
 
+/// The two points of an edge, the smaller first.
+using DrawnEdge = std::pair<int, int>;
+
 class OpenMeshBuilder {
  public:
-  explicit OpenMeshBuilder(Soup& soup) : soup_(soup) {}
+  OpenMeshBuilder(Soup& soup, std::span<const DrawnEdge> drawn) : soup_(soup), drawn_(drawn) {}
 
   ShellMesh run() {
     link_rings();
@@ -41,7 +44,7 @@ class OpenMeshBuilder {
   /// A half-edge with the ends of its edge.
   struct HalfEdgeEnds {
     int low, high, half_edge;
-    [[nodiscard]] std::pair<int, int> ends() const { return {low, high}; }
+    [[nodiscard]] DrawnEdge ends() const { return {low, high}; }
   };
   /// A neighbour over an edge of two; whether the two rings run against each other there.
   struct Neighbour {
@@ -95,6 +98,15 @@ class OpenMeshBuilder {
     std::ranges::sort(edges_, {},
                       [](const HalfEdgeEnds& e) { return std::tuple(e.low, e.high, e.half_edge); });
   }
+  /// Whether the edge was drawn like that by some polygon, and is not what others left of it.
+  [[nodiscard]] bool is_drawn(const HalfEdgeEnds& edge) const {
+    return std::ranges::binary_search(drawn_, edge.ends());
+  }
+  /// The cosine between the normals of two polygons.
+  [[nodiscard]] double flatness(int p, int q) const {
+    return dot(normalised(area_[at(p)]), normalised(area_[at(q)]));
+  }
+
   /// Visits the half-edges of each edge, as [first, past) of `edges_`.
   template <class Visit>
   void for_each_edge(Visit visit) const {
@@ -110,6 +122,7 @@ class OpenMeshBuilder {
       if (past - first != 2) return;
       const int h = edges_[first].half_edge, g = edges_[first + 1].half_edge;
       const int p = polygon_of(h), q = polygon_of(g);
+      if (!is_drawn(edges_[first]) && std::abs(flatness(p, q)) < kCosineOfGoingOn) return;
       const bool agrees = from(h) != from(g);
       neighbours[at(p)].push_back({q, agrees});
       neighbours[at(q)].push_back({p, agrees});
@@ -158,16 +171,15 @@ class OpenMeshBuilder {
     edges_.clear();  // half-edges have other ends now
     group_edges();
     mesh_.twin.assign(soup_.corners.size(), -1);
-    const double cosine = std::cos(kGoesOn_deg * std::numbers::pi / 180);
     for_each_edge([&](std::size_t first, std::size_t past) {
+      const bool is_usual = past - first == 2 && is_drawn(edges_[first]);
       std::vector<std::tuple<double, int, int>> pairs;  // the flattest first
       for (std::size_t i = first; i < past; ++i)
         for (std::size_t j = first; j < past; ++j) {
           const int h = edges_[i].half_edge, g = edges_[j].half_edge;
           if (from(h) != edges_[i].low || from(g) == edges_[j].low) continue;
-          const double flat =
-              dot(normalised(area_[at(polygon_of(h))]), normalised(area_[at(polygon_of(g))]));
-          if (past - first == 2 || flat >= cosine) pairs.emplace_back(-flat, h, g);
+          const double flat = flatness(polygon_of(h), polygon_of(g));
+          if (is_usual || flat >= kCosineOfGoingOn) pairs.emplace_back(-flat, h, g);
         }
       std::ranges::sort(pairs);
       for (const auto& [flat, h, g] : pairs) {
@@ -185,11 +197,33 @@ class OpenMeshBuilder {
   }
 
   Soup& soup_;
+  std::span<const DrawnEdge> drawn_;
   ShellMesh mesh_;
   std::vector<HalfEdgeEnds> edges_;  ///< sorted
   std::vector<Vec3> area_, outward_;
   std::vector<char> is_turned_;
 };
+
+/// The edges of all polygons, sorted.
+std::vector<DrawnEdge> edges_of(const Soup& soup) {
+  std::vector<DrawnEdge> edges;
+  for (int r = 0; r < soup.ring_count(); ++r) {
+    const auto ring = soup.ring(r);
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      edges.push_back(std::minmax({ring[i], ring[(i + 1) % ring.size()]}));
+  }
+  std::ranges::sort(edges);
+  const auto repeated = std::ranges::unique(edges);
+  edges.erase(repeated.begin(), repeated.end());
+  return edges;
+}
+
+bool is_mostly_triangles(const Soup& soup) {
+  int triangles = 0;
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    triangles += soup.corners_of(p).size() == 3 ? 1 : 0;
+  return 2 * triangles > soup.polygon_count();
+}
 
 /// The half-edges of polygons that need not close: never fails, and leaves open (twin -1) what does
 /// not pair up. Every point is one vertex.
@@ -197,8 +231,16 @@ class OpenMeshBuilder {
 /// Polygons are turned round until neighbours agree; where they cannot, those between them stay
 /// open. Each connected patch then looks away from the middle of the building if most of it does
 /// so clearly, else as most of its polygons did. Where more than two polygons meet at an edge,
-/// those that go on in one plane are paired. The soup's rings are turned round along.
-ShellMesh build_open_mesh(Soup& soup) { return OpenMeshBuilder(soup).run(); }
+/// those that go on in one plane are paired. Where most polygons are triangles, points on open
+/// edges are put into them: triangulators leave out triangles without area, so that several meet a
+/// longer edge. Over what is left of such an edge only those that go on in one plane are
+/// neighbours. The soup's rings are turned round along.
+ShellMesh build_open_mesh(Soup& soup, const Tolerances& tolerances) {
+  const std::vector<DrawnEdge> drawn = edges_of(soup);
+  if (is_mostly_triangles(soup))
+    soup = insert_t_vertices(soup, tolerances.weld_m / soup.grid_m).soup;
+  return OpenMeshBuilder(soup, drawn).run();
+}
 
 }  // namespace
 
@@ -313,7 +355,7 @@ std::optional<Solid> open_shell(const Building& building, const Tolerances& tole
   std::vector<Issue> of_solidify;  // solidify has reported them
   Soup soup = detail::weld(building, tolerances, of_solidify);
   if (soup.polygons.empty()) return std::nullopt;
-  const ShellMesh mesh = detail::build_open_mesh(soup);
+  const ShellMesh mesh = detail::build_open_mesh(soup, tolerances);
   const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances);
   Solid shell = FacetMaker(soup, mesh, clusters).run();
   if (shell.facets.empty()) return std::nullopt;

@@ -12,8 +12,8 @@ namespace oriel {
 /// facets as solidify makes them, but no shells. Every input polygon that has an area is in one
 /// facet, except where welding has folded polygons onto themselves: they bound nothing. Edges are
 /// met once, twice or more often; vertices are welded and stay where they are, off their planes by
-/// up to plane_offset_m. Neighbours look the same way, patches of them away from the middle of the
-/// building.
+/// up to plane_offset_m. Of triangles they are put into open edges that they lie on. Neighbours
+/// look the same way, patches of them away from the middle of the building.
 ///
 /// It is no solid: `segment` and what cuts must not be given it, `segment_open` may. Nothing if no
 /// polygon is left, or if the building is larger than the exact range (solidify's E501).
