@@ -4,6 +4,7 @@
 #include "kernel/solidify/mend/t_vertices.h"
 #include "kernel/solidify/planes/plane_clusters.h"
 #include "kernel/solidify/shells/shell_mesh.h"
+#include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
 
 #include <algorithm>
@@ -225,20 +226,28 @@ bool is_mostly_triangles(const Soup& soup) {
   return 2 * triangles > soup.polygon_count();
 }
 
+/// Triangles without area go, and points are put into the open edges that they lie on: so it does
+/// not matter whether a triangulator makes such triangles or lets several meet a longer edge.
+Soup joined_triangles(const Soup& soup, double reach) {
+  const std::vector<PolygonShape> shapes = shapes_of(soup);
+  SoupBuilder builder(soup);
+  for (int p = 0; p < soup.polygon_count(); ++p)
+    if (shapes[at(p)].normal) builder.add_polygon(soup, p);
+  return insert_t_vertices(builder.finish(), reach).soup;
+}
+
 /// The half-edges of polygons that need not close: never fails, and leaves open (twin -1) what does
 /// not pair up. Every point is one vertex.
 ///
 /// Polygons are turned round until neighbours agree; where they cannot, those between them stay
 /// open. Each connected patch then looks away from the middle of the building if most of it does
 /// so clearly, else as most of its polygons did. Where more than two polygons meet at an edge,
-/// those that go on in one plane are paired. Where most polygons are triangles, points on open
-/// edges are put into them: triangulators leave out triangles without area, so that several meet a
-/// longer edge. Over what is left of such an edge only those that go on in one plane are
-/// neighbours. The soup's rings are turned round along.
+/// those that go on in one plane are paired. Over what was left of an edge of triangles when points
+/// were put into it, only those that go on in one plane are neighbours. The soup's rings are turned
+/// round along.
 ShellMesh build_open_mesh(Soup& soup, const Tolerances& tolerances) {
   const std::vector<DrawnEdge> drawn = edges_of(soup);
-  if (is_mostly_triangles(soup))
-    soup = insert_t_vertices(soup, tolerances.weld_m / soup.grid_m).soup;
+  if (is_mostly_triangles(soup)) soup = joined_triangles(soup, tolerances.weld_m / soup.grid_m);
   return OpenMeshBuilder(soup, drawn).run();
 }
 

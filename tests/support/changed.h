@@ -69,6 +69,21 @@ inline Building shuffled(const Building& building, std::uint64_t seed,
   return out;
 }
 
+/// Every polygon without inner rings cut into a fan of triangles (polygons are convex or not looked
+/// at); sources are counted anew.
+inline Building in_triangles(const Building& building) {
+  Building out = building;
+  out.polygons.clear();
+  for (const Polygon& polygon : building.polygons)
+    for (std::size_t i = 1; i + 1 < polygon.rings[0].size(); ++i) {
+      Polygon triangle = polygon;
+      triangle.rings = {{polygon.rings[0][0], polygon.rings[0][i], polygon.rings[0][i + 1]}};
+      triangle.source = static_cast<int>(out.polygons.size());
+      out.polygons.push_back(std::move(triangle));
+    }
+  return out;
+}
+
 /// Every coordinate moved by up to `size_m` in either direction.
 inline Building with_noise(Building building, double size_m, std::uint64_t seed) {
   std::mt19937_64 random(seed);

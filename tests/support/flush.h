@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/support/changed.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 
@@ -81,21 +82,6 @@ inline Building block_with_door() {
        {{0, 0, 6}, {10, 0, 6}, {10, 8, 6}, {0, 8, 6}},
        {{0, 8, 0}, {10, 8, 0}, {10, 0, 0}, {5, 0, 0}, {4, 0, 0}, {0, 0, 0}},
        {{4, 0, 0}, {5, 0, 0}, {5, 0, 2}, {4, 0, 2}}});
-}
-
-/// Every polygon without inner rings cut into a fan of triangles (polygons are convex or not looked
-/// at); sources are counted anew.
-inline Building in_triangles(const Building& building) {
-  Building out = building;
-  out.polygons.clear();
-  for (const Polygon& polygon : building.polygons)
-    for (std::size_t i = 1; i + 1 < polygon.rings[0].size(); ++i) {
-      Polygon triangle = polygon;
-      triangle.rings = {{polygon.rings[0][0], polygon.rings[0][i], polygon.rings[0][i + 1]}};
-      triangle.source = static_cast<int>(out.polygons.size());
-      out.polygons.push_back(std::move(triangle));
-    }
-  return out;
 }
 
 }  // namespace oriel::test

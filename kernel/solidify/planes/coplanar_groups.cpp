@@ -134,8 +134,10 @@ class Grouper {
     return uncertainty_rad(height_of(soup_, polygon, shapes_[at(polygon)].area), reach_);
   }
 
+  static bool has_normal(const PolygonShape& shape) { return shape.normal.has_value(); }
+
   /// Neighbours with area whose normals may be those of one plane, the largest first. None if all
-  /// such normals are equal: then there is nothing to fit.
+  /// such normals are equal and no polygon is without area: then there is nothing to fit.
   [[nodiscard]] std::vector<NeighbourPair> likely_pairs() const {
     std::vector<NeighbourPair> pairs;
     bool is_exact = true;
@@ -155,7 +157,7 @@ class Grouper {
       pairs.push_back({std::min(a.area, b.area), std::min(p, q), std::max(p, q)});
       is_exact &= *a.normal == *b.normal;
     }
-    if (is_exact) return {};
+    if (is_exact && std::ranges::all_of(shapes_, has_normal)) return {};
     sort(pairs);
     return pairs;
   }

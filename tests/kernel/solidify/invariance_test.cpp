@@ -142,12 +142,52 @@ TEST_SUITE("kernel/solidify") {
     CHECK(fitted_to_noise(wide, 0.004).plane_offset_m == 0.05);
   }
 
-  TEST_CASE("triangles and a handful of polygons tell no noise") {
+  TEST_CASE("the halves of rectangles show the noise of triangles") {
+    const Building halves = test::in_triangles(test::BoxBody()
+                                                   .add({0, 0, 0}, {12, 8, 6})
+                                                   .remove({2, 0, 1}, {4, 0.5, 2})
+                                                   .remove({7, 0, 1}, {9, 0.5, 2})
+                                                   .build());
+    CHECK(noise_of(halves) < 1e-6);
+    for (const double size_m : {0.0005, 0.002, 0.005}) {
+      const Building noisy = test::with_noise(halves, size_m, 1);
+      const double noise_m = noise_of(noisy);
+      CHECK(noise_m > 0.45 * size_m);
+      CHECK(noise_m < 0.8 * size_m);
+      Building apart = noisy;  // each triangle with corners of its own
+      apart.vertices.clear();
+      for (Polygon& polygon : apart.polygons)
+        for (int& v : polygon.rings[0]) {
+          apart.vertices.push_back(noisy.vertices[static_cast<std::size_t>(v)]);
+          v = static_cast<int>(apart.vertices.size()) - 1;
+        }
+      CHECK(noise_of(apart) == noise_m);
+    }
+  }
+
+  TEST_CASE("a fold between two triangles is no noise") {
+    Building tent;
+    tent.vertices = {{0, 0, 0}, {8, 0, 0}};
+    for (int i = 0; i < 20; ++i) {
+      const double fold = i % 2 == 0 ? 0.5 : -3;  // a shallow ridge, and a steep one
+      tent.vertices.push_back({2, 3, fold});
+      tent.vertices.push_back({2, -3, fold});
+      const int n = static_cast<int>(tent.vertices.size());
+      for (std::vector<int> ring : {std::vector{0, 1, n - 2}, std::vector{1, 0, n - 1}}) {
+        Polygon polygon;
+        polygon.source = static_cast<int>(tent.polygons.size());
+        polygon.rings = {std::move(ring)};
+        tent.polygons.push_back(std::move(polygon));
+      }
+    }
+    CHECK(noise_of(tent) == 0);
+  }
+
+  TEST_CASE("a handful of polygons tells no noise") {
     Building box = test::with_noise(test::in_whole_facets(bodies().front().make()), 0.005, 1);
     box.polygons.resize(5);
     CHECK(noise_of(box) == 0);
-    for (Polygon& polygon : box.polygons) polygon.rings[0].resize(3);
-    CHECK(noise_of(box) == 0);
+    CHECK(noise_of(test::in_triangles(box)) == 0);
     CHECK(noise_of(Building{}) == 0);
   }
 

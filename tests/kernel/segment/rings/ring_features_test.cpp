@@ -9,6 +9,7 @@
 #include "tests/support/generated_house.h"
 #include "tests/support/houses.h"
 #include "tests/support/segmented.h"
+#include "tests/support/triangle_wall.h"
 
 #include <set>
 #include <tuple>
@@ -160,6 +161,19 @@ TEST_SUITE("kernel/segment") {
     CHECK(left.removed.empty());
     REQUIRE(left.refused.size() == 1);
     CHECK(left.refused[0].reason == "no cut frees it: only its ring is known");
+  }
+
+  TEST_CASE(
+      "windows of an open building are apart whether triangles without area are there or not") {
+    for (const test::Slivers slivers : {test::Slivers::kept, test::Slivers::left_out}) {
+      Building building = test::block_with_row(slivers);
+      building = test::in_triangles(building);
+      const Segmented s = opened(building, {0, 1});  // without its ground
+      const auto pocket = [](long x) {
+        return std::pair(Box6{x, 0, 1000, x + 2000, 150, 2000}, Sense::hole);
+      };
+      CHECK(boxes_of(s) == std::multiset{pocket(2000), pocket(7000)});
+    }
   }
 
   TEST_CASE("a pane that floats in a hole of an open wall belongs to the opening") {
