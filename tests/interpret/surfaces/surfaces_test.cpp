@@ -192,6 +192,35 @@ TEST_SUITE("interpret") {
               .find("R240") != std::string::npos);
   }
 
+  TEST_CASE("identical sills are walls under the eaves and under the open sky") {
+    for (const char* pack : {"residential", "surfaces-only"}) {
+      const RuleBase base = *load_pack_file(pack).value;
+      SurfaceTable sill(1);
+      sill.set(0, SurfaceAttribute::inclination, 2.0);
+      sill.set(0, SurfaceAttribute::base_height, 7.0);
+      sill.set(0, SurfaceAttribute::b, 0.15);
+      SurfaceTable parapet = sill;  // narrow, too, but nothing goes on above it
+      parapet.set(0, SurfaceAttribute::wall_up, 0.0);
+      CHECK(interpret_surfaces(base, parapet).at(0).type == "RoofSurface");
+      sill.set(0, SurfaceAttribute::wall_up, 0.45);
+      CHECK(interpret_surfaces(base, sill).at(0).type == "WallSurface");
+      sill.set(0, SurfaceAttribute::gap_above, 1.2);
+      CHECK(interpret_surfaces(base, sill).at(0).type == "WallSurface");
+    }
+  }
+
+  TEST_CASE("a canopy has a roof where a ledge of the same shape has a floor") {
+    const RuleBase base = *load_pack_file("residential").value;
+    SurfaceTable ledge(1);
+    ledge.set(0, SurfaceAttribute::inclination, 1.0);
+    ledge.set(0, SurfaceAttribute::base_height, 2.6);
+    ledge.set(0, SurfaceAttribute::b, 1.0);
+    ledge.set(0, SurfaceAttribute::wall_up, 0.4);
+    CHECK(interpret_surfaces(base, ledge).at(0).type == "OuterFloorSurface");
+    ledge.set(0, SurfaceAttribute::part, "canopy");
+    CHECK(interpret_surfaces(base, ledge).at(0).type == "RoofSurface");
+  }
+
   TEST_CASE("both built-in packs name surfaces alike where no feature is named") {
     const RuleBase whole = *load_pack_file("residential").value;
     const RuleBase alone = *load_pack_file("surfaces-only").value;
