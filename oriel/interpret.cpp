@@ -30,10 +30,20 @@ LabelDiff diff_labels(std::span<const DescribedBuilding> buildings,
 bool RecordLabeller::label(FeatureRecord& record) {
   const auto row = find(record);
   if (!row) return false;
-  if (groups_of_ != building_) groups_ = groups_by_feature(run_[building_]);
-  groups_of_ = building_;
-  set_verdict(record, run_[building_].verdicts[*row], groups_[*row]);
+  if (known_ != building_) know_building();
+  const FeatureId whole = wholes_[*row];
+  set_verdict(record, run_[building_].verdicts[*row], groups_[*row],
+              whole.is_valid() ? buildings_[building_].table.id(whole) : "");
   return true;
+}
+
+void RecordLabeller::know_building() {
+  const FeatureGraph& graph = buildings_[building_].graph;
+  std::vector<FeatureId> hosts(buildings_[building_].table.rows());
+  for (const auto& [feature, host] : graph.pairs("host")) hosts[feature.index()] = host;
+  groups_ = groups_by_feature(run_[building_]);
+  wholes_ = wholes_by_feature(run_[building_], hosts);
+  known_ = building_;
 }
 
 /// The row of the record, not before those that were found so far.

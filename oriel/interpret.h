@@ -40,13 +40,15 @@ class RecordLabeller {
 
  private:
   std::optional<std::size_t> find(const FeatureRecord& record);
+  void know_building();
 
   std::span<const DescribedBuilding> buildings_;
   std::span<const Interpretation> run_;
   std::size_t building_ = 0;
   std::size_t row_ = 0;  ///< after the last one found
-  std::optional<std::size_t> groups_of_;
-  std::vector<std::vector<std::string>> groups_;  ///< of the features of that building
+  std::optional<std::size_t> known_;  ///< the building of which that is known:
+  std::vector<std::vector<std::string>> groups_;
+  std::vector<FeatureId> wholes_;
 };
 
 }  // namespace oriel

@@ -54,6 +54,7 @@ class Annotator {
 
  private:
   void find_roles();
+  void find_parts();
   void find_owners();
   void name_surfaces();
   void add_surfaces();
@@ -85,8 +86,8 @@ class Annotator {
   /// What each feature is written as, in short: every polygon asks for it.
   enum class Kind : char { nothing, opening, installation };
   std::vector<Kind> kinds_;
-  /// By feature, the ids of its groups.
-  std::vector<std::vector<std::string>> groups_;
+  /// By feature, the ids of its groups, and those of its parts.
+  std::vector<std::vector<std::string>> groups_, parts_;
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
   PolygonOwners own_owners_;
@@ -123,6 +124,17 @@ void Annotator::find_roles() {
     kinds_[verdict.feature.index()] = role.is_opening() ? Kind::opening : Kind::installation;
   }
   groups_ = groups_by_feature(interpretation_);
+  find_parts();
+}
+
+void Annotator::find_parts() {
+  std::vector<FeatureId> hosts;
+  for (const Feature& feature : segmentation_.features) hosts.push_back(feature.host);
+  const std::vector<FeatureId> wholes = wholes_by_feature(interpretation_, hosts);
+  parts_.resize(wholes.size());
+  for (std::size_t row = 0; row < wholes.size(); ++row)
+    if (wholes[row].is_valid())
+      parts_[wholes[row].index()].push_back(table_.id(FeatureId{static_cast<int>(row)}));
 }
 
 void Annotator::find_owners() {
@@ -232,6 +244,8 @@ Members Annotator::members_of(int feature) const {
   members.emplace_back("oriel_rule", verdict.rule);
   if (const auto& groups = groups_[oriel::at(feature)]; !groups.empty())
     members.emplace_back("oriel_groups", joined(groups));
+  if (const auto& parts = parts_[oriel::at(feature)]; !parts.empty())
+    members.emplace_back("oriel_parts", joined(parts));
   if (explainer_) members.emplace_back("oriel_why", reason(explainer_->explain(verdict.feature)));
   return members;
 }

@@ -4,6 +4,7 @@
 #include "kernel/base/issue.h"
 #include "kernel/base/name.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,11 @@ struct Interpretation {
 
 /// By feature: the ids of the groups it is in, in their order.
 std::vector<std::vector<std::string>> groups_by_feature(const Interpretation& interpretation);
+
+/// By feature: what it is a part of, as the panes of a window are. That is the first feature with a
+/// label among its host (by feature, invalid: the body), the host's host, and so on; invalid where
+/// there is none, and for features that have a label themselves.
+std::vector<FeatureId> wholes_by_feature(const Interpretation& interpretation,
+                                         std::span<const FeatureId> hosts);
 
 }  // namespace oriel

@@ -111,7 +111,8 @@ std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells
     if (auto fault = add_attribute(record, attribute, cells[at++])) return fault;
   for (std::size_t r = 0; r < detail::recorded_relations().size(); ++r)
     record.relations.push_back(split(cells[at++]));
-  record.groups = split(cells[at]);
+  record.groups = split(cells[at++]);
+  record.part_of = cells[at];
   return std::nullopt;
 }
 
@@ -126,6 +127,7 @@ const std::vector<std::string>& record_fields() {
     for (const RelationKind& relation : detail::recorded_relations())
       names.push_back("rel_" + relation.name);
     names.emplace_back("groups");
+    names.emplace_back("part_of");
     return names;
   }();
   return fields;
@@ -157,20 +159,25 @@ std::vector<FeatureRecord> feature_records(const Building& building,
   }
   if (interpretation == nullptr) return records;
   auto groups = groups_by_feature(*interpretation);
+  std::vector<FeatureId> hosts;
+  for (const Feature& feature : segmentation.features) hosts.push_back(feature.host);
+  const std::vector<FeatureId> wholes = wholes_by_feature(*interpretation, hosts);
   for (const Verdict& verdict : interpretation->verdicts) {
     const std::size_t row = verdict.feature.index();
-    set_verdict(records.at(row), verdict, std::move(groups.at(row)));
+    set_verdict(records.at(row), verdict, std::move(groups.at(row)), id_of(table, wholes.at(row)));
   }
   return records;
 }
 
-void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups) {
+void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups,
+                 std::string part_of) {
   record.label = verdict.label;
   record.score = verdict.score;
   record.margin = verdict.margin;
   record.rule = verdict.rule;
   record.runner_up = verdict.runner_up;
   record.groups = std::move(groups);
+  record.part_of = std::move(part_of);
 }
 
 std::optional<RecordFormat> record_format_of(std::string_view path) {

@@ -45,11 +45,13 @@ struct FeatureRecord {
   std::vector<std::vector<std::string>> relations;
   /// Ids of the groups it is in.
   std::vector<std::string> groups;
+  /// Id of the labelled feature that it is a part of (wholes_by_feature()), or empty.
+  std::string part_of;
 };
 
 /// The names of a record's fields: building, id, label, score, margin, rule, runner_up, parent,
 /// host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME,
-/// then groups.
+/// then groups and part_of.
 const std::vector<std::string>& record_fields();
 
 /// The records of one building, in feature order. `table` and `graph` are those of `segmentation`;
@@ -59,8 +61,10 @@ std::vector<FeatureRecord> feature_records(const Building& building,
                                            const FeatureTable& table, const FeatureGraph& graph,
                                            const Interpretation* interpretation);
 
-/// Puts a verdict and the ids of its groups into a record in place of what it says.
-void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups);
+/// Puts a verdict, the ids of its groups and of what it is a part of into a record in place of what
+/// it says.
+void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups,
+                 std::string part_of);
 
 /// The formats of records, by extension: .csv, .json (an array), .jsonl (an object a line).
 enum class RecordFormat { csv, json, jsonl };

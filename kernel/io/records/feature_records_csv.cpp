@@ -181,6 +181,7 @@ void append_csv_record(std::string& out, const FeatureRecord& record) {
   for (const RecordValue& value : record.attributes) cells.push_back(cell_of(value));
   for (const auto& ids : record.relations) cells.push_back(joined(ids));
   cells.push_back(joined(record.groups));
+  cells.push_back(record.part_of);
   append_csv_line(out, cells);
 }
 

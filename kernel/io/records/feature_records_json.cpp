@@ -98,6 +98,7 @@ void append_json_record(std::string& out, const FeatureRecord& record) {
   }
   for (const auto& ids : record.relations) list(ids);
   list(record.groups);
+  text(record.part_of);
   out += '}';
 }
 

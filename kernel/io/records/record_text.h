@@ -15,7 +15,8 @@ namespace oriel::detail {
 void append_csv_record(std::string& out, const FeatureRecord& record);
 void append_json_record(std::string& out, const FeatureRecord& record);
 
-/// Positions of fields in record_fields(): attributes follow these, then relations, then groups.
+/// Positions of fields in record_fields(): attributes follow these, then relations, then groups
+/// and part_of.
 namespace record_field {
 inline constexpr std::size_t building = 0, id = 1, label = 2, score = 3, margin = 4, rule = 5,
                              runner_up = 6, parent = 7, host = 8, aabb_m = 9, source_polygons = 10,

@@ -133,6 +133,10 @@ TEST_SUITE("interpret") {
             labelled.surface_of_polygon[static_cast<std::size_t>(frame)]);
     }
     CHECK(type_at(labelled, 2) == "WallSurface");
+    const SemanticSurface& surface = labelled.surfaces[static_cast<std::size_t>(
+        labelled.surface_of_polygon[static_cast<std::size_t>(frame)])];
+    CHECK(text_of(surface.members, "oriel_parts") ==
+          h.scene.table().id(left_sash) + ";" + h.scene.table().id(right_sash));
   }
 
   TEST_CASE("the sill of a sash in an unlabelled frame belongs to the wall") {

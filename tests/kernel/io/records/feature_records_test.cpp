@@ -55,6 +55,18 @@ TEST_SUITE("kernel/io") {
     CHECK(records[0].attributes.size() == feature_schema().size());
     CHECK(records[0].relations.size() == relation_schema().size() - 1);
     CHECK(records[0].relations[0] == std::vector<std::string>{"w1"});
+    CHECK(records[1].part_of.empty());
+  }
+
+  TEST_CASE("what has no label is a part of the labelled feature that it stands on") {
+    const auto records = sample(true);
+    CHECK(records[0].part_of.empty());
+    CHECK(records[1].part_of == "b1");
+    for (const char* name : {"r.csv", "r.json", "r.jsonl"}) {
+      const auto back = read_back(written(records, name), name);
+      REQUIRE(back.value);
+      CHECK(back.value->at(1).part_of == "b1");
+    }
   }
 
   TEST_CASE("fields are those of the schema in its order") {
