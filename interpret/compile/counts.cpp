@@ -3,6 +3,10 @@
 #include "interpret/pack/names.h"
 
 #include <algorithm>
+#include <limits>
+#include <ranges>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,34 +24,112 @@ bool is_part(const Typical& part, const Typical& whole) {
   return part.per == whole.per || whole.per == "building";
 }
 
+/// The counts of classes that together make up the least or the most of a class.
+struct CountSum {
+  double count = 0;
+  /// Each with its class.
+  std::vector<std::pair<ClassId, const Typical*>> parts;
+
+  void add(const CountSum& more) {
+    count += more.count;
+    parts.insert(parts.end(), more.parts.begin(), more.parts.end());
+  }
+};
+
+constexpr double kAnyNumber = std::numeric_limits<double>::infinity();
+
 class CountChecker {
  public:
-  CountChecker(const Pack& pack, Findings& findings) : pack_(&pack), findings_(&findings) {}
+  CountChecker(const Pack& pack, Findings& findings)
+      : pack_(&pack), findings_(&findings), beneath_(pack.classes.size()) {
+    for (ClassId id = 0; id < static_cast<ClassId>(pack.classes.size()); ++id)
+      if (at(id).parent != kNoClass)
+        beneath_[static_cast<std::size_t>(at(id).parent)].push_back(id);
+  }
 
   void run() {
     for (ClassId id = 0; id < static_cast<ClassId>(pack_->classes.size()); ++id)
       for (const Typical& typical : at(id).typical)
         if (!report_impossible(id, typical) && pack_->source.is_in_first(typical.span.begin))
           report_unused(id, typical);
+    if (findings_->has_errors()) return;  // sums would say the same again
+    for (ClassId id = 0; id < static_cast<ClassId>(pack_->classes.size()); ++id)
+      for (const Typical& whole : at(id).typical) report_sums(id, whole);
   }
 
  private:
   [[nodiscard]] const Class& at(ClassId id) const {
     return pack_->classes[static_cast<std::size_t>(id)];
   }
+  [[nodiscard]] const std::vector<ClassId>& beneath(ClassId id) const {
+    return beneath_[static_cast<std::size_t>(id)];
+  }
+  [[nodiscard]] std::string place_of(const Typical& typical) const {
+    const Place place = pack_->source.place(typical.span.begin);
+    return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+  }
 
   bool report_impossible(ClassId id, const Typical& typical) {
     for (ClassId above = id; above != kNoClass; above = at(above).parent)
       for (const Typical& whole : at(above).typical) {
         if (!is_part(typical, whole) || typical.low <= whole.high) continue;
-        const Place place = pack_->source.place(whole.span.begin);
-        findings_->error(
-            Code::R212, typical.span,
-            fmt::format("{} and {} ({}:{}:{}) exclude each other", text_of(at(id), typical),
-                        text_of(at(above), whole), place.file, place.line, place.column));
+        findings_->error(Code::R212, typical.span,
+                         fmt::format("{} and {} ({}) exclude each other", text_of(at(id), typical),
+                                     text_of(at(above), whole), place_of(whole)));
         return true;
       }
     return false;
+  }
+
+  /// The fewest of a class that there are where `whole` counts.
+  [[nodiscard]] CountSum least_of(ClassId id, const Typical& whole) const {
+    CountSum own;
+    for (const Typical& typical : at(id).typical)
+      if (is_part(typical, whole) && typical.low > own.count)
+        own = {static_cast<double>(typical.low), {{id, &typical}}};
+    const CountSum sum = least_beneath(id, whole);
+    return sum.count > own.count ? sum : own;
+  }
+  [[nodiscard]] CountSum least_beneath(ClassId id, const Typical& whole) const {
+    CountSum sum;
+    for (const ClassId part : beneath(id)) sum.add(least_of(part, whole));
+    return sum;
+  }
+
+  /// The most of a class that there are where `whole` counts.
+  [[nodiscard]] CountSum most_of(ClassId id, const Typical& whole) const {
+    CountSum own{kAnyNumber, {}};
+    for (const Typical& typical : at(id).typical)
+      if (is_part(whole, typical) && typical.high != Typical::kNoEnd && typical.high < own.count)
+        own = {static_cast<double>(typical.high), {{id, &typical}}};
+    const CountSum sum = most_beneath(id, whole);
+    return sum.count < own.count ? sum : own;
+  }
+  /// Any number of a label, and of what has nothing beneath it.
+  [[nodiscard]] CountSum most_beneath(ClassId id, const Typical& whole) const {
+    CountSum sum;
+    if (!at(id).is_abstract || beneath(id).empty()) return {kAnyNumber, {}};
+    for (const ClassId part : beneath(id)) sum.add(most_of(part, whole));
+    return sum;
+  }
+
+  void report_sums(ClassId id, const Typical& whole) {
+    if (const CountSum least = least_beneath(id, whole); least.count > whole.high)
+      report_sum(id, whole, "at least", least);
+    if (const CountSum most = most_beneath(id, whole); most.count < whole.low)
+      report_sum(id, whole, "at most", most);
+  }
+
+  void report_sum(ClassId id, const Typical& whole, const char* bound, const CountSum& sum) {
+    constexpr std::size_t kShown = 5;
+    std::string parts;
+    for (const auto& [part, typical] : sum.parts | std::views::take(kShown))
+      parts += fmt::format("{}{} ({})", parts.empty() ? "" : ", ", text_of(at(part), *typical),
+                           place_of(*typical));
+    if (sum.parts.size() > kShown) parts += fmt::format(" and {} more", sum.parts.size() - kShown);
+    findings_->error(Code::R212, whole.span,
+                     fmt::format("{} cannot be: the classes beneath it are {} {} together, {}",
+                                 text_of(at(id), whole), bound, sum.count, parts));
   }
 
   void report_unused(ClassId id, const Typical& typical) {
@@ -69,6 +151,8 @@ class CountChecker {
 
   const Pack* pack_;
   Findings* findings_;
+  /// By class, those whose parent it is.
+  std::vector<std::vector<ClassId>> beneath_;
 };
 
 }  // namespace

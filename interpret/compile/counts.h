@@ -14,8 +14,9 @@ void relate_counts(Pack& pack);
 std::vector<int> evidence_relations(const Pack& pack);
 
 /// What `typical:` says that cannot be so (R212): of a class more in one storey or on one facade
-/// than in the building, or more than of a class above it. And what is never counted (R257): a
-/// class that no rule labels anything with, and counts of a pack without `evidence:`.
+/// than in the building, or more than of a class above it; of the classes beneath one together more
+/// than of this one, or, where it has no features of its own, fewer. And what is never counted
+/// (R257): a class that no rule labels anything with, and counts of a pack without `evidence:`.
 void check_counts(const Pack& pack, Findings& findings);
 
 }  // namespace oriel::rules

@@ -76,16 +76,20 @@ std::optional<YamlNode> without_end(const YamlNode& node) {
   return low;
 }
 
+struct CountRange {
+  double low = 0;
+  /// Missing: no end.
+  std::optional<double> high;
+};
+
 /// `lo .. hi` or `lo ..`; what stands there is checked, and nothing is given if it is wrong.
-std::optional<std::pair<double, double>> read_counts(const YamlNode& node, Loader& loader) {
+std::optional<CountRange> read_counts(const YamlNode& node, Loader& loader) {
   if (const auto low = without_end(node)) {
     const auto value = read_quantity(*low, Dimension{}, loader);
-    if (value) return std::pair(value->value, static_cast<double>(Typical::kNoEnd));
-    return std::nullopt;
+    return value ? std::optional(CountRange{value->value, {}}) : std::nullopt;
   }
   const auto range = read_range(node, Dimension{}, loader);
-  if (range) return std::pair(range->low, range->high);
-  return std::nullopt;
+  return range ? std::optional(CountRange{range->low, range->high}) : std::nullopt;
 }
 
 /// What is wrong with a key was said by the section.
@@ -97,13 +101,14 @@ void read_typical(const YamlNode& node, Class& c, Loader& loader) {
     const auto counts = read_counts(entry.value, loader);
     if (!counts) continue;
     const auto [low, high] = *counts;
-    if (!is_count(low) || (high != Typical::kNoEnd && !is_count(high))) {
+    if (!is_count(low) || (high && !is_count(*high))) {
       loader.findings.error(Code::R212, entry.value.span,
                             "a count is a whole number, 0 or more, at most 1000000");
       continue;
     }
     const std::string per = entry.key.text.substr(std::string_view("per ").size());
-    c.typical.push_back({per, static_cast<int>(low), static_cast<int>(high), -1, entry.key.span});
+    const int most = high ? static_cast<int>(*high) : Typical::kNoEnd;
+    c.typical.push_back({per, static_cast<int>(low), most, -1, entry.key.span});
   }
 }
 
@@ -153,7 +158,25 @@ constexpr int kMostMembers = 1'000'000;
 /// Relations that the cuts make, not a measure that a pack could take differently.
 bool is_of_cuts(std::string_view name) { return name == "contains" || name == "inside"; }
 
-void read_relation(const YamlEntry& entry, Loader& loader) {
+/// Relations of the pack that stand at `self` or below it have no number yet: `within` cannot lead
+/// to them, and says so in place of "unknown". True if it does.
+bool leads_below(const YamlNode& within, const YamlNode& all, const YamlEntry& self,
+                 Loader& loader) {
+  std::string name = within.text;
+  std::ranges::replace(name, ' ', '_');
+  const auto is_named = [&](const YamlEntry& entry) { return entry.key.text == name; };
+  if (within.kind != YamlNode::Kind::scalar || relation_number(loader.pack, name) >= 0 ||
+      contains(loader.names.broken_relations, name) || std::ranges::none_of(all.entries, is_named))
+    return false;
+  loader.findings.error(
+      Code::R207, within.span,
+      fmt::format("the relation '{}' {}: 'within' leads to one that is built in or stands above",
+                  name,
+                  name == self.key.text ? "needs itself" : "stands below '" + self.key.text + "'"));
+  return true;
+}
+
+void read_relation(const YamlEntry& entry, const YamlNode& all, Loader& loader) {
   const std::string& name = entry.key.text;
   const std::size_t errors = loader.findings.error_count();
   expect_name(entry.key, "a relation", loader.findings);
@@ -165,7 +188,8 @@ void read_relation(const YamlEntry& entry, Loader& loader) {
   relation.name = name;
   relation.span = entry.key.span;
   YamlSection section(entry.value, "a relation", {"within", "where"}, loader.findings);
-  if (const YamlNode* within = section.require("within"))
+  const YamlNode* within = section.require("within");
+  if (within != nullptr && !leads_below(*within, all, entry, loader))
     relation.within = read_relation(*within, "'within'", loader);
   loader.names.used_relations.insert(relation.within);
   if (const YamlNode* where = section.require("where")) {
@@ -299,7 +323,7 @@ int read_relation(const YamlNode& node, const std::string& what, Loader& loader)
 /// A relation narrows one that is built in or stands above it, so that there are no circles.
 void read_relations(const YamlNode& node, Loader& loader) {
   if (!expect_map(node, "'relations'", loader.findings)) return;
-  for (const YamlEntry& entry : node.entries) read_relation(entry, loader);
+  for (const YamlEntry& entry : node.entries) read_relation(entry, node, loader);
 }
 
 void read_groups(const YamlNode& node, Loader& loader) {

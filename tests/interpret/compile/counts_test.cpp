@@ -16,6 +16,8 @@ std::string counting(const std::string& typical) {
   return findings_of("window: {typical: {" + typical + "}}", "ambiguous_below: 0.2, evidence: 0.1");
 }
 
+constexpr const char* kWeighing = "ambiguous_below: 0.2, evidence: 0.1";
+
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -59,6 +61,70 @@ TEST_SUITE("interpret") {
                           "window: {is: opening, typical: {per storey: 4 .. 9}}",
                           decide),
               "R212 4 .. 9 'window' per storey and 0 .. 3 'opening' per storey (t.yaml:3:47)"));
+  }
+
+  TEST_CASE("a count of too many is not taken for one without end") {
+    CHECK(has(counting("per storey: 0 .. 2147483647"), "t.yaml:3:42: R212 a count is a whole"));
+    CHECK(has(counting("per storey: 2147483647 .."), "t.yaml:3:42: R212 a count is a whole"));
+  }
+
+  TEST_CASE("a subclass that asks for more than the class above allows is refused") {
+    CHECK(has(findings_of("window: {typical: {per building: 0 .. 3}}, "
+                          "dormer_window: {is: window, typical: {per building: 4 ..}}",
+                          kWeighing),
+              "t.yaml:3:92: R212 4 .. 'dormer_window' per building and 0 .. 3 'window' per "
+              "building (t.yaml:3:30) exclude each other"));
+    CHECK(has(findings_of("part: {abstract: true, typical: {per building: 0 .. 2}}, opening: "
+                          "{is: part, abstract: true}, window: {is: opening, typical: {per "
+                          "facade: 3 ..}}",
+                          kWeighing),
+              "R212 3 .. 'window' per facade and 0 .. 2 'part' per building"));
+  }
+
+  TEST_CASE("classes that together ask for more than the class above allows are refused") {
+    const auto parts = [](const std::string& opening, const std::string& window,
+                          const std::string& door) {
+      return findings_of("opening: {abstract: true, typical: {" + opening +
+                             "}}, window: {is: opening, typical: {" + window +
+                             "}}, door: {is: opening, typical: {" + door + "}}",
+                         kWeighing);
+    };
+    CHECK(has(parts("per storey: 0 .. 5", "per storey: 3 ..", "per storey: 3 .. 4"),
+              "t.yaml:3:47: R212 0 .. 5 'opening' per storey cannot be: the classes beneath it are "
+              "at least 6 together, 3 .. 'window' per storey (t.yaml:3:101), 3 .. 4 'door' per "
+              "storey (t.yaml:3:151)\n"));
+    CHECK(has(parts("per building: 0 .. 5", "per storey: 3 ..", "per facade: 3 ..  "), "R212"));
+    std::string many = "window: {}, part: {abstract: true, typical: {per storey: 0 .. 6}}";
+    for (int i = 0; i < 7; ++i)
+      many += fmt::format(", c{}: {{is: part, typical: {{per storey: 1 ..}}}}", i);
+    CHECK(has(findings_of(many, kWeighing), "are at least 7 together, 1 .. 'c0' per storey"));
+    CHECK(has(findings_of(many, kWeighing), " and 2 more\n"));
+    // A storey has fewer than its building: nothing is said of one.
+    CHECK_FALSE(
+        has(parts("per storey: 0 .. 5", "per building: 3 ..", "per building: 3 .."), "R212"));
+    CHECK_FALSE(has(parts("per storey: 0 .. 6", "per storey: 3 ..", "per storey: 3 .."), "R212"));
+  }
+
+  TEST_CASE("a class whose subclasses may not come to what it asks for is refused") {
+    const auto parts = [](const std::string& flags, const std::string& door) {
+      return findings_of("opening: {" + flags +
+                             "typical: {per storey: 5 .. 9}}, window: {is: opening, typical: {per "
+                             "storey: 0 .. 2}}, door: {is: opening" +
+                             door + "}",
+                         kWeighing);
+    };
+    CHECK(has(parts("abstract: true, ", ", typical: {per building: 0 .. 1}"),
+              "R212 5 .. 9 'opening' per storey cannot be: the classes beneath it are at most 3 "
+              "together, 0 .. 2 'window' per storey (t.yaml:3:101), 0 .. 1 'door' per building "));
+    // Any number of doors, and features that are an opening and nothing more, may make it up.
+    CHECK_FALSE(has(parts("abstract: true, ", ""), "R212"));
+    CHECK_FALSE(has(parts("", ", typical: {per storey: 0 .. 1}"), "R212"));
+  }
+
+  TEST_CASE("none in a storey and some in the building go together") {
+    // Skylights are in no storey.
+    CHECK(counting("per storey: 0 .. 0, per building: 1 ..").empty());
+    CHECK(has(counting("per storey: 1 .. 0"), "t.yaml:3:42: R212 an empty range"));
   }
 
   TEST_CASE("counts that nothing asks for are warned of") {

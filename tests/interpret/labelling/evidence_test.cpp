@@ -259,6 +259,74 @@ TEST_SUITE("interpret") {
     CHECK(labels(load(iterating), five_windows_and(1.52)).back() == "window");
   }
 
+  TEST_CASE("what is labelled later is no evidence for what is labelled before") {
+    // Three openings are typical. The last feature is close: it is a window where fewer are there.
+    // Hatches are openings, too, and are found beside windows.
+    const auto pack = [](const std::string& more) {
+      return "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses:\n"
+             "  opening: {abstract: true, typical: {per building: 3 ..}}\n"
+             "  window: {is: opening}\n"
+             "  hatch: {is: opening}\n"
+             "  door: {}\n"
+             "rules:\n"
+             "  - {id: w, label: window, require: natural, score: [a: {fall: 1 m .. 2 m}]}\n"
+             "  - {id: d, label: door, require: natural, score: [a: {rise: 1 m .. 2 m}]}\n"
+             "  - {id: h, label: hatch, require: exists(beside where is window) and not natural}\n"
+             "decide: {ambiguous_below: 0.2, evidence: 0.1, company: []}\n" +
+             more;
+    };
+    Scene scene = openings({1.2, 1.2, 1.52});
+    for (int i = 0; i < 2; ++i)
+      scene.relate("beside", scene.add({{"a", 1.0}, {"natural", 0.0}}), FeatureId{0});
+    const Labels expected{"window", "window", "window", "hatch", "hatch"};
+    CHECK(labels(load(pack("")), scene) == expected);
+    // Nor are the labels of the round before.
+    CHECK(labels(load(pack("iterate: {rounds: 3}\n")), scene) == expected);
+    // If the hatches were there already, there would be openings enough.
+    for (int i = 0; i < 2; ++i) scene.add({{"a", 1.0}, {"natural", 1.0}});
+    CHECK(labels(load(pack("")), scene) ==
+          Labels{"window", "window", "door", "hatch", "hatch", "window", "window"});
+  }
+
+  TEST_CASE("evidence that would need itself is refused with its place") {
+    const auto refused = [](const std::string& sections) {
+      return findings("schema: oriel/1\npack: {name: t, version: 1.0.0}\n" + sections +
+                      "decide: {ambiguous_below: 0.2, evidence: 0.1, company: [row]}\n");
+    };
+    const std::string rules = "rules: [{id: w, label: window, require: natural}]\n";
+    const auto with_relations = [&](const std::string& relations) {
+      return refused("classes: {window: {}}\nrelations: {" + relations + "}\n" + rules);
+    };
+    CHECK(with_relations("row: {within: row, where: a > 1 m}") ==
+          "t.yaml:4:27: R207 the relation 'row' needs itself: 'within' leads to one that is built "
+          "in or stands above\n"
+          "relations: {row: {within: row, where: a > 1 m}}\n"
+          "                          ^~~\n");
+    CHECK(with_relations("row: {within: line, where: a > 1 m}, line: {within: row, where: b > 1 m}")
+              .starts_with("t.yaml:4:27: R207 the relation 'line' stands below 'row': "));
+    CHECK(with_relations("row: {within: beside, where: other is window}")
+              .starts_with("t.yaml:4:42: R249 "));
+    CHECK(
+        with_relations("row: {within: beside, where: exists(row)}").starts_with("t.yaml:4:42: R"));
+    CHECK(with_relations("beside: {within: beside, where: a > 1 m}, row: {within: beside, where: b "
+                         "> 1 m}")
+              .empty());  // the built-in one, narrowed twice
+    const std::string beside = "relations: {row: {within: beside, where: a > 1 m}}\n";
+    CHECK(refused("classes: {window: {is: part}, part: {is: window, typical: {per storey: 1 "
+                  "..}}}\n" +
+                  beside + rules)
+              .starts_with("t.yaml:3:11: R244 "));
+    // Labels whose rules ask for each other, whatever evidence says between them.
+    const std::string asking =
+        "classes: {window: {typical: {per storey: 1 .. 2}}, door: {typical: {per storey: 1 .. "
+        "2}}}\n"
+        "rules:\n"
+        "  - {id: w, label: window, require: exists(row where is door)}\n"
+        "  - {id: d, label: door, require: exists(row where is window)}\n";
+    CHECK(refused(asking + beside).find("R243 these rules wait for each other") !=
+          std::string::npos);
+  }
+
   TEST_CASE("explain says what the others added") {
     const RuleBase base = load(sizing(", typical: {per building: 2 .. 12}", "", kWeighing));
     const auto report = explained(base, five_windows_and(1.52), 5);
