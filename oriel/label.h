@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpret/pack/rule_base.h"
+#include "interpret/surfaces/unwritten.h"  // IWYU pragma: export
 #include "kernel/model/building.h"
 #include "kernel/model/labelled_building.h"
 #include "oriel/options.h"
@@ -22,7 +23,7 @@ struct LabelOptions : PipelineOptions {
   /// is enough for labels, but not for records of features.
   bool measures_features = true;
   /// PipelineResult::output is made. False: it stays empty, and annotate() makes it later if it is
-  /// needed.
+  /// needed; report_unwritten() then says which labels it leaves out.
   bool has_output = true;
 };
 
@@ -30,7 +31,8 @@ struct LabelOptions : PipelineOptions {
 ///
 /// It does what segment() does, then runs the rules over the features (docs/rules.md) and names the
 /// surfaces. `interpretation.verdicts` has one verdict for each feature; a label that is empty
-/// means "unknown". Never throws: a fault of oriel's own is an error E901 of the building. The
+/// means "unknown". What classes without `emit:` take from `output` is a warning R258 for each
+/// (report_unwritten). Never throws: a fault of oriel's own is an error E901 of the building. The
 /// result depends on the building, the pack and the options only: the command gives the same bytes.
 PipelineResult label(const Building& building, const RuleBase& rules,
                      const LabelOptions& options = {});

@@ -24,7 +24,7 @@ BuildingOutcome RecordWorker::outcome_of(const PipelineResult& result) const {
   outcome.is_open = result.is_open;
   outcome.is_done = options_.ends_at_reading ||
                     (options_.ends_at_solid ? result.solid.has_value() : result.is_done());
-  for (const Verdict& verdict : result.interpretation.verdicts) ++outcome.labels[verdict.label];
+  outcome.labels = count_labels(result.interpretation);
   outcome.issues = result.issues;
   return outcome;
 }

@@ -109,6 +109,10 @@ std::optional<Targets> targets_of(const TargetArguments& arguments, const RuleBa
   return targets;
 }
 
+/// What the counts of features begin with, before the label.
+constexpr const char* kRemoved = "removed ";
+constexpr const char* kKept = "kept ";
+
 class Generaliser final : public ProducingCommand {
  public:
   Generaliser(const GeneraliseArguments& arguments, const Targets& targets, const RuleBase& rules,
@@ -121,7 +125,7 @@ class Generaliser final : public ProducingCommand {
         changes_(arguments.explain, arguments.metrics) {}
 
   void begin(std::size_t input) override {
-    if (input == 0 && arguments_.repeat > 1) removed_.clear();
+    if (input == 0 && arguments_.repeat > 1) counts_.clear();
     changes_.begin(!runner_.is_last_run());
     outputs_.begin(input, !runner_.is_last_run());
   }
@@ -156,10 +160,12 @@ class Generaliser final : public ProducingCommand {
                        changes_.has_metrics(), outputs_.recipe());
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
-  std::map<std::string, int>* counts() override { return &removed_; }
+  std::map<std::string, int>* counts() override { return &counts_; }
 
   /// Features that are gone, by label.
-  [[nodiscard]] const std::map<std::string, int>& removed() const { return removed_; }
+  [[nodiscard]] std::map<std::string, int> removed() const { return counted(kRemoved); }
+  /// Of features that stay.
+  [[nodiscard]] std::vector<Issue> unwritten() const { return outputs_.unwritten(counted(kKept)); }
 
  private:
   Product redraw_record(std::size_t input, const Document& document,
@@ -180,7 +186,7 @@ class Generaliser final : public ProducingCommand {
       outputs_.make_features(document.buildings[i],
                              drawn[i].repaired ? *drawn[i].repaired : lines[i], product);
       report(drawn[i], product);
-      count(drawn[i], product);
+      count(drawn[i], lines[i], product);
       add(std::move(drawn[i]), output);
     }
     now_at_building(kNoBuilding);
@@ -208,9 +214,24 @@ class Generaliser final : public ProducingCommand {
   }
 
   /// Of several levels of detail the first says what is gone from the building.
-  static void count(const GeneralisedBuilding& drawn, Product& product) {
+  static void count(const GeneralisedBuilding& drawn, const PipelineResult& line,
+                    Product& product) {
     if (drawn.levels.empty()) return;
-    for (const auto& [label, count] : drawn.levels[0].removed) product.counts[label] += count;
+    const PipelineResult& from = drawn.repaired ? *drawn.repaired : line;
+    for (const auto& [label, count] : count_labels(from.interpretation))
+      product.counts[kKept + label] += count;
+    for (const auto& [label, count] : drawn.levels[0].removed) {
+      product.counts[kKept + label] -= count;
+      product.counts[kRemoved + label] += count;
+    }
+  }
+
+  /// The counts whose names begin with `what`, by what follows.
+  [[nodiscard]] std::map<std::string, int> counted(const std::string& what) const {
+    std::map<std::string, int> found;
+    for (const auto& [name, count] : counts_)
+      if (name.starts_with(what)) found[name.substr(what.size())] = count;
+    return found;
   }
 
   const GeneraliseArguments& arguments_;
@@ -219,7 +240,8 @@ class Generaliser final : public ProducingCommand {
   BatchRunner& runner_;
   LabelOutputs outputs_;
   ChangeReport changes_;
-  std::map<std::string, int> removed_;  ///< features that are gone, by label
+  /// Features that are gone and those that stay, by label.
+  std::map<std::string, int> counts_;
 };
 
 /// Ascending; none stands twice.
@@ -286,8 +308,9 @@ ExitCode work(GeneraliseArguments& arguments) {
   BatchRunner runner(arguments, &*rules, report);
   Generaliser command(arguments, *targets, *rules, runner);
   const ExitCode code = runner.run(command);
-  if (!runner.was_done())
-    runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
+  if (runner.was_done()) return code;
+  report.add(command.unwritten());
+  runner.report_summary("generalised to " + targets->text(), command.removed(), " left out");
   return code;
 }
 

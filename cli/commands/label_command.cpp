@@ -114,6 +114,11 @@ class Labeller final : public ProducingCommand {
   }
   [[nodiscard]] bool is_streaming() const override { return outputs_.is_streaming(); }
 
+  /// Of all that was labelled.
+  [[nodiscard]] std::vector<Issue> unwritten() const {
+    return outputs_.unwritten(runner_.state().labels);
+  }
+
  private:
   [[nodiscard]] Product made_of(std::size_t input, const Document& document,
                                 const std::vector<PipelineResult>& results) const {
@@ -156,7 +161,9 @@ ExitCode work(LabelArguments& arguments) {
   BatchRunner runner(arguments, &*rules, report);
   Labeller command(arguments, *rules, runner);
   const ExitCode code = runner.run(command);
-  if (!runner.was_done()) runner.report_summary("labelled", runner.state().labels);
+  if (runner.was_done()) return code;
+  report.add(command.unwritten());
+  runner.report_summary("labelled", runner.state().labels);
   return code;
 }
 

@@ -173,7 +173,7 @@ ExitCode format(const RulesPrintArguments& arguments) {
 }
 
 ExitCode show(const RulesPrintArguments& arguments) {
-  Report report(true);
+  Report report(false);
   const std::string& pack = arguments.packs.front();
   const auto merged = merge_pack_file(pack);
   report.add(merged.issues);

@@ -114,6 +114,15 @@ bool OutputSink::is_streaming() const {
   return true;
 }
 
+bool OutputSink::names_features() const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const Format to = format_of_output(i);
+    const bool is_by_class = to == Format::stl && solids_ == StlSolids::by_class;
+    if (to != Format::off && !is_by_class) return true;
+  }
+  return false;
+}
+
 void OutputSink::begin(std::size_t input, bool is_rehearsal) {
   input_ = input;
   path_ = path_for(input);

@@ -25,6 +25,8 @@ class OutputSink {
   /// Lines of streams become lines of streams, and nothing else.
   [[nodiscard]] bool is_streaming() const;
   [[nodiscard]] bool is_stdout() const { return out_ == "-"; }
+  /// A file says which feature its faces belong to.
+  [[nodiscard]] bool names_features() const;
 
   /// The file at hand and its size so far.
   [[nodiscard]] PartPlace place() const;

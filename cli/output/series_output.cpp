@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -231,7 +232,9 @@ class SeriesWriter final : public VisitingCommand {
   void begin(std::size_t input) override {
     files_.begin(input, !runner_.is_last_run());
     outputs_.begin(input, !runner_.is_last_run());
-    if (input == 0) operations_ = 0;
+    if (input > 0) return;
+    operations_ = 0;
+    drawn_.clear();
   }
   void visit(const Document& document, std::vector<PipelineResult>& results) override {
     add_record(document, results);
@@ -248,6 +251,8 @@ class SeriesWriter final : public VisitingCommand {
   }
 
   [[nodiscard]] int operations() const { return operations_; }
+  /// Features of the buildings that are in the series, by label.
+  [[nodiscard]] const std::map<std::string, int>& drawn() const { return drawn_; }
 
  private:
   /// What the files of a series are called is no file to be written.
@@ -275,6 +280,7 @@ class SeriesWriter final : public VisitingCommand {
       if (twin) return set_aside_twin(made, document, *twin);
       for (const BuildingSeries& one : made.buildings)
         operations_ += static_cast<int>(one.series.operations.size());
+      count_drawn(made, document, lines);
       add_features(document, lines);
     });
   }
@@ -289,6 +295,15 @@ class SeriesWriter final : public VisitingCommand {
     Issue issue = building_issue(Severity::error, Code::E207, "", sentence);
     issue.place.file = document.name;
     runner_.set_aside(issue);
+  }
+
+  void count_drawn(const Series& made, const Document& document,
+                   const std::vector<PipelineResult>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (std::ranges::find(made.drawn, document.buildings[i].id) == made.drawn.end()) continue;
+      for (const auto& [label, count] : count_labels(lines[i].interpretation))
+        drawn_[label] += count;
+    }
   }
 
   void add_features(const Document& document, const std::vector<PipelineResult>& lines) {
@@ -309,6 +324,7 @@ class SeriesWriter final : public VisitingCommand {
   LabelOutputs outputs_;
   SeriesOptions options_;
   int operations_ = 0;
+  std::map<std::string, int> drawn_;
 };
 
 }  // namespace
@@ -318,6 +334,7 @@ ExitCode write_series(const LabellingArguments& arguments, const std::vector<dou
   BatchRunner runner(arguments, &rules, report);
   SeriesWriter command(arguments, scales, std::move(profile), rules, runner, report);
   const ExitCode code = runner.run(command);
+  report.add(report_unwritten(command.drawn(), rules));
   runner.report_summary(fmt::format("drawn at {} scales", scales.size()),
                         {{"operation", command.operations()}}, " in the log");
   return code;

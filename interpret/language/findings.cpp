@@ -13,13 +13,20 @@ constexpr std::size_t kMostKept = 10'000;
 
 void Findings::error(Code code, SourceSpan where, std::string sentence) {
   ++errors_;
-  if (findings_.size() < kMostKept)
-    findings_.push_back({where, Severity::error, code, std::move(sentence)});
+  add(Severity::error, code, where, std::move(sentence));
 }
 
 void Findings::warning(Code code, SourceSpan where, std::string sentence) {
+  add(Severity::warning, code, where, std::move(sentence));
+}
+
+void Findings::note(Code code, SourceSpan where, std::string sentence) {
+  add(Severity::note, code, where, std::move(sentence));
+}
+
+void Findings::add(Severity severity, Code code, SourceSpan where, std::string sentence) {
   if (findings_.size() < kMostKept)
-    findings_.push_back({where, Severity::warning, code, std::move(sentence)});
+    findings_.push_back({where, severity, code, std::move(sentence)});
 }
 
 std::vector<Issue> Findings::issues() const {

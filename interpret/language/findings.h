@@ -15,6 +15,7 @@ class Findings {
 
   void error(Code code, SourceSpan where, std::string sentence);
   void warning(Code code, SourceSpan where, std::string sentence);
+  void note(Code code, SourceSpan where, std::string sentence);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
@@ -24,6 +25,8 @@ class Findings {
   [[nodiscard]] std::vector<Issue> issues() const;
 
  private:
+  void add(Severity severity, Code code, SourceSpan where, std::string sentence);
+
   struct Item {
     SourceSpan where;
     Severity severity = Severity::error;

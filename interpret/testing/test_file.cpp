@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -278,7 +279,9 @@ std::optional<TestFile> read_test_file(const std::string& path, std::vector<Issu
     }
   }
   issues = findings.issues();
-  issues.insert(issues.end(), of_pack.begin(), of_pack.end());
+  // Its notes are of files that no test writes.
+  std::ranges::copy_if(of_pack, std::back_inserter(issues),
+                       [](const Issue& issue) { return issue.severity != Severity::note; });
   if (findings.has_errors() || !file.base) return std::nullopt;
   return file;
 }

@@ -79,7 +79,8 @@ TEST_SUITE("interpret") {
     CHECK(labels(packs.load("rule.yaml"), two()) == Labels{"door", "-"});
     packs.write("added.yaml", header("base.yaml") +
                                   "classes: {bay: {}}\nrules: [{id: b, label: "
-                                  "bay, require: base_height > 1 m, priority: 1}]\n");
+                                  "bay, require: base_height > 1 m, priority: 1}]\n"
+                                  "emit: {bay: {type: BuildingInstallation}}\n");
     CHECK(labels(packs.load("added.yaml"), two()) == Labels{"door", "bay"});
     packs.write("removed.yaml", header("base.yaml") + "rules: [{id: d, remove: true}]\n");
     CHECK(labels(packs.load("removed.yaml"), two()) == Labels{"-", "window"});

@@ -122,6 +122,31 @@ TEST_SUITE("oriel") {
     CHECK(write(records[0], at_once) == write(records[0], made_later));
   }
 
+  TEST_CASE("label warns of the features that the pack does not emit") {
+    const auto records = records_of("house");
+    const Building& building = records[0].buildings.at(0);
+    const auto pack = load_pack(
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {opening: {}}\n"
+        "rules: [{id: o, label: opening, require: sense = hole}]\n",
+        "t.yaml");
+    const PipelineResult result = label(building, pack.value.value());
+    const int openings = count_labels(result.interpretation).at("opening");
+    const auto issue = std::ranges::find(result.issues, Code::R258, &Issue::code);
+    REQUIRE(issue != result.issues.end());
+    CHECK(std::ranges::count(result.issues, Code::R258, &Issue::code) == 1);
+    CHECK(issue->severity == Severity::warning);
+    CHECK(to_string(*issue).starts_with(
+        "t.yaml:3:11: house: R258 " + std::to_string(openings) +
+        " features with the label 'opening' are not written: the class has no 'emit'; add emit: "
+        "{opening: {type: BuildingInstallation}}\n"));
+    LabelOptions none;
+    none.has_output = false;
+    const PipelineResult quiet = label(building, pack.value.value(), none);
+    CHECK(std::ranges::count(quiet.issues, Code::R258, &Issue::code) == 0);
+    const PipelineResult complete = label(building, residential());
+    CHECK(std::ranges::count(complete.issues, Code::R258, &Issue::code) == 0);
+  }
+
   TEST_CASE("a feature is found by the beginning of its id and explained") {
     const auto records = records_of("house");
     const Building& building = records[0].buildings.at(0);

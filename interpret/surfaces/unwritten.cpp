@@ -1,0 +1,45 @@
+#include "interpret/surfaces/unwritten.h"
+
+#include "interpret/compile/written.h"
+#include "interpret/pack/pack.h"
+
+#include <fmt/format.h>
+
+namespace oriel {
+
+namespace {
+
+Issue unwritten_label(const rules::Pack& pack, const rules::Class& c, int features) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::R258;
+  issue.sentence = fmt::format("{} feature{} with the label '{}' {} not written: {}", features,
+                               features == 1 ? "" : "s", c.name, features == 1 ? "is" : "are",
+                               rules::advice_to_emit(c.name));
+  issue.place = pack.source.place(c.span.begin);
+  issue.excerpt = pack.source.excerpt(c.span);
+  return issue;
+}
+
+}  // namespace
+
+std::map<std::string, int> count_labels(const Interpretation& interpretation) {
+  std::map<std::string, int> counts;
+  for (const Verdict& verdict : interpretation.verdicts) ++counts[verdict.label];
+  return counts;
+}
+
+std::vector<Issue> report_unwritten(const std::map<std::string, int>& features_by_label,
+                                    const RuleBase& base) {
+  const rules::Pack& pack = base.pack();
+  std::vector<Issue> issues;
+  for (const rules::Class& c : pack.classes) {
+    const auto counted = features_by_label.find(c.name);
+    if (counted == features_by_label.end() || counted->second <= 0) continue;
+    if (!rules::is_label_written(pack, c.name))
+      issues.push_back(unwritten_label(pack, c, counted->second));
+  }
+  return issues;
+}
+
+}  // namespace oriel
