@@ -4,10 +4,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 oriel=build/release/cli/oriel
-generate=build/release/examples/generator/oriel-generate
-shared=${ORIEL_SHARED:-../shared}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+# shellcheck source=bench/sets.sh
+source bench/sets.sh
 
 # Options of label, beside the defaults.
 label_options=()
@@ -22,40 +22,15 @@ score() {
   "$oriel" score "$work/parts.jsonl" --truth "$truth" | sed -n '/^class/,/^macro/p'
 }
 
-for set in random3dcity ingolstadt ogc-simple-house houses/clean houses/noisy houses/triangles delft-blocks; do
-  if [ -d "$shared/data/$set" ]; then
-    score "$set" "$shared/data/$set" "$shared/data/$set"/*.stripped.city.json
-  fi
-done
+for_each_foreign_set score
 if [ -d "$shared/data/houses/clean" ]; then
   mkdir "$work/removed"
   python3 bench/remove_faces.py "$work/removed" "$shared/data/houses/clean"/*.stripped.city.json
   score "houses/clean without 5 % of the faces" "$shared/data/houses/clean" "$work/removed"/*.city.json
 fi
-while read -r name options; do
-  # shellcheck disable=SC2086
-  "$generate" --seed 77 --count 100 $options -o "$work/$name.city.jsonl" --truth "$work/$name.truth.jsonl"
-  score "generated: $name" "$work/$name.truth.jsonl" "$work/$name.city.jsonl"
-done <<'SETS'
-plain
-jitter --jitter 0.3
-noisy --noise 0.5
-noisy-1 --noise 1
-noisy-1-triangulated --noise 1 --triangulate
-triangulated --triangulate
-turned --rotate 27 --origin 604000,5403766,370
-half-flush --flush 0.5
-SETS
-# The setting for noise of 5 mm (docs/solidify.md).
-label_options=(--plane-offset 0.008)
-while read -r name options; do
-  # shellcheck disable=SC2086
-  "$generate" --seed 77 --count 100 $options -o "$work/$name.city.jsonl" --truth "$work/$name.truth.jsonl"
-  score "generated: $name, ${label_options[*]}" "$work/$name.truth.jsonl" "$work/$name.city.jsonl"
-done <<'SETS'
-noisy-5 --noise 5
-noisy-5-triangulated --noise 5 --triangulate
-SETS
+for_each_generated_set score <<<"$generated_sets"
+label_options=("${noisy_options[@]}")
+for_each_generated_set score ", ${label_options[*]}" <<<"$noisy_sets"
 # 500 houses of seeds that nothing was tuned on: recessed and flush openings mixed, noise of 0 to 5 mm.
 files=() truths=()
 seed=2718

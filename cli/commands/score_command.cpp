@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -143,6 +144,8 @@ std::string curve_csv(const std::vector<CurvePoint>& curve) {
 
 ExitCode score_features(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
+  std::optional<RuleBase> pack;
+  if (arguments.is_by_rule && !(pack = load_rules(arguments.rules, report))) return ExitCode::rules;
   ExitCode code = ExitCode::clean;
   const LabelsAndTruth all = read(arguments, report, code);
   ScoreOptions options;
@@ -160,7 +163,8 @@ ExitCode score_features(const ScoreArguments& arguments) {
     members.push_back(area_json(areas));
   }
   if (arguments.is_by_rule) {
-    const auto rules = score_by_rule(all.predictions, result);
+    auto rules = score_by_rule(all.predictions, result);
+    add_rules_without_decision(*pack, rules);
     text += to_text(rules, arguments.is_verbose ? result.misses.size() : kShown);
     members.push_back(rules_json(rules));
   }

@@ -1,5 +1,6 @@
 #include "interpret/score/rule_score.h"
 
+#include "interpret/pack/pack.h"
 #include "interpret/yaml/json_text.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ void add_mistake(const Miss& miss, RuleScore& rule) {
 
 std::string rule_line(const std::string& id, const RuleScore& rule, std::size_t width) {
   const double precision = rule.precision();
-  return fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>8} {:>10}\n", id, width, rule.label,
+  return fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>9} {:>10}\n", id, width, rule.label,
                      rule.decided(), rule.right, rule.wrong, rule.left_out,
                      std::isnan(precision) ? "-" : fmt::format("{:.3f}", precision));
 }
@@ -84,6 +85,36 @@ std::string mistake_line(const std::string& id, const Miss& miss) {
   if (miss.truth_id.empty()) return where + ", but nothing is there\n";
   return fmt::format("{}, is {} {} (IoU {:.2f})\n", where, miss.truth_label, miss.truth_id,
                      miss.iou);
+}
+
+/// "decided nothing: bay.by_shape, vent.low", as many to a line as fit.
+std::string idle_lines(const std::map<std::string, RuleScore>& rules) {
+  constexpr std::size_t kWidth = 100;
+  std::string text, line = "decided nothing:";
+  for (const auto& [id, rule] : rules) {
+    if (rule.decided() > 0) continue;
+    if (line.size() + id.size() + 2 > kWidth) {
+      text += line + "\n";
+      line = "   ";
+    }
+    line += " " + id + ",";
+  }
+  if (!line.ends_with(',')) return {};
+  line.back() = '\n';
+  return text + line;
+}
+
+/// How many mistakes of each rule are shown, at least one, so that all together are no more than
+/// `most` and no rule takes the place of the others.
+std::size_t most_of_each(const std::map<std::string, RuleScore>& rules, std::size_t most) {
+  std::size_t each = 1;
+  const auto shown = [&](std::size_t of_each) {
+    std::size_t sum = 0;
+    for (const auto& [id, rule] : rules) sum += std::min(of_each, rule.mistakes.size());
+    return sum;
+  };
+  while (shown(each + 1) <= most && shown(each + 1) > shown(each)) ++each;
+  return each;
 }
 
 void append_to(std::string& list, const std::string& element) {
@@ -149,20 +180,39 @@ std::map<std::string, RuleScore> score_by_rule(const std::vector<Prediction>& pr
   return by_rule;
 }
 
+bool add_rules_without_decision(const RuleBase& base, std::map<std::string, RuleScore>& by_rule) {
+  std::map<std::string, std::string> labels;
+  for (const rules::Rule& rule : base.pack().rules)
+    if (!base.pack().classes[static_cast<std::size_t>(rule.label)].is_abstract)
+      labels[rule.id] = rule.name_of_label;
+  for (const auto& [id, rule] : by_rule)
+    if (const auto known = labels.find(id);
+        id != kNoRule && (known == labels.end() || known->second != rule.label))
+      return false;
+  for (const auto& [id, label] : labels) by_rule.try_emplace(id).first->second.label = label;
+  return true;
+}
+
 std::string to_text(const std::map<std::string, RuleScore>& rules, std::size_t max_mistakes) {
   std::size_t width = 4, mistakes = 0;
   for (const auto& [id, rule] : rules) width = std::max(width, id.size());
-  std::string text = fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>8} {:>10}\n", "rule", width,
+  std::string text = fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>9} {:>10}\n", "rule", width,
                                  "label", "decided", "right", "wrong", "left out", "precision");
-  std::string lines;
   for (const auto& [id, rule] : rules) {
-    text += rule_line(id, rule, width) + wrong_line(rule) + contest_line(rule);
-    for (const Miss& miss : rule.mistakes)
-      if (mistakes++ < max_mistakes) lines += mistake_line(id, miss);
+    mistakes += rule.mistakes.size();
+    if (rule.decided() > 0)
+      text += rule_line(id, rule, width) + wrong_line(rule) + contest_line(rule);
   }
+  text += idle_lines(rules);
   if (mistakes == 0) return text;
-  text += fmt::format("mistakes by rule: {}\n{}", mistakes, lines);
-  if (mistakes > max_mistakes) text += fmt::format("  ... and {} more\n", mistakes - max_mistakes);
+  text += fmt::format("mistakes by rule: {}\n", mistakes);
+  const std::size_t most = most_of_each(rules, max_mistakes);
+  for (const auto& [id, rule] : rules) {
+    const std::size_t shown = std::min(most, rule.mistakes.size());
+    for (std::size_t i = 0; i < shown; ++i) text += mistake_line(id, rule.mistakes[i]);
+    if (const std::size_t more = rule.mistakes.size() - shown; more > 0)
+      text += fmt::format("  {} ... and {} more\n", id, more);
+  }
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "interpret/pack/rule_base.h"
 #include "interpret/score/score.h"
 
 #include <cstddef>
@@ -42,8 +43,13 @@ struct RuleScore {
 std::map<std::string, RuleScore> score_by_rule(const std::vector<Prediction>& predictions,
                                                const Score& score);
 
-/// For a terminal: a line a rule with what it was wrong about and what it contests with, and at
-/// most `max_mistakes` of the mistakes.
+/// Adds the rules for labels that decided nothing. False, and nothing is added, if the pack is not
+/// the one that decided: it lacks a rule of `by_rule`, or its rule is for another label.
+bool add_rules_without_decision(const RuleBase& base, std::map<std::string, RuleScore>& by_rule);
+
+/// For a terminal: a line a rule with what it was wrong about and what it contests with, the rules
+/// that decided nothing, and the first mistakes of each rule: as many of each as are together at
+/// most `max_mistakes`, but one.
 std::string to_text(const std::map<std::string, RuleScore>& rules, std::size_t max_mistakes);
 /// `"rules":{…}` for to_json (docs/formats.md).
 std::string rules_json(const std::map<std::string, RuleScore>& rules);

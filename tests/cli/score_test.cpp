@@ -133,6 +133,32 @@ TEST_SUITE("cli") {
                     .contains("rules"));
   }
 
+  TEST_CASE("score by rule names the rules that decided nothing and refuses a bad pack") {
+    const Folder folder;
+    const std::string records = records_of("house", folder);
+    const auto scored = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments{"score", records, "--truth", truth_of("house"),
+                                         "--by-rule"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      return run(arguments);
+    };
+    const Outcome text = scored({});
+    CHECK(text.out.find("\ndecided nothing: ") != std::string::npos);
+    CHECK(text.out.find("bay.by_shape") != std::string::npos);
+    const json rules = json::parse(scored({"--json"}).out)["rules"];
+    CHECK(rules["bay.by_shape"]["decided"] == 0);
+    CHECK(rules["bay.by_shape"]["label"] == "bay");
+    // Another pack than the one that labelled says nothing of what decided.
+    const Outcome other =
+        scored({"--rules", std::string(ORIEL_SOURCE_DIR) + "/examples/first_pack.yaml"});
+    CHECK(other.exit == 0);
+    CHECK(other.out.find("decided nothing") == std::string::npos);
+    const Outcome bad = scored({"--rules", folder / "none.yaml"});
+    CHECK(bad.exit == 4);
+    CHECK(bad.out.empty());
+    CHECK(bad.says("R200"));
+  }
+
   TEST_CASE("flush openings are found as recessed ones are") {
     const Folder folder;
     for (const std::string name : {"house", "house-flush"}) {
