@@ -50,10 +50,31 @@ Point lifted(const RoofPlane& plane, Point p) {
   return {p.x, p.y, plane.frame.origin.z + plane.slope.rise(local.y)};
 }
 
-/// Stands a prism on the roof: the footprint (counter-clockwise, convex) is cut out of the planes
-/// it meets, its walls rise from there, its top is summed into `top`.
-void stand_on_roof(Draft& draft, const House& house, const Ring& footprint, Um z, Owner owner,
-                   FacetId top) {
+Ring corners(const Rect& plan) { return rectangle({}, plan, 0); }
+
+}  // namespace
+
+Rect to_plan(const RoofPlane& plane, const Rect& rect) {
+  const Point a = plane.frame.at(rect.u0, rect.v0, 0), b = plane.frame.at(rect.u1, rect.v1, 0);
+  return {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)};
+}
+
+Rect to_plane(const RoofPlane& plane, const Rect& plan) {
+  const Point a = plane.frame.coordinates_of({plan.u0, plan.v0, 0});
+  const Point b = plane.frame.coordinates_of({plan.u1, plan.v1, 0});
+  return {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)};
+}
+
+bool is_roof_free(const House& house, const Rect& plan, Um distance) {
+  return std::none_of(house.roof.begin(), house.roof.end(), [&](const RoofPlane& plane) {
+    const Rect rect = to_plane(plane, plan).grown(distance);
+    return std::any_of(plane.reserved.begin(), plane.reserved.end(),
+                       [&](const Rect& other) { return other.overlaps(rect); });
+  });
+}
+
+std::vector<FacetId> stand_on_roof(Draft& draft, const House& house, const Ring& footprint, Um z,
+                                   Owner owner, FacetId top) {
   std::vector<FacetId> walls;
   for (std::size_t i = 0; i < footprint.size(); ++i) walls.push_back(draft.add_facet(owner));
   const auto wall_of = [&](Point a, Point b) {
@@ -78,9 +99,9 @@ void stand_on_roof(Draft& draft, const House& house, const Ring& footprint, Um z
     draft.add_ring(plane.facet, reversed(std::move(low)));
     draft.add_ring(top, high);
   }
+  return walls;
 }
 
-/// The object of the plane below the middle of the rectangle.
 int host_below(const Draft& draft, const House& house, const Rect& plan) {
   const Um x = plan.middle(), y = (plan.v0 + plan.v1) / 2, d = 1'000;
   const Ring probe{{x - d, y - d, 0}, {x + d, y - d, 0}, {x + d, y + d, 0}, {x - d, y + d, 0}};
@@ -89,31 +110,8 @@ int host_below(const Draft& draft, const House& house, const Rect& plan) {
   return -1;
 }
 
-void reserve(House& house, const Rect& plan) {
+void reserve_roof(House& house, const Rect& plan) {
   for (RoofPlane& plane : house.roof) plane.reserved.push_back(to_plane(plane, plan));
-}
-
-Ring corners(const Rect& plan) { return rectangle({}, plan, 0); }
-
-}  // namespace
-
-Rect to_plan(const RoofPlane& plane, const Rect& rect) {
-  const Point a = plane.frame.at(rect.u0, rect.v0, 0), b = plane.frame.at(rect.u1, rect.v1, 0);
-  return {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)};
-}
-
-Rect to_plane(const RoofPlane& plane, const Rect& plan) {
-  const Point a = plane.frame.coordinates_of({plan.u0, plan.v0, 0});
-  const Point b = plane.frame.coordinates_of({plan.u1, plan.v1, 0});
-  return {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)};
-}
-
-bool is_roof_free(const House& house, const Rect& plan, Um distance) {
-  return std::none_of(house.roof.begin(), house.roof.end(), [&](const RoofPlane& plane) {
-    const Rect rect = to_plane(plane, plan).grown(distance);
-    return std::any_of(plane.reserved.begin(), plane.reserved.end(),
-                       [&](const Rect& other) { return other.overlaps(rect); });
-  });
 }
 
 int add_chimney(Draft& draft, House& house, const Chimney& chimney) {
@@ -136,7 +134,7 @@ int add_chimney(Draft& draft, House& house, const Chimney& chimney) {
                 {u, u + flue, r.v0 + wall, r.v1 - wall, chimney.top - depth, chimney.top}, {object},
                 {.front = top});
   }
-  reserve(house, r.grown(c));
+  reserve_roof(house, r.grown(c));
   return object;
 }
 
@@ -152,7 +150,7 @@ int add_vent(Draft& draft, House& house, const Rect& plan, Um top, bool is_round
                  {r.u0, r.v1 - cut, 0}, {r.u0, r.v0 + cut, 0}};
   }
   stand_on_roof(draft, house, footprint, top, {object}, draft.add_facet({object}));
-  reserve(house, plan);
+  reserve_roof(house, plan);
   return object;
 }
 

@@ -12,6 +12,18 @@ Rect to_plane(const RoofPlane& plane, const Rect& plan);
 /// Whether it stands on the roof at all is not asked.
 bool is_roof_free(const House& house, const Rect& plan, Um distance);
 
+/// Keeps what is placed later away from the rectangle.
+void reserve_roof(House& house, const Rect& plan);
+
+/// Stands a prism on the roof: the footprint (counter-clockwise, convex) is cut out of the planes
+/// it meets, its walls rise from there to the height z, its top is summed into `top`. Returns the
+/// facets of the walls, one for each edge of the footprint.
+std::vector<FacetId> stand_on_roof(Draft& draft, const House& house, const Ring& footprint, Um z,
+                                   Owner owner, FacetId top);
+
+/// The object of the roof plane below the middle of the rectangle; -1 if there is none.
+int host_below(const Draft& draft, const House& house, const Rect& plan);
+
 /// An upright shaft that stands on whatever planes of the roof it meets: one, both sides of the
 /// ridge, or the four around an apex.
 struct Chimney {
