@@ -97,6 +97,7 @@ std::optional<ChimneyPlace> chimney(const std::string& name) {
 
 /// The arguments as they are typed, before they are understood.
 struct Typed {
+  std::string style = "continental";
   std::string roof = "mixed", chimney = "mixed", storeys, width, depth, origin;
   std::vector<std::string> features{"all"};
   double jitter_m = 0, noise_mm = 0;
@@ -119,6 +120,11 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   app.add_option("--name", arguments.name, "id of the house; several are NAME-000001, ...")
+      ->capture_default_str();
+  app.add_option("--style", typed.style,
+                 "continental: single houses as the options below describe them; english: "
+                 "terraces, pairs, town rows and flats, which draw sizes and features themselves")
+      ->check(CLI::IsMember({"continental", "english"}))
       ->capture_default_str();
   app.add_option("--roof", typed.roof, "flat, gable, hip, shed or mixed")
       ->check(CLI::IsMember({"flat", "gable", "hip", "shed", "mixed"}))
@@ -156,8 +162,17 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
                  "where the truths of such a file go: a .jsonl file or a folder");
 }
 
+/// English houses refuse what describes a single continental one.
+void refuse_unused(const CLI::App& app) {
+  for (const char* option :
+       {"--roof", "--storeys", "--width", "--depth", "--features", "--chimney", "--windows"})
+    if (app.count(option) > 0)
+      throw CLI::ValidationError(option, "is for --style continental; english houses draw it");
+}
+
 void understand(const Typed& typed, Arguments& arguments) {
   Options& options = arguments.options;
+  if (typed.style == name_of(Style::english)) options.style = Style::english;
   options.roof = roof(typed.roof);
   options.chimney = chimney(typed.chimney);
   if (!typed.storeys.empty()) {
@@ -204,6 +219,7 @@ std::optional<int> read_arguments(int argc, const char* const* argv, Arguments& 
   try {
     app.parse(argc, argv);
     understand(typed, arguments);
+    if (arguments.options.style == Style::english) refuse_unused(app);
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help, out, err);
   } catch (const CLI::ParseError& error) {

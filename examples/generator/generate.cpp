@@ -2,6 +2,7 @@
 
 #include "examples/generator/facade/facade_layout.h"
 #include "examples/generator/geometry/triangulate.h"
+#include "examples/generator/house/english_house.h"
 #include "examples/generator/house/plan.h"
 #include "examples/generator/house/roof_layout.h"
 #include "examples/generator/output/check.h"
@@ -29,6 +30,7 @@ void check(const Body& body, std::optional<Um> flatness, const Options& options,
 
 Body build(const Options& options, int index) {
   Random random(options.seed, static_cast<std::uint64_t>(index));
+  if (options.style == Style::english) return build_english_house(options, random);
   const Plan plan = draw_plan(options, random);
   Draft draft;
   House house = build_house(draft, plan.massing);

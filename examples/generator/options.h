@@ -61,6 +61,11 @@ class FeatureSet {
 /// where hips meet.
 enum class ChimneyPlace { slope, ridge, apex };
 
+/// Whose houses: single ones as the options describe them, or rows, pairs and blocks of English
+/// brick houses, which draw all their sizes and features themselves.
+enum class Style { continental, english };
+std::string_view name_of(Style style);
+
 template <class T>
 struct Range {
   T low{}, high{};
@@ -70,6 +75,9 @@ struct Range {
 /// seed and i, not on the count.
 struct Options {
   std::uint64_t seed = 1;
+  /// English houses follow flush, jitter and what is applied to the finished body, and ignore the
+  /// other options below.
+  Style style = Style::continental;
   /// Nothing: each house draws its own.
   std::optional<RoofKind> roof;
   /// 1 … 8.

@@ -136,6 +136,10 @@ FeatureSet features_for_bench() {
 
 }  // namespace
 
+std::string_view name_of(Style style) {
+  return style == Style::english ? "english" : "continental";
+}
+
 std::string_view name_of(Feature feature) {
   return kFeatureRows[static_cast<std::size_t>(feature)].name;
 }
