@@ -84,6 +84,7 @@ TEST_SUITE("examples/generator") {
         {{"-o", "x", "--format", "gml"}, "--format"},
         {{"-o", "x.city.jsonl", "--format", "citygml"}, "--format"},
         {{"-o", "-", "--format", "citygml3"}, "--format"},
+        {{"-o", "x", "--style", "dutch"}, "--style"},
     };
     for (const Case& wrong : cases) {
       const Result result = run(wrong.arguments);
@@ -189,6 +190,29 @@ TEST_SUITE("examples/generator") {
                                "--origin=604000,5403766,370", "--roof=hip", "--storeys=7",
                                "--width=20", "--windows=50", "--flush=1", "--seed=2"}) {
       const Result result = run({"-o", "-", option});
+      CHECK(result.code == 0);
+      CHECK_MESSAGE(result.out != plain, option);
+    }
+  }
+
+  TEST_CASE("English houses refuse the options that describe a continental one") {
+    for (const char* option : {"--roof=hip", "--storeys=2", "--width=10", "--depth=10",
+                               "--features=window", "--chimney=ridge", "--windows=50"}) {
+      const Result result = run({"-o", "-", "--style", "english", option});
+      INFO(result.err);
+      CHECK(result.code == 2);
+      CHECK(result.err.find("is for --style continental") != std::string::npos);
+      CHECK(result.out.empty());
+    }
+  }
+
+  TEST_CASE("options change English houses as they change others") {
+    const std::string plain = run({"-o", "-", "--style", "english"}).out;
+    CHECK(run({"-o", "-", "--style", "english"}).out == plain);
+    CHECK(run({"-o", "-", "--style", "continental"}).out == run({"-o", "-"}).out);
+    for (const char* option : {"--jitter=0.2", "--noise=1", "--triangulate", "--rotate=10",
+                               "--origin=604000,5403766,370", "--flush=1", "--seed=2"}) {
+      const Result result = run({"-o", "-", "--style", "english", option});
       CHECK(result.code == 0);
       CHECK_MESSAGE(result.out != plain, option);
     }

@@ -15,8 +15,10 @@ using nlohmann::json;
 
 constexpr int kHouses = 60;
 
+/// Every third house is of the English style.
 Building make_building(int index) {
   Options options;
+  if (index % 3 == 2) options.style = Style::english;
   options.origin = {604'000'000'000, 5'403'766'000'000, 370'000'000};
   options.flush = 0.3;
   options.noise = index % 2 == 0 ? 0 : 1'000;
