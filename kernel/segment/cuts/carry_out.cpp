@@ -166,15 +166,16 @@ class Cut {
   [[nodiscard]] CutResult take_result() { return std::move(result_); }
 
  private:
-  /// The only lump of a cut is nearly all that is left of the solid and hangs on it in one piece:
-  /// it is the body, and what is behind the plane is the part. A house under a roof slab is no part
-  /// of it; walls under a roof that is more than a slab are.
+  /// The only lump of a cut is nearly all that is left of the solid: it is the body, and what is
+  /// behind the plane are the parts. A house under a roof slab is no part of it, nor one under the
+  /// caps of its chimneys; walls under a roof that is more than a slab are.
   static bool is_most(const GrowingTree& tree, const WaitingBody& from, const CutChoice& choice) {
     if (choice.is_hole || from.feature.is_valid() || tree.options.order != Order::natural)
       return false;
-    if (choice.lumps.size() != 1 || choice.lumps[0].regions.size() != 1) return false;
+    if (choice.lumps.size() != 1 || choice.lumps[0].regions.empty()) return false;
     const Lump& lump = choice.lumps[0];
-    if (!choice.section->regions[at(lump.regions[0])].covered.empty()) return false;
+    for (const int region : lump.regions)
+      if (!choice.section->regions[at(region)].covered.empty()) return false;
     const double rest = from.body.volume() - lump.volume;
     constexpr double kSlab = 0.1;  // of the volume: less than what a coarser scale may leave out
     return rest < kSlab * from.body.volume() &&
@@ -209,11 +210,31 @@ class Cut {
       caps = imprint(from_.body, *choice_.section, lump, touched);
     has_changed_body_ |= !touched.empty();
     if (caps.empty()) return false;
-    if (takes_rest_) caps = turned_round(from_.body, caps);
+    if (takes_rest_) return take_off_rest(turned_round(from_.body, caps), lump, std::move(touched));
     std::size_t loops = 0;
     for (const CutCap& cap : caps) loops += cap.loops.size() + cap.covered.size();
     result_.may_have_parted |= loops > 1;
     return take_off_part(std::move(caps), {lump.new_area, lump.value}, std::move(touched));
+  }
+
+  /// Each cap has a part of its own behind it; those that only come off together are one.
+  bool take_off_rest(std::vector<CutCap> caps, const Lump& lump, std::vector<PointId> touched) {
+    std::vector<CutCap> joined;
+    if (caps.size() == 1) std::swap(joined, caps);
+    for (CutCap& cap : caps) {
+      const double area = area_of(tree_.world, cap);
+      result_.may_have_parted |= cap.loops.size() > 1;
+      if (!take_off_part({cap}, {area, lump.value}, touched)) joined.push_back(std::move(cap));
+    }
+    if (joined.empty()) return true;
+    std::size_t loops = 0;
+    double area = 0;
+    for (const CutCap& cap : joined) {
+      loops += cap.loops.size();
+      area += area_of(tree_.world, cap);
+    }
+    result_.may_have_parted |= loops > 1;
+    return take_off_part(std::move(joined), {area, lump.value}, std::move(touched));
   }
 
   bool take_off_part(std::vector<CutCap> caps, PartMeasures measures,
