@@ -139,6 +139,32 @@ void CellWriter::finish(const Building& building, const Solid& solid) {
   for (const PointId p : world_.points.ids())
     out_.vertices.push_back({world_.points.at(p), world_.points.is_meeting(p)});
   attribute_polygons(building, solid);
+  take_in_hosted();
+}
+
+/// A protrusion is as large as with the protrusions that stand on it, as if they had been cut off it
+/// and not before it: a chimney with its cap, a slab with its parapet.
+void CellWriter::take_in_hosted() {
+  std::vector<std::pair<FeatureId, FeatureId>> pairs;  // what stands on what
+  for (int f = 0; f < std::ssize(out_.features); ++f) {
+    const Feature& feature = out_.features[at(f)];
+    FeatureId host = feature.host;
+    if (feature.sense != Sense::protrusion || host == feature.parent) continue;
+    for (; host.is_valid() && out_.features[host.index()].sense == Sense::protrusion;
+         host = out_.features[host.index()].host)
+      pairs.emplace_back(FeatureId{f}, host);
+  }
+  std::vector<Box> own;
+  for (const Feature& feature : out_.features) own.push_back(feature.box);
+  for (const auto& [inner, outer] : pairs) {
+    Feature& larger = out_.features[outer.index()];
+    larger.box.grow(own[inner.index()]);
+    const std::vector<int> more = out_.features[inner.index()].vertices;
+    larger.vertices.insert(larger.vertices.end(), more.begin(), more.end());
+    std::ranges::sort(larger.vertices);
+    larger.vertices.erase(std::unique(larger.vertices.begin(), larger.vertices.end()),
+                          larger.vertices.end());
+  }
 }
 
 std::vector<CellWriter::FacetShape> CellWriter::shapes_of(

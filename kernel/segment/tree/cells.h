@@ -83,6 +83,7 @@ class CellWriter {
   const std::vector<FeatureId>& features_around(FeatureId innermost);
   /// To a cell facet, and to the features it is in.
   void give(std::span<const int> polygons, const CellFacet& home);
+  void take_in_hosted();
   void attribute_polygons(const Building& building, const Solid& solid);
   [[nodiscard]] std::vector<FacetShape> shapes_of(std::span<const CellFacet> cell_facets) const;
   [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,
