@@ -48,10 +48,6 @@ std::string_view json_name(const std::array<TypeName, n>& names, std::string_vie
   return found == names.end() ? std::string_view() : found->json;
 }
 
-bool is_city(const XmlNode& node) {
-  return node.vocabulary != Vocabulary::gml && node.vocabulary != Vocabulary::other;
-}
-
 /// A property such as lod2MultiSurface: its level and what follows that; level 0 if it is none.
 struct LodProperty {
   char lod = 0;
@@ -64,15 +60,6 @@ LodProperty lod_property(const XmlNode& node) {
       name[3] > '4')
     return {};
   return {name[3], name.substr(4)};
-}
-
-bool is_boundary(const XmlNode& node) {
-  return is_city(node) && (node.name == "boundedBy" || node.name == "boundary");
-}
-
-bool is_filling(const XmlNode& node) {
-  return is_city(node) &&
-         (node.name == "opening" || node.name == "fillingSurface" || node.name == "filling");
 }
 
 /// True for what CityGML 3.0 says to be inside.
@@ -107,6 +94,8 @@ class ObjectReader {
  private:
   bool read_surfaces(const XmlNode& node, std::string_view own_type, int parent,
                      CityGmlObject& object);
+  bool read_surfaces_in(const XmlNode& property, std::string_view own_type, int parent,
+                        CityGmlObject& object);
   bool read_surface(const XmlNode& node, int parent, CityGmlObject& object);
   bool read_stated(CityGmlObject& object);
   static void collect(char lod, CityGmlObject& object);
@@ -162,19 +151,27 @@ bool ObjectReader::read(const XmlNode& node, std::string_view type, std::string 
   return read_children(building_.objects.size() - 1);
 }
 
-/// Reads the boundary surfaces and fillings of `node`.
+/// Reads the boundary surfaces and fillings of `node`, also those that stand in the property of a
+/// geometry instead of beside it.
 bool ObjectReader::read_surfaces(const XmlNode& node, std::string_view own_type, int parent,
                                  CityGmlObject& object) {
   for (const XmlNode& property : node.children) {
-    if (!is_boundary(property) && !is_filling(property)) continue;
-    const bool is_good = for_each_value(property, [&](const XmlNode& value) {
-      // The faces of a Window or Door that is a thing of its own are all its surface.
-      const bool is_plain = own_type.empty() || !json_name(kSurfaceTypes, value.name).empty();
-      return !is_plain || read_surface(value, parent, object);
-    });
-    if (!is_good) return false;
+    if (!read_surfaces_in(property, own_type, parent, object)) return false;
+    if (lod_property(property).lod == 0) continue;
+    for (const XmlNode& inner : property.children)
+      if (!read_surfaces_in(inner, own_type, parent, object)) return false;
   }
   return true;
+}
+
+bool ObjectReader::read_surfaces_in(const XmlNode& property, std::string_view own_type, int parent,
+                                    CityGmlObject& object) {
+  if (!holds_boundary(property)) return true;
+  return for_each_value(property, [&](const XmlNode& value) {
+    // The faces of a Window or Door that is a thing of its own are all its surface.
+    const bool is_plain = own_type.empty() || !json_name(kSurfaceTypes, value.name).empty();
+    return !is_plain || read_surface(value, parent, object);
+  });
 }
 
 bool ObjectReader::read_surface(const XmlNode& node, int parent, CityGmlObject& object) {
@@ -208,9 +205,10 @@ bool ObjectReader::read_stated(CityGmlObject& object) {
     constexpr std::array<std::string_view, 5> kRead{"Solid", "MultiSurface", "Geometry",
                                                     "FootPrint", "RoofEdge"};
     if (std::ranges::find(kRead, kind) == kRead.end()) continue;
-    auto geometry = reader_.read(property);
+    std::vector<GmlGeometry> geometries = reader_.read(property);
     if (has_failed()) return false;
-    if (geometry) object.geometries.push_back({std::move(*geometry), lod, {}});
+    for (GmlGeometry& geometry : geometries)
+      object.geometries.push_back({std::move(geometry), lod, {}});
   }
   return true;
 }

@@ -11,8 +11,9 @@
 
 namespace oriel::detail {
 
-/// Reads CityGML 2.0 and 3.0, a building at a time. Each becomes a CityJSONFeature, in memory, that
-/// the CityJSON reader reads: so levels of detail, families and semantics are what they are there.
+/// Reads CityGML 1.0, 2.0 and 3.0, a building at a time. Each becomes a CityJSONFeature, in memory,
+/// that the CityJSON reader reads: so levels of detail, families and semantics are what they are
+/// there.
 class CityGmlReader {
  public:
   /// `input` must outlive the reader; `lod` as in ReadOptions.

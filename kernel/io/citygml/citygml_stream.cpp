@@ -1,5 +1,7 @@
 #include "kernel/io/citygml/citygml_stream.h"
 
+#include "kernel/io/citygml/xml_encoding.h"
+
 #include <algorithm>
 #include <array>
 #include <deque>
@@ -37,9 +39,11 @@ Vocabulary vocabulary_of(std::string_view space) {
   if (space == kGml || space == "http://www.opengis.net/gml/3.2") return Vocabulary::gml;
   if (!space.starts_with(kCityGml)) return Vocabulary::other;
   space.remove_prefix(kCityGml.size());
-  if (space == "2.0" || space == "3.0") return Vocabulary::core;
-  if (!space.ends_with("/2.0") && !space.ends_with("/3.0")) return Vocabulary::other;
-  space.remove_suffix(4);
+  const std::size_t slash = space.rfind('/');
+  const std::string_view version = space.substr(slash == std::string_view::npos ? 0 : slash + 1);
+  if (version != "1.0" && version != "2.0" && version != "3.0") return Vocabulary::other;
+  if (space == version) return Vocabulary::core;
+  space = space.substr(0, slash);
   if (space == "building") return Vocabulary::building;
   if (space == "construction") return Vocabulary::construction;
   if (space == "generics") return Vocabulary::generics;
@@ -67,6 +71,7 @@ struct CityGmlStream::State {
   static void on_text(void* data, const XML_Char* text, int size);
   static void on_doctype(void* data, const XML_Char* name, const XML_Char* system_id,
                          const XML_Char* public_id, int has_subset);
+  static int on_encoding(void* data, const XML_Char* name, XML_Encoding* encoding);
 
   void start(const QualifiedName& name, const XML_Char** attributes);
   void end();
@@ -89,6 +94,9 @@ struct CityGmlStream::State {
   XML_Index root_start = 0;
   std::deque<XmlNode> ready;
   XML_Index fed = 0;
+  /// The encoding that the file names, if Expat does not read it itself, and its characters.
+  std::string encoding;
+  std::optional<ByteTable> table;
   bool has_root = false;
   bool is_done = false;
   std::optional<Issue> issue;
@@ -101,6 +109,7 @@ CityGmlStream::State::State(Input& from, const TextName& called)
   XML_SetElementHandler(parser.get(), &on_start, &on_end);
   XML_SetCharacterDataHandler(parser.get(), &on_text);
   XML_SetStartDoctypeDeclHandler(parser.get(), &on_doctype);
+  XML_SetUnknownEncodingHandler(parser.get(), &on_encoding, this);
 }
 
 void CityGmlStream::State::on_start(void* data, const XML_Char* name, const XML_Char** attributes) {
@@ -122,6 +131,18 @@ void CityGmlStream::State::on_doctype(void* data, const XML_Char* /*name*/,
   static_cast<State*>(data)->refuse(
       {Code::E114,
        "has a document type declaration (DOCTYPE); expected none: entities are not read"});
+}
+
+int CityGmlStream::State::on_encoding(void* data, const XML_Char* name, XML_Encoding* encoding) {
+  State& state = *static_cast<State*>(data);
+  state.encoding = name;
+  state.table = byte_table_of(name);
+  if (!state.table) return XML_STATUS_ERROR;
+  std::ranges::copy(*state.table, std::begin(encoding->map));
+  encoding->data = nullptr;
+  encoding->convert = nullptr;
+  encoding->release = nullptr;
+  return XML_STATUS_OK;
 }
 
 void CityGmlStream::State::start(const QualifiedName& element, const XML_Char** attributes) {
@@ -175,9 +196,10 @@ void CityGmlStream::State::check_root(const QualifiedName& element) {
                                            "CityModel",
                                            in_quotes(element.local))});
   if (vocabulary_of(element.space) != Vocabulary::core)
-    refuse({Code::E115, fmt::format("a CityModel of the namespace {}; expected CityGML 2.0 or 3.0 "
-                                    "(citygml-tools brings older files up to date)",
-                                    in_quotes(element.space))});
+    refuse({Code::E115,
+            fmt::format("a CityModel of the namespace {}; expected CityGML 1.0, 2.0 or 3.0 "
+                        "(citygml-tools brings older files up to date)",
+                        in_quotes(element.space))});
 }
 
 void CityGmlStream::State::note_envelope(const XmlNode& bounds) {
@@ -212,14 +234,22 @@ std::string_view CityGmlStream::State::ahead() const {
 Fault CityGmlStream::State::fault_of(XML_Error error, bool is_last) const {
   if (fed == 0) return {Code::E102, "the file is empty"};
   const std::string_view rest = ahead();
-  if (error == XML_ERROR_UNKNOWN_ENCODING || error == XML_ERROR_INCORRECT_ENCODING)
-    return {Code::E103,
-            "the encoding that the XML declaration names is not read; expected UTF-8, "
-            "UTF-16 or ISO-8859-1"};
+  if (error == XML_ERROR_UNKNOWN_ENCODING)
+    return {Code::E103, fmt::format("the encoding {} that the XML declaration names is not read; "
+                                    "expected UTF-8, UTF-16, ISO-8859-1, ISO-8859-15 or "
+                                    "windows-1252",
+                                    in_quotes(encoding))};
+  if (error == XML_ERROR_INCORRECT_ENCODING)
+    return {Code::E103, "the encoding that the XML declaration names is not that of the file"};
   if (!is_last && !has_root && !rest.starts_with('<'))
     return {Code::E107, fmt::format("is not XML: it starts with {}; expected a CityGML file",
                                     in_quotes(rest.substr(0, 8)))};
-  if (error == XML_ERROR_INVALID_TOKEN && find_non_utf8(rest.substr(0, 4)) == std::size_t{0})
+  if (error == XML_ERROR_INVALID_TOKEN && table && !rest.empty() &&
+      (*table)[static_cast<unsigned char>(rest[0])] < 0)
+    return {Code::E103, fmt::format("the byte 0x{:02X}, which {} does not have",
+                                    static_cast<unsigned char>(rest[0]), encoding)};
+  if (error == XML_ERROR_INVALID_TOKEN && !table &&
+      find_non_utf8(rest.substr(0, 4)) == std::size_t{0})
     return {Code::E103, "a byte that is not UTF-8"};
   if (is_last && error == XML_ERROR_NO_ELEMENTS && !has_root)
     return {Code::E102, "the file has no element"};

@@ -20,6 +20,10 @@ bool is_one_of(std::string_view name, const std::array<std::string_view, n>& nam
   return std::ranges::find(names, name) != names.end();
 }
 
+bool is_solid(const XmlNode& node) {
+  return is_one_of<3>(node.name, {"Solid", "MultiSolid", "CompositeSolid"});
+}
+
 bool is_polygon(const XmlNode& node) {
   return is_one_of<4>(node.name, {"Polygon", "PolygonPatch", "Triangle", "Rectangle"});
 }
@@ -45,6 +49,11 @@ bool is_part(const XmlNode& property) {
       {"surfaceMember", "surfaceMembers", "patches", "polygonPatches", "trianglePatches",
        "baseSurface", "exterior", "interior", "solidMember", "solidMembers", "geometryMember",
        "geometryMembers", "element", "surfaceProperty", "solidProperty"});
+}
+
+/// True for what has a value to visit: a part, or a geometry that stands there without it.
+bool has_part(const XmlNode& child) {
+  return is_part(child) || is_polygon(child) || holds_surfaces(child);
 }
 
 /// The words of coordinates, separated by white space or, in gml:coordinates, by commas.
@@ -111,35 +120,45 @@ bool GmlReader::may_visit(const XmlNode& property, const XmlNode& value) {
 
 template <class Visit>
 bool GmlReader::for_each_value(const XmlNode& property, const Visit& visit) {
-  const std::vector<const XmlNode*> values = links_.values_of(property);
+  const bool is_value = is_polygon(property) || holds_surfaces(property);
+  const std::vector<const XmlNode*> values =
+      is_value ? std::vector<const XmlNode*>{&property} : links_.values_of(property);
   fault_ = links_.fault();
-  const bool is_link = property.children.empty();
+  const bool is_link = !is_value && property.children.empty();
   ++depth_;
   for (std::size_t i = 0; i < values.size() && !fault_; ++i) {
+    if (holds_boundary(*values[i])) continue;
     if (!may_visit(property, *values[i])) break;
     if (is_link) followed_.insert(values[i]);
-    visit(*values[i]);
+    if (is_part(*values[i]))
+      for_each_value(*values[i], visit);
+    else
+      visit(*values[i]);
     if (is_link) followed_.erase(values[i]);
   }
   --depth_;
   return !fault_;
 }
 
-std::optional<GmlGeometry> GmlReader::read(const XmlNode& property) {
-  GmlGeometry geometry;
+std::vector<GmlGeometry> GmlReader::read(const XmlNode& property) {
+  GmlGeometry solids;
+  GmlGeometry surfaces;
   const bool is_good = for_each_value(property, [&](const XmlNode& value) {
     if (value.name.ends_with("Solid")) {
-      geometry.type = value.name == "MultiSolid"       ? "MultiSolid"
-                      : value.name == "CompositeSolid" ? "CompositeSolid"
-                                                       : "Solid";
-      return read_solids(value, {}, geometry.bodies);
+      const bool is_first = solids.type.empty();
+      solids.type = is_first && value.name == "CompositeSolid" ? "CompositeSolid"
+                    : is_first && value.name == "Solid"        ? "Solid"
+                                                               : "MultiSolid";
+      return read_solids(value, {}, solids.bodies);
     }
-    geometry.type = "MultiSurface";
-    geometry.bodies = {{{}}};
-    return read_surfaces(value, {}, geometry.bodies[0][0]);
+    surfaces.type = "MultiSurface";
+    surfaces.bodies.resize(1, Body(1));
+    return read_surfaces(value, {}, surfaces.bodies[0][0]);
   });
-  if (!is_good || geometry.bodies.empty()) return std::nullopt;
-  return geometry;
+  std::vector<GmlGeometry> geometries;
+  for (GmlGeometry* geometry : {&solids, &surfaces})
+    if (is_good && !geometry->bodies.empty()) geometries.push_back(std::move(*geometry));
+  return geometries;
 }
 
 std::vector<GmlPolygon> GmlReader::read_polygons(const XmlNode& property) {
@@ -151,14 +170,14 @@ std::vector<GmlPolygon> GmlReader::read_polygons(const XmlNode& property) {
 bool GmlReader::read_solids(const XmlNode& node, Context context, Bodies& bodies) {
   if (const auto own = as_whole(node.attribute("srsDimension")))
     context.dimension = static_cast<int>(*own);
-  if (node.name != "Solid" && node.name != "MultiSolid" && node.name != "CompositeSolid")
+  if (!is_solid(node))
     return fail(node, Code::E204,
                 fmt::format("a solid is {}; expected Solid, MultiSolid or "
                             "CompositeSolid",
                             in_quotes(node.name)));
   std::vector<GmlShell> shells;
   for (const XmlNode& property : node.children) {
-    if (!is_part(property)) continue;
+    if (!has_part(property)) continue;
     const bool is_good = for_each_value(property, [&](const XmlNode& value) {
       if (node.name != "Solid") return read_solids(value, context, bodies);
       shells.emplace_back();
@@ -182,7 +201,7 @@ bool GmlReader::read_surfaces(const XmlNode& node, Context context, GmlShell& sh
                             in_quotes(node.name)));
   if (node.attribute("orientation") == "-") context.is_turned = !context.is_turned;
   for (const XmlNode& property : node.children)
-    if (is_part(property) && !for_each_value(property, [&](const XmlNode& value) {
+    if (has_part(property) && !for_each_value(property, [&](const XmlNode& value) {
           return read_surfaces(value, context, shell);
         }))
       return false;

@@ -59,16 +59,21 @@ Vec3 first_position(const XmlNode& node);
 /// of them; Polygon, PolygonPatch, Triangle and Rectangle of LinearRings with posList, pos,
 /// pointProperty or coordinates. A surface that is turned round (orientation "-") has its rings
 /// turned round.
+///
+/// GML puts every geometry into a property. One that stands in another without a property, and a
+/// property that stands directly in another, are read as if that were kept. Boundary surfaces in
+/// the property of a geometry are passed over.
 class GmlReader {
  public:
   /// `links` and `vertices` must outlive the reader.
   GmlReader(XmlLinks& links, GmlVertices& vertices) : links_(links), vertices_(vertices) {}
 
-  /// The geometry in `property`; nothing if it is empty, or for a fault (then `fault()` has it):
+  /// The geometries in `property`, its solids as one and its surfaces as one; nothing if it is
+  /// empty, or for a fault (then `fault()` has it):
   /// E201 a polygon without a ring, E204 an element that is no surface, E207 and E211 as XmlLinks,
   /// E210 coordinates that are not, E212 links in a circle, E503 nested too deep by way of links,
   /// E506.
-  std::optional<GmlGeometry> read(const XmlNode& property);
+  std::vector<GmlGeometry> read(const XmlNode& property);
   /// All polygons in `property`, of solids too.
   std::vector<GmlPolygon> read_polygons(const XmlNode& property);
 
@@ -78,7 +83,8 @@ class GmlReader {
 
  private:
   using GmlShell = std::vector<GmlPolygon>;
-  using Bodies = std::vector<std::vector<GmlShell>>;
+  using Body = std::vector<GmlShell>;
+  using Bodies = std::vector<Body>;
   /// What elements have from those around them.
   struct Context {
     bool is_turned = false;
@@ -93,7 +99,8 @@ class GmlReader {
   bool read_positions(const XmlNode& node, Context context, std::vector<int>& vertices);
   /// True unless the value of `property` is one too many, too deep, or one that reading is in.
   bool may_visit(const XmlNode& property, const XmlNode& value);
-  /// Calls `visit` with each value of `property`, up to the first fault; false if there is one.
+  /// Calls `visit` with each value of `property`, up to the first fault; false if there is one. A
+  /// geometry that stands where a property should is its own value.
   template <class Visit>
   bool for_each_value(const XmlNode& property, const Visit& visit);
   bool fail(const XmlNode& node, Code code, std::string sentence);

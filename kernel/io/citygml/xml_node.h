@@ -12,8 +12,8 @@
 
 namespace oriel::detail {
 
-/// The vocabulary of an element: its XML namespace without the version, as far as CityGML 2.0 and
-/// 3.0 and the GML in them go.
+/// The vocabulary of an element: its XML namespace without the version, as far as CityGML 1.0, 2.0
+/// and 3.0 and the GML in them go.
 enum class Vocabulary : std::uint8_t { other, gml, core, building, construction, generics };
 
 /// An element of a CityGML file with all that is in it.
@@ -38,6 +38,18 @@ struct XmlNode {
   }
   [[nodiscard]] std::string_view id() const { return attribute("id"); }
 };
+
+/// True for an element of CityGML, false for one of GML and of extensions.
+inline bool is_city(const XmlNode& node) {
+  return node.vocabulary != Vocabulary::gml && node.vocabulary != Vocabulary::other;
+}
+
+/// True for a property that holds a boundary surface, or an opening or filling of one.
+inline bool holds_boundary(const XmlNode& node) {
+  return is_city(node) &&
+         (node.name == "boundedBy" || node.name == "boundary" || node.name == "opening" ||
+          node.name == "fillingSurface" || node.name == "filling");
+}
 
 /// A finding and the element it is about.
 struct NodeFault {

@@ -1,5 +1,7 @@
 #include "kernel/io/cityjson/cityjson_objects.h"
 
+#include "kernel/io/cityjson/lod_name.h"
+
 #include <algorithm>
 #include <charconv>
 #include <numeric>
@@ -36,7 +38,8 @@ std::vector<std::size_t> families_of(const std::vector<Relative>& members) {
 namespace {
 
 /// Reads one element of "geometry" into `entry`; says what is wrong.
-std::optional<Fault> list_geometry(dom::element element, std::size_t number, ObjectEntry& entry) {
+std::optional<Fault> list_geometry(dom::element element, std::size_t number, bool has_number_lods,
+                                   ObjectEntry& entry) {
   const auto object = as_object(element);
   const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
   if (!type)
@@ -53,15 +56,17 @@ std::optional<Fault> list_geometry(dom::element element, std::size_t number, Obj
                              number, in_quotes(*type))};
   const auto lod = member(*object, "lod");
   if (!lod) return Fault{Code::E201, fmt::format("geometry {} has no 'lod'", number)};
-  if (!lod->is_string())
+  const bool is_number = has_number_lods && lod->is_number();
+  if (!lod->is_string() && !is_number)
     return Fault{Code::E202, fmt::format("the 'lod' of geometry {} is {}; expected a text such as "
                                          "\"2.2\"",
                                          number, found_kind(lod))};
-  entry.geometries.push_back({number, *object, *kind, *as_string(lod)});
+  entry.geometries.push_back(
+      {number, *object, *kind, is_number ? lod_name(*lod) : std::string(*as_string(lod))});
   return std::nullopt;
 }
 
-std::optional<Fault> list_geometries(dom::object object, ObjectEntry& entry) {
+std::optional<Fault> list_geometries(dom::object object, bool has_number_lods, ObjectEntry& entry) {
   const auto geometry = member(object, "geometry");
   if (!geometry) return std::nullopt;
   const auto elements = as_array(geometry);
@@ -70,7 +75,7 @@ std::optional<Fault> list_geometries(dom::object object, ObjectEntry& entry) {
                  fmt::format("'geometry' is {}; expected an array", found_kind(geometry))};
   std::size_t number = 0;
   for (const dom::element element : *elements)
-    if (auto fault = list_geometry(element, number++, entry)) return fault;
+    if (auto fault = list_geometry(element, number++, has_number_lods, entry)) return fault;
   return std::nullopt;
 }
 
@@ -153,7 +158,7 @@ GeometryChoice choose(const ObjectEntry& entry, Family& family,
 
 }  // namespace
 
-std::vector<ObjectEntry> list_objects(dom::object objects) {
+std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods) {
   std::vector<ObjectEntry> entries;
   std::unordered_set<std::string_view> ids;
   std::size_t number = 0;
@@ -171,7 +176,7 @@ std::vector<ObjectEntry> list_objects(dom::object objects) {
     else if (!ids.insert(field.key).second)
       entry.fault = {Code::E207, "the id stands twice in 'CityObjects'; the first one is read"};
     else
-      entry.fault = list_geometries(*object, entry);
+      entry.fault = list_geometries(*object, has_number_lods, entry);
     if (object) list_relatives(*object, entry);
     entries.push_back(std::move(entry));
   }

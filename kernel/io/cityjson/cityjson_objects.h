@@ -28,7 +28,7 @@ struct GeometryEntry {
   std::size_t number = 0;
   dom::object object;
   GeometryKind kind;
-  std::string_view lod;
+  std::string lod;
 };
 
 /// A Building or BuildingPart of "CityObjects".
@@ -54,8 +54,9 @@ struct GeometryChoice {
 };
 
 /// The buildings and parts of `objects`, in the order of the file. Members that are no CityObjects
-/// come too, with their fault (E201, E202); an id that stands twice has the fault E207.
-std::vector<ObjectEntry> list_objects(dom::object objects);
+/// come too, with their fault (E201, E202); an id that stands twice has the fault E207. Levels of
+/// detail may be numbers, as in CityJSON 1.0, if `has_number_lods`.
+std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods);
 
 /// The geometry to read of each entry, parallel to `entries`: that of the level of detail `lod`, or
 /// of the highest one in the family (objects linked by parents and children); a solid before

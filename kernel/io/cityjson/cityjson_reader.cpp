@@ -1,5 +1,6 @@
 #include "kernel/io/cityjson/cityjson_reader.h"
 
+#include "kernel/io/cityjson/added_transform.h"
 #include "kernel/io/cityjson/cityjson_geometry.h"
 #include "kernel/io/cityjson/cityjson_objects.h"
 #include "kernel/io/cityjson/stream_header.h"
@@ -103,16 +104,21 @@ std::optional<Fault> check_type(dom::object root, std::string_view expected) {
   if (expected != "CityJSON") return std::nullopt;
   const auto version = member(root, "version");
   const std::string_view text = as_string(version).value_or(std::string_view());
-  if (text == "1.1" || text == "2.0") return std::nullopt;
-  return Fault{Code::E108,
-               fmt::format("CityJSON version {}; expected \"1.1\" or \"2.0\" (cjio upgrade "
-                           "brings older files up to date)",
-                           text.empty() ? std::string(found_kind(version)) : in_quotes(text))};
+  if (text == "1.0" || text == "1.1" || text == "2.0") return std::nullopt;
+  return Fault{
+      Code::E108,
+      fmt::format("CityJSON version {}; expected \"1.0\", \"1.1\" or \"2.0\" (cjio upgrade "
+                  "brings older files up to date)",
+                  text.empty() ? std::string(found_kind(version)) : in_quotes(text))};
 }
 
 std::optional<Fault> read_transform(dom::object root, Transform& transform) {
   const auto element = member(root, "transform");
-  if (!element) return Fault{Code::E201, "has no 'transform', which CityJSON 1.1 and 2.0 require"};
+  if (!element)
+    return Fault{Code::E201, fmt::format("has no 'transform', which {}",
+                                         as_string(member(root, "version")) == "1.0"
+                                             ? "a CityJSONSeq requires"
+                                             : "CityJSON 1.1 and 2.0 require")};
   const auto object = as_object(element);
   const auto scale = object ? as_vector(member(*object, "scale")) : std::nullopt;
   const auto translate = object ? as_vector(member(*object, "translate")) : std::nullopt;
@@ -122,6 +128,13 @@ std::optional<Fault> read_transform(dom::object root, Transform& transform) {
     return Fault{Code::E202, "'scale' of 'transform' must be three numbers above 0"};
   transform = {*scale, *translate};
   return std::nullopt;
+}
+
+/// True for a file that may do without a transform, and does.
+bool lacks_transform(dom::object root, const TextName& name) {
+  const bool is_file = name.line == 0;
+  return is_file && as_string(member(root, "type")) == "CityJSON" &&
+         as_string(member(root, "version")) == "1.0" && !member(root, "transform");
 }
 
 /// The file's vertices; NaN for one that is not three whole numbers.
@@ -238,7 +251,7 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
                                            const TextName& name, Document& document,
                                            CityJsonSource& source,
                                            std::vector<Issue>& issues) const {
-  const std::vector<ObjectEntry> entries = list_objects(model.objects);
+  const std::vector<ObjectEntry> entries = list_objects(model.objects, header.version == "1.0");
   const std::vector<GeometryChoice> choices = choose_geometries(entries, lod);
   GeometryReader geometries(*model.vertices, source.transform);
   if (is_plain) geometries.use(plain, text);
@@ -308,7 +321,12 @@ Checked<Document> CityJsonReader::read(std::string text, const TextName& name,
     return std::move(result);
   };
   dom::object root;
-  if (auto issue = state_->parse(text, name, root)) {
+  auto issue = state_->parse(text, name, root);
+  if (!issue && lacks_transform(root, name)) {
+    add_transform(text);
+    issue = state_->parse(text, name, root);
+  }
+  if (issue) {
     result.issues.push_back(std::move(*issue));
     state_->refused = std::move(text);
     return result;

@@ -1,5 +1,6 @@
 #include "kernel/io/levels/level_file.h"
 
+#include "kernel/io/cityjson/lod_name.h"
 #include "kernel/io/json/text.h"
 #include "kernel/io/levels/written_grid.h"
 
@@ -89,7 +90,7 @@ class LevelReader {
     for (const ordered_json& geometry : geometries) {
       const std::string type = geometry.at("type").get<std::string>();
       if (type != "Solid" && type != "MultiSolid") continue;
-      if (!lod_.empty() && geometry.at("lod") != lod_) continue;
+      if (!lod_.empty() && detail::lod_name(geometry.at("lod").dump()) != lod_) continue;
       if (chosen == nullptr || geometry.at("lod") > chosen->at("lod")) chosen = &geometry;
     }
     if (chosen == nullptr) throw std::runtime_error("it has no solid");

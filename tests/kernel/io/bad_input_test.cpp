@@ -114,8 +114,8 @@ TEST_SUITE("kernel/io") {
     CHECK(refusal_of("{}").code == Code::E107);
   }
 
-  TEST_CASE("versions other than 1.1 and 2.0 are refused") {
-    for (const char* version : {R"("1.0")", R"("3.0")", "2.0", R"("2.0.1")"}) {
+  TEST_CASE("versions other than 1.0 and 1.1 and 2.0 are refused") {
+    for (const char* version : {R"("0.9")", R"("3.0")", "2.0", "1.0", R"("2.0.1")"}) {
       const Issue issue =
           refusal_of(R"({"type":"CityJSON","version":)" + std::string(version) + "}");
       CHECK(issue.code == Code::E108);

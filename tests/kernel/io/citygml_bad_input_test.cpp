@@ -77,7 +77,7 @@ TEST_SUITE("kernel/io") {
         gml_refusal("<c:Building xmlns:c=\"http://www.opengis.net/citygml/building/2.0\"/>").code ==
         Code::E107);
     for (const std::string space :
-         {"http://www.opengis.net/citygml/1.0", "http://www.citygml.org/citygml/1/0/0"}) {
+         {"http://www.opengis.net/citygml/4.0", "http://www.citygml.org/citygml/1/0/0"}) {
       const Issue issue = gml_refusal(fmt::format("\n<CityModel xmlns=\"{}\"></CityModel>", space));
       CHECK(issue.code == Code::E115);
       CHECK(issue.place.line == 2);
@@ -121,7 +121,18 @@ TEST_SUITE("kernel/io") {
     CHECK(issue.code == Code::E103);
     CHECK(issue.place.line == 3);
     file.declaration = "<?xml version=\"1.0\" encoding=\"KOI8-R\"?>";
-    CHECK(gml_refusal(file.text()).code == Code::E103);
+    const Issue unknown = gml_refusal(file.text());
+    CHECK(unknown.code == Code::E103);
+    CHECK(unknown.place.line == 1);
+    CHECK(unknown.place.column == 31);
+    CHECK(unknown.sentence.find("'KOI8-R'") != std::string::npos);
+    file.declaration = "<?xml version=\"1.0\" encoding=\"windows-1252\"?>\n";
+    file.members = element("gml:name", "caf\x81");
+    const Issue unused = gml_refusal(file.text());
+    CHECK(unused.code == Code::E103);
+    CHECK(unused.place.line == 3);
+    CHECK(unused.place.column == 14);
+    CHECK(unused.sentence == "the byte 0x81, which windows-1252 does not have");
   }
 
   TEST_CASE("entities are refused before they are looked at") {

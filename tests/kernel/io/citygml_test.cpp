@@ -80,7 +80,7 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("a CityGML building is the same as from CityJSON whose polygons are the same") {
     const auto cityjson = read_text(BoxFile().text());
     const Building& expected = cityjson.value->buildings.at(0);
-    for (const std::string version : {"2.0", "3.0"}) {
+    for (const std::string version : {"1.0", "2.0", "3.0"}) {
       CAPTURE(version);
       const Read read = read_building(box_by_links(version, "p"), version);
       const Building& building = read.buildings[0];
@@ -273,6 +273,75 @@ TEST_SUITE("kernel/io") {
               .polygons.size() == 2);
   }
 
+  TEST_CASE("boundary surfaces inside the geometry of an installation are its surfaces") {
+    const std::string first = polygon("", kTriangle);
+    const std::string second = polygon("", "0 0 1 4 0 1 0 3 1 0 0 1");
+    const auto surface = [](const std::string& type, const std::string& inside) {
+      return element("bldg:boundedBy", element("bldg:" + type, element("bldg:lod3MultiSurface",
+                                                                       multi_surface(inside))));
+    };
+    const std::string chimney = element(
+        "bldg:outerBuildingInstallation",
+        element("bldg:BuildingInstallation",
+                element("bldg:lod3Geometry", surface("WallSurface", surface_member(first)) +
+                                                 surface("ClosureSurface", surface_member(second))),
+                "gml:id=\"chimney\""));
+    const Read read = read_building(element("bldg:lod3Solid", box_solid("p")) + chimney);
+    CHECK(read.buildings[0].is_solid);
+    const json& geometry = read.file["CityObjects"]["chimney"]["geometry"];
+    REQUIRE(geometry.size() == 1);
+    CHECK(geometry[0]["lod"] == "3");
+    CHECK(geometry[0]["boundaries"].size() == 2);
+    CHECK(geometry[0]["semantics"]["surfaces"] ==
+          json{{{"type", "WallSurface"}}, {{"type", "ClosureSurface"}}});
+    CHECK(geometry[0]["semantics"]["values"] == json{0, 1});
+  }
+
+  TEST_CASE("boundary surfaces beside the surfaces of a geometry lose neither") {
+    const std::string content =
+        element("bldg:lod3MultiSurface",
+                element("bldg:boundedBy",
+                        element("bldg:RoofSurface",
+                                element("bldg:lod3MultiSurface",
+                                        multi_surface(surface_member(polygon("", kTriangle)))))) +
+                    multi_surface(surface_member(polygon("", "0 0 1 4 0 1 0 3 1 0 0 1"))));
+    CHECK(hints_of(read_building(content).buildings[0]) ==
+          std::vector<std::string>{"", "RoofSurface"});
+  }
+
+  TEST_CASE("several geometries in one property are one") {
+    const std::string other = polygon("", "0 0 1 4 0 1 0 3 1 0 0 1");
+    const auto surfaces = [](const std::string& one) { return multi_surface(surface_member(one)); };
+    const Read read = read_building(
+        element("bldg:lod3Geometry", surfaces(polygon("", kTriangle)) + surfaces(other)));
+    CHECK(read.buildings[0].polygons.size() == 2);
+    const Read solids = read_building(element(
+        "bldg:lod3Solid",
+        box_solid("p") + solid(surface_member(polygon("", kTriangle)) + surface_member(other))));
+    CHECK(solids.file["CityObjects"]["house"]["geometry"][0]["type"] == "MultiSolid");
+    CHECK(solids.buildings[0].polygons.size() == 8);
+    const Read both = read_building(
+        element("bldg:lod3Geometry", box_solid("p") + surfaces(polygon("", kTriangle))));
+    CHECK(both.buildings[0].is_solid);
+    CHECK(both.file["CityObjects"]["house"]["geometry"].size() == 2);
+  }
+
+  TEST_CASE("a geometry without its property and a property in another are read") {
+    const std::string first = polygon("", kTriangle);
+    const std::string second = polygon("", "0 0 1 4 0 1 0 3 1 0 0 1");
+    for (const std::string& members :
+         {surface_member(first + surface_member(second)), surface_member(first) + second,
+          surface_member(surface_member(surface_member(first))) + surface_member(second)}) {
+      CAPTURE(members);
+      const Read read = read_building(element("bldg:lod3MultiSurface", multi_surface(members)));
+      CHECK(read.buildings[0].polygons.size() == 2);
+    }
+    const Read read =
+        read_building(element("bldg:lod3Solid", element("gml:MultiSolid", box_solid("p"))));
+    CHECK(read.buildings[0].is_solid);
+    CHECK(read.buildings[0].polygons.size() == 6);
+  }
+
   TEST_CASE("solids keep their cavities and composites their solids") {
     const std::string cavity =
         element("gml:interior", element("gml:Shell", surface_member(polygon("", kTriangle))));
@@ -414,6 +483,24 @@ TEST_SUITE("kernel/io") {
     text = file.text();
     text.replace(text.find("\u00e9"), 2, "\xE9");
     CHECK(read_gml(text).file["CityObjects"]["a"]["attributes"]["name"] == "Caf\u00e9");
+  }
+
+  TEST_CASE("a CityGML file may be in the code page of Windows or in Latin 9") {
+    const auto name_of = [](const std::string& encoding, const std::string& name) {
+      CityGmlFile file{"2.0", building("a", element("gml:name", name) +
+                                                element("bldg:lod2Solid", box_solid("p")))};
+      file.declaration = fmt::format("<?xml version=\"1.0\" encoding=\"{}\"?>\n", encoding);
+      const Read read = read_gml(file.text());
+      CHECK(codes_of(read.issues) == "");
+      return read.file["CityObjects"]["a"]["attributes"]["name"].get<std::string>();
+    };
+    for (const std::string encoding : {"windows-1252", "Windows-1252", "cp1252"})
+      CHECK(name_of(encoding, "Caf\xE9 \x96 \x93\x80\x94") ==
+            "Caf\u00e9 \u2013 \u201c\u20ac\u201d");
+    CHECK(name_of("iso-8859-15", "Caf\xE9 \xA4") == "Caf\u00e9 \u20ac");
+    CHECK(name_of("ISO_8859-15", "Caf\xE9 \xA4") == "Caf\u00e9 \u20ac");
+    CHECK(name_of("latin1", "Caf\xE9 \xA4") == "Caf\u00e9 \u00a4");
+    CHECK(name_of("iso-8859-1", "Caf\xE9 \xA4") == "Caf\u00e9 \u00a4");
   }
 
   TEST_CASE("a building of a CityGML file is there before the next ones are read") {

@@ -1,4 +1,5 @@
 #include "kernel/io/cityjson/cityjson_geometry.h"
+#include "kernel/io/cityjson/lod_name.h"
 #include "kernel/io/cityjson/write/fresh_cityjson.h"
 #include "kernel/io/cityjson/write/geometry_text.h"
 #include "kernel/io/cityjson/write/semantics_text.h"
@@ -166,7 +167,10 @@ class CityJsonWriter {
     } else {
       polygons = fill_geometry(geometry, labelled);
     }
-    if (!labelled.lod.empty()) geometry.set("lod", '"' + labelled.lod + '"');
+    if (!labelled.lod.empty()) {
+      const RawNode source(geometries.value(place.geometry), arrays_);
+      geometry.set("lod", detail::lod_text(labelled.lod, source.value_of("lod")));
+    }
     // While what `polygons` are slices of is there.
     std::vector<std::string> installations;
     for (const Installation& installation : labelled.installations)
@@ -197,7 +201,7 @@ class CityJsonWriter {
       if (i == number || geometries.is_erased(i) || !RawNode::is_object(geometries.value(i)))
         continue;
       const std::string_view lod = RawNode(geometries.value(i)).value_of("lod");
-      if (lod.starts_with('"') && decoded(lod) == labelled.lod) geometries.erase(i);
+      if (detail::lod_name(lod) == labelled.lod) geometries.erase(i);
     }
     return number;
   }
