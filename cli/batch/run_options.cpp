@@ -55,6 +55,7 @@ ReadOptions RunOptions::read_options() const {
   ReadOptions options;
   if (!lod.empty()) options.lod = lod;
   if (!from.empty()) options.format = parse_format(from);
+  options.joins_installations = joins_installations;
   return options;
 }
 

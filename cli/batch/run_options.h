@@ -75,6 +75,8 @@ struct RunOptions {
   bool is_resumable = false;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";
+  /// ReadOptions::joins_installations.
+  bool joins_installations = false;
   /// Only what was read is asked for: buildings do not pass the pipeline.
   bool ends_at_reading = false;
   /// Only the solid is asked for: buildings are not segmented.

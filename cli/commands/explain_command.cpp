@@ -162,6 +162,7 @@ void add_explain(CLI::App& app, Action& action) {
   command->footer(
       "Example:\n  oriel label house.city.json            # lists the ids\n  oriel explain "
       "house.city.json f3k9");
+  arguments->joins_installations = true;
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

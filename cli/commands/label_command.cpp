@@ -151,6 +151,7 @@ ExitCode work(LabelArguments& arguments) {
   if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
     arguments.out = "-";
   if (arguments.is_repaired) arguments.crossings = "cut";
+  arguments.joins_installations = !arguments.is_repaired;
   arguments.only_names_surfaces = true;
   arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
                                    !arguments.has_reasons && !arguments.is_repaired;

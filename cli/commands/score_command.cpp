@@ -89,6 +89,7 @@ AreaScore compare_models(const ScoreArguments& arguments, const LabelsAndTruth& 
   RunOptions models = arguments;
   models.inputs = arguments.models;
   models.ends_at_reading = true;
+  models.joins_installations = true;
   BatchRunner runner(models, nullptr, report);
   AreaScore score;
   std::set<std::string> compared;

@@ -204,6 +204,7 @@ void add_segment(CLI::App& app, Action& action) {
   command->footer(
       "Example:\n  oriel segment house.city.json --json | jq .stats\n  oriel segment "
       "tile.city.jsonl --lod 2.2 --features parts.csv");
+  arguments->joins_installations = true;
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

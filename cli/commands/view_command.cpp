@@ -114,6 +114,7 @@ void add_view(CLI::App& app, Action& action) {
       "Example:\n  oriel view house.city.json -o house.html\n"
       "  oriel generalise house.city.json --scale 1:2500 -o small.city.json\n"
       "  oriel view house.city.json --after small.city.json -o house.html");
+  arguments->joins_installations = true;
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

@@ -73,6 +73,7 @@
   X(E317, 0, "Vertices put into edges, doubles dropped") \
   X(E318, 0, "A repaired solid that is not valid") \
   X(E319, 0, "Supposed faces") \
+  X(E320, 0, "Installations left out of the solid") \
   X(E341, 104, "A ring that crosses itself") \
   X(E342, 201, "Rings that cross") \
   X(E343, 202, "Rings that are the same") \

@@ -39,8 +39,8 @@ struct Reader::State {
       : format(format_to_read(path, options)),
         name{path == "-" ? "stdin" : path, 0},
         input(std::move(path)),
-        cityjson(options.lod),
-        citygml(input, name, std::move(options.lod)) {
+        cityjson(options.lod, options.joins_installations),
+        citygml(input, name, std::move(options.lod), options.joins_installations) {
     if (options.wants_sha256) input.hash();
   }
 

@@ -18,6 +18,10 @@ struct ReadOptions {
   std::optional<std::string> lod;
   /// The format. Default: what the file's name says.
   std::optional<Format> format;
+  /// Of CityJSON and CityGML: a BuildingInstallation with a geometry at the level that its building
+  /// is read at gives its polygons to the building (Building::installations), unless the building
+  /// has them all: oriel writes such ones (`oriel_geometry`).
+  bool joins_installations = false;
   /// What is read is hashed, too.
   bool wants_sha256 = false;
 };

@@ -12,4 +12,15 @@ Frame frame_of(const std::vector<Vec3>& points, std::string crs) {
   return {{std::floor(box.min.x), std::floor(box.min.y), std::floor(box.min.z)}, std::move(crs)};
 }
 
+Building without_installations(Building building) {
+  if (building.installations.empty()) return building;
+  const std::size_t own = building.installations.front().first_polygon;
+  building.polygons.resize(own);
+  std::erase_if(building.repeats, [&](const RepeatedVertex& repeat) {
+    return static_cast<std::size_t>(repeat.polygon) >= own;
+  });
+  building.installations.clear();
+  return building;
+}
+
 }  // namespace oriel

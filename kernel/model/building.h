@@ -2,6 +2,7 @@
 
 #include "kernel/model/vec3.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,16 @@ struct RepeatedVertex {
   int vertex = 0;
 };
 
-/// One building (or building part) as read: polygons of one geometry at one level of detail.
+/// An object of the input that stands on a building and has a geometry of its own (a
+/// BuildingInstallation), where its polygons were read with those of the building.
+struct JoinedInstallation {
+  std::string id;
+  /// Its polygons in Building::polygons: from this one to that of the next one, or to the end.
+  std::size_t first_polygon = 0;
+};
+
+/// One building (or building part) as read: polygons of one geometry at one level of detail, and
+/// of the installations that were joined to it.
 struct Building {
   /// The CityObject's id, or the file's stem for formats without ids.
   std::string id;
@@ -55,7 +65,13 @@ struct Building {
   std::vector<Polygon> polygons;
   /// What reading dropped from the rings, one entry for each drop.
   std::vector<RepeatedVertex> repeats;
+  /// Objects whose polygons stand behind the building's own (ReadOptions::joins_installations);
+  /// they are of its last body.
+  std::vector<JoinedInstallation> installations{};
 };
+
+/// The building with its own polygons only. Vertices and the frame stay.
+Building without_installations(Building building);
 
 /// The frame of points given in the input's coordinates: origin = their minimum floored to whole
 /// metres.

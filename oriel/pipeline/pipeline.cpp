@@ -88,13 +88,87 @@ DescribeOptions describe_options(const RuleBase* rules, const LabelOptions& opti
   return {rules->attributes_read(), rules->relations_read()};
 }
 
+/// By Polygon::source whether a facet of the solid has the polygon, or a part of it.
+std::vector<bool> polygons_in(const Solid& solid, const Building& building) {
+  std::vector<bool> is_in(building.polygons.size());
+  for (const Facet& facet : solid.facets)
+    for (const int polygon : facet.polygons) is_in.at(static_cast<std::size_t>(polygon)) = true;
+  return is_in;
+}
+
+/// The building without the faces in which installations touch it: they are within the solid, and
+/// no openings of what they lie on.
+Building without_contacts(Building building, const PipelineResult& result) {
+  const std::vector<bool> is_in = polygons_in(*result.solid, building);
+  const auto first = static_cast<int>(building.installations.front().first_polygon);
+  std::erase_if(building.polygons, [&](const Polygon& polygon) {
+    return polygon.source >= first && !is_in[static_cast<std::size_t>(polygon.source)] &&
+           std::ranges::binary_search(result.repair.inner, polygon.source);
+  });
+  return building;
+}
+
 Segmentation all_features(const Building& building, const PipelineResult& result,
                           const SegmentOptions& options) {
   const Solid& solid = *result.solid;
   Segmentation found = result.is_solid() ? segment(building, solid, options) : segment_open(solid);
   add_ring_features(building, solid, found, options.tolerances);
-  add_imprints(building, solid, found, options.tolerances);
+  if (building.installations.empty())
+    add_imprints(building, solid, found, options.tolerances);
+  else
+    add_imprints(without_contacts(building, result), solid, found, options.tolerances);
   return found;
+}
+
+Issue left_out_note(const Building& building) {
+  const std::size_t count = building.installations.size();
+  return building_issue(
+      Severity::note, Code::E320, building.id,
+      fmt::format("is no closed solid with {} that {} on it; its solid is made "
+                  "without",
+                  count == 1 ? "the installation" : fmt::format("the {} installations", count),
+                  count == 1 ? "stands" : "stand"));
+}
+
+int count_lumps(const Solid& solid) {
+  int count = 0;
+  for (const Shell& shell : solid.shells) count = std::max(count, shell.lump + 1);
+  return count;
+}
+
+/// True if the solid is in one, and some facet is of an installation's polygons, for each of them.
+bool has_all_in_one(const Building& building, const Solid& solid) {
+  const std::vector<bool> is_used = polygons_in(solid, building);
+  for (std::size_t i = 0; i < building.installations.size(); ++i) {
+    const bool is_last = i + 1 == building.installations.size();
+    const auto first = static_cast<std::ptrdiff_t>(building.installations[i].first_polygon);
+    const auto end = is_last
+                         ? std::ssize(is_used)
+                         : static_cast<std::ptrdiff_t>(building.installations[i + 1].first_polygon);
+    if (std::find(is_used.begin() + first, is_used.begin() + end, true) == is_used.begin() + end)
+      return false;
+  }
+  return count_lumps(solid) == 1;
+}
+
+/// The solid of a building united with what stands on it, or if they make none that of the building
+/// alone.
+Solidified solid_with_installations(const Building& building, const Tolerances& tolerances,
+                                    const RepairOptions& repair) {
+  if (building.installations.empty()) return solidify(building, tolerances, repair);
+  Solidified whole = solidify(building, tolerances, repair);
+  if (whole.value && has_all_in_one(building, *whole.value)) return whole;
+  // Closed bodies that touch it or stand in it are lumps beside it unless they are cut.
+  RepairOptions cutting = repair;
+  cutting.crossings = Crossings::cut_closed;
+  Solidified united = solidify(building, tolerances, cutting);
+  if (united.value && (!whole.value || count_lumps(*united.value) < count_lumps(*whole.value)))
+    return united;
+  if (whole.value) return whole;
+  Solidified alone = solidify(without_installations(building), tolerances, repair);
+  if (!alone.value) return whole;
+  alone.issues.push_back(left_out_note(building));
+  return alone;
 }
 
 /// Fills what stands between the solid and the surfaces.
@@ -144,7 +218,7 @@ PipelineResult run_to_solid(const Building& building, const Tolerances& toleranc
   try {
     auto solid = measured(
         observer, Stage::solidify, "solidified", building,
-        [&] { return solidify(building, tolerances, repair); },
+        [&] { return solid_with_installations(building, tolerances, repair); },
         [](const auto& made) {
           return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
                              made.issues.size());

@@ -46,8 +46,10 @@ std::optional<Fault> find_degrees(const GmlVertices& vertices, Vec3 origin) {
 }  // namespace
 
 struct CityGmlReader::State {
-  State(Input& input, TextName called, std::optional<std::string> lod)
-      : name(std::move(called)), stream(input, name), cityjson(std::move(lod)) {}
+  State(Input& input, TextName called, std::optional<std::string> lod, bool joins_installations)
+      : name(std::move(called)),
+        stream(input, name),
+        cityjson(std::move(lod), joins_installations) {}
 
   Checked<Document> read_header();
   Checked<Document> read_member(const XmlNode& member);
@@ -68,8 +70,10 @@ struct CityGmlReader::State {
   bool is_done = false;
 };
 
-CityGmlReader::CityGmlReader(Input& input, TextName name, std::optional<std::string> lod)
-    : state_(std::make_unique<State>(input, std::move(name), std::move(lod))) {}
+CityGmlReader::CityGmlReader(Input& input, TextName name, std::optional<std::string> lod,
+                             bool joins_installations)
+    : state_(std::make_unique<State>(input, std::move(name), std::move(lod), joins_installations)) {
+}
 
 CityGmlReader::~CityGmlReader() = default;
 

@@ -16,8 +16,9 @@ namespace oriel::detail {
 /// there.
 class CityGmlReader {
  public:
-  /// `input` must outlive the reader; `lod` as in ReadOptions.
-  CityGmlReader(Input& input, TextName name, std::optional<std::string> lod);
+  /// `input` must outlive the reader; `lod` and `joins_installations` as in ReadOptions.
+  CityGmlReader(Input& input, TextName name, std::optional<std::string> lod,
+                bool joins_installations);
   ~CityGmlReader();
   CityGmlReader(const CityGmlReader&) = delete;
   CityGmlReader& operator=(const CityGmlReader&) = delete;

@@ -65,8 +65,10 @@ Shape shape_of(const RawNode& geometry) {
           geometry.value_of("semantics")};
 }
 
+/// Reads the surfaces of the polygons that follow those that `labels` has already.
 void read_surfaces(const Shape& shape, CarriedLabels& labels) {
-  labels.surfaces.resize(shape.text.polygons.size());
+  const std::size_t first = labels.surfaces.size();
+  labels.surfaces.resize(first + shape.text.polygons.size());
   if (!RawNode::is_object(shape.semantics)) return;
   const auto surfaces = detail::elements_of(RawNode(shape.semantics).value_of("surfaces"));
   const std::vector<int> numbers = detail::surface_numbers(shape.semantics, shape.text.shape);
@@ -77,8 +79,8 @@ void read_surfaces(const Shape& shape, CarriedLabels& labels) {
     auto feature = feature_of(surface);
     for (std::size_t polygon = 0; polygon < numbers.size(); ++polygon) {
       if (numbers[polygon] != static_cast<int>(s)) continue;
-      labels.surfaces[polygon] = said;
-      if (feature) feature->polygons.push_back(static_cast<int>(polygon));
+      labels.surfaces[first + polygon] = said;
+      if (feature) feature->polygons.push_back(static_cast<int>(first + polygon));
     }
     if (feature && !feature->polygons.empty()) add(labels, std::move(*feature));
   }
@@ -134,13 +136,20 @@ std::optional<CarriedLabels> CarriedLabelReader::labels_of(std::size_t building)
   const std::string_view attributes = object.value_of("attributes");
   if (!RawNode::is_object(attributes) || !RawNode(attributes).find("oriel_pack"))
     return std::nullopt;
-  const auto geometries = detail::elements_of(object.value_of("geometry"));
-  const Shape shape = shape_of(RawNode(geometries.at(place.geometry)));
   CarriedLabels labels;
-  read_surfaces(shape, labels);
   std::unordered_map<std::string_view, int> polygon_of;
-  for (std::size_t i = 0; i < shape.text.polygons.size(); ++i)
-    polygon_of.try_emplace(shape.text.polygons[i], static_cast<int>(i));
+  const auto read_geometry = [&](detail::GeometryPlace of) {
+    const auto geometries =
+        detail::elements_of(RawNode(state_->objects->value(of.object)).value_of("geometry"));
+    const Shape shape = shape_of(RawNode(geometries.at(of.geometry)));
+    auto number = static_cast<int>(labels.surfaces.size());
+    for (const std::string_view polygon : shape.text.polygons)
+      polygon_of.try_emplace(polygon, number++);
+    read_surfaces(shape, labels);
+  };
+  read_geometry(place);
+  if (const auto& joined = state_->document.source->joined; building < joined.size())
+    for (const detail::GeometryPlace of : joined[building]) read_geometry(of);
   for (const std::string_view child : detail::elements_of(object.value_of("children"))) {
     if (!child.starts_with('"')) continue;
     const auto found = state_->number_of.find(detail::decoded(child));

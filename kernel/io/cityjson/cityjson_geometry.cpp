@@ -4,6 +4,7 @@
 #include "kernel/io/json/rings.h"
 
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,6 +87,46 @@ std::optional<Fault> GeometryReader::read(dom::object geometry, GeometryKind kin
   if (auto degenerate = find_degenerate(polygons_, building.vertices))
     warnings_.push_back(std::move(*degenerate));
   building.polygons = std::move(polygons_);
+  return std::nullopt;
+}
+
+std::optional<Fault> GeometryReader::add(dom::object geometry, GeometryKind kind,
+                                         Building& building) {
+  const std::vector<std::size_t> own = used_;
+  Building added;
+  auto fault = read(geometry, kind, added);
+  std::unordered_map<std::size_t, int> number_of;
+  for (const std::size_t vertex : own)
+    number_of.emplace(vertex, static_cast<int>(number_of.size()));
+  std::vector<std::size_t> all = own;
+  std::vector<int> renumbered;
+  for (const std::size_t vertex : used_) {
+    const auto [found, is_new] = number_of.emplace(vertex, static_cast<int>(all.size()));
+    if (is_new) all.push_back(vertex);
+    renumbered.push_back(found->second);
+  }
+  if (!fault) {
+    used_ = std::move(all);
+    place_vertices(building);
+    fault = std::exchange(fault_, std::nullopt);
+  }
+  if (fault) {
+    used_ = own;
+    place_vertices(building);
+    return fault;
+  }
+  const auto first = static_cast<int>(building.polygons.size());
+  const int body = first > 0 ? building.polygons.back().body : 0;
+  for (Polygon& polygon : added.polygons) {
+    for (auto& ring : polygon.rings)
+      for (int& vertex : ring) vertex = renumbered[at(vertex)];
+    polygon.source += first;
+    polygon.body = body;
+    building.polygons.push_back(std::move(polygon));
+  }
+  for (const RepeatedVertex& repeat : added.repeats)
+    building.repeats.push_back(
+        {repeat.polygon + first, repeat.ring, renumbered[at(repeat.vertex)]});
   return std::nullopt;
 }
 

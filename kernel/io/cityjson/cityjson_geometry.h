@@ -47,6 +47,11 @@ class GeometryReader {
   /// integer's digits. Says what is wrong, if anything: E201, E202, E203, E313, E501, E506.
   std::optional<Fault> read(dom::object geometry, GeometryKind kind, Building& building);
 
+  /// Adds the polygons of another geometry of the same file to `building`, the last that was read
+  /// or added to, as part of its last body. Its frame is that of all of them then. If
+  /// something is wrong `building` stays as it is.
+  std::optional<Fault> add(dom::object geometry, GeometryKind kind, Building& building);
+
   /// What was odd in the last geometry: E208, E311, E312.
   [[nodiscard]] const std::vector<Fault>& warnings() const { return warnings_; }
 

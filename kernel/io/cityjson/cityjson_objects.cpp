@@ -112,16 +112,6 @@ struct Family {
   bool was_reported = false;
 };
 
-const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod) {
-  const GeometryEntry* surfaces = nullptr;
-  for (const GeometryEntry& geometry : entry.geometries) {
-    if (geometry.lod != lod) continue;
-    if (geometry.kind.is_solid) return &geometry;
-    if (surfaces == nullptr) surfaces = &geometry;
-  }
-  return surfaces;
-}
-
 template <class Lods>
 std::string list_of(const Lods& lods) {
   std::string text;
@@ -156,7 +146,52 @@ GeometryChoice choose(const ObjectEntry& entry, Family& family,
       Severity::note};
 }
 
+/// True for an installation that has nothing of its own.
+bool shares_geometry(dom::object object) {
+  const auto attributes = as_object(member(object, "attributes"));
+  return attributes && member(*attributes, "oriel_geometry").has_value();
+}
+
 }  // namespace
+
+const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod) {
+  const GeometryEntry* surfaces = nullptr;
+  for (const GeometryEntry& geometry : entry.geometries) {
+    if (geometry.lod != lod) continue;
+    if (geometry.kind.is_solid) return &geometry;
+    if (surfaces == nullptr) surfaces = &geometry;
+  }
+  return surfaces;
+}
+
+std::vector<InstallationEntry> list_installations(dom::object objects,
+                                                  const std::vector<ObjectEntry>& entries,
+                                                  bool has_number_lods) {
+  std::unordered_map<std::string_view, std::size_t> entry_of, parent_of;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entry_of.try_emplace(entries[i].id, i);
+    for (const std::string_view id : entries[i].relatives) parent_of.try_emplace(id, i);
+  }
+  std::vector<InstallationEntry> installations;
+  std::size_t number = 0;
+  for (const dom::key_value_pair field : objects) {
+    InstallationEntry entry{{number++, field.key, {}, {}, {}, false}, entries.size()};
+    const auto object = as_object(field.value);
+    const auto type = object ? as_string(member(*object, "type")) : std::nullopt;
+    if (type != "BuildingInstallation" || shares_geometry(*object)) continue;
+    list_relatives(*object, entry.object);
+    for (const std::string_view id : entry.object.relatives)
+      if (const auto found = entry_of.find(id); found != entry_of.end())
+        entry.host = std::min(entry.host, found->second);
+    if (const auto found = parent_of.find(field.key); found != parent_of.end())
+      entry.host = std::min(entry.host, found->second);
+    if (entry.host == entries.size()) continue;
+    entry.object.fault = list_geometries(*object, has_number_lods, entry.object);
+    installations.push_back(std::move(entry));
+  }
+  std::ranges::stable_sort(installations, {}, &InstallationEntry::host);
+  return installations;
+}
 
 std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods) {
   std::vector<ObjectEntry> entries;

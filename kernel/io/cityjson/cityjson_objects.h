@@ -45,6 +45,14 @@ struct ObjectEntry {
   bool has_instances = false;
 };
 
+/// A BuildingInstallation of "CityObjects" whose geometry is its own: not one that shares the
+/// polygons of its building, as those do that oriel writes.
+struct InstallationEntry {
+  ObjectEntry object;
+  /// The entry of the building or part that it stands on.
+  std::size_t host = 0;
+};
+
 /// What to do with an entry: the geometry to read, or a finding, or neither (no geometry, nothing
 /// to say).
 struct GeometryChoice {
@@ -57,6 +65,16 @@ struct GeometryChoice {
 /// come too, with their fault (E201, E202); an id that stands twice has the fault E207. Levels of
 /// detail may be numbers, as in CityJSON 1.0, if `has_number_lods`.
 std::vector<ObjectEntry> list_objects(dom::object objects, bool has_number_lods);
+
+/// The installations among `objects` that stand on one of `entries`, its child or with it as a
+/// parent: in the order of their hosts, those of one host in the order of the file.
+std::vector<InstallationEntry> list_installations(dom::object objects,
+                                                  const std::vector<ObjectEntry>& entries,
+                                                  bool has_number_lods);
+
+/// The geometry of an entry at that level of detail: the first solid, else the first surfaces; null
+/// if there is none.
+const GeometryEntry* geometry_at(const ObjectEntry& entry, std::string_view lod);
 
 /// The geometry to read of each entry, parallel to `entries`: that of the level of detail `lod`, or
 /// of the highest one in the family (objects linked by parents and children); a solid before

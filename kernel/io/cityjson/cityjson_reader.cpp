@@ -8,10 +8,13 @@
 #include "kernel/io/json/json_check.h"
 #include "kernel/io/json/plain_arrays.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -191,6 +194,65 @@ std::optional<Fault> read_model(dom::object root, const PlainArrays* plain, Mode
   return std::nullopt;
 }
 
+/// Polygons by their corners, whichever way round.
+using PolygonCorners = std::set<std::vector<int>>;
+
+std::vector<int> sorted_corners(const Polygon& polygon) {
+  std::vector<int> corners;
+  for (const auto& ring : polygon.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+  std::ranges::sort(corners);
+  return corners;
+}
+
+/// Adds the corners of the polygons from `first` on; true if one of them was not there yet.
+bool add_corners(const Building& building, std::size_t first, PolygonCorners& corners) {
+  bool is_new = false;
+  for (std::size_t i = first; i < building.polygons.size(); ++i)
+    is_new = corners.insert(sorted_corners(building.polygons[i])).second || is_new;
+  return is_new;
+}
+
+/// Takes the polygons from `first` on away again; they use no vertex that others do not use.
+void drop_polygons(Building& building, std::size_t first) {
+  building.polygons.resize(first);
+  std::erase_if(building.repeats, [&](const RepeatedVertex& repeat) {
+    return static_cast<std::size_t>(repeat.polygon) >= first;
+  });
+}
+
+/// Adds the polygons of what stands on the entry `host` to `building`, which was read last. One
+/// with a fault is left out, with a warning, and so is one whose polygons the building has all.
+std::vector<GeometryPlace> join_installations(const std::vector<InstallationEntry>& installations,
+                                              std::size_t host, GeometryReader& geometries,
+                                              Building& building, std::vector<Fault>& warnings) {
+  std::vector<GeometryPlace> places;
+  PolygonCorners corners;
+  for (const auto& [object, _] :
+       std::ranges::equal_range(installations, host, {}, &InstallationEntry::host)) {
+    const auto warn = [&](Fault fault) {
+      fault.sentence = fmt::format("installation {}: {}", in_quotes(object.id), fault.sentence);
+      warnings.push_back(std::move(fault));
+    };
+    if (object.fault) warn(*object.fault);
+    const GeometryEntry* geometry = object.fault ? nullptr : geometry_at(object, building.lod);
+    if (geometry == nullptr) continue;
+    const std::size_t first = building.polygons.size();
+    if (corners.empty()) add_corners(building, 0, corners);
+    if (auto fault = geometries.add(geometry->object, geometry->kind, building)) {
+      warn(std::move(*fault));
+      continue;
+    }
+    if (!add_corners(building, first, corners)) {
+      drop_polygons(building, first);
+      continue;
+    }
+    for (const Fault& warning : geometries.warnings()) warn(warning);
+    building.installations.push_back({std::string(object.id), first});
+    places.push_back({object.number, geometry->number});
+  }
+  return places;
+}
+
 /// The type of a CityObject; empty if there is none.
 std::string type_of(dom::object objects, std::string_view id) {
   const auto object = as_object(member(objects, id));
@@ -205,6 +267,7 @@ struct CityJsonReader::State {
   PlainArrays plain;
   bool is_plain = false;  ///< what was parsed is plain.rest()
   std::optional<std::string> lod;
+  bool joins_installations = false;
   SequenceHeader header;
   std::string refused;
   IdSet ids;               ///< of the features so far
@@ -218,8 +281,10 @@ struct CityJsonReader::State {
                       Document& document, CityJsonSource& source, std::vector<Issue>& issues) const;
 };
 
-CityJsonReader::CityJsonReader(std::optional<std::string> lod) : state_(std::make_unique<State>()) {
+CityJsonReader::CityJsonReader(std::optional<std::string> lod, bool joins_installations)
+    : state_(std::make_unique<State>()) {
   state_->lod = std::move(lod);
+  state_->joins_installations = joins_installations;
 }
 
 CityJsonReader::~CityJsonReader() = default;
@@ -253,6 +318,9 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
                                            std::vector<Issue>& issues) const {
   const std::vector<ObjectEntry> entries = list_objects(model.objects, header.version == "1.0");
   const std::vector<GeometryChoice> choices = choose_geometries(entries, lod);
+  std::vector<InstallationEntry> installations;
+  if (joins_installations)
+    installations = list_installations(model.objects, entries, header.version == "1.0");
   GeometryReader geometries(*model.vertices, source.transform);
   if (is_plain) geometries.use(plain, text);
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -273,7 +341,9 @@ void CityJsonReader::State::read_buildings(const Model& model, const std::string
       report(Severity::error, *fault);
       continue;
     }
-    for (const Fault& warning : geometries.warnings()) report(Severity::warning, warning);
+    std::vector<Fault> warnings = geometries.warnings();
+    source.joined.push_back(join_installations(installations, i, geometries, building, warnings));
+    for (const Fault& warning : warnings) report(Severity::warning, warning);
     document.buildings.push_back(std::move(building));
     source.places.push_back({entry.number, chosen->number});
   }

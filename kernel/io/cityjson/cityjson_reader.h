@@ -23,8 +23,8 @@ struct SequenceHeader {
 /// Reads CityJSON records; keeps simdjson's buffers between them.
 class CityJsonReader {
  public:
-  /// `lod` as in ReadOptions.
-  explicit CityJsonReader(std::optional<std::string> lod);
+  /// Both as in ReadOptions.
+  CityJsonReader(std::optional<std::string> lod, bool joins_installations);
   ~CityJsonReader();
   CityJsonReader(const CityJsonReader&) = delete;
   CityJsonReader& operator=(const CityJsonReader&) = delete;

@@ -34,6 +34,9 @@ struct CityJsonSource {
   std::vector<TextRange> arrays;
   /// Parallel to Document::buildings.
   std::vector<GeometryPlace> places;
+  /// Of each of them the geometries that were joined to it, parallel to Building::installations.
+  /// May be shorter.
+  std::vector<std::vector<GeometryPlace>> joined{};
 };
 
 }  // namespace oriel::detail

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
@@ -165,8 +166,12 @@ class CityJsonWriter {
       facets = replace_geometry(geometry, labelled, document_.buildings[index].frame);
       polygons.assign(facets.begin(), facets.end());
     } else {
-      polygons = fill_geometry(geometry, labelled);
+      polygons = fill_geometry(geometry, labelled, own_polygons(index));
     }
+    if (labelled.geometry)
+      drop_joined(index, *labelled.geometry);
+    else
+      fill_joined(index, labelled, polygons);
     if (!labelled.lod.empty()) {
       const RawNode source(geometries.value(place.geometry), arrays_);
       geometry.set("lod", detail::lod_text(labelled.lod, source.value_of("lod")));
@@ -206,19 +211,93 @@ class CityJsonWriter {
     return number;
   }
 
+  /// Polygons of a document's building, by their numbers.
+  struct PolygonRange {
+    std::size_t first = 0;
+    std::size_t end = 0;
+
+    [[nodiscard]] std::size_t size_within(std::size_t size) const {
+      return std::min(end, size) - std::min(first, size);
+    }
+    [[nodiscard]] bool contains(int polygon) const {
+      return static_cast<std::size_t>(polygon) >= first && static_cast<std::size_t>(polygon) < end;
+    }
+  };
+
+  /// Those that a building has itself.
+  [[nodiscard]] PolygonRange own_polygons(std::size_t building) const {
+    const Building& of = document_.buildings[building];
+    return {0, of.installations.empty() ? of.polygons.size() : of.installations[0].first_polygon};
+  }
+
+  /// Those of one of the installations that were joined to it.
+  [[nodiscard]] PolygonRange joined_polygons(std::size_t building, std::size_t k) const {
+    const Building& of = document_.buildings[building];
+    const bool is_last = k + 1 == of.installations.size();
+    return {of.installations[k].first_polygon,
+            is_last ? of.polygons.size() : of.installations[k + 1].first_polygon};
+  }
+
+  [[nodiscard]] std::span<const detail::GeometryPlace> joined_to(std::size_t building) const {
+    if (building >= source_.joined.size()) return {};
+    return source_.joined[building];
+  }
+
+  /// Adds the labels to the geometries of installations that were joined to a building, and the
+  /// texts of their polygons to `polygons` if these are asked for.
+  void fill_joined(std::size_t building, const LabelledBuilding& labelled,
+                   std::vector<std::string_view>& polygons) {
+    const auto places = joined_to(building);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      RawNode object(objects_.value(places[k].object), arrays_);
+      RawNode geometries(object.value_of("geometry"), arrays_);
+      RawNode geometry(geometries.value(places[k].geometry), arrays_);
+      const auto more = fill_geometry(geometry, labelled, joined_polygons(building, k));
+      polygons.insert(polygons.end(), more.begin(), more.end());
+      geometries.set(places[k].geometry, std::move(geometry));
+      object.set("geometry", std::move(geometries));
+      objects_.set(places[k].object, object.text());
+    }
+  }
+
+  /// Takes the geometry from installations whose polygons are part of the building's new one.
+  void drop_joined(std::size_t building, const Solid& solid) {
+    const auto places = joined_to(building);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const PolygonRange range = joined_polygons(building, k);
+      const bool is_part = std::ranges::any_of(solid.facets, [&](const Facet& facet) {
+        return std::ranges::any_of(facet.polygons, [&](int p) { return range.contains(p); });
+      });
+      if (!is_part || !has_dropped_.insert(places[k].object).second) continue;
+      RawNode object(objects_.value(places[k].object), arrays_);
+      RawNode geometries(object.value_of("geometry"), arrays_);
+      const bool is_only = geometries.size() == 1;
+      geometries.erase(places[k].geometry);
+      if (is_only)
+        object.erase("geometry");
+      else
+        object.set("geometry", std::move(geometries));
+      objects_.set(places[k].object, object.text());
+    }
+  }
+
   /// Adds the labels to a geometry that stays. Returns the texts of its polygons if an installation
   /// shares them.
-  [[nodiscard]] std::vector<std::string_view> fill_geometry(
-      RawNode& geometry, const LabelledBuilding& labelled) const {
+  [[nodiscard]] std::vector<std::string_view> fill_geometry(RawNode& geometry,
+                                                            const LabelledBuilding& labelled,
+                                                            PolygonRange range) const {
     const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
     auto [shape, polygons] = detail::geometry_of(geometry.value_of("boundaries"), kind->depth,
                                                  !labelled.installations.empty());
     const std::string_view there = geometry.value_of("semantics");
     const std::string_view existing =
         existing_ == ExistingSemantics::replace ? std::string_view() : there;
-    std::string semantics =
-        detail::filled_semantics(existing, shape, labelled.surface_of_polygon, labelled.surfaces,
-                                 existing_ == ExistingSemantics::keep);
+    const std::size_t size = labelled.surface_of_polygon.size();
+    const std::span<const int> wanted =
+        std::span(labelled.surface_of_polygon)
+            .subspan(std::min(range.first, size), range.size_within(size));
+    std::string semantics = detail::filled_semantics(existing, shape, wanted, labelled.surfaces,
+                                                     existing_ == ExistingSemantics::keep);
     if (semantics != there) geometry.set("semantics", std::move(semantics));
     return std::move(polygons);
   }
@@ -253,9 +332,15 @@ class CityJsonWriter {
                                        const detail::SolidText& solid) {
     const auto kind = detail::kind_of_geometry(decoded(geometry.value_of("type")));
     const auto old = detail::geometry_of(geometry.value_of("boundaries"), kind->depth, false);
+    int count = 0;
+    for (const auto& shells : old.shape.counts)
+      for (const int polygons : shells) count += polygons;
     std::vector<std::vector<int>> sources;
-    for (const int facet : solid.order)
-      sources.push_back(labelled.geometry->facets.at(static_cast<std::size_t>(facet)).polygons);
+    for (const int facet : solid.order) {
+      const auto& polygons = labelled.geometry->facets.at(static_cast<std::size_t>(facet)).polygons;
+      const bool is_own = std::ranges::all_of(polygons, [&](int p) { return p < count; });
+      sources.push_back(is_own ? polygons : std::vector<int>{});
+    }
     return detail::carried_semantics(geometry.value_of("semantics"), old.shape, solid.shape,
                                      sources);
   }
@@ -357,6 +442,8 @@ class CityJsonWriter {
   RawNode objects_;
   /// Buildings whose chosen geometry was replaced by one with a level of detail of its own.
   std::unordered_set<std::string> has_place_;
+  /// Objects that have lost a geometry to the building that they stand on.
+  std::unordered_set<std::size_t> has_dropped_;
   /// Indices into Document::buildings by id.
   std::unordered_map<std::string_view, std::size_t> building_of_;
   /// Members of `objects_` by id, made when the first is looked for.

@@ -1,0 +1,108 @@
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+
+#include <doctest/doctest.h>
+
+using namespace oriel::test;
+using nlohmann::ordered_json;
+
+namespace {
+
+/// A cube of 4 m and on it, as an installation of its own, a shaft of 0.5 × 0.5 × 1 m from the
+/// height `base_mm`: its four sides and its top, with its bottom if `is_closed`.
+ordered_json cube_with_shaft(int base_mm = 4000, bool is_closed = false) {
+  ordered_json city = cubes({"house"});
+  const int first = static_cast<int>(city["vertices"].size());
+  for (int i = 0; i < 8; ++i)
+    city["vertices"].push_back(
+        {1000 + (i & 1) * 500, 1000 + (i >> 1 & 1) * 500, base_mm + (i >> 2) * 1000});
+  ordered_json surfaces = ordered_json::array();
+  std::vector<std::vector<int>> rings{
+      {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+  if (is_closed) rings.push_back({0, 2, 3, 1});
+  for (const std::vector<int>& ring : rings) {
+    ordered_json polygon = ordered_json::array();
+    for (const int corner : ring) polygon.push_back(first + corner);
+    surfaces.push_back(ordered_json::array({polygon}));
+  }
+  city["CityObjects"]["house"]["children"] = {"shaft"};
+  city["CityObjects"]["shaft"] = {
+      {"type", "BuildingInstallation"},
+      {"parents", {"house"}},
+      {"geometry",
+       ordered_json::array({{{"type", "MultiSurface"}, {"lod", "3"}, {"boundaries", surfaces}}})}};
+  return city;
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("an installation with its own geometry is cut and named with its building") {
+    for (const bool is_closed : {false, true}) {
+      CAPTURE(is_closed);
+      const ordered_json before = cube_with_shaft(4000, is_closed);
+      const Outcome outcome =
+          run({"label", "-", "--from", "cityjson", "-o", "-"}, {.in = before.dump()});
+      CHECK(outcome.exit == 0);
+      CHECK(outcome.says("1 chimney"));
+      const ordered_json after = ordered_json::parse(outcome.out);
+      const ordered_json& objects = after["CityObjects"];
+      // Its own object keeps its polygons, and they say what they are.
+      const ordered_json& shaft = objects["shaft"]["geometry"][0];
+      CHECK(shaft["boundaries"] == before["CityObjects"]["shaft"]["geometry"][0]["boundaries"]);
+      CHECK(shaft["semantics"]["values"].size() == shaft["boundaries"].size());
+      CHECK(objects["house"]["geometry"][0]["boundaries"] ==
+            before["CityObjects"]["house"]["geometry"][0]["boundaries"]);
+      CHECK(objects["house"]["children"].size() == 2);
+      const Outcome again =
+          run({"label", "-", "--from", "cityjson", "-o", "-"}, {.in = outcome.out});
+      CHECK(again.out == outcome.out);
+    }
+  }
+
+  TEST_CASE("an installation that stands in its building is a part of it from where it leaves it") {
+    const Outcome outcome = run({"label", "-", "--from", "cityjson", "-o", "-"},
+                                {.in = cube_with_shaft(3700, true).dump()});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("1 chimney"));
+  }
+
+  TEST_CASE("an installation that bounds nothing leaves its building as it is") {
+    const ordered_json city = cube_with_shaft(5000);
+    const Outcome outcome =
+        run({"label", "-", "--from", "cityjson", "-o", "-"}, {.in = city.dump()});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("E315 5 polygons do not bound the solid"));
+    const ordered_json objects = ordered_json::parse(outcome.out)["CityObjects"];
+    CHECK(objects["shaft"]["geometry"][0]["boundaries"] ==
+          city["CityObjects"]["shaft"]["geometry"][0]["boundaries"]);
+  }
+
+  TEST_CASE("an installation that keeps its building from closing is left out of the solid") {
+    // Four sides of a large box around one half of the cube, one corner moved.
+    ordered_json city = cube_with_shaft();
+    ordered_json& vertices = city["vertices"];
+    for (int i = 0; i < 8; ++i)
+      vertices[static_cast<std::size_t>(8 + i)] = {-1000 + (i & 1) * 3000, (i >> 1 & 1) * 6000,
+                                                   (i >> 2) * 6000};
+    vertices[8] = {-1700, 300, 300};
+    city["CityObjects"]["shaft"]["geometry"][0]["boundaries"] =
+        ordered_json::parse("[[[10,8,12,14]],[[9,11,15,13]],[[12,13,15,14]],[[8,9,13,12]]]");
+    const Outcome outcome =
+        run({"label", "-", "--from", "cityjson", "-o", "-", "-v"}, {.in = city.dump()});
+    CHECK(outcome.exit == 0);
+    CHECK(outcome.says("E320 is no closed solid with the installation that stands on it"));
+    CHECK(outcome.says("1 of 1 building labelled"));
+    CHECK_FALSE(outcome.says("open"));
+  }
+
+  TEST_CASE("the geometry of an installation is no concern of repair and validate") {
+    const ordered_json city = cube_with_shaft(5000);
+    CHECK(run({"validate", "-", "--from", "cityjson"}, {.in = city.dump()}).exit == 0);
+    const Outcome repaired =
+        run({"repair", "-", "--from", "cityjson", "-o", "-"}, {.in = city.dump()});
+    CHECK(repaired.exit == 0);
+    CHECK(ordered_json::parse(repaired.out)["CityObjects"]["shaft"] ==
+          city["CityObjects"]["shaft"]);
+  }
+}
