@@ -141,6 +141,50 @@ int Boundary::number_side(PlaneSide side) {
   return number;
 }
 
+namespace {
+
+/// For each of a list its id among those that live; invalid for the dead.
+template <class IdType, class Item, class IsAlive>
+IndexedVector<IdType, IdType> ids_of_living(const IndexedVector<IdType, Item>& items,
+                                            IsAlive is_alive) {
+  IndexedVector<IdType, IdType> ids(items.size());
+  IdType next{0};
+  for (const IdType id : items.ids())
+    if (is_alive(items[id])) ids[id] = IdType{next.value++};
+  return ids;
+}
+
+}  // namespace
+
+Boundary Boundary::without_dead() const {
+  const auto edges = ids_of_living(half_edges_, [](const auto& e) { return e.next.is_valid(); });
+  const auto loops = ids_of_living(loops_, [](const auto& l) { return l.facet.is_valid(); });
+  const auto facets = ids_of_living(facets_, [](const auto& f) { return f.side >= 0; });
+  Boundary out(*world_);
+  out.reserve(half_edge_count() - dead_edges_, facet_count());
+  for (const HalfEdgeRecord& e : half_edges_)
+    if (e.next.is_valid())
+      out.half_edges_.push_back({e.origin, edges[e.next], edges[e.prev], edges[e.twin],
+                                 loops[e.loop], facets[e.facet], e.bend});
+  for (const LoopRecord& l : loops_)
+    if (l.facet.is_valid())
+      out.loops_.push_back({edges[l.first], facets[l.facet], l.area, l.is_hole});
+  for (const FacetRecord& f : facets_) {
+    if (f.side < 0) continue;
+    FacetRecord& copy = out.facets_[out.facets_.push_back(f)];
+    for (LoopId& l : copy.loops) l = loops[l];
+  }
+  out.on_side_ = on_side_;
+  for (OnSide& on : out.on_side_) {
+    auto end = on.facets.begin();
+    for (const BodyFacetId f : on.facets)
+      if (facets[f].is_valid()) *end++ = facets[f];
+    on.facets.erase(end, on.facets.end());
+  }
+  out.number_of_side_ = number_of_side_;
+  return out;
+}
+
 BodyFacetId Boundary::add_facet_on(int number, PlaneSide side, const Sources& sources,
                                    std::vector<CapMark> marks) {
   ORIEL_ASSERT(side >= 0 && number == number_side(side));

@@ -71,6 +71,8 @@ class Boundary {
   explicit Boundary(World& world) : world_(&world) {}
 
   [[nodiscard]] World& world() const { return *world_; }
+  /// The same without what is dead. Ids become smaller, none changes its place among the others.
+  [[nodiscard]] Boundary without_dead() const;
 
   // -- Looking.
   [[nodiscard]] int half_edge_count() const { return static_cast<int>(half_edges_.size()); }

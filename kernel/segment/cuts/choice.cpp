@@ -212,9 +212,14 @@ Lump Chooser::lump_of(int pocket, const RegionCandidate& candidate) {
 }
 
 Lump Chooser::flood(const RegionCandidate& candidate) {
-  if (candidate.section != flooded_) finder_.emplace(body_, *candidate.section);
+  if (candidate.section != flooded_) {
+    finder_.emplace(body_, *candidate.section);
+    work_ += std::ssize(candidate.section->crossings);
+  }
   flooded_ = candidate.section;
-  return finder_->find(candidate.region);
+  Lump lump = finder_->find(candidate.region);
+  work_ += finder_->steps();
+  return lump;
 }
 
 std::optional<double> Chooser::key_of(Pass pass, const Region& region, double new_area,

@@ -11,32 +11,50 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
 namespace {
 
-/// The holes of one set of planes.
+/// Makes the whole outline of the section just behind the plane edges of the body. False if it
+/// follows no closed loops.
+bool imprint_all(Boundary& body, PlaneSide side, double weld_m) {
+  EdgeIndex edges(body, std::array{side >> 1});
+  const int behind = (side & 1) != 0 ? 1 : -1;
+  Section section{side >> 1, behind};
+  section_at(body, section, edges.edges_at(0, section.direction), {-1, weld_m});
+  if (section.loops.empty()) return section.crossings.empty();
+  Lump all;
+  for (int r = 0; r < std::ssize(section.regions); ++r)
+    if (section.regions[at(r)].is_material) all.regions.push_back(r);
+  std::vector<PointId> touched;
+  imprint(body, section, all, touched);
+  return true;
+}
+
+/// The holes that the planes cap which are imprinted in a body.
 class CornerCutter {
  public:
-  CornerCutter(const Boundary& body, std::span<const PlaneSide> sides, double weld_m,
-               std::int64_t& work)
-      : old_edges_(body.half_edge_count()),
-        old_points_(body.world().points.size()),
-        body_(std::make_shared<Boundary>(body)),
+  /// `old_edges` and `old_points`: so many there were before the planes were imprinted.
+  CornerCutter(std::shared_ptr<const Boundary> body, std::span<const PlaneSide> sides,
+               int old_edges, int old_points, double weld_m, std::int64_t& work)
+      : old_edges_(old_edges),
+        old_points_(old_points),
+        body_(std::move(body)),
         sides_(sides),
         weld_m_(weld_m),
         work_(work) {}
 
   std::vector<Patch> run() {
-    // The body is copied, and asked what lies behind the planes; for each it is indexed and
-    // changed.
-    work_ += 2 * (std::ssize(sides_) + 1) * body_->half_edge_count();
-    for (const PlaneSide side : sides_)
-      if (!imprint_all(side)) return {};
+    work_ += 2 * body_->half_edge_count();  // it is indexed, and asked what lies behind the planes
     std::vector<Patch> patches;
+    const std::vector<Component> components = components_behind();
+    if (components.empty()) return patches;
     FlatBody flat(*body_);
-    for (const Component& component : components_behind()) {
+    for (const Component& component : components) {
       auto patch = cap_component(flat, true, component, work_);
       if (!patch || !is_exact(component)) continue;
       patch->is_natural =
@@ -62,22 +80,22 @@ class CornerCutter {
     });
   }
 
-  /// Makes the whole outline of the section just behind the plane edges of the body.
-  bool imprint_all(PlaneSide side) {
-    EdgeIndex edges(*body_, std::array{side >> 1});
-    const int behind = (side & 1) != 0 ? 1 : -1;
-    Section section{side >> 1, behind};
-    section_at(*body_, section, edges.edges_at(0, section.direction), {-1, weld_m_});
-    if (section.loops.empty()) return section.crossings.empty();
-    Lump all;
-    for (int r = 0; r < std::ssize(section.regions); ++r)
-      if (section.regions[at(r)].is_material) all.regions.push_back(r);
-    std::vector<PointId> touched;
-    imprint(*body_, section, all, touched);
-    return true;
+  /// A side with the ranks of all points in its class: each is asked of all.
+  struct SideWithRanks {
+    PointRanks ranks;
+    int rank, direction;
+  };
+
+  [[nodiscard]] boost::container::small_vector<SideWithRanks, 4> sides_with_ranks() const {
+    World& world = body_->world();
+    boost::container::small_vector<SideWithRanks, 4> sides;
+    for (const PlaneSide side : sides_)
+      sides.push_back({world.points.ranks(world.planes.class_of(side >> 1)),
+                       world.planes.rank_of(side >> 1), (side & 1) != 0 ? -1 : 1});
+    return sides;
   }
 
-  [[nodiscard]] bool is_behind_all(BodyFacetId f) const {
+  [[nodiscard]] bool is_behind_all(BodyFacetId f, std::span<const SideWithRanks> sides) const {
     if (!body_->is_alive(f)) return false;
     const PlaneSide own = body_->facet(f).side;
     if (std::ranges::any_of(sides_, [&](PlaneSide s) { return s >> 1 == own >> 1; })) return false;
@@ -85,8 +103,8 @@ class CornerCutter {
       const EdgeId first = body_->loop(l).first;
       EdgeId e = first;
       do {
-        for (const PlaneSide side : sides_)
-          if (body_->world().points.level(body_->origin(e), side) > 0) return false;
+        for (const SideWithRanks& side : sides)
+          if ((side.ranks[body_->origin(e)] - side.rank) * side.direction > 0) return false;
         e = body_->next(e);
       } while (e != first);
       return true;
@@ -95,9 +113,11 @@ class CornerCutter {
 
   /// Connected facets behind all planes whose rim lies on all of them, and that bend inward.
   std::vector<Component> components_behind() {
+    const auto sides = sides_with_ranks();
     IndexedVector<BodyFacetId, int> state(at(body_->facet_count()),
                                           0);  // 1: behind, 2: and in a component
-    for (const BodyFacetId f : body_->facet_ids()) state[f] = is_behind_all(f) ? 1 : 0;
+    for (const BodyFacetId f : body_->facet_ids())
+      state[f] = is_behind_all(f, {sides.data(), sides.size()}) ? 1 : 0;
     std::vector<Component> found;
     for (const BodyFacetId start : body_->facet_ids()) {
       if (state[start] != 1) continue;
@@ -136,7 +156,7 @@ class CornerCutter {
   }
 
   int old_edges_, old_points_;
-  std::shared_ptr<Boundary> body_;
+  std::shared_ptr<const Boundary> body_;
   std::span<const PlaneSide> sides_;
   double weld_m_;
   std::int64_t& work_;
@@ -145,7 +165,7 @@ class CornerCutter {
 class CornerHoleFinder {
  public:
   CornerHoleFinder(const Boundary& body, const CornerHoleOptions& options, std::int64_t& work)
-      : body_(body), options_(options), work_(work) {
+      : body_(body.without_dead()), options_(options), work_(work) {
     for (const BodyFacetId f : body.living_facets()) all_sides_.insert(body.facet(f).side);
   }
 
@@ -155,9 +175,9 @@ class CornerHoleFinder {
     for (const Component& group : groups) {
       if (group.facets.size() < 2) continue;
       const Component component = options_.has_all_sides ? with_neighbours(group, groups) : group;
-      edges_ = edges_of(component);
-      std::vector<PlaneSide> set;
-      try_sets(sides_for(component), 0, set);
+      levels_.clear();
+      levels_.push_back({-1, edges_of(component)});
+      try_sets(sides_for(component), 0);
     }
     return std::move(patches_);
   }
@@ -182,25 +202,105 @@ class CornerHoleFinder {
     return all;
   }
 
-  /// All sets of the order that can make a corner, each once.
-  void try_sets(std::span<const PlaneSide> sides, std::size_t first, std::vector<PlaneSide>& set) {
-    if (std::ssize(set) == options_.order) return try_set(set);
+  /// An edge of the component at hand that reaches behind all planes of a set.
+  struct ReachingEdge {
+    EdgeId edge;
+    bool is_bend =
+        false;         ///< a part of it lies behind all of them, and the body bends inward there
+    unsigned met = 0;  ///< by place in the set: it comes to the plane
+  };
+  /// A set of planes with one more of them.
+  struct SetLevel {
+    PlaneSide side = -1;
+    std::vector<ReachingEdge> edges = {};
+    std::shared_ptr<Boundary> body = nullptr;  ///< with all of them imprinted
+    bool is_tried = false;                     ///< if they can be
+    bool is_kept = false;                      ///< the points that this made are in use
+    PointTable::PointMark mark = {};           ///< before them
+  };
+
+  /// All sets of the order that can make a corner, each once. They are grown plane by plane, as
+  /// what a set cannot cap none can that has more planes.
+  void try_sets(std::span<const PlaneSide> sides, std::size_t first) {
     for (std::size_t i = first; i < sides.size() && work_ <= options_.budget; ++i) {
-      if (!fits(set, sides[i])) continue;
-      set.push_back(sides[i]);
-      try_sets(sides, i + 1, set);
-      set.pop_back();
+      if (!fits(sides[i]) || !grow(sides[i])) continue;
+      if (std::ssize(set_) == options_.order)
+        try_set();
+      else
+        try_sets(sides, i + 1);
+      shrink();
     }
   }
 
   /// It is a split plane, and equal normals never combine.
-  [[nodiscard]] bool fits(const std::vector<PlaneSide>& set, PlaneSide side) const {
+  [[nodiscard]] bool fits(PlaneSide side) const {
     if (std::ranges::find(options_.own_planes, side >> 1) != options_.own_planes.end())
       return false;
     const PlaneTable& planes = body_.world().planes;
-    return std::ranges::none_of(set, [&](PlaneSide s) {
+    return std::ranges::none_of(set_, [&](PlaneSide s) {
       return planes.class_of(s >> 1) == planes.class_of(side >> 1) && (s & 1) == (side & 1);
     });
+  }
+
+  /// Adds a plane to the set, if it can cut with it: the wall of a hole holds a bend, of which a
+  /// part lies behind all planes, and each plane meets an edge of the component where it is not in
+  /// front of another.
+  bool grow(PlaneSide side) {
+    const SetLevel& before = levels_.back();
+    if (before.is_tried && before.body == nullptr) return false;
+    const unsigned bit = 1U << set_.size();
+    SetLevel grown{side};
+    unsigned met = 0;
+    bool has_bend = false;
+    work_ += std::ssize(before.edges);
+    for (ReachingEdge reaching : before.edges) {
+      const int from = level(body_.origin(reaching.edge), side),
+                to = level(body_.target(reaching.edge), side);
+      if (std::min(from, to) > 0) continue;
+      if (std::max(from, to) >= 0) reaching.met |= bit;
+      reaching.is_bend = reaching.is_bend && std::min(from, to) < 0;
+      met |= reaching.met;
+      has_bend |= reaching.is_bend;
+      grown.edges.push_back(reaching);
+    }
+    if (!has_bend || met != 2 * bit - 1) return false;
+    levels_.push_back(std::move(grown));
+    set_.push_back(side);
+    return true;
+  }
+
+  /// Takes the last plane out of the set, and forgets its points if nothing was found with it.
+  void shrink() {
+    const SetLevel last = std::move(levels_.back());
+    levels_.pop_back();
+    set_.pop_back();
+    if (last.is_kept)
+      levels_.back().is_kept = true;
+    else if (last.is_tried)
+      body_.world().points.forget_since(last.mark);
+    if (last.body != nullptr && last.body.use_count() == 1) spare_.push_back(last.body);
+  }
+
+  /// In the room of a copy that is no longer in use, if there is one.
+  std::shared_ptr<Boundary> copy_of(const Boundary& body) {
+    if (spare_.empty()) return std::make_shared<Boundary>(body);
+    std::shared_ptr<Boundary> copy = std::move(spare_.back());
+    spare_.pop_back();
+    *copy = body;
+    return copy;
+  }
+
+  /// The body with the first planes of the set imprinted; null if one of them cannot be.
+  std::shared_ptr<const Boundary> imprinted(std::size_t count) {
+    SetLevel& last = levels_[count];
+    if (std::exchange(last.is_tried, true)) return last.body;
+    const auto before = count > 1 ? imprinted(count - 1) : nullptr;
+    last.mark = body_.world().points.mark();
+    if (count > 1 && before == nullptr) return nullptr;
+    auto body = copy_of(before != nullptr ? *before : body_);
+    work_ += 2 * body->half_edge_count();  // it is copied, and indexed and changed
+    if (imprint_all(*body, last.side, options_.weld_m)) last.body = std::move(body);
+    return last.body;
   }
 
   /// The sides beyond the rim. If all are asked for, those beyond every convex edge, be it between
@@ -229,56 +329,41 @@ class CornerHoleFinder {
   }
 
   /// The edges of a component's facets, each once.
-  [[nodiscard]] std::vector<EdgeId> edges_of(const Component& component) const {
+  [[nodiscard]] std::vector<ReachingEdge> edges_of(const Component& component) const {
     std::vector<EdgeId> edges;
     for (const BodyFacetId f : component.facets)
       body_.for_each_edge(f, [&](EdgeId e) { edges.push_back(std::min(e, body_.twin(e))); });
     std::ranges::sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
+    std::vector<ReachingEdge> reaching;
+    for (const EdgeId e : edges) reaching.push_back({e, body_.is_reflex(e)});
+    return reaching;
   }
 
   [[nodiscard]] int level(PointId point, PlaneSide side) const {
     return body_.world().points.level(point, side);
   }
 
-  /// The wall of a hole holds a bend, of which a part lies behind all planes, and each plane meets
-  /// an edge of the component where it is not in front of another.
-  [[nodiscard]] bool can_cut(const std::vector<PlaneSide>& set) const {
-    bool has_bend = false;
-    std::vector<char> is_met(set.size(), 0);
-    for (const EdgeId e : edges_) {
-      bool is_behind = true, reaches_behind = true;
-      for (const PlaneSide side : set) {
-        const int low = std::min(level(body_.origin(e), side), level(body_.target(e), side));
-        is_behind &= low < 0;
-        reaches_behind &= low <= 0;
-        if (!reaches_behind) break;
-      }
-      has_bend |= is_behind && body_.is_reflex(e);
-      for (std::size_t i = 0; reaches_behind && i < set.size(); ++i)
-        is_met[i] |=
-            level(body_.origin(e), set[i]) >= 0 || level(body_.target(e), set[i]) >= 0 ? 1 : 0;
-    }
-    return has_bend && std::ranges::find(is_met, 0) == is_met.end();
-  }
-
-  void try_set(const std::vector<PlaneSide>& set) {
-    work_ += std::ssize(edges_);
-    if (!can_cut(set) || !seen_.insert(set).second) return;
+  void try_set() {
+    if (!seen_.insert(set_).second) return;
     auto& points = body_.world().points;
-    const auto mark = points.mark();
-    auto patches = CornerCutter(body_, set, options_.weld_m, work_).run();
-    if (patches.empty()) points.forget_since(mark);
+    const auto old_points = levels_[1].is_tried ? levels_[1].mark.points : points.size();
+    const auto body = imprinted(set_.size());
+    if (body == nullptr) return;
+    auto patches =
+        CornerCutter(body, set_, body_.half_edge_count(), old_points, options_.weld_m, work_).run();
+    levels_.back().is_kept = !patches.empty();
     std::ranges::move(patches, std::back_inserter(patches_));
   }
 
-  const Boundary& body_;
+  const Boundary body_;  ///< without what is dead, as it is copied for every set
   const CornerHoleOptions& options_;
   std::int64_t& work_;
   std::set<PlaneSide> all_sides_;
   IndexedVector<BodyFacetId, int> group_of_;
-  std::vector<EdgeId> edges_;  ///< of the component at hand
+  std::vector<PlaneSide> set_;  ///< at hand
+  std::vector<std::shared_ptr<Boundary>> spare_;
+  std::vector<SetLevel> levels_;  ///< of no plane, of the set's first, of its first two …
   std::set<std::vector<PlaneSide>> seen_;
   std::vector<Patch> patches_;
 };

@@ -42,6 +42,7 @@ Lump LumpFinder::find(int region) {
   ++stamp_;
   scratch_.flooded_edges.start(body_.half_edge_count());
   scratch_.flooded_facets.start(body_.facet_count());
+  steps_ = 0;
   stack_.clear();
   facets_.clear();
   patch_volume_ = 0;
@@ -51,7 +52,9 @@ Lump LumpFinder::find(int region) {
     while (!stack_.empty()) {
       const EdgeId e = stack_.back();
       stack_.pop_back();
+      ++steps_;
       visit(e);
+      if (!lump_.is_finite || !lump_.is_sound) return lump_;
     }
     tie_enclosed_loops();
     // A region that was reached is a contact as a whole: the loops inside it belong to the lump

@@ -3,6 +3,7 @@
 #include "kernel/segment/sections/section.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,8 +38,11 @@ class LumpFinder {
   /// Only one finder at a time may be in use.
   LumpFinder(const Boundary& body, const Section& section);
 
-  /// The lump in front of region `region`.
+  /// The lump in front of region `region`. One that is not finite or not sound is given up as soon
+  /// as that is seen: the rest of it is not looked at.
   [[nodiscard]] Lump find(int region);
+  /// The half-edges that the last lump was found by.
+  [[nodiscard]] std::int64_t steps() const { return steps_; }
 
  private:
   void push(EdgeId e);
@@ -72,6 +76,7 @@ class LumpFinder {
   // The flood at hand.
   bool is_material_ = true;
   int stamp_ = 0;
+  std::int64_t steps_ = 0;
   std::vector<int> crossing_stamp_;
   std::vector<EdgeId> stack_;
   std::vector<BodyFacetId> facets_;

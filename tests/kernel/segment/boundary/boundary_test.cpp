@@ -16,6 +16,7 @@ namespace {
 
 using detail::Boundary;
 using detail::FlatBody;
+using detail::PlaneSide;
 using detail::World;
 
 std::vector<std::pair<PointId, PointId>> living_edges_of(const Boundary& body) {
@@ -92,6 +93,32 @@ TEST_SUITE("kernel/segment") {
       check_lists(body);
     }
     CHECK(filled > 0);
+  }
+
+  TEST_CASE("without what is dead a body has the same edges and facets in the same order") {
+    for (const test::NamedBody& named : test::bodies()) {
+      CAPTURE(std::string(named.name));
+      const Solid solid = test::solid_of(named.make(), {});
+      World world{detail::PlaneTable(solid.planes), detail::PointTable(solid, world.planes)};
+      Boundary body = boundary_of(solid, 0, world);
+      if (!fill_a_hole(body)) continue;
+      REQUIRE(body.dead_edge_count() > 0);
+      const Boundary living = body.without_dead();
+      check_lists(living);
+      CHECK(living.dead_edge_count() == 0);
+      CHECK(living.half_edge_count() == body.half_edge_count() - body.dead_edge_count());
+      CHECK(living.volume() == body.volume());
+      CHECK(living.sides() == body.sides());
+      std::vector<PointId> before, after;
+      for (const EdgeId e : body.half_edge_ids())
+        if (body.is_alive_edge(e)) before.push_back(body.origin(e));
+      for (const EdgeId e : living.half_edge_ids()) after.push_back(living.origin(e));
+      CHECK(before == after);
+      for (const PlaneSide side : body.sides()) {
+        CHECK(living.area_on(side) == body.area_on(side));
+        CHECK(living.facets_on(side).size() == body.facets_on(side).size());
+      }
+    }
   }
 }
 
