@@ -145,7 +145,7 @@ void compare(const Building& building, const RuleBase& rules, double scale, Rows
   const Mesh before = to_mesh(solid);
   if (before.findings().non_manifold_edges > 0 || before.findings().doubled_vertices > 0) return;
   const Surface surface = surface_of(before);
-  const auto& [table, graph] = labelled.description;
+  const auto& [table, graph, issues] = labelled.description;
   const Plan asked = plan(rules, table, graph, labelled.interpretation, scale);
   Checked<Generalised> made;
   const double ours_ms = bench::cpu_ms_of(kCalls, [&] {

@@ -45,14 +45,14 @@ std::vector<FeatureId> find_features(const PipelineResult& result, std::string_v
 }
 
 Explanation explain(const PipelineResult& result, const RuleBase& rules, FeatureId feature) {
-  const auto& [table, graph] = result.description;
+  const auto& [table, graph, issues] = result.description;
   return explain(rules, table, graph, result.interpretation, feature);
 }
 
 std::vector<Explanation> explain_features(const PipelineResult& result, const RuleBase& rules) {
   std::vector<Explanation> all;
   if (!result.is_done()) return all;
-  const auto& [table, graph] = result.description;
+  const auto& [table, graph, issues] = result.description;
   const Explainer explainer(rules, table, graph, result.interpretation);
   for (int i = 0; i < static_cast<int>(table.rows()); ++i)
     all.push_back(explainer.explain(FeatureId{i}));

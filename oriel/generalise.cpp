@@ -236,7 +236,7 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
 
 Plan BuildingDrawer::plan_for(const Profile* profile, const PipelineResult& result,
                               GeneralisedBuilding& out) const {
-  const auto& [table, graph] = result.description;
+  const auto& [table, graph, issues] = result.description;
   Plan asked;
   if (targets_.scale) asked = plan(rules_, table, graph, result.interpretation, *targets_.scale);
   if (profile != nullptr)

@@ -22,8 +22,8 @@ struct PipelineOptions {
   RepairOptions repair;
   /// Natural: along existing edges first; paper: as Thiemann and Sester 2004, section 4, has it.
   Order order = Order::natural;
-  /// Half-edges that segmenting one building may look at, at least 1; then E502.
-  std::int64_t budget = SegmentOptions{}.budget;
+  /// Steps that each stage may take on one building, at least 1; then E502 (kernel/base/work.h).
+  std::int64_t budget = kWorkBudget;
   /// What the input calls its polygons is not looked at.
   bool ignores_semantics = false;
   /// The level of detail that was asked for when the input was read (ReadOptions::lod); empty: the

@@ -8,7 +8,8 @@
 namespace oriel {
 
 PipelineResult solid_of(const Building& building, const PipelineOptions& options) {
-  return run_to_solid(building, options.tolerances, options.repair, options.observer);
+  return run_to_solid(building, options.tolerances, options.repair, options.budget,
+                      options.observer);
 }
 
 PipelineResult segment(const Building& building, const PipelineOptions& options) {

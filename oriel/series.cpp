@@ -160,7 +160,7 @@ class SeriesDrawer {
 
   void draw_levels(LeveledBuilding& one) const {
     const PipelineResult& result = *one.result;
-    const auto& [table, graph] = result.description;
+    const auto& [table, graph, issues] = result.description;
     const PlanAt plan_at = [&](double scale) {
       Plan asked = plan(rules_, table, graph, result.interpretation, scale);
       if (profile_ != nullptr)

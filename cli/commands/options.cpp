@@ -184,7 +184,7 @@ void add_line_arguments(CLI::App& command, RunOptions& a, bool has_many) {
       .add_option("--value-rel", a.tolerances.value_rel, "Values within this fraction are the same")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
-  command.add_option("--budget", a.budget, "Half-edges that segmenting one building may look at")
+  command.add_option("--budget", a.budget, "Steps that each stage may take on one building")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_run_arguments(command, a);

@@ -248,7 +248,7 @@ void add_score(CLI::App& app, Action& action) {
                     "Name the surfaces of models as if they had no semantics, compare with those");
   command->add_option("--lod", arguments->lod, "With --surfaces: level of detail to read");
   command->add_option("--budget", arguments->budget,
-                      "With --surfaces: half-edges that segmenting one building may look at");
+                      "With --surfaces: steps that each stage may take on one building");
   add_rules_argument(*command, arguments->rules);
   add_comparison_arguments(*command, *arguments);
   command->add_flag("--json", arguments->is_json, "As JSON, with all misses");

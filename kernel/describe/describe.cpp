@@ -288,12 +288,14 @@ void describe_place(FeatureTable& table, const DescribedFeature& s,
 
 /// The smallest distance of the cap's corners to the outline of the host's facet.
 void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Plane& plane,
-                       const detail::Outline& outline) {
+                       const detail::Outline& outline, Work& work) {
   constexpr double kOnPlane_m =
       1e-6;  // tolerance of doubles: the corners of the cap lie on its plane
   double gap = Box::kInfinity;
   for (const Vec3 p : s.points) {
     if (std::abs(dot(plane.normal, p) - plane.offset_m) > kOnPlane_m) continue;
+    work.add(std::ssize(outline));
+    if (work.is_used_up()) return;
     for (std::size_t i = 0; i < outline.size(); ++i)
       gap = std::min(gap,
                      detail::distance_to_segment(p, outline[i], outline[(i + 1) % outline.size()]));
@@ -303,11 +305,12 @@ void describe_edge_gap(FeatureTable& table, const DescribedFeature& s, const Pla
 
 /// Where it lies within the outline of the host's facet, and along its facade.
 void describe_place_in_facet(FeatureTable& table, const DescribedFeature& s,
-                             const Segmentation& segmentation, detail::Facades& facades) {
+                             const Segmentation& segmentation, detail::Facades& facades,
+                             Work& work) {
   if (!s.feature->host_facet) return;
   const Plane& plane = segmentation.planes[s.feature->planes.front().index()];
   const auto outline = detail::outlines_of(segmentation, *s.feature->host_facet).front();
-  describe_edge_gap(table, s, plane, outline);
+  describe_edge_gap(table, s, plane, outline, work);
   if (is_level(detail::inclination_deg(*s.normal))) return;
   const CellFacet host = *s.feature->host_facet;
   const CellFacet facade = *facades.of(*s.feature);
@@ -381,12 +384,13 @@ struct Asked {
 Description describe(const Building& building, const Segmentation& segmentation,
                      const DescribeOptions& options) {
   Description out{FeatureTable(building.id, segmentation.features.size()), {}};
+  Work work(options.budget);
   const Asked asked(options);
   const detail::Site site(segmentation);
   std::optional<detail::ParallelPolygons> polygons;
   if (asked.recess) polygons.emplace(building, segmentation.grid_m);
   CellReaches reaches(segmentation);
-  detail::Facades walls(segmentation);
+  detail::Facades walls(segmentation, work);
   const std::vector<int> facades = walls.numbers();
   std::vector<DescribedFeature> subjects;
   std::vector<InFacade> placed;
@@ -404,7 +408,7 @@ Description describe(const Building& building, const Segmentation& segmentation,
     if (polygons) describe_recess(out.table, s, segmentation, *polygons);
     if (asked.growth) describe_growth(out.table, s, reaches);
     describe_place(out.table, s, segmentation, site);
-    if (asked.place_in_facet) describe_place_in_facet(out.table, s, segmentation, walls);
+    if (asked.place_in_facet) describe_place_in_facet(out.table, s, segmentation, walls, work);
     placed.push_back(in_facade(s, facades[i]));
     openings.push_back(is_opening(s) ? 1 : 0);
   }
@@ -416,7 +420,10 @@ Description describe(const Building& building, const Segmentation& segmentation,
     count_companions(out.table, subjects, storeys, Attribute::per_storey);
   }
   detail::name_features(out.table, building, segmentation);
-  out.graph = detail::relate(segmentation, placed, storeys, asked.neighbours);
+  out.graph = detail::relate(segmentation, placed, storeys, asked.neighbours, work);
+  if (work.is_used_up())
+    out.issues.push_back(used_up(building.id, options.budget, "describing",
+                                 "relations and places of features may be missing"));
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/description/feature_graph.h"
 #include "kernel/model/description/feature_table.h"
@@ -14,6 +15,9 @@ namespace oriel {
 struct Description {
   FeatureTable table;
   FeatureGraph graph;
+  /// E502 if the work budget was used up: relations and places that were not looked at by then are
+  /// missing.
+  std::vector<Issue> issues = {};
 };
 
 /// What somebody reads of a description: the rest may be missing.
@@ -21,6 +25,8 @@ struct DescribeOptions {
   /// By column of feature_schema() and by position in relation_schema(); empty: all are read.
   std::vector<bool> attributes;
   std::vector<bool> relations;
+  /// Pairs of features, walls and corners that may be looked at; then E502.
+  std::int64_t budget = kWorkBudget;
 };
 
 /// Fills every attribute of feature_schema() that can be told, and every relation of

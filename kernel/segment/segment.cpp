@@ -1,6 +1,7 @@
 #include "kernel/segment/segment.h"
 
 #include "kernel/base/index.h"
+#include "kernel/base/work.h"
 #include "kernel/segment/boundary/parting.h"
 #include "kernel/segment/cuts/carry_out.h"
 #include "kernel/segment/cuts/choice.h"
@@ -12,8 +13,6 @@
 #include <set>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace oriel {
 
@@ -136,6 +135,7 @@ void split(GrowingTree& tree, WaitingBody body) {
     if (choice->imprinted) {
       remove_seams(body.body);
       chooser.reset();
+      bend = {};
     } else {
       chooser->changed(result->changes);
     }
@@ -161,10 +161,8 @@ void warn_of_budget(Segmentation& out, const Building& building, std::int64_t bu
   const bool is_used_up = std::ranges::any_of(
       out.cells, [](const Cell& cell) { return cell.flag == LeafFlag::budget; });
   if (is_used_up)
-    out.issues.push_back(building_issue(
-        Severity::warning, Code::E502, building.id,
-        fmt::format("the work budget of {} half-edges is used up; the rest stays unsplit",
-                    budget)));
+    out.issues.push_back(
+        used_up(building.id, budget, "segmenting", "bodies that are not split yet stay whole"));
 }
 
 }  // namespace

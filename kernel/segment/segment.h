@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
@@ -18,7 +19,7 @@ struct SegmentOptions {
   int max_order = 4;
   /// Half-edges that may be looked at before the rest is left as it is (leaves flagged `budget`,
   /// warning E502). Counted, never timed: the same on every machine.
-  std::int64_t budget = 200'000'000;
+  std::int64_t budget = kWorkBudget;
 };
 
 /// Splits a solid into features: protrusions, holes and cavities, each again split, down to convex

@@ -365,7 +365,8 @@ std::optional<Solid> open_shell(const Building& building, const Tolerances& tole
   Soup soup = detail::weld(building, tolerances, of_solidify);
   if (soup.polygons.empty()) return std::nullopt;
   const ShellMesh mesh = detail::build_open_mesh(soup, tolerances);
-  const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances);
+  Work work(kWorkBudget);
+  const detail::PlaneClusters clusters = detail::cluster_planes(soup, mesh, tolerances, work);
   Solid shell = FacetMaker(soup, mesh, clusters).run();
   if (shell.facets.empty()) return std::nullopt;
   return shell;

@@ -139,10 +139,10 @@ struct MeshedSoup {
 std::optional<detail::FilledShell> filled_instead(const detail::Mended& mended, const Soup& soup,
                                                   const Building& building,
                                                   const Tolerances& tolerances,
-                                                  const RepairOptions& repair) {
+                                                  const RepairOptions& repair, Work& work) {
   const bool has_holes = mended.is_open || !mended.report.caps.empty();
   if (repair.close == Closing::none || !has_holes) return std::nullopt;
-  auto filled = detail::fill_missing_faces(soup, building.id, tolerances);
+  auto filled = detail::fill_missing_faces(soup, building.id, tolerances, work);
   const auto is_small = [&](const Cap& cap) { return cap.area_m2 <= repair.cap_area_m2; };
   if (filled && repair.close == Closing::planar &&
       !std::ranges::all_of(filled->report.caps, is_small))
@@ -152,11 +152,12 @@ std::optional<detail::FilledShell> filled_instead(const detail::Mended& mended, 
 
 /// The shells of a building whose polygons are no closed shell as they came.
 MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
-                         const RepairOptions& repair, std::vector<Issue> why, Solidified& out) {
+                         const RepairOptions& repair, std::vector<Issue> why, Solidified& out,
+                         Work& work) {
   std::vector<Issue> told_before;
   const Soup soup = detail::weld(building, tolerances, told_before);
-  detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair);
-  if (auto filled = filled_instead(mended, soup, building, tolerances, repair)) {
+  detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair, work);
+  if (auto filled = filled_instead(mended, soup, building, tolerances, repair, work)) {
     out.report = std::move(filled->report);
     out.issues.insert(out.issues.end(), filled->issues.begin(), filled->issues.end());
     tell_repairs(building, out.report, false, out.issues);
@@ -188,8 +189,8 @@ MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
 /// The boundary of the inside of closed surfaces; nothing if they are none, or if what is cut does
 /// not close.
 std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Tolerances& tolerances,
-                                           const Soup& soup, Solidified& out) {
-  auto uncrossed = detail::uncross(soup, tolerances);
+                                           const Soup& soup, Solidified& out, Work& work) {
+  auto uncrossed = detail::uncross(soup, tolerances, work);
   if (!uncrossed) return std::nullopt;
   // Which shell a piece is of is seen only now.
   for (detail::SoupPolygon& polygon : uncrossed->soup.polygons) polygon.shell = -1;
@@ -207,7 +208,7 @@ std::optional<MeshedSoup> uncrossed_shells(const Building& building, const Toler
 }
 
 MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
-                     const RepairOptions& repair, Solidified& out) {
+                     const RepairOptions& repair, Solidified& out, Work& work) {
   MeshedSoup shells{detail::weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
     out.issues.push_back(error(building, Code::E301,
@@ -218,41 +219,43 @@ MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
   std::vector<Issue> issues;
   shells.mesh = detail::build_shell_mesh(shells.soup, building.id, issues);
   if (has_errors(issues) || !is_closed(shells.mesh))
-    return mended_shells(building, tolerances, repair, std::move(issues), out);
+    return mended_shells(building, tolerances, repair, std::move(issues), out, work);
   out.issues.insert(out.issues.end(), issues.begin(), issues.end());
   return shells;
 }
 
 MeshedSoup closed_shells(const Building& building, const Tolerances& tolerances,
-                         const RepairOptions& repair, Solidified& out) {
+                         const RepairOptions& repair, Solidified& out, Work& work) {
   const bool cuts_closed = repair.crossings == Crossings::cut_closed;
   if (cuts_closed) {
     std::vector<Issue> issues;
     const Soup soup = detail::weld(building, tolerances, issues);
-    if (auto whole = uncrossed_shells(building, tolerances, soup, out)) {
+    if (auto whole = uncrossed_shells(building, tolerances, soup, out, work)) {
       out.issues.insert(out.issues.end(), issues.begin(), issues.end());
       return std::move(*whole);
     }
   }
-  MeshedSoup shells = shells_of(building, tolerances, repair, out);
+  MeshedSoup shells = shells_of(building, tolerances, repair, out, work);
   if (!cuts_closed || has_errors(out.issues)) return shells;
-  auto whole = uncrossed_shells(building, tolerances, shells.soup, out);
+  auto whole = uncrossed_shells(building, tolerances, shells.soup, out, work);
   return whole ? std::move(*whole) : std::move(shells);
 }
 
 }  // namespace
 
 Solidified solidify(const Building& building, const Tolerances& tolerances,
-                    const RepairOptions& repair) {
+                    const RepairOptions& repair, std::int64_t budget) {
   Solidified out;
+  Work work(budget);
   const auto is_set_aside = [&] { return has_errors(out.issues); };
 
   check_size(building, tolerances, out.issues);
   if (is_set_aside()) return out;
-  const auto [soup, mesh] = closed_shells(building, tolerances, repair, out);
-  if (is_set_aside()) return out;
-
-  detail::add_solid(building, soup, mesh, tolerances, out);
+  const auto [soup, mesh] = closed_shells(building, tolerances, repair, out, work);
+  if (!is_set_aside()) detail::add_solid(building, soup, mesh, tolerances, out, work);
+  if (work.is_used_up())
+    out.issues.push_back(used_up(building.id, budget, "solidifying",
+                                 "it is not repaired further, and planes may stay apart"));
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/repair.h"
 #include "kernel/model/solid.h"
@@ -33,8 +34,11 @@ struct Solidified : Checked<Solid> {
 /// Warnings and notes: E304 polygons dropped as degenerate after welding, E308 polygons turned
 /// round (307), E309 parts thinner than the tolerances that were swallowed.
 ///
+/// After `budget` steps nothing more is repaired and no more polygons are put into common planes; a
+/// warning E502 says so.
+///
 /// Source: the B-rep of the paper's section 3.1; facts and reasons in docs/solidify.md.
 Solidified solidify(const Building& building, const Tolerances& tolerances = {},
-                    const RepairOptions& repair = {});
+                    const RepairOptions& repair = {}, std::int64_t budget = kWorkBudget);
 
 }  // namespace oriel

@@ -23,16 +23,17 @@ bool is_mostly_supposed(const detail::Soup& soup) {
 
 }  // namespace
 
-std::optional<SupposedSolid> supposed_solid(const Building& building,
-                                            const Tolerances& tolerances) {
+std::optional<SupposedSolid> supposed_solid(const Building& building, const Tolerances& tolerances,
+                                            std::int64_t budget) {
+  Work work(budget);
   Solidified out;
   const detail::Soup soup = detail::weld(building, tolerances, out.issues);
   if (soup.polygons.empty()) return std::nullopt;
-  auto filled = detail::fill_missing_faces(soup, building.id, tolerances);
+  auto filled = detail::fill_missing_faces(soup, building.id, tolerances, work);
   if (!filled || is_mostly_supposed(filled->soup)) return std::nullopt;
   out.issues = std::move(filled->issues);  // those of welding solidify has reported
-  detail::add_solid(building, filled->soup, filled->mesh, tolerances, out);
-  if (!out.value) return std::nullopt;
+  detail::add_solid(building, filled->soup, filled->mesh, tolerances, out, work);
+  if (!out.value || work.is_used_up()) return std::nullopt;
   return SupposedSolid{std::move(*out.value), std::move(filled->report.caps),
                        std::move(out.issues)};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/repair.h"
 #include "kernel/model/solid.h"
@@ -23,11 +24,13 @@ struct SupposedSolid {
 /// The solid of a building that solidify found open, if the faces that are missing follow from the
 /// edges around the holes (missing_faces.h): in one plane each, of any size. All input polygons
 /// bound it, but for doubles; no supposed face runs through one or lies on one, and all together
-/// are no larger than what is there. Nothing if that cannot be had: `open_shell` can.
+/// are no larger than what is there. Nothing if that cannot be had, or not in `budget` steps:
+/// `open_shell` can.
 ///
 /// It serves for finding features. It is nobody's surface, and never to be written: that the
 /// building has a solid is supposed only.
 std::optional<SupposedSolid> supposed_solid(const Building& building,
-                                            const Tolerances& tolerances = {});
+                                            const Tolerances& tolerances = {},
+                                            std::int64_t budget = kWorkBudget);
 
 }  // namespace oriel

@@ -47,14 +47,16 @@ Issue supposed_faces(const Building& building, std::span<const Cap> faces) {
 /// Goes on with a building that solidify found open: with the solid that it would be if the faces
 /// that are missing were there, if holes may be closed at all, else with the facets that there are.
 /// Returns what is to be said of the features that are found so.
-std::vector<Issue> open_up(const Building& building, const Tolerances& tolerances, Closing closing,
-                           PipelineResult& out) {
+std::vector<Issue> open_up(const Building& building, const Tolerances& tolerances,
+                           const LabelOptions& options, PipelineResult& out) {
   const auto is_geometry = [](const Issue& issue) {
     return issue.severity != Severity::error || is_about_geometry(issue.code);
   };
   if (!std::ranges::all_of(out.issues, is_geometry)) return {};
   std::vector<Issue> of_features;
-  auto supposed = closing == Closing::none ? std::nullopt : supposed_solid(building, tolerances);
+  auto supposed = options.repair.close == Closing::none
+                      ? std::nullopt
+                      : supposed_solid(building, tolerances, options.budget);
   if (supposed) {
     continue_with("; faces are supposed where they are missing", out.issues);
     append(out.issues, std::move(supposed->issues));
@@ -84,8 +86,8 @@ Issue noise_note(const Building& building, const Tolerances& fitted) {
 
 /// Only what the rules read, where nothing else was asked for.
 DescribeOptions describe_options(const RuleBase* rules, const LabelOptions& options) {
-  if (rules == nullptr || options.measures_features) return {};
-  return {rules->attributes_read(), rules->relations_read()};
+  if (rules == nullptr || options.measures_features) return {{}, {}, options.budget};
+  return {rules->attributes_read(), rules->relations_read(), options.budget};
 }
 
 /// By Polygon::source whether a facet of the solid has the polygon, or a part of it.
@@ -112,11 +114,12 @@ Segmentation all_features(const Building& building, const PipelineResult& result
                           const SegmentOptions& options) {
   const Solid& solid = *result.solid;
   Segmentation found = result.is_solid() ? segment(building, solid, options) : segment_open(solid);
-  add_ring_features(building, solid, found, options.tolerances);
+  add_ring_features(building, solid, found, options.tolerances, options.budget);
   if (building.installations.empty())
-    add_imprints(building, solid, found, options.tolerances);
+    add_imprints(building, solid, found, options.tolerances, options.budget);
   else
-    add_imprints(without_contacts(building, result), solid, found, options.tolerances);
+    add_imprints(without_contacts(building, result), solid, found, options.tolerances,
+                 options.budget);
   return found;
 }
 
@@ -154,18 +157,18 @@ bool has_all_in_one(const Building& building, const Solid& solid) {
 /// The solid of a building united with what stands on it, or if they make none that of the building
 /// alone.
 Solidified solid_with_installations(const Building& building, const Tolerances& tolerances,
-                                    const RepairOptions& repair) {
-  if (building.installations.empty()) return solidify(building, tolerances, repair);
-  Solidified whole = solidify(building, tolerances, repair);
+                                    const RepairOptions& repair, std::size_t budget) {
+  Solidified whole = solidify(building, tolerances, repair, budget);
+  if (building.installations.empty()) return whole;
   if (whole.value && has_all_in_one(building, *whole.value)) return whole;
   // Closed bodies that touch it or stand in it are lumps beside it unless they are cut.
   RepairOptions cutting = repair;
   cutting.crossings = Crossings::cut_closed;
-  Solidified united = solidify(building, tolerances, cutting);
+  Solidified united = solidify(building, tolerances, cutting, budget);
   if (united.value && (!whole.value || count_lumps(*united.value) < count_lumps(*whole.value)))
     return united;
   if (whole.value) return whole;
-  Solidified alone = solidify(without_installations(building), tolerances, repair);
+  Solidified alone = solidify(without_installations(building), tolerances, repair, budget);
   if (!alone.value) return whole;
   alone.issues.push_back(left_out_note(building));
   return alone;
@@ -178,7 +181,7 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
   std::vector<Issue> of_features;
   if (!out.solid)
     of_features = measure(observer, Stage::solidify,
-                          [&] { return open_up(building, tolerances, options.repair.close, out); });
+                          [&] { return open_up(building, tolerances, options, out); });
   if (!out.solid) return;
   Segmentation segmentation = measured(
       observer, Stage::segment, "segmented", building,
@@ -190,6 +193,7 @@ void find_features(const Building& building, const RuleBase* rules, const Tolera
       observer, Stage::describe, "described", building,
       [&] { return describe(building, segmentation, describe_options(rules, options)); },
       [](const Description& found) { return fmt::format("features={}", found.table.rows()); });
+  append(out.issues, out.description.issues);
   if (rules != nullptr) {
     out.interpretation = measured(
         observer, Stage::interpret, "interpreted", building,
@@ -213,12 +217,13 @@ Issue own_fault(const Building& building, const std::exception& fault) {
 }
 
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
-                            const RepairOptions& repair, const StageObserver& observer) {
+                            const RepairOptions& repair, std::int64_t budget,
+                            const StageObserver& observer) {
   PipelineResult out;
   try {
     auto solid = measured(
         observer, Stage::solidify, "solidified", building,
-        [&] { return solid_with_installations(building, tolerances, repair); },
+        [&] { return solid_with_installations(building, tolerances, repair, budget); },
         [](const auto& made) {
           return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
                              made.issues.size());
@@ -257,9 +262,9 @@ PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
                             const LabelOptions& options) {
   const Tolerances& given = options.tolerances;
   const Tolerances fitted = options.fits_noise ? fitted_to_noise(given, noise_of(building)) : given;
-  PipelineResult result =
-      run_from_solid(run_to_solid(building, fitted, options.repair, options.observer), building,
-                     rules, fitted, options);
+  PipelineResult result = run_from_solid(
+      run_to_solid(building, fitted, options.repair, options.budget, options.observer), building,
+      rules, fitted, options);
   if (fitted.plane_offset_m != given.plane_offset_m)
     result.issues.push_back(noise_note(building, fitted));
   return result;

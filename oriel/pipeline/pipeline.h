@@ -34,7 +34,8 @@ auto measured(const StageObserver& observer, Stage stage, const char* done,
 
 /// solid_of() with the tolerances given.
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
-                            const RepairOptions& repair, const StageObserver& observer);
+                            const RepairOptions& repair, std::int64_t budget,
+                            const StageObserver& observer);
 
 /// The rest of the pipeline, for a building that has come to its solid, or to none: its features,
 /// and with `rules` their labels and its surfaces. `tolerances` are those of the solid.

@@ -64,7 +64,8 @@ std::optional<RepairedSolid> repaired_solid(const Document& document, const Buil
     Tolerances tried = tolerances;
     tried.plane_offset_m *= times.plane_offset;
     tried.weld_m *= times.weld;
-    RepairedSolid repaired{run_to_solid(building, tried, repair, options.observer), 0};
+    RepairedSolid repaired{run_to_solid(building, tried, repair, options.budget, options.observer),
+                           0};
     repaired.result.tolerances = tried;
     if (repaired.result.solid && make_valid(document, building, repaired)) return repaired;
   }

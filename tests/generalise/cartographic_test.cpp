@@ -28,7 +28,7 @@ struct Redraft {
 };
 
 Redraft redraft(const Line& line, double scale, double least_edge_m = 0) {
-  const auto& [table, graph] = line.description;
+  const auto& [table, graph, issues] = line.description;
   Interpretation labels = interpret(cartographic(), table, graph);
   Plan asked = plan(cartographic(), table, graph, labels, scale);
   Invariants invariants;

@@ -93,7 +93,7 @@ const std::vector<std::string>& samples() {
 Coarser generalised(const Line& line, double scale) {
   Coarser out;
   out.scale = scale;
-  const auto& [table, graph] = line.description;
+  const auto& [table, graph, issues] = line.description;
   out.plan = plan(residential(), table, graph, line.interpretation, scale);
   auto checked = generalise(line.solid, line.segmentation, table, line.interpretation, out.plan);
   out.issues = std::move(checked.issues);

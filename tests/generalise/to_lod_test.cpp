@@ -35,7 +35,7 @@ std::size_t steps_with(Vec3 from, Vec3 to) {
 
 Checked<Redrawn> product(const Line& line, const std::string& level) {
   const Profile profile = *load_profile_file("lod:" + level).value;
-  const auto& [table, graph] = line.description;
+  const auto& [table, graph, issues] = line.description;
   const Plan plan = plan_by_profile({}, profile, residential(), line.segmentation, table,
                                     line.interpretation, std::nullopt);
   auto left = generalise(line.solid, line.segmentation, table, line.interpretation, plan);

@@ -43,7 +43,7 @@ inline FacetId facet_looking(const Solid& solid, Vec3 direction) {
 /// The building with one polygon for each facet of its solid, inner rings and all: as surveyed
 /// models come, where bodies made in code are in pieces.
 inline Building in_whole_facets(const Building& building) {
-  const Solid solid = solid_of(building);
+  const Solid solid = test::solid_of(building);
   Building out = building;
   out.vertices.clear();
   for (const Vertex& vertex : solid.vertices) out.vertices.push_back(vertex.point);

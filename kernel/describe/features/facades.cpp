@@ -23,7 +23,8 @@ bool do_touch(const Extent& p, const Extent& q) {
 
 }  // namespace
 
-Facades::Facades(const Segmentation& segmentation) : segmentation_(segmentation) {
+Facades::Facades(const Segmentation& segmentation, Work& work)
+    : segmentation_(segmentation), work_(work) {
   for (std::size_t c = 0; c < segmentation.cells.size(); ++c) {
     if (segmentation.cells[c].sign < 0) continue;
     for (std::size_t f = 0; f < segmentation.cells[c].facets.size(); ++f)
@@ -49,7 +50,8 @@ std::optional<Facades::Wall> Facades::wall_of(CellFacet facet) const {
 /// The largest wall that the front is flat before, or the front itself.
 CellFacet Facades::behind(CellFacet front) const {
   const auto before = wall_of(front);
-  if (!before) return front;
+  work_.add(std::ssize(walls_));
+  if (!before || work_.is_used_up()) return front;
   const double parallel = std::cos(Tolerances{}.coplanar_deg * std::numbers::pi / 180);
   const Wall* largest = &*before;
   for (const Wall& wall : walls_) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/describe/features/shape.h"
 #include "kernel/model/segmentation.h"
 
@@ -13,7 +14,9 @@ namespace oriel::detail {
 /// something flat before a wall, as stairs do before a plinth, the wall's.
 class Facades {
  public:
-  explicit Facades(const Segmentation& segmentation);
+  /// Walls that are looked at are counted in `work`, which must outlive it; once it is used up a
+  /// facade is its own facet only.
+  Facades(const Segmentation& segmentation, Work& work);
 
   /// The facet of a feature's facade; nothing without cap.
   [[nodiscard]] std::optional<CellFacet> of(const Feature& feature);
@@ -35,6 +38,7 @@ class Facades {
   [[nodiscard]] CellFacet behind(CellFacet front) const;
 
   const Segmentation& segmentation_;
+  Work& work_;
   std::vector<Wall> walls_;  ///< of solid cells
   std::map<std::pair<CellId, int>, CellFacet> known_;
 };

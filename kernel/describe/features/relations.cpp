@@ -84,7 +84,7 @@ std::vector<int> storeys_of(std::span<const InFacade> features, std::span<const 
 }
 
 FeatureGraph relate(const Segmentation& segmentation, std::span<const InFacade> features,
-                    std::span<const int> storeys, const AskedRelations& asked) {
+                    std::span<const int> storeys, const AskedRelations& asked, Work& work) {
   std::vector<FeatureGraph::Pair> hosts, alike, beside, above;
   for (std::size_t i = 0; i < segmentation.features.size(); ++i)
     if (segmentation.features[i].host.is_valid())
@@ -100,7 +100,10 @@ FeatureGraph relate(const Segmentation& segmentation, std::span<const InFacade> 
   for (std::size_t i = 0; i < same_facade.list_of.size(); ++i) {
     if (same_facade.list_of[i] < 0) continue;
     const InFacade& p = features[i];
-    for (const int other : same_facade.list(static_cast<std::size_t>(same_facade.list_of[i]))) {
+    const auto others = same_facade.list(static_cast<std::size_t>(same_facade.list_of[i]));
+    work.add(std::ssize(others));
+    if (work.is_used_up()) break;
+    for (const int other : others) {
       if (other == static_cast<int>(i)) continue;
       const InFacade& q = features[static_cast<std::size_t>(other)];
       if (asked.alike && is_alike(p, q)) alike.emplace_back(id(i), FeatureId{other});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/describe/features/shape.h"
 #include "kernel/model/description/feature_graph.h"
 #include "kernel/model/segmentation.h"
@@ -31,8 +32,9 @@ struct AskedRelations {
   bool alike = true, beside = true, above = true;
 };
 
-/// All relations of relation_schema() but those that are not asked for, which stay empty.
+/// All relations of relation_schema() but those that are not asked for, which stay empty. Once
+/// `work` is used up no more pairs of one facade are looked at.
 FeatureGraph relate(const Segmentation& segmentation, std::span<const InFacade> features,
-                    std::span<const int> storeys, const AskedRelations& asked);
+                    std::span<const int> storeys, const AskedRelations& asked, Work& work);
 
 }  // namespace oriel::detail

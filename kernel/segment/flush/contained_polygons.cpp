@@ -25,14 +25,16 @@ using EdgeLoop = std::vector<int>;
 class ContainedFinder {
  public:
   ContainedFinder(const Solid& solid, const Subdivisions& subdivisions,
-                  const Tolerances& tolerances)
+                  const Tolerances& tolerances, Work& work)
       : solid_(solid),
         subdivisions_(subdivisions),
         tolerances_(tolerances),
+        work_(work),
         mark_(subdivisions.polygons.size(), 0) {}
 
   std::vector<ContainedPolygons> run() {
     for (subdivision_ = 0; subdivision_ < std::ssize(subdivisions_.subdivisions); ++subdivision_) {
+      if (work_.is_used_up()) break;
       const Subdivision& subdivision = subdivisions_.subdivisions[at(subdivision_)];
       normal_ = solid_.planes[solid_.facets[subdivision.facet.index()].plane.index()].normal;
       for (int p = subdivision.first_polygon; p < subdivision.past_polygon; ++p) look_into({p});
@@ -68,7 +70,7 @@ class ContainedFinder {
   /// Where there are only pieces of polygons.
   void look_for_rectangles(const Subdivision& subdivision) {
     for (InsetRectangle& inset :
-         find_inset_rectangles(subdivisions_, subdivision, normal_, tolerances_))
+         find_inset_rectangles(subdivisions_, subdivision, normal_, tolerances_, work_))
       for (const EdgeLoop& loop : loops_of(inset.polygons)) {
         Outline outline = outline_of(loop);
         if (signed_area(outline, normal_) <= 0) continue;
@@ -100,6 +102,7 @@ class ContainedFinder {
       if (std::exchange(mark_[at(seed)], mark) != mark) found.push_back(seed);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const SubdivisionPolygon& polygon = subdivisions_.polygons[at(found[i])];
+      work_.add(polygon.past_edge - polygon.first_edge);
       for (int e = polygon.first_edge; e < polygon.past_edge; ++e) {
         const int other = across(e);
         if (other < 0 || mark_[at(other)] == mark || !may_enter(other)) continue;
@@ -121,6 +124,7 @@ class ContainedFinder {
       loops.emplace_back();
       int e = start;
       do {
+        work_.add(1);
         seen.insert(e);
         loops.back().push_back(e);
         e = edge(e).next;
@@ -137,7 +141,7 @@ class ContainedFinder {
   }
 
   void look_into(const std::vector<int>& host) {
-    if (host.size() == 1 && !may_host(host[0])) return;
+    if (work_.is_used_up() || (host.size() == 1 && !may_host(host[0]))) return;
     for (const EdgeLoop& loop : loops_of(host)) {
       if (signed_area(outline_of(loop), normal_) < 0)
         look_into_ring(host, loop);
@@ -191,7 +195,7 @@ class ContainedFinder {
     while (start < size && goes_on(start)) ++start;
     if (start == size) return false;  // an outer outline turns left somewhere
     bool has_found = false;
-    for (std::size_t i = start + 1; i <= start + size;) {
+    for (std::size_t i = start + 1; i <= start + size && !work_.is_used_up();) {
       EdgeLoop chain{loop[i % size]};
       double turn = 0;
       for (; goes_on(i); ++i) {
@@ -258,6 +262,7 @@ class ContainedFinder {
   const Solid& solid_;
   const Subdivisions& subdivisions_;
   const Tolerances& tolerances_;
+  Work& work_;
   int subdivision_ = 0;
   Vec3 normal_;
   std::vector<int> mark_;  ///< by polygon, the number of the flood that reached it last
@@ -268,8 +273,8 @@ class ContainedFinder {
 }  // namespace
 
 std::vector<ContainedPolygons> find_contained(const Solid& solid, const Subdivisions& subdivisions,
-                                              const Tolerances& tolerances) {
-  return ContainedFinder(solid, subdivisions, tolerances).run();
+                                              const Tolerances& tolerances, Work& work) {
+  return ContainedFinder(solid, subdivisions, tolerances, work).run();
 }
 
 }  // namespace oriel::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/segment/flush/subdivisions.h"
@@ -33,7 +34,8 @@ struct ContainedPolygons {
 /// does around a door: a chain of its edges that turns inward only, by kTurn_deg or more. Convex
 /// pieces, as of a triangulation, share one side with each other and so are never contained; among
 /// them inset rectangles are (inset_rectangles.h). What is thinner than weld_m is no contained.
+/// Once `work` is used up no more hosts are looked into.
 std::vector<ContainedPolygons> find_contained(const Solid& solid, const Subdivisions& subdivisions,
-                                              const Tolerances& tolerances);
+                                              const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

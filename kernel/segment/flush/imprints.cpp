@@ -29,12 +29,13 @@ struct CapInPlane {
 class ImprintWriter {
  public:
   ImprintWriter(const Building& building, const Solid& solid, Segmentation& segmentation,
-                const Tolerances& tolerances)
+                const Tolerances& tolerances, Work& work)
       : solid_(solid),
         out_(segmentation),
         tolerances_(tolerances),
-        subdivisions_(detail::subdivisions_of(building, solid, tolerances)),
-        contained_(find_contained(solid, subdivisions_, tolerances)),
+        work_(work),
+        subdivisions_(detail::subdivisions_of(building, solid, tolerances, work)),
+        contained_(find_contained(solid, subdivisions_, tolerances, work)),
         tree_features_(segmentation.features.size()) {}
 
   void run() {
@@ -44,7 +45,7 @@ class ImprintWriter {
       std::size_t past = i;
       while (past < contained_.size() && contained_[past].subdivision == contained_[i].subdivision)
         ++past;
-      write_subdivision(i, past);
+      if (!work_.is_used_up()) write_subdivision(i, past);
       i = past;
     }
     take_in();
@@ -95,7 +96,7 @@ class ImprintWriter {
   void write_subdivision(std::size_t first, std::size_t past) {
     const PlaneId plane = facet_of(contained_[first]).plane;
     const detail::ReachAxes axes = detail::axes_in(solid_.planes[plane.index()].normal);
-    for (std::size_t i = first; i < past; ++i) {
+    for (std::size_t i = first; i < past && !work_.is_used_up(); ++i) {
       ContainedPolygons& contained = contained_[i];
       const auto home = home_of(contained);
       if (!home) continue;
@@ -117,8 +118,10 @@ class ImprintWriter {
 
   /// One feature stands on another, directly or over others.
   [[nodiscard]] bool carries(FeatureId carrier, FeatureId id) const {
-    for (FeatureId host = id; host.is_valid(); host = out_.features[host.index()].host)
+    for (FeatureId host = id; host.is_valid(); host = out_.features[host.index()].host) {
+      work_.add(1);
       if (host == carrier) return true;
+    }
     return false;
   }
 
@@ -146,7 +149,9 @@ class ImprintWriter {
     auto r = std::ranges::lower_bound(found->second, reach.u0 - slack, {},
                                       [](const CapInPlane& found_id) { return found_id.cap.u0; });
     for (; r != found->second.end() && r->cap.u0 <= reach.u1; ++r) {
+      work_.add(1);
       if (!reach.holds(r->cap, slack)) continue;
+      work_.add(std::ssize(outline));
       if (detail::contains({{outline}}, normal_of(plane), feature(r->id).cap_point))
         within.push_back(r->id);
     }
@@ -268,6 +273,7 @@ class ImprintWriter {
   const Solid& solid_;
   Segmentation& out_;
   const Tolerances& tolerances_;
+  Work& work_;
   detail::Subdivisions subdivisions_;
   std::vector<ContainedPolygons> contained_;
   std::size_t tree_features_;
@@ -280,9 +286,14 @@ class ImprintWriter {
 }  // namespace
 
 void add_imprints(const Building& building, const Solid& solid, Segmentation& segmentation,
-                  const Tolerances& tolerances) {
-  ImprintWriter(building, solid, segmentation, tolerances).run();
-  detail::join_unassigned_polygons(building, solid, segmentation, tolerances);
+                  const Tolerances& tolerances, std::int64_t budget) {
+  Work work(budget);
+  ImprintWriter(building, solid, segmentation, tolerances, work).run();
+  detail::join_unassigned_polygons(building, solid, segmentation, tolerances, work);
+  if (work.is_used_up())
+    segmentation.issues.push_back(
+        used_up(building.id, budget, "finding imprints",
+                "openings that are flush with their wall may be missing"));
 }
 
 }  // namespace oriel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
@@ -31,8 +32,9 @@ namespace oriel {
 /// Imprints stand behind the features of the tree, by facet and the largest first (of polygons
 /// without facet: last); their outlines are added to `vertices`. Nothing else changes.
 /// `segmentation` must be of `solid`, `solid` of `building`. Takes time linear in the polygons of
-/// facets that have several; nothing is done where every facet is one polygon.
+/// facets that have several; nothing is done where every facet is one polygon. After `budget` steps
+/// no more are looked for, and a warning E502 says so.
 void add_imprints(const Building& building, const Solid& solid, Segmentation& segmentation,
-                  const Tolerances& tolerances = {});
+                  const Tolerances& tolerances = {}, std::int64_t budget = kWorkBudget);
 
 }  // namespace oriel

@@ -39,13 +39,14 @@ enum class End { free, at_corner, goes_on };
 class RectangleFinder {
  public:
   RectangleFinder(const Subdivisions& subdivisions, const Subdivision& subdivision, Vec3 normal,
-                  const Tolerances& tolerances)
+                  const Tolerances& tolerances, Work& work)
       : all_(subdivisions),
         subdivision_(subdivision),
         normal_(normal),
         axes_(axes_in(normal)),
         is_level_(length(cross(normal, {0, 0, 1})) < kTangentOfStraight),
-        slack_m_(tolerances.weld_m + tolerances.plane_offset_m) {}
+        slack_m_(tolerances.weld_m + tolerances.plane_offset_m),
+        work_(work) {}
 
   std::vector<InsetRectangle> run() {
     if (subdivision_.first_polygon == subdivision_.past_polygon) return {};
@@ -137,6 +138,7 @@ class RectangleFinder {
   [[nodiscard]] int ahead(int p, Vec3 direction) const {
     int best = -1;
     std::pair<bool, double> least;
+    work_.add(std::ssize(point(p).spokes));
     for (const EdgeAtPoint& spoke : point(p).spokes) {
       const Vec3 v = vector(p, spoke.to);
       if (!is_along(v, direction)) continue;
@@ -165,7 +167,7 @@ class RectangleFinder {
   bool take_rectangles() {
     const std::size_t before = taken_.size();
     for (int p = first_point_; p < first_point_ + std::ssize(points_); ++p) {
-      if (!point(p).is_inner || point(p).taken > 0) continue;
+      if (!point(p).is_inner || point(p).taken > 0 || work_.is_used_up()) continue;
       std::optional<RectangleOfEdges> found;
       for (const Vec3 axis : {axes_.u, axes_.v, -1 * axes_.u, -1 * axes_.v})
         if (const int to = ahead(p, axis); to >= 0 && !found)
@@ -174,7 +176,7 @@ class RectangleFinder {
       for (const int corner : found->corners) ++point(corner).taken;
       taken_.push_back(std::move(*found));
     }
-    return taken_.size() > before;
+    return taken_.size() > before && !work_.is_used_up();
   }
 
   /// The smallest rectangle at a free corner, counter-clockwise from a side.
@@ -407,6 +409,7 @@ class RectangleFinder {
   ReachAxes axes_;
   bool is_level_;
   double slack_m_;
+  Work& work_;
   int first_point_ = 0;
   std::vector<PointOfFacet> points_;
   std::vector<RectangleOfEdges> taken_;
@@ -416,8 +419,8 @@ class RectangleFinder {
 
 std::vector<InsetRectangle> find_inset_rectangles(const Subdivisions& subdivisions,
                                                   const Subdivision& subdivision, Vec3 normal,
-                                                  const Tolerances& tolerances) {
-  return RectangleFinder(subdivisions, subdivision, normal, tolerances).run();
+                                                  const Tolerances& tolerances, Work& work) {
+  return RectangleFinder(subdivisions, subdivision, normal, tolerances, work).run();
 }
 
 }  // namespace oriel::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/model/vec3.h"
 #include "kernel/segment/flush/subdivisions.h"
@@ -34,8 +35,9 @@ struct InsetRectangle {
 /// four lie inside. Rectangles that
 /// share a part of a side are one (the leaves of a door). A plain wall in triangles has no points
 /// inside, and any division into pieces between straight lines no free corner: both yield nothing.
+/// Once `work` is used up no more corners are looked at.
 std::vector<InsetRectangle> find_inset_rectangles(const Subdivisions& subdivisions,
                                                   const Subdivision& subdivision, Vec3 normal,
-                                                  const Tolerances& tolerances);
+                                                  const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

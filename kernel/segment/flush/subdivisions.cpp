@@ -28,7 +28,7 @@ namespace {
 class PointsOnEdges {
  public:
   /// A point is on an edge if it is no further from it than `slack_m`.
-  PointsOnEdges(const std::vector<Vec3>& points, ReachAxes axes, double slack_m);
+  PointsOnEdges(const std::vector<Vec3>& points, ReachAxes axes, double slack_m, Work& work);
 
   /// Indices of the points on the edge between two points, without these, in the order from `from`
   /// to `to`. Looks at the points in the edge's strip along u or v, whichever has fewer.
@@ -46,13 +46,16 @@ class PointsOnEdges {
   const std::vector<Vec3>& points_;
   ReachAxes axes_;
   double slack_m_;
+  Work& work_;
   Strip by_u_, by_v_;
 };
 
-PointsOnEdges::PointsOnEdges(const std::vector<Vec3>& points, ReachAxes axes, double slack_m)
+PointsOnEdges::PointsOnEdges(const std::vector<Vec3>& points, ReachAxes axes, double slack_m,
+                             Work& work)
     : points_(points),
       axes_(axes),
       slack_m_(slack_m),
+      work_(work),
       by_u_(strip_along(axes.u)),
       by_v_(strip_along(axes.v)) {}
 
@@ -83,6 +86,8 @@ std::vector<int> PointsOnEdges::between(int from, int to) const {
   const bool is_u_shorter = u.second - u.first < v.second - v.first;
   const Strip& strip = is_u_shorter ? by_u_ : by_v_;
   const auto [first, past] = is_u_shorter ? u : v;
+  work_.add(1 + static_cast<std::int64_t>(past - first));
+  if (work_.is_used_up()) return {};
   std::vector<std::pair<double, int>> found;
   const double square = dot(along, along);
   for (std::size_t i = first; i < past; ++i) {
@@ -133,8 +138,9 @@ constexpr std::size_t kFewestAroundRectangle = 8;
 
 class SubdivisionMaker {
  public:
-  SubdivisionMaker(const Building& building, const Solid& solid, const Tolerances& tolerances)
-      : building_(building), solid_(solid), tolerances_(tolerances) {}
+  SubdivisionMaker(const Building& building, const Solid& solid, const Tolerances& tolerances,
+                   Work& work)
+      : building_(building), solid_(solid), tolerances_(tolerances), work_(work) {}
 
   Subdivisions run() {
     const BySource by_source = polygons_by_source(building_);
@@ -215,7 +221,7 @@ class SubdivisionMaker {
       for (const int polygon : members[s])
         for (const int v : soup.corners_of(polygon)) point_of(v);
       const std::vector<Vec3> points(out_.points.begin() + first_point, out_.points.end());
-      const PointsOnEdges on_edges(points, axes_in(plane.normal), tolerances_.weld_m);
+      const PointsOnEdges on_edges(points, axes_in(plane.normal), tolerances_.weld_m, work_);
       const std::vector<PointPair> edges = edges_of(soup, members[s]);
       // An edge that two polygons share needs no points, however near some are to it.
       const auto between = [&](int v, int w) {
@@ -320,6 +326,7 @@ class SubdivisionMaker {
   const Building& building_;
   const Solid& solid_;
   const Tolerances& tolerances_;
+  Work& work_;
   std::vector<int> subdivision_of_source_;
   std::map<std::string, int> hints_;
   std::unordered_map<int, const int*> hint_of_source_;
@@ -330,8 +337,8 @@ class SubdivisionMaker {
 }  // namespace
 
 Subdivisions subdivisions_of(const Building& building, const Solid& solid,
-                             const Tolerances& tolerances) {
-  return SubdivisionMaker(building, solid, tolerances).run();
+                             const Tolerances& tolerances, Work& work) {
+  return SubdivisionMaker(building, solid, tolerances, work).run();
 }
 
 }  // namespace oriel::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/index.h"
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
@@ -52,7 +53,8 @@ struct Subdivisions {
 
 /// The order of subdivisions is that of the facets; that of polygons and edges does not depend on
 /// the order of the input.
+/// Once `work` is used up, points on edges are no longer looked for.
 Subdivisions subdivisions_of(const Building& building, const Solid& solid,
-                             const Tolerances& tolerances);
+                             const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

@@ -37,12 +37,16 @@ Vec3 area_vector(const std::vector<Outline>& rings) {
 class Joiner {
  public:
   Joiner(const Building& building, const Solid& solid, Segmentation& segmentation,
-         const Tolerances& tolerances)
-      : building_(building), solid_(solid), out_(segmentation), tolerances_(tolerances) {}
+         const Tolerances& tolerances, Work& work)
+      : building_(building),
+        solid_(solid),
+        out_(segmentation),
+        tolerances_(tolerances),
+        work_(work) {}
 
   void run() {
     for (const UnassignedPolygon& polygon : unassigned_polygons())
-      if (!join(polygon)) lay(polygon);
+      if (!work_.is_used_up() && !join(polygon)) lay(polygon);
   }
 
  private:
@@ -79,6 +83,7 @@ class Joiner {
   /// True if there is an opening that the polygon belongs to.
   bool join(const UnassignedPolygon& polygon) {
     std::optional<std::pair<double, FeatureId>> smallest;
+    work_.add(std::ssize(out_.features));
     for (int i = 0; i < std::ssize(out_.features); ++i) {
       const Feature& f = out_.features[at(i)];
       if (f.sense != Sense::hole && f.sense != Sense::imprint) continue;
@@ -97,6 +102,7 @@ class Joiner {
   [[nodiscard]] std::optional<double> covered_m2(const UnassignedPolygon& polygon, const Feature& f,
                                                  Vec3 normal) const {
     std::vector<Vec3> points;
+    work_.add(std::ssize(f.vertices));
     for (const int v : f.vertices) points.push_back(out_.vertices[at(v)].point);
     const ReachAxes axes = axes_in(normal);
     const Reach opening = axes.reach_of(points), pane = axes.reach_of(polygon.rings[0]);
@@ -143,6 +149,7 @@ class Joiner {
   void lay(const UnassignedPolygon& polygon) {
     for (int c = 0; c < std::ssize(out_.cells); ++c) {
       const Cell& cell = out_.cells[at(c)];
+      work_.add(std::ssize(cell.facets));
       for (int f = 0; f < std::ssize(cell.facets); ++f) {
         const Facet& facet = cell.facets[at(f)];
         // Facets that only cuts made are no surface.
@@ -210,13 +217,15 @@ class Joiner {
   const Solid& solid_;
   Segmentation& out_;
   const Tolerances& tolerances_;
+  Work& work_;
 };
 
 }  // namespace
 
 void join_unassigned_polygons(const Building& building, const Solid& solid,
-                              Segmentation& segmentation, const Tolerances& tolerances) {
-  Joiner(building, solid, segmentation, tolerances).run();
+                              Segmentation& segmentation, const Tolerances& tolerances,
+                              Work& work) {
+  Joiner(building, solid, segmentation, tolerances, work).run();
 }
 
 }  // namespace oriel::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
@@ -13,8 +14,8 @@ namespace oriel::detail {
 /// and is no further from it than a wall is thick, joins the smallest such opening and what that
 /// lies in: their polygons and vertices, their boxes and surfaces. One that lies flat in a facet,
 /// within plane_offset_m, becomes an imprint there. The others are left alone, as are those
-/// without area.
+/// without area, and those that come after `work` is used up.
 void join_unassigned_polygons(const Building& building, const Solid& solid,
-                              Segmentation& segmentation, const Tolerances& tolerances);
+                              Segmentation& segmentation, const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

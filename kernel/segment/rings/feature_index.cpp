@@ -26,8 +26,12 @@ Reach reach_of_ring(const Solid& solid, const Facet& facet, const Loop& loop,
 
 }  // namespace
 
-FeatureIndex::FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances)
-    : segmentation_(segmentation), tolerances_(tolerances), planes_(segmentation.planes.size()) {
+FeatureIndex::FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances,
+                           Work& work)
+    : segmentation_(segmentation),
+      tolerances_(tolerances),
+      work_(work),
+      planes_(segmentation.planes.size()) {
   for (int i = 0; i < std::ssize(segmentation.features); ++i)
     for (const PlaneId plane : segmentation.features[at(i)].planes)
       planes_[plane.index()].features.push_back(FeatureId{i});
@@ -48,6 +52,7 @@ Reach FeatureIndex::cap_of(FeatureId id, PlaneId number) const {
   const Plane& plane = segmentation_.planes[number.index()];
   const ReachAxes axes = axes_in(plane.normal);
   Reach cap;
+  work_.add(std::ssize(segmentation_.features[id.index()].vertices));
   for (const int v : segmentation_.features[id.index()].vertices) {
     const Vec3 p = segmentation_.vertices[at(v)].point;
     if (std::abs(dot(plane.normal, p) - plane.offset_m) <= tolerances_.plane_offset_m)
@@ -62,8 +67,10 @@ bool FeatureIndex::any_within(PlaneId plane, const Reach& reach, Test test) {
   const double slack = tolerances_.weld_m + tolerances_.plane_offset_m;
   auto r = std::ranges::lower_bound(caps, reach.u0 - slack, {},
                                     [](const PlacedCap& resident) { return resident.cap.u0; });
-  for (; r != caps.end() && r->cap.u0 <= reach.u1; ++r)
+  for (; r != caps.end() && r->cap.u0 <= reach.u1; ++r) {
+    work_.add(1);
     if (reach.holds(r->cap, slack) && test(*r)) return true;
+  }
   return false;
 }
 
@@ -77,9 +84,11 @@ std::vector<FeatureId> FeatureIndex::within(PlaneId plane, const Reach& reach) {
 }
 
 bool FeatureIndex::fills(PlaneId plane, const Reach& reach) {
+  if (work_.is_used_up()) return true;
   const double least_m2 = kSameRing * reach.area();
   if (any_within(plane, reach, [&](const PlacedCap& r) { return r.cap.area() >= least_m2; }))
     return true;
+  work_.add(std::ssize(segmentation_.features));
   return std::ranges::any_of(segmentation_.features, [&](const Feature& feature) {
     return is_cut_off_there(feature, segmentation_.planes[plane.index()], reach);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/tolerances.h"
@@ -13,13 +14,14 @@ namespace oriel::detail {
 /// appended later is none of them.
 class FeatureIndex {
  public:
-  FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances);
+  /// What is looked at is counted in `work`, which must outlive it.
+  FeatureIndex(const Segmentation& segmentation, const Tolerances& tolerances, Work& work);
 
   /// The features with a cap within a rectangle of a plane, from left to right.
   [[nodiscard]] std::vector<FeatureId> within(PlaneId plane, const Reach& reach);
 
   /// True if the cap of one of them fills 0.8 of the rectangle: it is the ring's. So it is if the
-  /// ring runs around what a part with that facet was cut off.
+  /// ring runs around what a part with that facet was cut off. Once the work is used up all are.
   [[nodiscard]] bool fills(PlaneId plane, const Reach& reach);
 
  private:
@@ -42,6 +44,7 @@ class FeatureIndex {
 
   const Segmentation& segmentation_;
   const Tolerances& tolerances_;
+  Work& work_;
   std::vector<OfPlane> planes_;
 };
 

@@ -36,25 +36,34 @@ constexpr double kWall_m = 0.5;
 class RingWriter {
  public:
   RingWriter(const Building& building, const Solid& solid, Segmentation& segmentation,
-             const Tolerances& tolerances)
+             const Tolerances& tolerances, std::int64_t budget)
       : building_(building),
         solid_(solid),
         out_(segmentation),
         tolerances_(tolerances),
-        index_(segmentation, tolerances) {}
+        work_(budget),
+        index_(segmentation, tolerances, work_) {}
 
   void run() {
     const bool is_open = solid_.shells.empty();
-    if (!is_open && are_all_rings_filled(solid_, index_, tolerances_)) return;
+    if (!is_open && are_all_rings_filled(solid_, index_, tolerances_)) return tell_work();
     grid_ = detail::PolygonGrid(building_, solid_.grid_m);
-    const std::vector<Ring> rings = detail::find_rings(solid_, grid_, index_, tolerances_);
-    if (rings.empty()) return;
+    const std::vector<Ring> rings = detail::find_rings(solid_, grid_, index_, tolerances_, work_);
+    if (rings.empty()) return tell_work();
     find_homes();
-    for (const Ring& ring : rings) write(ring);
+    for (const Ring& ring : rings)
+      if (!work_.is_used_up()) write(ring);
     take_in();
+    tell_work();
   }
 
  private:
+  void tell_work() const {
+    if (work_.is_used_up())
+      out_.issues.push_back(used_up(building_.id, work_.budget(), "finding rings",
+                                    "openings that no cut frees may be missing"));
+  }
+
   [[nodiscard]] const Plane& plane_of(const Ring& ring) const {
     return solid_.planes[solid_.facets[ring.facet.index()].plane.index()];
   }
@@ -82,6 +91,7 @@ class RingWriter {
     const auto home = home_of(ring);
     if (!home) return;
     const RingContent content = detail::content_of(ring, solid_, grid_);
+    work_.add(std::ssize(ring.outline) * (1 + std::ssize(content.polygons)));
     if (ring.kind == Ring::Kind::notch && !is_recess(ring, content)) return;
     if (is_told(ring)) return;
     const std::optional<FeatureId> owner = owner_of(ring, content);
@@ -110,8 +120,10 @@ class RingWriter {
       for (long y = here[1] - 1; y <= here[1] + 1; ++y)
         for (long z = here[2] - 1; z <= here[2] + 1; ++z)
           if (const auto near = told_.find({x, y, z}); near != told_.end())
-            for (const Told& other : near->second)
+            for (const Told& other : near->second) {
+              work_.add(1);
               if (is_other_side(ring, reach, middle, other)) return true;
+            }
     told_[here].push_back({ring.outline, normal, middle});
     return false;
   }
@@ -248,6 +260,7 @@ class RingWriter {
   const Solid& solid_;
   Segmentation& out_;
   const Tolerances& tolerances_;
+  Work work_;
   detail::FeatureIndex index_;
   detail::PolygonGrid grid_;
   std::vector<CellFacet> home_;     ///< by Polygon::source, invalid where there is none
@@ -259,8 +272,8 @@ class RingWriter {
 }  // namespace
 
 void add_ring_features(const Building& building, const Solid& solid, Segmentation& segmentation,
-                       const Tolerances& tolerances) {
-  RingWriter(building, solid, segmentation, tolerances).run();
+                       const Tolerances& tolerances, std::int64_t budget) {
+  RingWriter(building, solid, segmentation, tolerances, budget).run();
 }
 
 Segmentation segment_open(const Solid& open_shell) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
@@ -34,8 +35,9 @@ Segmentation segment_open(const Solid& open_shell);
 /// hosted by it, and its box holds theirs.
 ///
 /// Features are appended, the largest ring first, then by its place. `solid` is what `segmentation`
-/// was made of. Takes time linear in the polygons and what their rings hold.
+/// was made of. Takes time linear in the polygons and what their rings hold; after `budget` steps
+/// no more rings are looked for, and a warning E502 says so.
 void add_ring_features(const Building& building, const Solid& solid, Segmentation& segmentation,
-                       const Tolerances& tolerances = {});
+                       const Tolerances& tolerances = {}, std::int64_t budget = kWorkBudget);
 
 }  // namespace oriel

@@ -34,13 +34,18 @@ Outline laid(const Plane& plane, Outline loop) {
 
 class RingFinder {
  public:
-  RingFinder(const Solid& solid, const PolygonGrid& grid, const Tolerances& tolerances)
-      : solid_(solid), grid_(grid), tolerances_(tolerances), is_open_(solid.shells.empty()) {}
+  RingFinder(const Solid& solid, const PolygonGrid& grid, const Tolerances& tolerances, Work& work)
+      : solid_(solid),
+        grid_(grid),
+        tolerances_(tolerances),
+        work_(work),
+        is_open_(solid.shells.empty()) {}
 
   std::vector<Ring> run(FeatureIndex& features) {
-    for (int f = 0; f < std::ssize(solid_.facets); ++f) find_rings_of(f);
+    for (int f = 0; f < std::ssize(solid_.facets) && !work_.is_used_up(); ++f) find_rings_of(f);
     join_leaves();
-    std::erase_if(rings_, [&](const Ring& ring) { return is_filled(ring, features); });
+    std::erase_if(
+        rings_, [&](const Ring& ring) { return work_.is_used_up() || is_filled(ring, features); });
     if (rings_.size() > 1) sort();
     return std::move(rings_);
   }
@@ -146,11 +151,13 @@ class RingFinder {
     return leaves;
   }
 
-  static void count_neighbours(std::vector<Leaf>& row) {
+  void count_neighbours(std::vector<Leaf>& row) const {
     for (Leaf& leaf : row) {
       auto beside = std::ranges::lower_bound(row, leaf.reach.u1 - kLean_m, {},
                                              [](const Leaf& l) { return l.reach.u0; });
       for (; beside != row.end() && beside->reach.u0 <= leaf.reach.u1 + kLean_m; ++beside) {
+        work_.add(1);
+        if (work_.is_used_up()) return;
         if (std::abs(beside->reach.v0 - leaf.reach.v0) > kLean_m ||
             std::abs(beside->reach.v1 - leaf.reach.v1) > kLean_m)
           continue;
@@ -186,6 +193,7 @@ class RingFinder {
   void add(Ring ring) {
     const Vec3 normal = plane_of(ring).normal;
     ring.area_m2 = signed_area(ring.outline, normal);
+    work_.add(std::ssize(ring.outline));
     if (is_slit(ring, tolerances_)) return;
     start_at_least(ring.outline);
     const Reach reach = axes_in(normal).reach_of(ring.outline);
@@ -194,8 +202,10 @@ class RingFinder {
     for (long i = u - 1; i <= u + 1; ++i)
       for (long j = v - 1; j <= v + 1; ++j)
         if (const auto near = known_.find({ring.facet, i, j}); near != known_.end())
-          for (const Reach& other : near->second)
+          for (const Reach& other : near->second) {
+            work_.add(1);
             if (reach.holds(other, kLean_m) && other.holds(reach, kLean_m)) return;
+          }
     known_[{ring.facet, u, v}].push_back(reach);
     rings_.push_back(std::move(ring));
   }
@@ -229,6 +239,7 @@ class RingFinder {
   const Solid& solid_;
   const PolygonGrid& grid_;
   const Tolerances& tolerances_;
+  Work& work_;
   bool is_open_;
   std::vector<Ring> rings_;
   std::map<std::tuple<FacetId, long, long>, std::vector<Reach>> known_;  ///< of rings, by place
@@ -251,8 +262,8 @@ bool is_slit(const Ring& ring, const Tolerances& tolerances) {
 }
 
 std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, FeatureIndex& features,
-                             const Tolerances& tolerances) {
-  return RingFinder(solid, grid, tolerances).run(features);
+                             const Tolerances& tolerances, Work& work) {
+  return RingFinder(solid, grid, tolerances, work).run(features);
 }
 
 }  // namespace oriel::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/solid.h"
@@ -46,8 +47,8 @@ class FeatureIndex;
 /// The rings of a solid's facets that no feature fills; of an open shell (no Solid::shells) also
 /// those of the input polygons, narrow frames and notches. The largest first, then by place; slits
 /// are none, and no ring counts twice, nor if one that is filled is like it. `grid` has the
-/// polygons of the building that `solid` is of.
+/// polygons of the building that `solid` is of. Once `work` is used up no more are looked for.
 std::vector<Ring> find_rings(const Solid& solid, const PolygonGrid& grid, FeatureIndex& features,
-                             const Tolerances& tolerances);
+                             const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

@@ -30,8 +30,8 @@ struct Stretch {
 class ChordFinder {
  public:
   ChordFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach,
-              GrowingPoints& points)
-      : soup_(soup), shapes_(shapes), reach_(reach), points_(points) {
+              GrowingPoints& points, Work& work)
+      : soup_(soup), shapes_(shapes), reach_(reach), points_(points), work_(work) {
     const std::size_t count = soup.polygons.size();
     boxes_.resize(count);
     middles_.resize(count);
@@ -85,7 +85,8 @@ class ChordFinder {
       edges.search([&](const Box& box) { return overlap(box, boxes_[at(p)], reach_); },
                    [&](int h) {
                      const int q = mesh.polygon_of[at(h)];
-                     if (q == p || !is_same_body(p, q)) return;
+                     work_.add(1);
+                     if (work_.is_used_up() || q == p || !is_same_body(p, q)) return;
                      const int from = soup_.corners[at(h)],
                                to = soup_.corners[at(mesh.next[at(h)])];
                      if (std::abs(height(from, p)) <= reach_ && std::abs(height(to, p)) <= reach_)
@@ -103,7 +104,9 @@ class ChordFinder {
     for (int p = 0; p < soup_.polygon_count(); ++p)
       tree.search([&](const Box& box) { return overlap(box, boxes_[at(p)], reach_); },
                   [&](int q) {
-                    if (q > p && is_same_body(p, q)) add_pair(p, q);
+                    if (q <= p || !is_same_body(p, q)) return;
+                    work_.add(std::ssize(own_[at(p)]) + std::ssize(own_[at(q)]));
+                    if (!work_.is_used_up()) add_pair(p, q);
                   });
   }
 
@@ -186,6 +189,7 @@ class ChordFinder {
   std::span<const PolygonShape> shapes_;
   double reach_;
   GrowingPoints& points_;
+  Work& work_;
   std::vector<Box> boxes_;
   std::vector<Vec3> middles_;
   std::vector<std::vector<int>> own_;  ///< by polygon its corners, sorted
@@ -229,9 +233,9 @@ void GrowingPoints::enter(int point) { cells_[cell_of(place(point))].push_back(p
 
 std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
                                                 std::span<const PolygonShape> shapes, double reach,
-                                                GrowingPoints& points) {
+                                                GrowingPoints& points, Work& work) {
   ORIEL_ASSERT(shapes.size() == soup.polygons.size());
-  return ChordFinder(soup, shapes, reach, points).run();
+  return ChordFinder(soup, shapes, reach, points, work).run();
 }
 
 }  // namespace oriel::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/index.h"
+#include "kernel/base/work.h"
 #include "kernel/solidify/crossings/faces.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
@@ -36,6 +37,6 @@ class GrowingPoints {
 /// pairs of points: not yet cut where they meet.
 std::vector<std::vector<PointPair>> find_chords(const Soup& soup,
                                                 std::span<const PolygonShape> shapes, double reach,
-                                                GrowingPoints& points);
+                                                GrowingPoints& points, Work& work);
 
 }  // namespace oriel::detail

@@ -372,13 +372,16 @@ class ChordSubdivision {
 
 }  // namespace
 
-SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, RingKind rings) {
+SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, Work& work,
+                                      RingKind rings) {
   ORIEL_ASSERT(reach >= 0 && weld > 0);
   const std::vector<PolygonShape> shapes = shapes_of(soup);
   GrowingPoints points(soup.points, weld);
-  const auto chords = find_chords(soup, shapes, reach, points);
+  const auto chords = find_chords(soup, shapes, reach, points, work);
   std::vector<std::optional<CutPolygon>> cuts(soup.polygons.size());
   for (int p = 0; p < soup.polygon_count(); ++p) {
+    work.add(std::ssize(chords[at(p)]) + std::ssize(soup.corners_of(p)));
+    if (work.is_used_up()) break;
     ChordSubdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings);
     if (rings == RingKind::crossing || subdivision.has_chords()) cuts[at(p)] = subdivision.run();
   }

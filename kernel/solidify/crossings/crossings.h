@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
 
@@ -39,8 +40,8 @@ enum class RingKind {
 /// Cuts the polygons of each body along the lines where others of it run through them, and along
 /// the edges of others that lie on them, within `reach`. Points closer than `weld` become one (both
 /// in grid units). Neighbours across an edge get the points that it was cut at from
-/// insert_t_vertices().
-SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld,
+/// insert_t_vertices(). Once `work` is used up no more are looked for: then the soup is of no use.
+SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double weld, Work& work,
                                       RingKind rings = RingKind::simple);
 
 }  // namespace oriel::detail

@@ -26,8 +26,8 @@ namespace {
 
 class WindingFinder {
  public:
-  WindingFinder(const Soup& soup, const PolygonCells& cells)
-      : soup_(soup), cells_(cells), winding_(2 * soup.polygons.size()) {
+  WindingFinder(const Soup& soup, const PolygonCells& cells, Work& work)
+      : soup_(soup), cells_(cells), work_(work), winding_(2 * soup.polygons.size()) {
     beside_.resize(winding_.size());
     for (int p = 0; p < soup.polygon_count(); ++p) {
       beside_[at(cells.front[at(p)])].push_back(p);
@@ -40,6 +40,7 @@ class WindingFinder {
     for (int p = 0; p < soup_.polygon_count(); ++p) {
       const int piece = cells_.piece[at(p)];
       if (std::exchange(is_done[at(piece)], 1)) continue;
+      if (work_.is_used_up()) return std::nullopt;
       reach(cells_.outer[at(piece)], winding_of_others(p));
       spread();
     }
@@ -75,6 +76,7 @@ class WindingFinder {
   /// How often the other pieces of its body wind round the piece of a polygon.
   [[nodiscard]] int winding_of_others(int polygon) const {
     if (cells_.piece_count == 1) return 0;
+    work_.add(soup_.corner_count());
     const auto ring = soup_.corners_of(polygon);
     const Vec3 eye = 0.5 * (exact::to_metres(soup_.points[at(ring[0])], 1) +
                             exact::to_metres(soup_.points[at(ring[1])], 1));
@@ -88,6 +90,7 @@ class WindingFinder {
 
   const Soup& soup_;
   const PolygonCells& cells_;
+  Work& work_;
   std::vector<std::optional<int>> winding_;  ///< by cell
   std::vector<Numbers> beside_;              ///< by cell its polygons
   Numbers reached_;
@@ -98,8 +101,8 @@ class WindingFinder {
 /// polygon: 0 outside, 1 inside, 2 where it overlaps itself, −1 where it is turned inside out;
 /// round the cell behind the polygon once more. Nothing if that is contradictory: then the polygons
 /// of a body are no closed surfaces, all of them oriented, that meet in common edges only.
-std::optional<Numbers> find_windings(const Soup& soup, const PolygonCells& cells) {
-  return WindingFinder(soup, cells).run();
+std::optional<Numbers> find_windings(const Soup& soup, const PolygonCells& cells, Work& work) {
+  return WindingFinder(soup, cells, work).run();
 }
 
 Soup without_opposites(const Soup& soup) {
@@ -138,14 +141,15 @@ Soup outward(const Soup& soup) {
   return builder.finish();
 }
 
-std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double weld) {
-  auto [parted, cut] = cut_at_crossings(soup, reach, weld, RingKind::crossing);
+std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double weld, Work& work) {
+  auto [parted, cut] = cut_at_crossings(soup, reach, weld, work, RingKind::crossing);
+  if (work.is_used_up()) return std::nullopt;
   auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
   const Soup pieces = without_opposites(joined);
   if (pieces.polygons.empty()) return std::nullopt;
   const std::vector<PolygonShape> shapes = shapes_of(pieces);
   const PolygonCells cells = find_cells(pieces, shapes);
-  const auto windings = find_windings(pieces, cells);
+  const auto windings = find_windings(pieces, cells, work);
   if (!windings) return std::nullopt;
   Uncrossed out;
   out.cut = cut;
@@ -169,14 +173,14 @@ std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double w
 
 }  // namespace
 
-std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances) {
+std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances, Work& work) {
   if (!is_cycle(soup)) return std::nullopt;
   const Soup facing = outward(soup);
   const double reach = tolerances.plane_offset_m / soup.grid_m;
   const double weld = tolerances.weld_m / soup.grid_m;
   for (const auto& [on_plane, together] :
        {std::pair{reach, weld}, {reach / 10, weld}, {reach / 100, weld / 10}})
-    if (auto uncrossed = uncross_within(facing, on_plane, together)) return uncrossed;
+    if (auto uncrossed = uncross_within(facing, on_plane, together, work)) return uncrossed;
   return std::nullopt;
 }
 

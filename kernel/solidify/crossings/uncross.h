@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/soup/soup.h"
 
@@ -29,7 +30,7 @@ struct Uncrossed {
 /// As many polygons must run one way along every edge as the other way, else there is nothing; a
 /// body that is inside out as a whole is turned round. Tried with points within plane_offset_m of a
 /// plane counting as on it, then with a tenth and a hundredth of that; nothing if the pieces close
-/// with none.
-std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances);
+/// with none, or once `work` is used up.
+std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

@@ -8,8 +8,8 @@
 namespace oriel::detail {
 
 BoundaryRays::BoundaryRays(const Soup& soup, std::span<const PolygonShape> shapes,
-                           const PolygonCells& cells)
-    : soup_(soup), shapes_(shapes), cells_(cells), tree_({}) {
+                           const PolygonCells& cells, Work& work)
+    : soup_(soup), shapes_(shapes), cells_(cells), work_(work), tree_({}) {
   std::vector<Box> boxes;
   Box all;
   for (int p = 0; p < soup.polygon_count(); ++p) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/solidify/mend/cells.h"
 #include "kernel/solidify/soup/polygon_shape.h"
@@ -14,7 +15,9 @@ namespace oriel::detail {
 /// meet them. All rays have one direction, which no wall, roof or edge of a building has.
 class BoundaryRays {
  public:
-  BoundaryRays(const Soup& soup, std::span<const PolygonShape> shapes, const PolygonCells& cells);
+  /// Polygons that are looked at are counted in `work`, which must outlive it.
+  BoundaryRays(const Soup& soup, std::span<const PolygonShape> shapes, const PolygonCells& cells,
+               Work& work);
 
   /// Visits the polygons that the ray from a point (grid units) runs through. Takes the logarithm
   /// of the polygons, and those near the ray.
@@ -23,6 +26,7 @@ class BoundaryRays {
     const Vec3 far = eye + reach_ * kDirection;
     tree_.search([&](const Box& box) { return comes_near(box, eye, far, 0); },
                  [&](int item) {
+                   work_.add(std::ssize(soup_.corners_of(polygons_[at(item)])));
                    if (is_hit(polygons_[at(item)], eye)) visit(polygons_[at(item)]);
                  });
   }
@@ -39,6 +43,7 @@ class BoundaryRays {
   const Soup& soup_;
   std::span<const PolygonShape> shapes_;
   const PolygonCells& cells_;
+  Work& work_;
   Numbers polygons_;  ///< of the boundary
   double reach_ = 0;  ///< beyond all of them from any of them
   BoxTree tree_;

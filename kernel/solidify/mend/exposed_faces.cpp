@@ -8,7 +8,7 @@
 namespace oriel::detail {
 
 ExposedFaces find_exposed_faces(const Soup& soup, std::span<const PolygonShape> shapes,
-                                const PolygonCells& cells, double reach) {
+                                const PolygonCells& cells, double reach, Work& work) {
   ExposedFaces exposed;
   double boundary = 0;
   Numbers inner;
@@ -20,8 +20,10 @@ ExposedFaces find_exposed_faces(const Soup& soup, std::span<const PolygonShape> 
       inner.push_back(p);
   }
   if (inner.empty()) return exposed;
-  const BoundaryRays rays(soup, shapes, cells);
+  const BoundaryRays rays(soup, shapes, cells, work);
   for (const int p : inner) {
+    work.add(std::ssize(soup.corners_of(p)));
+    if (work.is_used_up()) return exposed;
     const Vec3 off = reach * shapes[at(p)].unit;
     const auto middle = interior_point(outlines_of(soup, p), shapes[at(p)].unit);
     if (!middle || rays.depth_of(*middle + off) > 0 || rays.depth_of(*middle - off) > 0) continue;

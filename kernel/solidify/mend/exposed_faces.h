@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/solidify/mend/cells.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
@@ -20,8 +21,8 @@ struct ExposedFaces {
 /// told by where it lies: what a partition, the double wall between two parts or the back of a
 /// window box has on one side at least is inside the boundary of what is enclosed. What has the
 /// outside on both sides, `reach` (grid units) off, can be seen from there and would be lost.
-/// Caps (kNoSource) are no polygons of the building.
+/// Caps (kNoSource) are no polygons of the building. Once `work` is used up no more are looked for.
 ExposedFaces find_exposed_faces(const Soup& soup, std::span<const PolygonShape> shapes,
-                                const PolygonCells& cells, double reach);
+                                const PolygonCells& cells, double reach, Work& work);
 
 }  // namespace oriel::detail

@@ -40,8 +40,8 @@ struct PieceBoundary {
 class RoleFinder {
  public:
   RoleFinder(const Soup& soup, std::span<const PolygonShape> shapes, const PolygonCells& cells,
-             bool is_solid)
-      : soup_(soup), shapes_(shapes), cells_(cells), is_solid_(is_solid) {}
+             bool is_solid, Work& work)
+      : soup_(soup), shapes_(shapes), cells_(cells), is_solid_(is_solid), work_(work) {}
 
   std::vector<PieceRole> run() {
     std::vector<PieceRole> roles(at(cells_.piece_count), PieceRole::nothing);
@@ -87,10 +87,10 @@ class RoleFinder {
   /// Of every piece that encloses something the others of its body whose boundary it lies in: a ray
   /// from its first point crosses that an odd number of times.
   [[nodiscard]] std::vector<Numbers> pieces_around(std::span<const PieceBoundary> pieces) const {
-    const BoundaryRays rays(soup_, shapes_, cells_);
+    const BoundaryRays rays(soup_, shapes_, cells_, work_);
     std::vector<Numbers> around(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (pieces[i].polygon < 0) continue;
+      if (pieces[i].polygon < 0 || work_.is_used_up()) continue;
       const Vec3 eye = place(soup_.corners_of(pieces[i].polygon).front());
       std::map<int, int> crossings;
       rays.for_each_hit(eye, [&](int p) {
@@ -109,14 +109,15 @@ class RoleFinder {
   std::span<const PolygonShape> shapes_;
   const PolygonCells& cells_;
   bool is_solid_;
+  Work& work_;
 };
 
 /// The role of every piece of the soup. A piece in the material of others of the same body is a
 /// cavity if the input says so (an inner shell of a solid, or, of loose surfaces, one whose
 /// boundary faces inward), else it is within. `is_solid`: what the input says of shells counts.
 std::vector<PieceRole> find_roles(const Soup& soup, std::span<const PolygonShape> shapes,
-                                  const PolygonCells& cells, bool is_solid) {
-  return RoleFinder(soup, shapes, cells, is_solid).run();
+                                  const PolygonCells& cells, bool is_solid, Work& work) {
+  return RoleFinder(soup, shapes, cells, is_solid, work).run();
 }
 
 /// Published models have polygons that are out of plane by up to 9 mm: five times the tolerance of
@@ -137,13 +138,13 @@ struct MendStage {
   /// What would be left out of the solid though it can be seen from outside.
   ExposedFaces exposed;
 
-  MendStage(Soup polygons, const Tolerances& tolerances)
+  MendStage(Soup polygons, const Tolerances& tolerances, Work& work)
       : soup(std::move(polygons)),
         shapes(shapes_of(soup)),
         cells(find_cells(soup, shapes)),
         exposed(is_open() ? ExposedFaces{}
                           : find_exposed_faces(soup, shapes, cells,
-                                               tolerances.plane_offset_m / soup.grid_m)) {}
+                                               tolerances.plane_offset_m / soup.grid_m, work)) {}
 
   /// Less is enclosed than is left over.
   [[nodiscard]] bool is_open() const {
@@ -169,17 +170,20 @@ Soup with_caps(const MendStage& stage, double reach, double max_area) {
 }
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
-MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2) {
-  if (cap_area_m2 <= 0 || stage.is_solid()) return stage;
+MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2,
+                      Work& work) {
+  if (cap_area_m2 <= 0 || stage.is_solid() || work.is_used_up()) return stage;
   const double grid_m = stage.soup.grid_m;
   const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
-  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)), tolerances);
+  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)), tolerances, work);
 }
 
 /// The polygons cut where others run through them or lie on them.
-Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairReport& report) {
+Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairReport& report,
+                       Work& work) {
   const double weld = tolerances.weld_m / soup.grid_m;
-  const auto [parted, cut] = cut_at_crossings(soup, tolerances.plane_offset_m / soup.grid_m, weld);
+  const auto [parted, cut] =
+      cut_at_crossings(soup, tolerances.plane_offset_m / soup.grid_m, weld, work);
   auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
   report.cut += cut;
   report.t_vertices += inserted;
@@ -189,16 +193,16 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
 /// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
 /// the options allow. Each only if what came before was not enough.
 MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
-                RepairReport& report) {
+                RepairReport& report, Work& work) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
-  MendStage stage = close_holes(MendStage(soup, tolerances), tolerances, area_m2);
+  MendStage stage = close_holes(MendStage(soup, tolerances, work), tolerances, area_m2, work);
   if (options.crossings != Crossings::leave && !stage.is_solid()) {
-    soup = without_crossings(soup, tolerances, report);
-    stage = close_holes(MendStage(soup, tolerances), tolerances, area_m2);
+    soup = without_crossings(soup, tolerances, report, work);
+    stage = close_holes(MendStage(soup, tolerances, work), tolerances, area_m2, work);
   }
   if (options.close != Closing::any || stage.is_solid()) return stage;
-  return close_holes(MendStage(std::move(soup), tolerances), tolerances,
-                     std::numeric_limits<double>::infinity());
+  return close_holes(MendStage(std::move(soup), tolerances, work), tolerances,
+                     std::numeric_limits<double>::infinity(), work);
 }
 
 std::vector<OpenEdge> open_edges_of(const Soup& soup) {
@@ -235,11 +239,11 @@ void drop_kept(const Soup& soup, std::vector<int>& polygons) {
 }
 
 /// Fills the soup and the rest of the report.
-void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended) {
+void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended, Work& work) {
   const Soup& soup = stage.soup;
   const auto& shapes = stage.shapes;
   const PolygonCells& cells = stage.cells;
-  const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid);
+  const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid, work);
   RepairReport& report = mended.report;
   const double m2 = soup.grid_m * soup.grid_m;
   SoupBuilder builder(soup);
@@ -269,7 +273,7 @@ void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended) {
 }  // namespace
 
 Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
-            const RepairOptions& options) {
+            const RepairOptions& options, Work& work) {
   Mended mended;
   RepairReport& report = mended.report;
   report.was_needed = true;
@@ -284,14 +288,14 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
       cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
-  MendStage stage = close(std::move(whole), tolerances, options, report);
-  mended.is_open = !stage.is_solid();
+  MendStage stage = close(std::move(whole), tolerances, options, report, work);
+  mended.is_open = work.is_used_up() || !stage.is_solid();
   if (mended.is_open) {
     mended.exposed = stage.exposed;
     mended.exposed.area *= soup.grid_m * soup.grid_m;
     report.open_edges = std::move(open);
   } else {
-    keep_boundary(stage, is_solid, mended);
+    keep_boundary(stage, is_solid, mended, work);
   }
   return mended;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/repair.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/mend/exposed_faces.h"
@@ -30,8 +31,8 @@ struct Mended {
 /// 6. if the solid would not show what can be seen from outside it is none (exposed_faces.h);
 /// 7. shells in the material of others are dropped or become cavities;
 /// 8. what has the outer cell on one side only stays.
-/// `is_solid`: Building::is_solid.
+/// `is_solid`: Building::is_solid. It stays open once `work` is used up.
 Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
-            const RepairOptions& options);
+            const RepairOptions& options, Work& work);
 
 }  // namespace oriel::detail

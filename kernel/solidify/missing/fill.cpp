@@ -32,14 +32,14 @@ Cap missing_cap(const Soup& soup, const MissingFace& face) {
 }  // namespace
 
 std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::string& building,
-                                              const Tolerances& tolerances) {
+                                              const Tolerances& tolerances, Work& work) {
   FilledShell filled;
   filled.report.was_needed = true;
   Soup soup = joined(welded, tolerances.weld_m / welded.grid_m, filled.report);
   ShellMesh mesh = build_shell_mesh(soup, building, filled.issues);
   if (has_errors(filled.issues)) return std::nullopt;
   const double reach = tolerances.plane_offset_m / soup.grid_m;
-  auto faces = find_missing_faces(soup, mesh, shapes_of(soup), reach);
+  auto faces = find_missing_faces(soup, mesh, shapes_of(soup), reach, work);
   if (!faces) return std::nullopt;
   std::vector<AddedFace> added;
   for (MissingFace& face : *faces) {
@@ -47,7 +47,7 @@ std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::str
     added.push_back({std::move(face.rings), face.beside});
   }
   filled.soup = with_faces(soup, std::move(added));
-  if (!fits(filled.soup, shapes_of(filled.soup), reach)) return std::nullopt;
+  if (!fits(filled.soup, shapes_of(filled.soup), reach, work)) return std::nullopt;
   filled.mesh = build_shell_mesh(filled.soup, building, filled.issues);
   if (has_errors(filled.issues) ||
       std::ranges::find(filled.mesh.twin, -1) != filled.mesh.twin.end())

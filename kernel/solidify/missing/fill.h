@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/base/issue.h"
+#include "kernel/base/work.h"
 #include "kernel/model/repair.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
@@ -24,8 +25,9 @@ struct FilledShell {
 };
 
 /// Fills the holes of a welded soup with the faces that are missing (missing_faces.h), if they
-/// close it and none of them runs through another polygon or lies on one.
+/// close it and none of them runs through another polygon or lies on one. Nothing once `work` is
+/// used up.
 std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::string& building,
-                                              const Tolerances& tolerances);
+                                              const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel::detail

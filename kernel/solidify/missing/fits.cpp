@@ -25,7 +25,8 @@ struct Figure {
 
 class FitCheck {
  public:
-  FitCheck(const Soup& soup, std::span<const PolygonShape> shapes, double reach) : reach_(reach) {
+  FitCheck(const Soup& soup, std::span<const PolygonShape> shapes, double reach, Work& work)
+      : reach_(reach), work_(work) {
     for (int p = 0; p < soup.polygon_count(); ++p) {
       Figure& figure = figures_.emplace_back();
       figure.normal = shapes[at(p)].unit;
@@ -52,7 +53,8 @@ class FitCheck {
       if (!figure.is_supposed) continue;
       tree.for_each_overlap(figure.box, [&](int i) {
         const Figure& other = figures_[at(i)];
-        fits = fits && (&other == &figure || !meet(figure, other));
+        work_.add(std::ssize(figure.points) + std::ssize(other.points));
+        fits = fits && !work_.is_used_up() && (&other == &figure || !meet(figure, other));
       });
     }
     return fits;
@@ -98,13 +100,14 @@ class FitCheck {
   static bool is_parallel(Vec3 p, Vec3 q) { return std::abs(dot(p, q)) > 0.996; }
 
   double reach_;
+  Work& work_;
   std::vector<Figure> figures_;
 };
 
 }  // namespace
 
-bool fits(const Soup& soup, std::span<const PolygonShape> shapes, double reach) {
-  return FitCheck(soup, shapes, reach).run();
+bool fits(const Soup& soup, std::span<const PolygonShape> shapes, double reach, Work& work) {
+  return FitCheck(soup, shapes, reach, work).run();
 }
 
 }  // namespace oriel::detail

@@ -32,13 +32,13 @@ struct Outlined {
 
 class FaceFinder {
  public:
-  FaceFinder(const Soup& soup, std::vector<PlanePiece> pieces, double reach)
-      : soup_(soup), pieces_(std::move(pieces)), reach_(reach) {}
+  FaceFinder(const Soup& soup, std::vector<PlanePiece> pieces, double reach, Work& work)
+      : soup_(soup), pieces_(std::move(pieces)), reach_(reach), work_(work) {}
 
   std::optional<std::vector<MissingFace>> run() {
     divide_chords();
     for (const PlaneOfPieces& plane : planes())
-      if (!add_faces(plane)) return std::nullopt;
+      if (work_.is_used_up() || !add_faces(plane)) return std::nullopt;
     return std::move(faces_);
   }
 
@@ -67,6 +67,8 @@ class FaceFinder {
   void divide(const HoleEdge& chord, std::span<const int> points, HoleRim& divided) const {
     const Vec3 from = place(chord.from), way = place(chord.to) - from, axis = normalised(way);
     std::vector<std::pair<double, int>> on;
+    work_.add(std::ssize(points));
+    if (work_.is_used_up()) return;
     for (const int v : points) {
       if (v == chord.from || v == chord.to) continue;
       const double along = dot(place(v) - from, axis);
@@ -86,7 +88,9 @@ class FaceFinder {
                              [](const PlanePiece& piece) { return length(piece.area); });
     std::vector<PlaneOfPieces> planes;
     for (const PlanePiece& piece : pieces_) {
+      if (work_.is_used_up()) return planes;
       const auto holds = [&](const PlaneOfPieces& plane) {
+        work_.add(1);
         return std::ranges::all_of(piece.rim, [&](const HoleEdge& edge) {
           return std::abs(dot(plane.normal, place(edge.from)) - plane.level) <= reach_;
         });
@@ -105,7 +109,8 @@ class FaceFinder {
   }
 
   /// Two pieces of one face share a chord.
-  static void add_edge(HoleRim& edges, const HoleEdge& edge) {
+  void add_edge(HoleRim& edges, const HoleEdge& edge) const {
+    work_.add(std::ssize(edges));
     const auto opposite = std::ranges::find_if(edges, [&](const HoleEdge& other) {
       return other.from == edge.to && other.to == edge.from;
     });
@@ -121,11 +126,15 @@ class FaceFinder {
                              [](const Outlined& line) { return std::abs(line.area); });
     std::vector<int> face_of(lines.size(), -1);
     for (std::size_t i = 0; i < lines.size(); ++i) {
+      work_.add(std::ssize(lines[i].ring));
+      if (work_.is_used_up()) return false;
       const auto inside = interior_point({&lines[i].outline, 1}, plane.normal);
       if (!inside) return false;
-      for (std::size_t j = i; j-- > 0 && lines[i].around < 0;)
+      for (std::size_t j = i; j-- > 0 && lines[i].around < 0;) {
+        work_.add(std::ssize(lines[j].ring));
         if (contains({&lines[j].outline, 1}, plane.normal, *inside))
           lines[i].around = static_cast<int>(j);
+      }
       const int around = lines[i].around;
       // What lies in an outline runs against it: a hole in a face, a face in a hole.
       if (around >= 0 && (lines[at(around)].area > 0) == (lines[i].area > 0)) return false;
@@ -186,6 +195,7 @@ class FaceFinder {
   const Soup& soup_;
   std::vector<PlanePiece> pieces_;
   double reach_;
+  Work& work_;
   std::vector<MissingFace> faces_;
 };
 
@@ -193,12 +203,12 @@ class FaceFinder {
 
 std::optional<std::vector<MissingFace>> find_missing_faces(Soup& soup, const ShellMesh& mesh,
                                                            std::span<const PolygonShape> shapes,
-                                                           double reach) {
+                                                           double reach, Work& work) {
   auto rims = find_rims(soup, mesh, shapes);
   if (!rims) return std::nullopt;
-  auto pieces = cut_into_plane_pieces(soup, shapes, std::move(*rims), reach);
+  auto pieces = cut_into_plane_pieces(soup, shapes, std::move(*rims), reach, work);
   if (!pieces) return std::nullopt;
-  return FaceFinder(soup, std::move(*pieces), reach).run();
+  return FaceFinder(soup, std::move(*pieces), reach, work).run();
 }
 
 }  // namespace oriel::detail

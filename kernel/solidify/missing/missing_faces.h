@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
@@ -22,9 +23,9 @@ struct MissingFace {
 /// the holes that lie in them: the outline of a missing wall and those of the windows in it. Where
 /// faces next to each other are missing their common edge runs straight between its ends
 /// (rim_pieces.h); a corner at which nothing is left becomes a new point of the soup. Nothing if
-/// what lies in a plane is no set of outlines with holes in them.
+/// what lies in a plane is no set of outlines with holes in them, or once `work` is used up.
 std::optional<std::vector<MissingFace>> find_missing_faces(Soup& soup, const ShellMesh& mesh,
                                                            std::span<const PolygonShape> shapes,
-                                                           double reach);
+                                                           double reach, Work& work);
 
 }  // namespace oriel::detail

@@ -46,8 +46,8 @@ struct LostCorner {
 class RimCutter {
  public:
   RimCutter(Soup& soup, std::span<const PolygonShape> shapes, std::vector<HoleRim> rims,
-            double reach)
-      : soup_(soup), shapes_(shapes), rims_(std::move(rims)), reach_(reach) {
+            double reach, Work& work)
+      : soup_(soup), shapes_(shapes), rims_(std::move(rims)), reach_(reach), work_(work) {
     for (const HoleRim& rim : rims_) all_.insert(all_.end(), rim.begin(), rim.end());
   }
 
@@ -59,7 +59,7 @@ class RimCutter {
           pieces_.push_back({std::move(rim), area});
           break;
         }
-        if (rim.size() > kLongestRim) return std::nullopt;
+        if (rim.size() > kLongestRim || work_.is_used_up()) return std::nullopt;
         const Run best = best_run(rim);
         if (const auto corner = best_corner(rim);
             corner && corner->rank() > std::tuple(best.is_known, best.support)) {
@@ -80,6 +80,7 @@ class RimCutter {
   [[nodiscard]] Vec3 area_of(const HoleRim& rim, std::size_t start, std::size_t count) const {
     const Vec3 base = place(rim[start].from);
     Vec3 sum;
+    work_.add(static_cast<std::int64_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
       const HoleEdge& edge = rim[(start + i) % rim.size()];
       sum = sum + 0.5 * cross(place(edge.from) - base, place(edge.to) - base);
@@ -122,6 +123,7 @@ class RimCutter {
   [[nodiscard]] double support_of(Vec3 normal, double level) const {
     const auto is_near = [&](int v) { return std::abs(dot(normal, place(v)) - level) <= reach_; };
     double sum = 0;
+    work_.add(std::ssize(all_));
     for (const HoleEdge& edge : all_)
       if (is_near(edge.from) && is_near(edge.to)) sum += length(place(edge.to) - place(edge.from));
     return sum;
@@ -134,6 +136,7 @@ class RimCutter {
 
   /// A polygon is parallel.
   [[nodiscard]] bool is_known(Vec3 normal, double uncertainty) const {
+    work_.add(std::ssize(shapes_));
     const double cosine = std::cos(std::min(uncertainty, std::numbers::pi / 4));
     return std::ranges::any_of(shapes_, [&](const PolygonShape& shape) {
       return std::abs(dot(shape.unit, normal)) >= cosine;
@@ -202,7 +205,7 @@ class RimCutter {
 
   [[nodiscard]] Run best_run(const HoleRim& rim) const {
     Run best;
-    for (std::size_t start = 0; start < rim.size(); ++start) {
+    for (std::size_t start = 0; start < rim.size() && !work_.is_used_up(); ++start) {
       Run run = longest_from(rim, start);
       if (run.count == 0 || run.chord == 0 || is_part(rim, run) || folds_back(rim, run)) continue;
       judge_plane(rim, run);
@@ -225,7 +228,7 @@ class RimCutter {
 
   [[nodiscard]] std::optional<LostCorner> best_corner(const HoleRim& rim) const {
     std::optional<LostCorner> best;
-    for (std::size_t first = 0; first < rim.size(); ++first) {
+    for (std::size_t first = 0; first < rim.size() && !work_.is_used_up(); ++first) {
       LostCorner corner;
       if (!find_runs(rim, first, corner.runs)) continue;
       const auto place = corner_of(rim, corner.runs);
@@ -295,6 +298,7 @@ class RimCutter {
   std::span<const PolygonShape> shapes_;
   std::vector<HoleRim> rims_;
   double reach_;
+  Work& work_;
   HoleRim all_;
   std::vector<PlanePiece> pieces_;
 };
@@ -304,8 +308,8 @@ class RimCutter {
 std::optional<std::vector<PlanePiece>> cut_into_plane_pieces(Soup& soup,
                                                              std::span<const PolygonShape> shapes,
                                                              std::vector<HoleRim> rims,
-                                                             double reach) {
-  return RimCutter(soup, shapes, std::move(rims), reach).run();
+                                                             double reach, Work& work) {
+  return RimCutter(soup, shapes, std::move(rims), reach, work).run();
 }
 
 }  // namespace oriel::detail

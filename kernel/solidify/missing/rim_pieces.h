@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/vec3.h"
 #include "kernel/solidify/missing/rims.h"
 #include "kernel/solidify/soup/polygon_shape.h"
@@ -24,10 +25,10 @@ struct PlanePiece {
 /// of holes in its plane, and in that of what lies beyond the chord, whichever is less. A rim of
 /// three such runs goes round a corner that was lost with its faces: where their planes meet is a
 /// new point of the soup. A piece never folds back on a polygon that lies in its plane. Nothing if
-/// a rim has no such run, or is too long.
+/// a rim has no such run, or is too long, or `work` is used up.
 std::optional<std::vector<PlanePiece>> cut_into_plane_pieces(Soup& soup,
                                                              std::span<const PolygonShape> shapes,
                                                              std::vector<HoleRim> rims,
-                                                             double reach);
+                                                             double reach, Work& work);
 
 }  // namespace oriel::detail

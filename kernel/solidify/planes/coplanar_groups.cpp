@@ -81,10 +81,11 @@ struct PlaneGroup {
 class Grouper {
  public:
   Grouper(const Soup& soup, std::span<const PolygonShape> shapes, const ShellMesh& mesh,
-          const Tolerances& tolerances)
+          const Tolerances& tolerances, Work& work)
       : soup_(soup),
         shapes_(shapes),
         mesh_(mesh),
+        work_(work),
         reach_(tolerances.plane_offset_m / soup.grid_m),
         angle_(tolerances.coplanar_deg * std::numbers::pi / 180),
         sets_(soup.polygons.size()),
@@ -209,6 +210,7 @@ class Grouper {
 
   [[nodiscard]] double residual_of(const PlaneGroup& group, const RoughPlane& plane) const {
     double residual = 0;
+    work_.add(std::ssize(group.points));
     for (const int v : group.points) residual = std::max(residual, plane.distance(point(v)));
     return residual;
   }
@@ -261,6 +263,8 @@ class Grouper {
   bool unite(int p, int q, Fitting fitting) {
     const int first = sets_.find(p), second = sets_.find(q);
     if (first == second) return true;
+    work_.add(1);
+    if (work_.is_used_up()) return false;
     PlaneGroup *large = &groups_[at(first)], *small = &groups_[at(second)];
     if (large->points.size() < small->points.size()) std::swap(large, small);
 
@@ -327,8 +331,9 @@ class Grouper {
 
   bool take_in(const Strip& strip) {
     const int group = group_around(strip);
-    if (group < 0) return false;
+    if (group < 0 || work_.is_used_up()) return false;
     PlaneGroup grown = groups_[at(group)];
+    work_.add(std::ssize(grown.points));
     for (const int p : strip) {
       const PlaneGroup& sliver = groups_[at(p)];
       const double residual = residual_of(sliver, grown.plane);
@@ -447,6 +452,7 @@ class Grouper {
   const Soup& soup_;
   std::span<const PolygonShape> shapes_;
   const ShellMesh& mesh_;
+  Work& work_;
   double reach_;  ///< grid units
   double angle_;
   DisjointSets sets_;
@@ -458,10 +464,11 @@ class Grouper {
 }  // namespace
 
 std::optional<CoplanarGroups> group_coplanar(const Soup& soup, std::span<const PolygonShape> shapes,
-                                             const ShellMesh& mesh, const Tolerances& tolerances) {
+                                             const ShellMesh& mesh, const Tolerances& tolerances,
+                                             Work& work) {
   ORIEL_ASSERT(shapes.size() == soup.polygons.size());
   ORIEL_ASSERT(mesh.twin.size() == soup.corners.size(), "the mesh is of another soup");
-  return Grouper(soup, shapes, mesh, tolerances).run();
+  return Grouper(soup, shapes, mesh, tolerances, work).run();
 }
 
 Soup soup_of_groups(const Soup& soup, const CoplanarGroups& groups) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 #include "kernel/solidify/soup/polygon_shape.h"
@@ -28,12 +29,14 @@ struct CoplanarGroups {
 /// but for slivers: polygons thinner than twice plane_offset_m that share more than half of their
 /// outline with a group and lie in its plane.
 ///
-/// `shapes` are those of the soup's polygons. Nothing if every polygon stays alone.
+/// `shapes` are those of the soup's polygons. Nothing if every polygon stays alone. Once `work` is
+/// used up no more are united.
 ///
 /// With noise the normal of a triangle says little about the wall that it is a piece of; the area
 /// vectors of all pieces add up to the wall's own, however it was cut.
 std::optional<CoplanarGroups> group_coplanar(const Soup& soup, std::span<const PolygonShape> shapes,
-                                             const ShellMesh& mesh, const Tolerances& tolerances);
+                                             const ShellMesh& mesh, const Tolerances& tolerances,
+                                             Work& work);
 
 /// The soup in which each group is one polygon with the rings of all its members. Neither sources
 /// nor order are kept.

@@ -122,8 +122,9 @@ class Clusterer {
   /// `shapes` of the polygons; `is_united`: of each whether it is several in one; none are if it is
   /// empty.
   Clusterer(const Soup& soup, std::vector<PolygonShape> shapes, const Tolerances& tolerances,
-            std::vector<char> is_united = {})
+            Work& work, std::vector<char> is_united = {})
       : soup_(soup),
+        work_(work),
         is_united_(std::move(is_united)),
         offset_tolerance_(tolerances.plane_offset_m / soup.grid_m),
         angle_tolerance_(tolerances.coplanar_deg * std::numbers::pi / 180),
@@ -217,6 +218,8 @@ class Clusterer {
         uncertainty_rad(height_of(soup_, polygon, shape.area), offset_tolerance_);
     std::optional<PlaneFit> best;
     const auto try_class = [&](int k) {
+      work_.add(std::ssize(soup_.corners_of(polygon)));
+      if (work_.is_used_up()) return;
       const auto here = fit(polygon, uncertainty, k);
       if (!here) return;
       const auto key = [](const PlaneFit& f) { return std::tuple(!f.is_known, f.residual); };
@@ -361,6 +364,7 @@ class Clusterer {
   }
 
   const Soup& soup_;
+  Work& work_;
   std::vector<char> is_united_;
   double offset_tolerance_;  ///< grid units
   double angle_tolerance_;
@@ -385,19 +389,19 @@ int count_standing(std::span<const PolygonShape> shapes, const CoplanarGroups& g
 
 }  // namespace
 
-PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh,
-                             const Tolerances& tolerances) {
+PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh, const Tolerances& tolerances,
+                             Work& work) {
   ORIEL_ASSERT(mesh.twin.size() == soup.corners.size(), "the mesh is of another soup");
   std::vector<PolygonShape> shapes = shapes_of(soup);
-  const std::optional<CoplanarGroups> found = group_coplanar(soup, shapes, mesh, tolerances);
-  if (!found) return Clusterer(soup, std::move(shapes), tolerances).run();
+  const std::optional<CoplanarGroups> found = group_coplanar(soup, shapes, mesh, tolerances, work);
+  if (!found) return Clusterer(soup, std::move(shapes), tolerances, work).run();
   const CoplanarGroups& groups = *found;
   const Soup grouped = soup_of_groups(soup, groups);
   std::vector<int> members(static_cast<std::size_t>(groups.count), 0);
   for (const int g : groups.group_of) ++members[static_cast<std::size_t>(g)];
   std::vector<char> is_united;
   for (const int n : members) is_united.push_back(n > 1);
-  Clusterer clusterer(grouped, shapes_of(grouped), tolerances, std::move(is_united));
+  Clusterer clusterer(grouped, shapes_of(grouped), tolerances, work, std::move(is_united));
   for (int g = 0; g < groups.count; ++g)
     if (const auto& normal = groups.fitted_normal[static_cast<std::size_t>(g)])
       clusterer.set_normal(g, *normal);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/solid.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
@@ -25,7 +26,8 @@ struct PlaneClusters {
 /// with an offset of its own, if it is tilted by no more than coplanar_deg and none of its vertices
 /// lies further off than plane_offset_m; a polygon so thin that its own normal is uncertain by more
 /// may be tilted by that much. One that stands across its plane is oriented as its neighbours
-/// there.
-PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh, const Tolerances& tolerances);
+/// there. Once `work` is used up polygons get planes of their own.
+PlaneClusters cluster_planes(const Soup& soup, const ShellMesh& mesh, const Tolerances& tolerances,
+                             Work& work);
 
 }  // namespace oriel::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/tolerances.h"
 #include "kernel/solidify/shells/shell_mesh.h"
@@ -11,6 +12,6 @@ namespace oriel::detail {
 /// Fills the solid that closed shells bound, or adds an error: planes, facets, vertices where the
 /// planes meet, shells. `mesh` is that of the soup and closed.
 void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh,
-               const Tolerances& tolerances, Solidified& out);
+               const Tolerances& tolerances, Solidified& out, Work& work);
 
 }  // namespace oriel::detail

@@ -31,11 +31,12 @@ std::multiset<std::vector<int>> rectangles_of(const std::vector<WallPolygon>& po
   solid.planes[0].normal = cross({1, 0, 0}, up);
   solid.facets = {{PlaneId{0}, {}, {}}};
   for (const Polygon& polygon : wall.polygons) solid.facets[0].polygons.push_back(polygon.source);
-  const Subdivisions found = subdivisions_of(wall, solid, {});
+  Work work;
+  const Subdivisions found = subdivisions_of(wall, solid, {}, work);
   std::multiset<std::vector<int>> sources;
   for (const Subdivision& subdivision : found.subdivisions)
     for (const InsetRectangle& inset :
-         find_inset_rectangles(found, subdivision, solid.planes[0].normal, {})) {
+         find_inset_rectangles(found, subdivision, solid.planes[0].normal, {}, work)) {
       CHECK(std::ranges::find(inset.polygons, inset.host) == inset.polygons.end());
       std::vector<int> of_input;
       for (const int p : inset.polygons)

@@ -28,7 +28,8 @@ Subdivisions wall_with_copies(int count) {
     wall.polygons.push_back(pane);
     solid.facets[0].polygons.push_back(i);
   }
-  return subdivisions_of(wall, solid, {});
+  Work work;
+  return subdivisions_of(wall, solid, {}, work);
 }
 
 }  // namespace
