@@ -157,7 +157,7 @@ bool has_all_in_one(const Building& building, const Solid& solid) {
 /// The solid of a building united with what stands on it, or if they make none that of the building
 /// alone.
 Solidified solid_with_installations(const Building& building, const Tolerances& tolerances,
-                                    const RepairOptions& repair, std::size_t budget) {
+                                    const RepairOptions& repair, std::int64_t budget) {
   Solidified whole = solidify(building, tolerances, repair, budget);
   if (building.installations.empty()) return whole;
   if (whole.value && has_all_in_one(building, *whole.value)) return whole;

@@ -216,6 +216,25 @@ TEST_SUITE("kernel/segment") {
     test::check_segmentation(s);
   }
 
+  TEST_CASE("a house stays the body under the wide heads of two chimneys in one plane") {
+    // Heads that are cut before their shafts: one of the shafts leans on a wall over the roof.
+    test::ConvexBody body;
+    body.add(test::gable());
+    for (const double x : {2.0, 7.0}) {
+      body.add(test::box({x, 3.6, 5}, {x + 0.8, 4.4, 11}));
+      body.add(test::box({x - 0.05, 3.55, 11}, {x + 0.85, 4.45, 11.15}));
+    }
+    const Segmented s = natural(body.build());
+    const double whole_m3 = volume_m3(s.solid);
+    std::size_t heads = 0;
+    for (const Feature& f : s.segmentation.features) {
+      CHECK(f.volume_m3 < 0.1 * whole_m3);
+      heads += f.box.max.z == near(11.15) && f.box.max.x - f.box.min.x == near(0.9) ? 1U : 0U;
+    }
+    CHECK(heads >= 2);
+    test::check_segmentation(s);
+  }
+
   TEST_CASE("a bay that a plinth runs into is a feature of its own") {
     const Segmented s = natural(test::BoxBody()
                                     .add({0, 0, 0}, {24, 8, 6})
