@@ -142,25 +142,37 @@ void CellWriter::finish(const Building& building, const Solid& solid) {
   take_in_hosted();
 }
 
-/// A protrusion is as large as with the protrusions that stand on it, as if they had been cut off it
-/// and not before it: a chimney with its cap, a slab with its parapet.
+/// How far a feature reaches from the plane that it was cut at.
+double CellWriter::reach_m(const Feature& feature) const {
+  const Plane& plane = out_.planes[feature.planes.front().index()];
+  double reach = 0;
+  for (const int v : feature.vertices)
+    reach =
+        std::max(reach, std::abs(dot(plane.normal, out_.vertices[at(v)].point) - plane.offset_m));
+  return reach;
+}
+
+/// A protrusion is as large as with the protrusions that stand on it, as if they had been cut off
+/// it and not before it: a chimney with its cap, a slab with its parapet. What stands before
+/// something flat is no part of it: stairs before a plinth.
 void CellWriter::take_in_hosted() {
+  const std::vector<Feature>& features = out_.features;
+  std::vector<char> carries(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f)
+    carries[f] = features[f].sense == Sense::protrusion && reach_m(features[f]) > kFacadeDepth_m;
   std::vector<std::pair<FeatureId, FeatureId>> pairs;  // what stands on what
-  for (int f = 0; f < std::ssize(out_.features); ++f) {
-    const Feature& feature = out_.features[at(f)];
-    FeatureId host = feature.host;
-    if (feature.sense != Sense::protrusion || host == feature.parent) continue;
-    for (; host.is_valid() && out_.features[host.index()].sense == Sense::protrusion;
-         host = out_.features[host.index()].host)
-      pairs.emplace_back(FeatureId{f}, host);
+  for (int f = 0; f < std::ssize(features); ++f) {
+    if (features[at(f)].sense != Sense::protrusion) continue;
+    for (FeatureId host = features[at(f)].host; host.is_valid() && carries[host.index()];
+         host = features[host.index()].host)
+      if (host != features[at(f)].parent) pairs.emplace_back(FeatureId{f}, host);
   }
-  std::vector<Box> own;
-  for (const Feature& feature : out_.features) own.push_back(feature.box);
-  for (const auto& [inner, outer] : pairs) {
-    Feature& larger = out_.features[outer.index()];
-    larger.box.grow(own[inner.index()]);
-    const std::vector<int> more = out_.features[inner.index()].vertices;
-    larger.vertices.insert(larger.vertices.end(), more.begin(), more.end());
+  std::vector<std::vector<int>> own;  // before any has grown
+  for (const auto& [inner, outer] : pairs) own.push_back(features[inner.index()].vertices);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Feature& larger = out_.features[pairs[i].second.index()];
+    for (const int v : own[i]) larger.box.grow(out_.vertices[at(v)].point);
+    larger.vertices.insert(larger.vertices.end(), own[i].begin(), own[i].end());
     std::ranges::sort(larger.vertices);
     larger.vertices.erase(std::unique(larger.vertices.begin(), larger.vertices.end()),
                           larger.vertices.end());

@@ -84,6 +84,7 @@ class CellWriter {
   /// To a cell facet, and to the features it is in.
   void give(std::span<const int> polygons, const CellFacet& home);
   void take_in_hosted();
+  [[nodiscard]] double reach_m(const Feature& feature) const;
   void attribute_polygons(const Building& building, const Solid& solid);
   [[nodiscard]] std::vector<FacetShape> shapes_of(std::span<const CellFacet> cell_facets) const;
   [[nodiscard]] std::size_t home_of(const Building& building, const Polygon& polygon,

@@ -379,7 +379,7 @@ class Grouper {
   }
 
   /// A group that a strip shares so much of its outline with.
-  struct Contact {
+  struct SharedOutline {
     int group;
     double length;
   };
@@ -389,8 +389,8 @@ class Grouper {
   /// more than half of the strip between them, and the piers have the rest.
   [[nodiscard]] int group_around(const Strip& strip) {
     double outline = 0;
-    const std::vector<Contact> contacts = contacts_of(strip, outline);
-    for (const Contact& contact : contacts)
+    const std::vector<SharedOutline> contacts = contacts_of(strip, outline);
+    for (const SharedOutline& contact : contacts)
       if (2 * contact.length > outline) return contact.group;
     for (std::size_t i = 0; i < contacts.size(); ++i)
       for (std::size_t j = i + 1; j < contacts.size(); ++j)
@@ -414,8 +414,8 @@ class Grouper {
   }
 
   /// The groups with area along a strip, and the length of its outline.
-  [[nodiscard]] std::vector<Contact> contacts_of(const Strip& strip, double& outline) {
-    std::vector<Contact> contacts;
+  [[nodiscard]] std::vector<SharedOutline> contacts_of(const Strip& strip, double& outline) {
+    std::vector<SharedOutline> contacts;
     for (const int p : strip)
       for_each_edge(p, [&](int twin, double length) {
         if (twin >= 0 && strip_of_[at(mesh_.polygon_of[at(twin)])] == strip_of_[at(p)]) return;
@@ -423,7 +423,7 @@ class Grouper {
         if (twin < 0) return;
         const int group = sets_.find(mesh_.polygon_of[at(twin)]);
         if (groups_[at(group)].area <= 0) return;
-        const auto known = std::ranges::find(contacts, group, &Contact::group);
+        const auto known = std::ranges::find(contacts, group, &SharedOutline::group);
         if (known != contacts.end())
           known->length += length;
         else

@@ -13,6 +13,16 @@ bool is_in_range(int index, std::size_t size) {
   return index >= 0 && index < static_cast<int>(size);
 }
 
+double reach_m(const Segmentation& s, const Feature& f) {
+  const Plane& plane = s.planes[f.planes.at(0).index()];
+  double reach = 0;
+  for (const int v : f.vertices) {
+    const Vec3 p = s.vertices[static_cast<std::size_t>(v)].point;
+    reach = std::max(reach, std::abs(dot(plane.normal, p) - plane.offset_m));
+  }
+  return reach;
+}
+
 bool covers(Box outer, const Box& inner) {
   const Box before = outer;
   outer.grow(inner);
@@ -110,10 +120,12 @@ void check_features(const Segmentation& s) {
     const Plane& plane = s.planes[f.planes[0].index()];
     CHECK(std::abs(dot(plane.normal, f.cap_point) - plane.offset_m) < 1e-6);
     CHECK(f.host_facet);
-    if (f.sense == Sense::protrusion && f.host.is_valid()) {
-      // What stands on a protrusion is in its box, in whatever order they were cut.
+    if (f.sense == Sense::protrusion && f.host.is_valid() && f.host != f.parent) {
+      // What stands on a protrusion that is not flat is in its box, in whatever order they were
+      // cut.
       const Feature& host = s.features[f.host.index()];
-      if (host.sense == Sense::protrusion) CHECK(covers(host.box, f.box));
+      if (host.sense == Sense::protrusion && reach_m(s, host) > kFacadeDepth_m)
+        CHECK(covers(host.box, f.box));
     }
     if (!f.host_facet) continue;
     REQUIRE(is_in_range(f.host_facet->cell.value, s.cells.size()));
