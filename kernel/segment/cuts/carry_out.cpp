@@ -147,7 +147,7 @@ class Cut {
       const Lump& lump = choice_.lumps[i];
       if (!models.empty() && models[i] != i)
         take_off_pocket(lump, &choice_.lumps[models[i]]);
-      else if (is_leaf(choice_, lump, models))
+      else if (is_leaf(choice_, lump, models) && !takes_rest_)
         take_off_pocket(lump, nullptr);
       else if (!take_off_lump(lump))
         return false;
@@ -244,6 +244,7 @@ class Cut {
         take_off(from_.body, caps, choice_.is_hole, tree_.next_feature(), std::move(touched));
     if (!carved) return false;
     has_changed_body_ = true;
+    if (takes_rest_) tree_.cells.add_rest(tree_.next_feature());
     Feature feature;
     feature.vertices = vertices_of(carved->lump);
     RestChange change = change_of(*carved, caps, feature.vertices.size());

@@ -153,19 +153,25 @@ double CellWriter::reach_m(const Feature& feature) const {
 }
 
 /// A protrusion is as large as with the protrusions that stand on it, as if they had been cut off
-/// it and not before it: a chimney with its cap, a slab with its parapet. What stands before
-/// something flat is no part of it: stairs before a plinth.
+/// it and not before it: a chimney with its cap, a canopy with its posts. What stands before
+/// something flat is no part of it, nor what stands on a roof: stairs before a plinth, a dormer on
+/// a slab.
 void CellWriter::take_in_hosted() {
   const std::vector<Feature>& features = out_.features;
+  const auto is_protrusion = [&](FeatureId id) {
+    return features[id.index()].sense == Sense::protrusion;
+  };
   std::vector<char> carries(features.size());
-  for (std::size_t f = 0; f < features.size(); ++f)
-    carries[f] = features[f].sense == Sense::protrusion && reach_m(features[f]) > kFacadeDepth_m;
+  for (int f = 0; f < std::ssize(features); ++f)
+    carries[at(f)] = is_protrusion(FeatureId{f}) && reach_m(features[at(f)]) > kFacadeDepth_m &&
+                     std::ranges::find(rests_, FeatureId{f}) == rests_.end();
   std::vector<std::pair<FeatureId, FeatureId>> pairs;  // what stands on what
   for (int f = 0; f < std::ssize(features); ++f) {
-    if (features[at(f)].sense != Sense::protrusion) continue;
-    for (FeatureId host = features[at(f)].host; host.is_valid() && carries[host.index()];
-         host = features[host.index()].host)
-      if (host != features[at(f)].parent) pairs.emplace_back(FeatureId{f}, host);
+    if (!is_protrusion(FeatureId{f})) continue;
+    FeatureId host = features[at(f)].host;
+    for (; host.is_valid() && is_protrusion(host); host = features[host.index()].host)
+      if (host != features[at(f)].parent && carries[host.index()])
+        pairs.emplace_back(FeatureId{f}, host);
   }
   std::vector<std::vector<int>> own;  // before any has grown
   for (const auto& [inner, outer] : pairs) own.push_back(features[inner.index()].vertices);

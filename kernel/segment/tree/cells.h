@@ -69,6 +69,10 @@ class CellWriter {
   void copy_sources(std::span<const std::pair<FacetId, FacetId>> sources, CellId first, CellId last,
                     int copies);
 
+  /// The feature is what a cut left beside nearly all of its body: a slab under which a house
+  /// hangs.
+  void add_rest(FeatureId feature) { rests_.push_back(feature); }
+
   /// Copies the points, and fills in what can be said only now that all leaves are there: hosts of
   /// features, polygons of facets and features.
   void finish(const Building& building, const Solid& solid);
@@ -96,6 +100,7 @@ class CellWriter {
   std::vector<PlaneSide> extra_sides_;  ///< in the order of their ids
   FeatureId innermost_;                 ///< that was asked for last, and what it is in
   std::vector<FeatureId> around_;
+  std::vector<FeatureId> rests_;
   /// The cell facets made of each facet of the solid.
   IndexedVector<FacetId, boost::container::small_vector<CellFacet, 2>> made_of_;
 };

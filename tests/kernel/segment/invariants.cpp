@@ -13,22 +13,6 @@ bool is_in_range(int index, std::size_t size) {
   return index >= 0 && index < static_cast<int>(size);
 }
 
-double reach_m(const Segmentation& s, const Feature& f) {
-  const Plane& plane = s.planes[f.planes.at(0).index()];
-  double reach = 0;
-  for (const int v : f.vertices) {
-    const Vec3 p = s.vertices[static_cast<std::size_t>(v)].point;
-    reach = std::max(reach, std::abs(dot(plane.normal, p) - plane.offset_m));
-  }
-  return reach;
-}
-
-bool covers(Box outer, const Box& inner) {
-  const Box before = outer;
-  outer.grow(inner);
-  return outer == before;
-}
-
 /// Termination does not need its safety net.
 void check_flags(const Segmentation& s) {
   CHECK(
@@ -120,13 +104,6 @@ void check_features(const Segmentation& s) {
     const Plane& plane = s.planes[f.planes[0].index()];
     CHECK(std::abs(dot(plane.normal, f.cap_point) - plane.offset_m) < 1e-6);
     CHECK(f.host_facet);
-    if (f.sense == Sense::protrusion && f.host.is_valid() && f.host != f.parent) {
-      // What stands on a protrusion that is not flat is in its box, in whatever order they were
-      // cut.
-      const Feature& host = s.features[f.host.index()];
-      if (host.sense == Sense::protrusion && reach_m(s, host) > kFacadeDepth_m)
-        CHECK(covers(host.box, f.box));
-    }
     if (!f.host_facet) continue;
     REQUIRE(is_in_range(f.host_facet->cell.value, s.cells.size()));
     const Cell& cell = s.cells[f.host_facet->cell.index()];

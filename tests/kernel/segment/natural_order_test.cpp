@@ -235,6 +235,25 @@ TEST_SUITE("kernel/segment") {
     test::check_segmentation(s);
   }
 
+  TEST_CASE("a canopy holds the posts under it, and a slab of roof nothing that stands on it") {
+    const Segmented s = natural(test::BoxBody()
+                                    .add({0, 0, 0}, {10, 8, 6})
+                                    .add({3, -1.2, 2.6}, {5, 0, 2.75})
+                                    .add({3, -1.2, 0}, {3.15, -1.05, 2.6})
+                                    .add({4.85, -1.2, 0}, {5, -1.05, 2.6})
+                                    .build());
+    CHECK(feature_in(s.segmentation, {3, -1.2, 0}, {5, 0, 2.75}).is_valid());
+    test::check_segmentation(s);
+    const Segmented roof = natural(test::BoxBody()
+                                       .add({0, 0, 0}, {10, 8, 6})
+                                       .add({-0.5, -0.5, 6}, {10.5, 8.5, 6.3})
+                                       .add({2, 2, 6.3}, {2.6, 2.6, 7.5})
+                                       .build());
+    CHECK(feature_in(roof.segmentation, {-0.5, -0.5, 6}, {10.5, 8.5, 6.3}).is_valid());
+    CHECK(feature_in(roof.segmentation, {2, 2, 6.3}, {2.6, 2.6, 7.5}).is_valid());
+    test::check_segmentation(roof);
+  }
+
   TEST_CASE("a bay that a plinth runs into is a feature of its own") {
     const Segmented s = natural(test::BoxBody()
                                     .add({0, 0, 0}, {24, 8, 6})
