@@ -245,7 +245,9 @@ bool Chooser::check(RegionCandidate& candidate, Pass pass, bool is_alone) {
   candidate.lump = static_cast<int>(lumps_.size());
   lumps_.push_back(std::move(found));
   const Lump& lump = lumps_.back();
-  if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 ||
+  // Of what is smaller than points may be off their planes, the volume may have any sign.
+  const double least_m = 2 * options_.tolerances.plane_offset_m;
+  if (!lump.is_finite || !lump.is_sound || lump.volume <= 0 || lump.new_area < least_m * least_m ||
       (!region.is_material && !lump.has_bend))
     return false;
   for (const int r : lump.regions) {
