@@ -33,7 +33,8 @@ noisy-1 --noise 1
 noisy-1-triangulated --noise 1 --triangulate
 triangulated --triangulate
 turned --rotate 27 --origin 604000,5403766,370
-half-flush --flush 0.5'
+half-flush --flush 0.5
+english --style english'
 # With the setting for noise of 5 mm (docs/solidify.md).
 noisy_sets='noisy-5 --noise 5
 noisy-5-triangulated --noise 5 --triangulate'
