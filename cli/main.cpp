@@ -48,7 +48,10 @@ void finish_stdout() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush()) return;
   oriel::Issue issue;
   issue.code = oriel::Code::E601;
-  issue.sentence = "cannot be written: " + std::generic_category().message(errno);
+  // What failed may have failed long ago, and the reason is gone.
+  const std::string reason =
+      errno == 0 ? "not all of it arrived" : std::generic_category().message(errno);
+  issue.sentence = "cannot be written: " + reason;
   issue.place.file = "stdout";
   throw oriel::OutputError(std::move(issue));
 }

@@ -231,13 +231,15 @@ std::optional<rules::FoundPack> find_embedded(const std::string& name) {
   return rules::FoundPack{name + ".yaml", std::string(*text)};
 }
 
-/// The file `name` in the folder of `pack`. A link that leads out of the folder is not followed.
+/// The file `name` in the folder of `pack`. A link that leads out of the folder is not followed,
+/// and nothing is read that may wait for ever, as a pipe does.
 std::optional<rules::FoundPack> find_beside(const std::string& pack, const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(pack).parent_path() / name;
   std::error_code problem;
   const auto folder = std::filesystem::canonical(pack, problem).parent_path();
   const auto real = std::filesystem::canonical(file, problem);
   if (problem || real.parent_path() != folder) return std::nullopt;
+  if (!std::filesystem::is_regular_file(real, problem)) return std::nullopt;
   auto text = rules::read_file(file.string());
   if (!text) return std::nullopt;
   return rules::FoundPack{file.string(), std::move(*text)};

@@ -1,6 +1,7 @@
 #include "tests/cli/command.h"
 
 #include <algorithm>
+#include <sys/stat.h>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -42,6 +43,17 @@ std::string place_of(const std::string& text, const std::string& word) {
 }  // namespace
 
 TEST_SUITE("cli") {
+  TEST_CASE("a pack that extends a pipe is refused and does not wait for it") {
+    const Folder folder;
+    REQUIRE(::mkfifo((folder / "pipe.yaml").c_str(), 0600) == 0);
+    const std::string pack = folder.write(
+        "my.yaml",
+        "schema: oriel/1\npack: {name: my, version: 1.0.0}\nextends: pipe.yaml\nrules: []\n");
+    const Outcome checked = run({"rules", "check", pack});
+    CHECK(checked.exit == 4);
+    CHECK(checked.says("error: " + pack + ":3:10: R200 there is no pack 'pipe.yaml' here"));
+  }
+
   TEST_CASE("a pack with a typo is refused with its place and a suggestion") {
     const std::string text =
         replaced(residential(),

@@ -26,6 +26,13 @@ void check_unwritable(const Folder& folder, const Outcome& outcome, const std::s
 }  // namespace
 
 TEST_SUITE("cli") {
+  TEST_CASE("what a full disk takes of a printed pack is never called a success") {
+    const Outcome shown = run({"rules", "show", "residential"}, {.stdout_file = "/dev/full"});
+    CHECK(shown.exit == 6);
+    CHECK(shown.says("error: stdout: E601 cannot be written: "));
+    CHECK_FALSE(shown.says("Success"));
+  }
+
   TEST_CASE("a folder that cannot be made is an output that failed") {
     const Folder folder;
     folder.write("file", "");
