@@ -45,7 +45,7 @@ class RecordLabeller {
   std::span<const DescribedBuilding> buildings_;
   std::span<const Interpretation> run_;
   std::size_t building_ = 0;
-  std::size_t row_ = 0;  ///< after the last one found
+  std::size_t row_ = 0;               ///< after the last one found
   std::optional<std::size_t> known_;  ///< the building of which that is known:
   std::vector<std::vector<std::string>> groups_;
   std::vector<FeatureId> wholes_;
