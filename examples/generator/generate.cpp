@@ -1,8 +1,8 @@
 #include "examples/generator/generate.h"
 
+#include "examples/generator/english/english_house.h"
 #include "examples/generator/facade/facade_layout.h"
 #include "examples/generator/geometry/triangulate.h"
-#include "examples/generator/house/english_house.h"
 #include "examples/generator/house/plan.h"
 #include "examples/generator/house/roof_layout.h"
 #include "examples/generator/output/check.h"

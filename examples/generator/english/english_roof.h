@@ -1,7 +1,7 @@
 #pragma once
 
-#include "examples/generator/facade/english_window.h"
-#include "examples/generator/house/english_shell.h"
+#include "examples/generator/english/english_shell.h"
+#include "examples/generator/english/english_window.h"
 
 namespace oriel::generator {
 

@@ -1,4 +1,4 @@
-#include "examples/generator/facade/english_entrance.h"
+#include "examples/generator/english/english_entrance.h"
 
 #include "examples/generator/facade/openings.h"
 #include "examples/generator/house/attachments.h"

@@ -1,4 +1,4 @@
-#include "examples/generator/house/english_plan.h"
+#include "examples/generator/english/english_plan.h"
 
 #include <array>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "examples/generator/house/english_shell.h"
+#include "examples/generator/english/english_shell.h"
 
 #include "examples/generator/house/extrude.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "examples/generator/house/english_plan.h"
+#include "examples/generator/english/english_plan.h"
 #include "examples/generator/house/house.h"
 
 namespace oriel::generator {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "examples/generator/english/english_plan.h"
 #include "examples/generator/facade/panel.h"
-#include "examples/generator/house/english_plan.h"
 
 #include <string_view>
 

@@ -1,9 +1,9 @@
-#include "examples/generator/house/english_house.h"
+#include "examples/generator/english/english_house.h"
 
-#include "examples/generator/facade/english_flats.h"
-#include "examples/generator/facade/english_front.h"
-#include "examples/generator/facade/english_rear.h"
-#include "examples/generator/house/english_roof.h"
+#include "examples/generator/english/english_flats.h"
+#include "examples/generator/english/english_front.h"
+#include "examples/generator/english/english_rear.h"
+#include "examples/generator/english/english_roof.h"
 
 namespace oriel::generator {
 

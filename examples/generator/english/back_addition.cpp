@@ -1,4 +1,4 @@
-#include "examples/generator/house/back_addition.h"
+#include "examples/generator/english/back_addition.h"
 
 #include "examples/generator/house/extrude.h"
 

@@ -1,9 +1,9 @@
-#include "examples/generator/facade/english_rear.h"
+#include "examples/generator/english/english_rear.h"
 
-#include "examples/generator/facade/english_entrance.h"
-#include "examples/generator/facade/english_front.h"
-#include "examples/generator/house/back_addition.h"
-#include "examples/generator/house/english_roof.h"
+#include "examples/generator/english/back_addition.h"
+#include "examples/generator/english/english_entrance.h"
+#include "examples/generator/english/english_front.h"
+#include "examples/generator/english/english_roof.h"
 #include "examples/generator/house/extrude.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "examples/generator/house/party_wall.h"
+#include "examples/generator/english/party_wall.h"
 
 #include "examples/generator/house/extrude.h"
 

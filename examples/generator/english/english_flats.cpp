@@ -1,7 +1,7 @@
-#include "examples/generator/facade/english_flats.h"
+#include "examples/generator/english/english_flats.h"
 
-#include "examples/generator/facade/english_entrance.h"
-#include "examples/generator/facade/english_front.h"
+#include "examples/generator/english/english_entrance.h"
+#include "examples/generator/english/english_front.h"
 #include "examples/generator/house/attachments.h"
 
 #include <algorithm>

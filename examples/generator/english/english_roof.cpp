@@ -1,8 +1,8 @@
-#include "examples/generator/house/english_roof.h"
+#include "examples/generator/english/english_roof.h"
 
-#include "examples/generator/facade/english_front.h"
+#include "examples/generator/english/english_front.h"
+#include "examples/generator/english/party_wall.h"
 #include "examples/generator/facade/openings.h"
-#include "examples/generator/house/party_wall.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "examples/generator/facade/english_window.h"
+#include "examples/generator/english/english_window.h"
 #include "examples/generator/house/house.h"
 
 namespace oriel::generator {

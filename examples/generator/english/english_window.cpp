@@ -1,4 +1,4 @@
-#include "examples/generator/facade/english_window.h"
+#include "examples/generator/english/english_window.h"
 
 #include "examples/generator/house/attachments.h"
 #include "examples/generator/house/extrude.h"

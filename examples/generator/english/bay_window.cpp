@@ -1,4 +1,4 @@
-#include "examples/generator/facade/bay_window.h"
+#include "examples/generator/english/bay_window.h"
 
 #include "examples/generator/house/extrude.h"
 
