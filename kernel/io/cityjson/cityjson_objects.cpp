@@ -62,7 +62,8 @@ std::optional<Fault> list_geometry(dom::element element, std::size_t number, boo
                                          "\"2.2\"",
                                          number, found_kind(lod))};
   entry.geometries.push_back(
-      {number, *object, *kind, is_number ? lod_name(*lod) : std::string(*as_string(lod))});
+      {number, *object, *kind,
+       is_number ? lod_name(simdjson::minify(*lod)) : std::string(*as_string(lod))});
   return std::nullopt;
 }
 

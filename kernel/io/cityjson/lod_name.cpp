@@ -8,27 +8,12 @@
 
 namespace oriel::detail {
 
-namespace {
-
-std::string name_of_number(double lod) {
-  const bool is_whole = lod == std::floor(lod);
-  return shortest(lod) + (is_whole ? ".0" : "");
-}
-
-}  // namespace
-
-std::string lod_name(dom::element lod) {
-  if (const auto text = as_string(lod)) return std::string(*text);
-  if (const auto whole = as_integer(lod)) return std::to_string(*whole);
-  const auto number = as_number(lod);
-  return number ? name_of_number(*number) : std::string();
-}
-
 std::string lod_name(std::string_view lod) {
   if (lod.starts_with('"')) return decoded(lod);
   if (const auto whole = as_whole(lod)) return std::to_string(*whole);
   const auto number = as_double(lod);
-  return number ? name_of_number(*number) : std::string();
+  if (!number) return {};
+  return shortest(*number) + (*number == std::floor(*number) ? ".0" : "");
 }
 
 std::string lod_text(std::string_view name, std::string_view like) {

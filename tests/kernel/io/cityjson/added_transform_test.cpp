@@ -28,6 +28,16 @@ std::string box_1_0(const std::string& lod = "2.2") {
 }
 
 TEST_SUITE("kernel/io") {
+  TEST_CASE("a level of detail that is a number keeps the digits that it is written with") {
+    for (const std::string lod : {"0", "2", "2.0", "2.2", "3.3"}) {
+      CAPTURE(lod);
+      const auto read = read_text(box_1_0(lod));
+      REQUIRE(read.value);
+      REQUIRE(read.value->buildings.size() == 1);
+      CHECK(read.value->buildings[0].lod == lod);
+    }
+  }
+
   TEST_CASE("a building of CityJSON 1.0 without transform is the one of CityJSON 2.0") {
     const auto old = read_text(box_1_0());
     const auto expected = read_text(BoxFile().text());

@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -34,16 +35,30 @@ const std::map<std::string, std::string> kAllowed{
     {"kernel/model/version.h", "--version, status files and pages"},
 };
 
-/// The headers that a folder's sources include between quotes, each with a file that does.
+/// What a file includes, between quotes or angles.
+std::set<std::string> includes_of(const fs::path& path) {
+  std::set<std::string> included;
+  const std::regex line("^#include [\"<]([^\">]+)[\">].*");
+  std::ifstream file(path);
+  std::smatch match;
+  for (std::string text; std::getline(file, text);)
+    if (std::regex_match(text, match, line)) included.insert(match[1]);
+  return included;
+}
+
+/// A header of the project, or what one is made from.
+bool is_ours(const std::string& header) {
+  const fs::path path = fs::path(ORIEL_SOURCE_DIR) / header;
+  return fs::exists(path) || fs::exists(path.string() + ".in");
+}
+
+/// The headers of the project that a folder's sources include, each with a file that does.
 std::map<std::string, std::string> included_by(const fs::path& folder) {
   std::map<std::string, std::string> included;
-  const std::regex line("^#include \"([^\"]+)\".*");
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-    std::ifstream file(entry.path());
-    std::smatch match;
-    for (std::string text; std::getline(file, text);)
-      if (std::regex_match(text, match, line)) included.emplace(match[1], entry.path().string());
+    for (const std::string& header : includes_of(entry.path()))
+      if (is_ours(header)) included.emplace(header, entry.path().string());
   }
   return included;
 }
@@ -66,5 +81,22 @@ TEST_SUITE("repository") {
     for (const auto& [header, why] : kAllowed)
       CHECK_MESSAGE(others.contains(header), "nothing includes ", header, " any more");
     CHECK(included.size() > kAllowed.size());
+  }
+
+  // Its classes have other members there: the library is compiled with definitions of its own.
+  TEST_CASE("no test includes simdjson, itself or by way of other headers") {
+    const fs::path sources(ORIEL_SOURCE_DIR);
+    auto by = included_by(sources / "tests");
+    std::vector<std::string> waiting;
+    for (const auto& [header, file] : by) waiting.push_back(header);
+    REQUIRE(waiting.size() > 100);
+    while (!waiting.empty()) {
+      const std::string header = waiting.back();
+      waiting.pop_back();
+      for (const std::string& next : includes_of(sources / header)) {
+        CHECK_MESSAGE(next != "simdjson.h", header, " is included by ", by[header]);
+        if (is_ours(next) && by.emplace(next, header).second) waiting.push_back(next);
+      }
+    }
   }
 }
