@@ -2,6 +2,7 @@
 #include "examples/generator/output/check.h"
 #include "examples/generator/output/truth.h"
 #include "tests/examples/generator/crossings.h"
+#include "tests/examples/generator/measured_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,21 +23,6 @@ Options english(std::uint64_t seed) {
   options.style = Style::english;
   options.seed = seed;
   return options;
-}
-
-/// Per object, the box of its polygons.
-std::vector<Extent> boxes_of_row(const Body& body) {
-  std::vector<Extent> boxes(body.objects.size());
-  for (const Polygon& polygon : body.polygons)
-    for (const int vertex : polygon.rings[0])
-      boxes[static_cast<std::size_t>(polygon.owner.object)].grow(
-          body.vertices[static_cast<std::size_t>(vertex)]);
-  return boxes;
-}
-
-bool have_common_room(const Extent& a, const Extent& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y &&
-         a.low.z < b.high.z && b.low.z < a.high.z;
 }
 
 /// True for what stands by itself: surfaces and what runs over a whole roof contain other boxes.
@@ -97,14 +83,14 @@ TEST_SUITE("examples/generator") {
     for (int i = 0; i < kRows; ++i) {
       options.jitter = i % 2 == 0 ? 200_mm : 0;
       const Body body = generate(options, i);
-      const std::vector<Extent> boxes = boxes_of_row(body);
+      const std::vector<Extent> boxes = boxes_of(body);
       for (std::size_t a = 0; a < boxes.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
           const Object &first = body.objects[a], &second = body.objects[b];
           if (!stands_alone(first) || !stands_alone(second)) continue;
           if (first.parent == static_cast<int>(b) || first.host == static_cast<int>(b)) continue;
           ++pairs;
-          if (!have_common_room(boxes[a], boxes[b])) continue;
+          if (!overlap(boxes[a], boxes[b])) continue;
           FAIL_CHECK("house " << i << ": " << first.name << " and " << second.name);
         }
     }
@@ -205,14 +191,8 @@ TEST_SUITE("examples/generator") {
     for (const double share : {0.0, 0.5, 1.0}) {
       Options options = english(6);
       options.flush = share;
-      int openings = 0, flush = 0;
-      for (int i = 0; i < 60; ++i)
-        for (const Object& object : generate(options, i).objects) {
-          if (!object.recess) continue;
-          ++openings;
-          if (*object.recess == 0) ++flush;
-        }
-      CHECK(flush == doctest::Approx(share * openings).epsilon(0.1));
+      const OpeningCounts openings = count_openings(options, 60);
+      CHECK(openings.flush == doctest::Approx(share * openings.all).epsilon(0.1));
     }
   }
 
@@ -221,7 +201,7 @@ TEST_SUITE("examples/generator") {
     for (int i : {0, 1, 2, 3, 4, 5, 199, 200, 201})
       boxes.push_back(extent_of(generate(english(1), i).vertices));
     for (std::size_t a = 0; a < boxes.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) CHECK_FALSE(have_common_room(boxes[a], boxes[b]));
+      for (std::size_t b = 0; b < a; ++b) CHECK_FALSE(overlap(boxes[a], boxes[b]));
   }
 }
 

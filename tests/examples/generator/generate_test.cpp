@@ -2,6 +2,7 @@
 
 #include "examples/generator/output/check.h"
 #include "tests/examples/generator/crossings.h"
+#include "tests/examples/generator/measured_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,20 +26,6 @@ Options with_features(std::initializer_list<Feature> features) {
 int count(const Body& body, Class kind) {
   return static_cast<int>(std::count_if(body.objects.begin(), body.objects.end(),
                                         [&](const Object& o) { return o.kind == kind; }));
-}
-
-std::vector<Extent> boxes_of(const Body& body) {
-  std::vector<Extent> boxes(body.objects.size());
-  for (const Polygon& polygon : body.polygons)
-    for (const int vertex : polygon.rings[0])
-      boxes[static_cast<std::size_t>(polygon.owner.object)].grow(
-          body.vertices[static_cast<std::size_t>(vertex)]);
-  return boxes;
-}
-
-bool overlap(const Extent& a, const Extent& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y &&
-         a.low.z < b.high.z && b.low.z < a.high.z;
 }
 
 /// The roof planes, as objects, that share a corner with the object.
@@ -194,14 +181,8 @@ TEST_SUITE("examples/generator") {
     for (const double share : {0.0, 0.5, 1.0}) {
       Options options = with_features({Feature::window, Feature::door, Feature::dormer});
       options.flush = share;
-      int openings = 0, flush = 0;
-      for (int i = 0; i < 100; ++i)
-        for (const Object& object : generate(options, i).objects) {
-          if (!object.recess) continue;
-          ++openings;
-          if (*object.recess == 0) ++flush;
-        }
-      CHECK(flush == doctest::Approx(share * openings).epsilon(0.1));
+      const OpeningCounts openings = count_openings(options, 100);
+      CHECK(openings.flush == doctest::Approx(share * openings.all).epsilon(0.1));
     }
   }
 
