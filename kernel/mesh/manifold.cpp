@@ -143,7 +143,7 @@ class FanSplitter {
       const Vec3 d = into_face(c);
       const double radians = std::atan2(dot(d, quarter), dot(d, zero));
       // Rounding must not put what lies in the first face's direction behind it.
-      constexpr double kSame = 1e-12;
+      constexpr double kSame = 1e-12;  // tolerance of doubles
       return radians < -kSame ? radians + 2 * 3.14159265358979323846 : radians;
     };
     std::vector<std::pair<double, int>> order;

@@ -15,7 +15,7 @@ namespace {
 
 /// A vertex is on a plane by its coordinates only up to this part of the reach, which is rounding:
 /// between planes at a small angle a vertex may be near both and belong to one.
-constexpr double kOn = 1e-5;
+constexpr double kOn = 1e-5;  // tolerance of doubles
 
 }  // namespace
 

@@ -211,10 +211,15 @@ class Cut {
     has_changed_body_ |= !touched.empty();
     if (caps.empty()) return false;
     if (takes_rest_) return take_off_rest(turned_round(from_.body, caps), lump, std::move(touched));
+    note_parting(caps);
+    return take_off_part(std::move(caps), {lump.new_area, lump.value}, std::move(touched));
+  }
+
+  /// What is left may hang together no longer if more than one outline parted it.
+  void note_parting(std::span<const CutCap> caps) {
     std::size_t loops = 0;
     for (const CutCap& cap : caps) loops += cap.loops.size() + cap.covered.size();
     result_.may_have_parted |= loops > 1;
-    return take_off_part(std::move(caps), {lump.new_area, lump.value}, std::move(touched));
   }
 
   /// Each cap has a part of its own behind it; those that only come off together are one.
@@ -223,17 +228,13 @@ class Cut {
     if (caps.size() == 1) std::swap(joined, caps);
     for (CutCap& cap : caps) {
       const double area = area_of(tree_.world, cap);
-      result_.may_have_parted |= cap.loops.size() > 1;
+      note_parting({&cap, 1});
       if (!take_off_part({cap}, {area, lump.value}, touched)) joined.push_back(std::move(cap));
     }
     if (joined.empty()) return true;
-    std::size_t loops = 0;
     double area = 0;
-    for (const CutCap& cap : joined) {
-      loops += cap.loops.size();
-      area += area_of(tree_.world, cap);
-    }
-    result_.may_have_parted |= loops > 1;
+    for (const CutCap& cap : joined) area += area_of(tree_.world, cap);
+    note_parting(joined);
     return take_off_part(std::move(joined), {area, lump.value}, std::move(touched));
   }
 

@@ -15,7 +15,7 @@ namespace {
 /// Doubles of points and planes are right to some 1e-12 m within the 4 km that the grid allows: a
 /// signed distance beyond this is certain, and below it the exact test decides. Not a tolerance: it
 /// changes no answer.
-constexpr double kCertain_m = 1e-9;
+constexpr double kCertain_m = 1e-9;  // tolerance of doubles
 
 /// weld_m in grid units, at least: vertices closer than that are one, so are meetings.
 constexpr double kGridsPerWeld = 1024;

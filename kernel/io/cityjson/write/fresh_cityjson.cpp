@@ -12,16 +12,20 @@ namespace oriel::detail {
 
 namespace {
 
-/// How far a coordinate may lie from a multiple of 0.001 to count as one: doubles in UTM are good
-/// to 1e-9.
+/// How far a coordinate may lie from a multiple of a millimetre to count as one: doubles in UTM are
+/// good to a nanometre.
 constexpr double kMultiple_m = 1e-8;  // tolerance of doubles
+/// The scales of files.
+constexpr double kMillimetre_m = 0.001;
+constexpr double kMicrometre_m = 1e-6;  // a unit, no tolerance
 
 double scale_of(const std::vector<Building>& buildings) {
   for (const Building& building : buildings)
     for (const Vec3 p : building.vertices)
       for (const double x : {p.x, p.y, p.z})
-        if (std::abs(x - std::round(x / 0.001) * 0.001) > kMultiple_m) return 1e-6;
-  return 0.001;
+        if (std::abs(x - std::round(x / kMillimetre_m) * kMillimetre_m) > kMultiple_m)
+          return kMicrometre_m;
+  return kMillimetre_m;
 }
 
 Vec3 translation_of(const std::vector<Building>& buildings) {

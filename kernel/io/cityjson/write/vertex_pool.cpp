@@ -22,7 +22,7 @@ constexpr double kCoarsest_m = 0.001;
 /// How far rounding may move a vertex off a facet's plane: Tolerances::plane_offset_m.
 constexpr double kOffPlane_m = 0.002;
 /// Finer than this gains nothing over the grid that solids live on.
-constexpr double kFinest_m = 1e-6;
+constexpr double kFinest_m = 1e-6;  // a unit, no tolerance
 
 double coarsest_scale(const Transform& transform) {
   return std::max({transform.scale.x, transform.scale.y, transform.scale.z});
