@@ -340,6 +340,10 @@ Targets at_scale(double denominator) { return {denominator, {}}; }
 GeneralisedBuilding generalise(const Document& document, const Building& building,
                                const PipelineResult& result, const RuleBase& rules,
                                const Targets& targets, const GeneraliseOptions& options) {
+  if (!building.installations.empty()) {
+    const Building alone = without_installations(building);
+    return generalise(document, alone, label(alone, rules, options), rules, targets, options);
+  }
   GeneralisedBuilding drawn;
   drawn.building = building.id;
   if (!result.is_done()) return drawn;

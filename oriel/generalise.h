@@ -74,7 +74,9 @@ struct GeneralisedBuilding {
 /// (docs/generalisation.md; paper, section 5).
 ///
 /// `building` is one of the document; `result` is what label() said of it with the same rules and
-/// options. Of a building that did not come to its features nothing is made.
+/// options. Of a building that did not come to its features nothing is made. Installations that
+/// were joined to it (ReadOptions) stay as they are: the building alone is labelled again and
+/// redrawn.
 ///
 /// The solids are valid as they are written: where one is not, the building is drawn again with
 /// each step checked, then from a repaired solid (G417). What is valid at no scale stays unchanged,

@@ -80,7 +80,8 @@ PipelineOptions repair_defaults() {
 
 Repaired repair(const Document& document, const Building& building,
                 const PipelineOptions& options) {
-  return repair(document, building, solid_of(building, options), options);
+  const Building alone = without_installations(building);
+  return repair(document, alone, solid_of(alone, options), options);
 }
 
 Repaired repair(const Document& document, const Building& building, PipelineResult solid,

@@ -28,17 +28,20 @@ struct Repaired {
 /// Makes a valid solid of a building: closed, oriented, with plane faces (docs/solidify.md).
 /// `building` is one of the document. The solid is checked as it is written (validate, on the grid
 /// of the document, as fine as it needs to be); where that fails and crossings may be cut, it is
-/// redrawn from the boundary of its inside. Tolerances are taken as they are given.
+/// redrawn from the boundary of its inside. Tolerances are taken as they are given. Installations
+/// that were joined to it (ReadOptions) stay as they are.
 Repaired repair(const Document& document, const Building& building,
                 const PipelineOptions& options = repair_defaults());
 
-/// The same for a building of which solid_of() with the same options gave `solid`.
+/// The same for a building without joined installations of which solid_of() with the same options
+/// gave `solid`.
 Repaired repair(const Document& document, const Building& building, PipelineResult solid,
                 const PipelineOptions& options);
 
 /// The labels of a building on the facets of its solid instead of on its polygons. `result` is what
-/// label() said of it, is_done(), with crossings cut; `labelled` its output. No value if the
-/// building is open (G404), or if the solid would not be valid when it is read again (E318).
+/// label() said of it, is_done(), with crossings cut and without joined installations
+/// (ReadOptions); `labelled` its output. No value if the building is open (G404), or if the solid
+/// would not be valid when it is read again (E318).
 Checked<LabelledBuilding> on_solid(const Document& document, const Building& building,
                                    const PipelineResult& result, const LabelledBuilding& labelled);
 

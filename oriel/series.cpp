@@ -231,7 +231,17 @@ std::vector<SeriesOperation> Series::operations() const {
 Series series(const Document& document, const std::vector<PipelineResult>& results,
               const RuleBase& rules, const std::vector<double>& scales,
               const SeriesOptions& options) {
-  return SeriesDrawer(document, rules, scales, options).draw(results, options.observer);
+  if (std::ranges::all_of(document.buildings,
+                          [](const Building& b) { return b.installations.empty(); }))
+    return SeriesDrawer(document, rules, scales, options).draw(results, options.observer);
+  Document alone = document;
+  std::vector<PipelineResult> of_alone = results;
+  for (std::size_t i = 0; i < alone.buildings.size(); ++i) {
+    if (alone.buildings[i].installations.empty()) continue;
+    alone.buildings[i] = without_installations(std::move(alone.buildings[i]));
+    of_alone[i] = label(alone.buildings[i], rules, options);
+  }
+  return SeriesDrawer(alone, rules, scales, options).draw(of_alone, options.observer);
 }
 
 OutputRecord at(const Series& series, double scale) {

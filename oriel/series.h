@@ -50,7 +50,8 @@ struct SeriesOptions : LabelOptions {
 /// The series of a record for `scales` (denominators, which ascend): every level a valid solid, and
 /// the elementary operations between them (docs/generalisation.md; Thiemann and Sester, paper
 /// section 5). `results` are what label() said of the document's buildings, in their order, with
-/// the same rules and options; those that are not is_done() are passed over.
+/// the same rules and options; those that are not is_done() are passed over. Joined installations
+/// are taken as generalise() takes them.
 ///
 /// A level never has what a finer one lost. First the steps of a building that would not be valid
 /// are judged one by one, then it is drawn from a repaired solid (G417); what helps neither is

@@ -20,8 +20,9 @@ struct ReadOptions {
   std::optional<Format> format;
   /// Of CityJSON and CityGML: a BuildingInstallation with a geometry at the level that its building
   /// is read at gives its polygons to the building (Building::installations), unless the building
-  /// has them all: oriel writes such ones (`oriel_geometry`).
-  bool joins_installations = false;
+  /// has them all: oriel writes such ones (`oriel_geometry`). They are labelled with the building;
+  /// what is generalised, repaired or validated is the building alone.
+  bool joins_installations = true;
   /// What is read is hashed, too.
   bool wants_sha256 = false;
 };

@@ -86,6 +86,7 @@ Finding out_of_range(const Building& building) {
 }  // namespace
 
 std::vector<Finding> validate(const Building& building, const ValidateOptions& options) {
+  if (!building.installations.empty()) return validate(without_installations(building), options);
   const auto snapped = detail::snapped(building, options.snap_m);
   if (!snapped) return {out_of_range(building)};
   FindingList findings(*snapped);

@@ -58,7 +58,8 @@ std::string_view val3dity_name(int number);
 /// the one before has no error: the rings of a polygon (101, 102, 104), the polygon (201–208), the
 /// shell (301–307) if all its polygons are good, the solid (401–405) if all its shells are, the
 /// composite (501–503) if all its solids are. Loose surfaces are judged up to 208, a
-/// CompositeSurface as a shell that may be open.
+/// CompositeSurface as a shell that may be open. Joined installations (Building::installations) are
+/// not judged: they are no part of the building's geometry.
 ///
 /// Decided exactly on whole micrometres; only 203 and 204 measure in doubles. E506 and E501 for
 /// coordinates that are not finite or a building of more than 4 km: then nothing else is judged.

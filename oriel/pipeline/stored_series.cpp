@@ -92,6 +92,7 @@ class LevelMover {
   /// Gives the file at the scale to `sink`; false if the level and the log do not fit.
   bool move(const std::string& file, const std::function<void(std::string_view)>& sink) {
     ReadOptions options;
+    options.joins_installations = false;
     if (!lod_.empty()) options.lod = lod_;
     Reader reader(file, options);
     while (auto record = reader.next()) {

@@ -6,36 +6,6 @@
 using namespace oriel::test;
 using nlohmann::ordered_json;
 
-namespace {
-
-/// A cube of 4 m and on it, as an installation of its own, a shaft of 0.5 × 0.5 × 1 m from the
-/// height `base_mm`: its four sides and its top, with its bottom if `is_closed`.
-ordered_json cube_with_shaft(int base_mm = 4000, bool is_closed = false) {
-  ordered_json city = cubes({"house"});
-  const int first = static_cast<int>(city["vertices"].size());
-  for (int i = 0; i < 8; ++i)
-    city["vertices"].push_back(
-        {1000 + (i & 1) * 500, 1000 + (i >> 1 & 1) * 500, base_mm + (i >> 2) * 1000});
-  ordered_json surfaces = ordered_json::array();
-  std::vector<std::vector<int>> rings{
-      {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
-  if (is_closed) rings.push_back({0, 2, 3, 1});
-  for (const std::vector<int>& ring : rings) {
-    ordered_json polygon = ordered_json::array();
-    for (const int corner : ring) polygon.push_back(first + corner);
-    surfaces.push_back(ordered_json::array({polygon}));
-  }
-  city["CityObjects"]["house"]["children"] = {"shaft"};
-  city["CityObjects"]["shaft"] = {
-      {"type", "BuildingInstallation"},
-      {"parents", {"house"}},
-      {"geometry",
-       ordered_json::array({{{"type", "MultiSurface"}, {"lod", "3"}, {"boundaries", surfaces}}})}};
-  return city;
-}
-
-}  // namespace
-
 TEST_SUITE("cli") {
   TEST_CASE("an installation with its own geometry is cut and named with its building") {
     for (const bool is_closed : {false, true}) {

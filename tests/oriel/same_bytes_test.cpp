@@ -2,6 +2,8 @@
 #include "kernel/io/records/stage_json.h"
 #include "oriel/oriel.h"
 #include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+#include "tests/support/corpus.h"
 #include "tests/support/shared.h"
 
 #include <algorithm>
@@ -122,6 +124,22 @@ TEST_SUITE("oriel") {
     const auto files = inputs_in(samples());
     REQUIRE(files.size() >= 8);
     for (const std::string& file : files) compare(file);
+  }
+
+  TEST_CASE("library and command write the same bytes of a building with installations") {
+    const Folder folder;
+    for (const bool is_closed : {false, true})
+      compare(folder.write("shaft.city.json", test::cube_with_shaft(4000, is_closed).dump()));
+  }
+
+  TEST_CASE("library and command write the same bytes of surveyed installations") {
+    ORIEL_NEEDS_SHARED(shared);
+    for (const auto& [folder, n] : {std::pair("random3dcity", 25), {"ingolstadt", 9}}) {
+      const auto files = every(static_cast<std::size_t>(n),
+                               test::files_in(shared / "data" / folder, ".labelled.city.json"));
+      CHECK(!files.empty());
+      for (const std::string& file : files) compare(file);
+    }
   }
 
   TEST_CASE("library and command write the same bytes of a part of the shared data") {
