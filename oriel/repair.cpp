@@ -80,8 +80,9 @@ PipelineOptions repair_defaults() {
 
 Repaired repair(const Document& document, const Building& building,
                 const PipelineOptions& options) {
-  const Building alone = without_installations(building);
-  return repair(document, alone, solid_of(alone, options), options);
+  if (!building.installations.empty())
+    return repair(document, without_installations(building), options);
+  return repair(document, building, solid_of(building, options), options);
 }
 
 Repaired repair(const Document& document, const Building& building, PipelineResult solid,

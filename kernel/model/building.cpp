@@ -19,6 +19,7 @@ Building without_installations(Building building) {
   std::erase_if(building.repeats, [&](const RepeatedVertex& repeat) {
     return static_cast<std::size_t>(repeat.polygon) >= own;
   });
+  building.vertices.resize(building.installations.front().first_vertex);
   building.installations.clear();
   return building;
 }

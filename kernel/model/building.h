@@ -9,8 +9,8 @@
 namespace oriel {
 
 /// Where a building's local coordinates stand in the input's: input = local + origin_m. The origin
-/// is the minimum of the building's box, floored to whole metres, so that local coordinates are
-/// small and exact.
+/// is the minimum of the box of the building's own polygons, floored to whole metres, so that local
+/// coordinates are small and exact.
 struct Frame {
   Vec3 origin_m;
   /// The input's coordinate reference system as it was written there, or empty.
@@ -47,6 +47,8 @@ struct JoinedInstallation {
   std::string id;
   /// Its polygons in Building::polygons: from this one to that of the next one, or to the end.
   std::size_t first_polygon = 0;
+  /// Vertices of Building::vertices from this one on are of it or of those after it only.
+  std::size_t first_vertex = 0;
 };
 
 /// One building (or building part) as read: polygons of one geometry at one level of detail, and
@@ -70,7 +72,8 @@ struct Building {
   std::vector<JoinedInstallation> installations{};
 };
 
-/// The building with its own polygons only. Vertices and the frame stay.
+/// The building with its own polygons and vertices only: the one that is read where installations
+/// are not joined, bit for bit.
 Building without_installations(Building building);
 
 /// The frame of points given in the input's coordinates: origin = their minimum floored to whole

@@ -107,14 +107,13 @@ std::optional<Fault> GeometryReader::add(dom::object geometry, GeometryKind kind
   }
   if (!fault) {
     used_ = std::move(all);
-    place_vertices(building);
-    fault = std::exchange(fault_, std::nullopt);
+    fault = find_beyond_limits(points());
   }
   if (fault) {
     used_ = own;
-    place_vertices(building);
     return fault;
   }
+  append_vertices(building);
   const auto first = static_cast<int>(building.polygons.size());
   const int body = first > 0 ? building.polygons.back().body : 0;
   for (Polygon& polygon : added.polygons) {
@@ -289,26 +288,36 @@ void GeometryReader::append_ring(std::vector<int> ring) {
                                   static_cast<int>(rings.size()), repeats_));
 }
 
-bool GeometryReader::place_vertices(Building& building) {
+std::vector<Vec3> GeometryReader::points() const {
   const Vec3 scale = transform_.scale;
-  const Vec3 translate = transform_.translate;
   std::vector<Vec3> points;
   points.reserve(used_.size());
   for (const std::size_t number : used_) {
     const Vec3 v = stored_[number];
-    points.push_back(translate + Vec3{scale.x * v.x, scale.y * v.y, scale.z * v.z});
+    points.push_back(transform_.translate + Vec3{scale.x * v.x, scale.y * v.y, scale.z * v.z});
   }
+  return points;
+}
+
+bool GeometryReader::place_vertices(Building& building) {
+  const std::vector<Vec3> points = this->points();
   fault_ = find_beyond_limits(points);
   if (fault_) return false;
   building.frame = frame_of(points, std::move(building.frame.crs));
-  const Vec3 shift = translate - building.frame.origin_m;
   building.vertices.clear();
+  append_vertices(building);
+  return true;
+}
+
+/// Those that `building` does not have yet, in its frame.
+void GeometryReader::append_vertices(Building& building) const {
+  const Vec3 scale = transform_.scale;
+  const Vec3 shift = transform_.translate - building.frame.origin_m;
   building.vertices.reserve(used_.size());
-  for (const std::size_t number : used_) {
-    const Vec3 v = stored_[number];
+  for (std::size_t i = building.vertices.size(); i < used_.size(); ++i) {
+    const Vec3 v = stored_[used_[i]];
     building.vertices.push_back(shift + Vec3{scale.x * v.x, scale.y * v.y, scale.z * v.z});
   }
-  return true;
 }
 
 void GeometryReader::read_hints(dom::object semantics, GeometryKind kind) {

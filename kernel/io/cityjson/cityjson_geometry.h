@@ -48,8 +48,8 @@ class GeometryReader {
   std::optional<Fault> read(dom::object geometry, GeometryKind kind, Building& building);
 
   /// Adds the polygons of another geometry of the same file to `building`, the last that was read
-  /// or added to, as part of its last body. Its frame is that of all of them then. If
-  /// something is wrong `building` stays as it is.
+  /// or added to, as part of its last body. Its frame and its vertices stay, further vertices
+  /// stand behind them. If something is wrong `building` stays as it is.
   std::optional<Fault> add(dom::object geometry, GeometryKind kind, Building& building);
 
   /// What was odd in the last geometry: E208, E311, E312.
@@ -66,7 +66,9 @@ class GeometryReader {
   int new_vertex(std::int64_t number);
   Polygon& begin_polygon();
   void append_ring(std::vector<int> ring);
+  [[nodiscard]] std::vector<Vec3> points() const;
   bool place_vertices(Building& building);
+  void append_vertices(Building& building) const;
   void read_hints(dom::object semantics, GeometryKind kind);
   bool flatten(std::size_t begin, std::size_t end, const std::optional<dom::element>& values,
                int depth, const std::vector<std::string_view>& types);

@@ -237,6 +237,7 @@ std::vector<GeometryPlace> join_installations(const std::vector<InstallationEntr
     const GeometryEntry* geometry = object.fault ? nullptr : geometry_at(object, building.lod);
     if (geometry == nullptr) continue;
     const std::size_t first = building.polygons.size();
+    const std::size_t first_vertex = building.vertices.size();
     if (corners.empty()) add_corners(building, 0, corners);
     if (auto fault = geometries.add(geometry->object, geometry->kind, building)) {
       warn(std::move(*fault));
@@ -247,7 +248,7 @@ std::vector<GeometryPlace> join_installations(const std::vector<InstallationEntr
       continue;
     }
     for (const Fault& warning : geometries.warnings()) warn(warning);
-    building.installations.push_back({std::string(object.id), first});
+    building.installations.push_back({std::string(object.id), first, first_vertex});
     places.push_back({object.number, geometry->number});
   }
   return places;

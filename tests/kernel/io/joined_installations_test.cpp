@@ -17,9 +17,9 @@ using test::BoxFile;
 using test::codes_of;
 using test::read_text;
 
-ReadOptions joining() {
+ReadOptions joining(bool is_joining = true) {
   ReadOptions options;
-  options.joins_installations = true;
+  options.joins_installations = is_joining;
   return options;
 }
 
@@ -47,8 +47,25 @@ LabelledBuilding roof_labels() {
 }
 
 TEST_SUITE("kernel/io") {
+  TEST_CASE("a building that installations were joined to is the one without them again") {
+    const Building joined =
+        read_text(with_chimney().text(), "a.city.json", joining()).value->buildings.at(0);
+    const Building alone =
+        read_text(with_chimney().text(), "a.city.json", joining(false)).value->buildings.at(0);
+    REQUIRE(joined.installations.size() == 1);
+    const Building again = without_installations(joined);
+    CHECK(again.installations.empty());
+    CHECK(again.repeats.empty());
+    CHECK(again.frame.origin_m == alone.frame.origin_m);
+    CHECK(again.vertices == alone.vertices);
+    REQUIRE(again.polygons.size() == alone.polygons.size());
+    for (std::size_t p = 0; p < again.polygons.size(); ++p)
+      CHECK(again.polygons[p].rings == alone.polygons[p].rings);
+    CHECK(without_installations(alone).vertices == alone.vertices);
+  }
+
   TEST_CASE("the polygons of an installation stand behind those of its building") {
-    const auto alone = read_text(with_chimney().text());
+    const auto alone = read_text(with_chimney().text(), "a.city.json", joining(false));
     CHECK(alone.value->buildings.at(0).polygons.size() == 6);
     CHECK(alone.value->buildings[0].installations.empty());
     const auto record = read_text(with_chimney().text(), "a.city.json", joining());
@@ -66,8 +83,9 @@ TEST_SUITE("kernel/io") {
     CHECK(building.polygons[6].body == 0);
     CHECK(building.polygons[7].source == 7);
     CHECK(building.vertices.size() == 10);
-    // The frame is that of all of it.
-    CHECK(building.frame.origin_m == Vec3{999, 2000, 7});
+    CHECK(building.installations[0].first_vertex == 8);
+    // The frame is that of its own polygons.
+    CHECK(building.frame.origin_m == Vec3{1000, 2000, 10});
     const auto place = [&](int vertex) {
       return building.vertices[static_cast<std::size_t>(vertex)] + building.frame.origin_m;
     };
@@ -79,14 +97,6 @@ TEST_SUITE("kernel/io") {
     REQUIRE(building.repeats.size() == 1);
     CHECK(building.repeats[0].polygon == 7);
     CHECK(building.repeats[0].vertex == ring[1]);
-  }
-
-  TEST_CASE("a building without its installations is the one that it is alone") {
-    const auto record = read_text(with_chimney().text(), "a.city.json", joining());
-    const Building alone = without_installations(record.value->buildings.at(0));
-    CHECK(alone.polygons.size() == 6);
-    CHECK(alone.installations.empty());
-    CHECK(alone.repeats.empty());
   }
 
   TEST_CASE("an installation of another level of detail is not joined") {

@@ -14,9 +14,11 @@ struct Tally {
 /// What becomes of the labelled files of one data set.
 Tally tally(const std::filesystem::path& folder, Closing close) {
   Tally out;
+  ReadOptions options;
+  options.joins_installations = false;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (!entry.path().string().ends_with(".labelled.city.json")) continue;
-    Reader reader(entry.path().string());
+    Reader reader(entry.path().string(), options);
     while (const auto record = reader.next()) {
       if (!record->value) continue;
       for (const Building& building : record->value->buildings) {
