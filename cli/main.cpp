@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/issue.h"
+#include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/model/version.h"
 
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <sstream>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
@@ -38,6 +40,15 @@ void clean_up_on_signals() {
     action.sa_flags = SA_RESETHAND;
     ::sigaction(signal, &action, nullptr);
   }
+}
+
+/// What CLI11 says of the arguments, in which names of files may stand; its exit code.
+int explain_usage(const CLI::App& app, const CLI::Error& error) {
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  std::cout << out.str();
+  std::cerr << oriel::printable_lines(err.str());
+  return code;
 }
 
 int exit_with(ExitCode code) { return static_cast<int>(code); }
@@ -89,11 +100,12 @@ int run(int argc, char** argv) {
     return exit_with(code);
   } catch (const CLI::RequiredError& error) {
     if (const auto rest = app.remaining(); app.get_subcommands().empty() && !rest.empty())
-      run_log().write(oriel::LogLevel::error, "'" + rest[0] + "' is no command of oriel");
-    app.exit(error);
+      run_log().write(oriel::LogLevel::error,
+                      "'" + oriel::printable(rest[0]) + "' is no command of oriel");
+    explain_usage(app, error);
     return exit_with(ExitCode::usage);
   } catch (const CLI::ParseError& error) {
-    const bool is_help = app.exit(error) == 0;
+    const bool is_help = explain_usage(app, error) == 0;
     finish_stdout();
     return exit_with(is_help ? ExitCode::clean : ExitCode::usage);
   }

@@ -1,6 +1,7 @@
 #include "oriel/explain.h"
 
 #include "interpret/surfaces/surfaces.h"
+#include "kernel/base/printable.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/vec3.h"
@@ -75,7 +76,8 @@ std::vector<SurfaceExplanation> explain_surfaces(const Building& building,
 std::string explain_surface(const Building& building, const PipelineResult& result,
                             const RuleBase& rules, std::size_t polygon) {
   const SurfaceTable table = surfaces_with_parts(building, result, rules);
-  return fmt::format("{}: polygon {} is ", building.id, building.polygons[polygon].source) +
+  return fmt::format("{}: polygon {} is ", printable(building.id),
+                     building.polygons[polygon].source) +
          explain_surface(rules, table, polygon);
 }
 

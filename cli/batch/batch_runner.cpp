@@ -4,6 +4,7 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/log.h"
+#include "kernel/base/printable.h"
 #include "kernel/base/sha256.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/files/partial_files.h"
@@ -329,7 +330,7 @@ void BatchRunner::write_status() {
                     records.passed_on, records.refused, records.not_selected));
   if (cache_) {
     cache_->commit();
-    run_log().info("took {} records from {}", reused_, options_.reuse);
+    run_log().info("took {} records from {}", reused_, printable(options_.reuse));
   }
   status_->close();
   RunStatus status;
@@ -363,7 +364,7 @@ void BatchRunner::report_summary(const std::string& verb, const std::map<std::st
     return run_log().write(LogLevel::info, summary_table(verb, counts, suffix));
   std::vector<std::string> parts;
   for (const auto& [label, count] : counts)
-    if (!label.empty()) parts.push_back(fmt::format("{} {}", count, label));
+    if (!label.empty()) parts.push_back(fmt::format("{} {}", count, printable(label)));
   if (const auto unknown = counts.find(""); unknown != counts.end())
     parts.push_back(fmt::format("{} unknown", unknown->second));
   std::string text = fmt::format("{} of {} building{} {}", state_.buildings - state_.set_aside,

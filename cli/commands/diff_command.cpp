@@ -1,8 +1,8 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/print_out.h"
 #include "oriel/interpret.h"
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,7 +45,7 @@ ExitCode work(const DiffArguments& arguments) {
   if (code == ExitCode::input) return code;
   const LabelDiff diff = diff_labels(std::move(before), std::move(after), arguments.examples);
   const std::string text = arguments.is_json ? to_json(diff) + "\n" : to_text(diff);
-  std::fputs(text.c_str(), stdout);
+  print_out(text, arguments.is_json);
   if (!arguments.most || diff.differences() <= *arguments.most) return code;
   run_log().write(LogLevel::error, fmt::format("{} differences; {} are allowed", diff.differences(),
                                                *arguments.most));

@@ -1,10 +1,10 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/terminal/print_out.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +52,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
   const ExitCode code = runner.run(visitor);
   if (text.empty() && code != ExitCode::input)
     throw CLI::ValidationError("--at", "no polygon lies there");
-  std::fputs(text.c_str(), stdout);
+  print_out(text, arguments.is_json);
   return code;
 }
 
@@ -76,7 +76,7 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
   if (text.empty() && code != ExitCode::input)
     throw CLI::ValidationError("--surface",
                                fmt::format("there is no polygon {}", arguments.surface));
-  std::fputs(text.c_str(), stdout);
+  print_out(text);
   return code;
 }
 
@@ -128,7 +128,7 @@ ExitCode work(const ExplainArguments& arguments) {
   if (matches.size() > 1 || (matches.empty() && !has_said_why))
     refuse(arguments.feature, ids, matches);
   if (first)
-    std::fputs((arguments.is_json ? to_json(*first) + "\n" : to_text(*first)).c_str(), stdout);
+    print_out(arguments.is_json ? to_json(*first) + "\n" : to_text(*first), arguments.is_json);
   return code;
 }
 

@@ -1,7 +1,9 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/printable.h"
 #include "oriel/interpret.h"
 
 #include <algorithm>
@@ -172,8 +174,8 @@ std::string listing(const std::vector<Interpretation>& run) {
   return table(rows);
 }
 
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+void print_now(const std::string& text) {
+  print_out(text);
   std::fflush(stdout);
 }
 
@@ -190,14 +192,15 @@ void print(const std::string& text) {
     if (const auto rules = load_rules(arguments.rules, report)) {
       files.follow(rules->files());
       auto run = features.interpreted(*rules, arguments.jobs);
-      print(is_first ? listing(run)
-                     : to_text(diff_labels(features.buildings(), last, run, arguments.examples)));
+      print_now(is_first
+                    ? listing(run)
+                    : to_text(diff_labels(features.buildings(), last, run, arguments.examples)));
       last = std::move(run);
       is_first = false;
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     run_log().info("{} buildings in {:.2f} s; waiting for {} to be saved",
-                   features.buildings().size(), took.count(), arguments.rules);
+                   features.buildings().size(), took.count(), printable(arguments.rules));
     files.wait();
   }
 }

@@ -3,11 +3,12 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/label_outputs.h"
+#include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/printable.h"
 #include "oriel/repair.h"
 #include "oriel/score.h"
 
-#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -45,8 +46,8 @@ std::string listing(const Building& building, const PipelineResult& line) {
                     number(verdict.feature, Attribute::a), number(verdict.feature, Attribute::b),
                     number(verdict.feature, Attribute::base_height)});
   }
-  return fmt::format("{}: {} of {} features have a label\n{}\n", building.id, rows.size() - 1,
-                     line.interpretation.verdicts.size(), table(rows));
+  return fmt::format("{}: {} of {} features have a label\n{}\n", printable(building.id),
+                     rows.size() - 1, line.interpretation.verdicts.size(), table(rows));
 }
 
 /// --repaired: the labels on the facets of the building's solid. Without one that is valid they
@@ -82,7 +83,7 @@ ExitCode audit(const LabelArguments& arguments) {
   const ExitCode code = runner.run(visitor);
   const std::string text =
       arguments.is_json ? to_json(score, true) + "\n" : differences_text(score) + to_text(score);
-  std::fputs(text.c_str(), stdout);
+  print_out(text, arguments.is_json);
   runner.report_summary("audited", {});
   return graver(code, score.differences.empty() ? ExitCode::clean : ExitCode::set_aside);
 }

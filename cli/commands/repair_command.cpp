@@ -3,6 +3,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/output_sink.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
 #include "oriel/repair.h"
@@ -89,7 +90,8 @@ class Repairer final : public VisitingCommand {
       if (one.solid) solids.buildings.push_back(std::move(one.output));
       if (!runner_.is_last_run()) continue;
       if (one.solid) ++(one.report.was_needed ? repaired_ : closed_);
-      if (arguments_.is_verbose) run_log().write(LogLevel::info, summary_of(building, one));
+      if (arguments_.is_verbose)
+        run_log().write(LogLevel::info, printable(summary_of(building, one)));
       if (report_)
         report_->append(repair_json(building, one.solid.has_value(), one.report, one.issues));
     }

@@ -1,5 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/print_out.h"
+#include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
 
@@ -24,8 +26,9 @@ std::string counts_of(const std::string& path, const RuleBase& pack) {
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
-  return fmt::format("{}: pack {} {}, {} for {}\n", path, pack.name(), pack.version(),
-                     counted(pack.rule_count(), "rule"), counted(pack.labels().size(), "label"));
+  return fmt::format("{}: pack {} {}, {} for {}\n", printable(path), printable(pack.name()),
+                     printable(pack.version()), counted(pack.rule_count(), "rule"),
+                     counted(pack.labels().size(), "label"));
 }
 
 struct RulesCheckArguments {
@@ -53,9 +56,13 @@ ExitCode check(const RulesCheckArguments& arguments) {
     if (!pack.value)
       code = ExitCode::rules;
     else if (!arguments.is_json)
-      std::fputs(counts_of(path, *pack.value).c_str(), stdout);
+      print_out(counts_of(path, *pack.value));
   }
-  if (arguments.is_json) std::fputs((findings.dump() + "\n").c_str(), stdout);
+  if (arguments.is_json)
+    std::fputs(
+        (findings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n")
+            .c_str(),
+        stdout);
   return code;
 }
 
@@ -104,10 +111,10 @@ ExitCode test(const RulesTestArguments& arguments) {
       code = ExitCode::rules;
       continue;
     }
-    std::fputs(to_text(*tested.value).c_str(), stdout);
+    print_out(to_text(*tested.value));
     if (!is_covered(*tested.value, arguments)) {
       code = ExitCode::rules;
-      run_log().write(LogLevel::error, file + ": less is covered than was asked for");
+      run_log().write(LogLevel::error, printable(file) + ": less is covered than was asked for");
     }
     if (tested.value->failed() > 0) code = ExitCode::rules;
     reports.push_back(std::move(*tested.value));
@@ -161,7 +168,7 @@ ExitCode format(const RulesPrintArguments& arguments) {
       code = graver(code, ExitCode::rules);
     } else if (arguments.is_check) {
       if (*formatted.value == text_of(pack)) continue;
-      run_log().write(LogLevel::error, pack + " is not in canonical form");
+      run_log().write(LogLevel::error, printable(pack) + " is not in canonical form");
       code = graver(code, ExitCode::rules);
     } else if (!arguments.is_write) {
       std::fputs(formatted.value->c_str(), stdout);

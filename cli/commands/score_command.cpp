@@ -2,6 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/print_out.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/score.h"
@@ -179,7 +180,7 @@ ExitCode score_features(const ScoreArguments& arguments) {
     write_file(arguments.per_building, per_building_csv(buildings));
   if (!arguments.curve.empty())
     write_file(arguments.curve, curve_csv(precision_recall_curve(all, options)));
-  std::fputs(text.c_str(), stdout);
+  print_out(text, arguments.is_json);
   return code;
 }
 
@@ -197,7 +198,7 @@ ExitCode score_surfaces(const ScoreArguments& arguments) {
                          OpeningPolicy::as_host, score);
   });
   const ExitCode code = runner.run(visitor);
-  std::fputs((arguments.is_json ? to_json(score) + "\n" : to_text(score)).c_str(), stdout);
+  print_out(arguments.is_json ? to_json(score) + "\n" : to_text(score), arguments.is_json);
   return code;
 }
 

@@ -2,6 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
 #include "oriel/segment.h"
@@ -45,9 +46,9 @@ std::string segment_listing(const Building& building, const PipelineResult& line
          number(id, Attribute::b), number(id, Attribute::c), number(id, Attribute::base_height)});
   }
   const SegmentationStats& stats = segmentation.stats;
-  return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n", building.id,
-                     line.solid->planes.size(), segmentation.features.size(), stats.leaves,
-                     stats.inner, table(rows));
+  return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n",
+                     printable(building.id), line.solid->planes.size(),
+                     segmentation.features.size(), stats.leaves, stats.inner, table(rows));
 }
 
 using nlohmann::ordered_json;
@@ -94,9 +95,10 @@ std::string text_of(const BalanceProof& proof) {
 /// (docs/formats.md).
 std::string tree_report(const std::string& building, const TreeComparison& trees, bool is_json) {
   if (!is_json)
-    return fmt::format("{}:\n  as cut    {}\n  balanced  {}; {}\n  merged    {}; {}\n", building,
-                       text_of(trees.cut), text_of(trees.balanced), text_of(trees.balanced_proof),
-                       text_of(trees.merged), text_of(trees.merged_proof));
+    return fmt::format("{}:\n  as cut    {}\n  balanced  {}; {}\n  merged    {}; {}\n",
+                       printable(building), text_of(trees.cut), text_of(trees.balanced),
+                       text_of(trees.balanced_proof), text_of(trees.merged),
+                       text_of(trees.merged_proof));
   ordered_json out{
       {"id", building}, {"cut", json_of(trees.cut)}, {"balanced", json_of(trees.balanced)}};
   out["balanced"]["proof"] = json_of(trees.balanced_proof);

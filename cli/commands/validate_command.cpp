@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/read.h"
 #include "oriel/validate.h"
@@ -80,12 +81,12 @@ std::string json_line(const BuildingFindings& found) {
 
 std::string text_of(const BuildingFindings& found) {
   if (found.findings.empty())
-    return fmt::format("{}: valid{}\n", found.id,
+    return fmt::format("{}: valid{}\n", printable(found.id),
                        found.primitive == "surfaces" ? " as loose surfaces" : "");
-  std::string text = fmt::format("{}: {} finding{}\n", found.id, found.findings.size(),
+  std::string text = fmt::format("{}: {} finding{}\n", printable(found.id), found.findings.size(),
                                  found.findings.size() == 1 ? "" : "s");
   for (const Finding& finding : found.findings) {
-    text += fmt::format("  {} {}", to_string(finding.code), finding.sentence);
+    text += fmt::format("  {} {}", to_string(finding.code), printable(finding.sentence));
     // Sentences of reading name the number themselves.
     if (finding.val3dity > 0 && finding.sentence.find("(val3dity ") == std::string::npos)
       text += fmt::format(" (val3dity {} {})", finding.val3dity, val3dity_name(finding.val3dity));

@@ -1,9 +1,18 @@
 #include "cli/output/change_report.h"
 
+#include "kernel/base/printable.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace oriel::cli {
+
+namespace {
+
+/// Ids of OBJ and records may be any bytes.
+constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+
+}  // namespace
 
 void ChangeReport::begin(bool is_rehearsal) {
   if (is_rehearsal) return;
@@ -28,14 +37,14 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
       line["rule"] = one.rule;
       line["code"] = to_string(one.code);
       line["reason"] = one.reason;
-      all += line.dump() + "\n";
+      all += line.dump(-1, ' ', false, kReplace) + "\n";
       continue;
     }
     std::string text = fmt::format("{} {} {} {}: {}", target, building, one.feature,
                                    one.label.empty() ? "unknown" : one.label, one.outcome);
     if (!one.operation.empty()) text += fmt::format(", {} by {}", one.operation, one.rule);
     if (!one.reason.empty()) text += fmt::format(" ({} {})", to_string(one.code), one.reason);
-    all += text + '\n';
+    all += printable(text) + '\n';
   }
   return all;
 }
@@ -57,7 +66,7 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
   both("volume_m3", [](const SolidFigures& f) { return f.volume_m3; });
   both("footprint_m2", [](const SolidFigures& f) { return f.footprint_m2; });
   line["hausdorff_m"] = figures.hausdorff_m;
-  return line.dump() + "\n";
+  return line.dump(-1, ' ', false, kReplace) + "\n";
 }
 
 void ChangeReport::take(const Product& product) {

@@ -1,6 +1,8 @@
 #include "cli/output/label_outputs.h"
 
 #include "cli/terminal/logging.h"
+#include "cli/terminal/print_out.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -102,14 +104,14 @@ void LabelOutputs::make_features(const Building& building, const PipelineResult&
 void LabelOutputs::take(const Document& document, const Product& product) {
   if (sink_) sink_->take(document, product.labelled, product[OutputPart::buildings]);
   if (features_) features_->append(product[OutputPart::features]);
-  std::fputs(product[OutputPart::listing].c_str(), stdout);
+  print_out(product[OutputPart::listing]);
 }
 
 void LabelOutputs::end() {
   has_ended_ = true;
   if (!sink_) return;
   const std::string path = sink_->end();
-  if (path != "-" && arguments_.is_verbose) run_log().info("wrote {}", path);
+  if (path != "-" && arguments_.is_verbose) run_log().info("wrote {}", printable(path));
 }
 
 void LabelOutputs::commit() {

@@ -5,6 +5,7 @@
 #include "cli/output/output_sink.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/printable.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/operation_log.h"
@@ -348,7 +349,7 @@ ExitCode write_level_at(const std::string& name, double scale, const std::string
   report.add(level.issues);
   if (!level.is_complete) return ExitCode::input;
   file().commit();
-  run_log().info("1:{} from {}", scale, level.from_file);
+  run_log().info("1:{} from {}", scale, printable(level.from_file));
   return ExitCode::clean;
 }
 

@@ -1,5 +1,7 @@
 #include "cli/terminal/logging.h"
 
+#include "kernel/base/printable.h"
+
 #include <chrono>
 #include <cstdlib>
 #include <memory>
@@ -46,7 +48,9 @@ class TextFormatter final : public spdlog::formatter {
     else if (logger != kRun && logger != kProgress)
       append(line,
              fmt::format("[{}] {}: ", view(spdlog::level::to_string_view(message.level)), logger));
-    append(line, view(message.payload));
+    const bool is_of_room = logger != kFindings && logger != kRun && logger != kProgress;
+    const std::string_view text = view(message.payload);
+    append(line, is_of_room ? printable(text) : printable_lines(text));
     append(line, "\n");
   }
 

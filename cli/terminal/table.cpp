@@ -1,5 +1,7 @@
 #include "cli/terminal/table.h"
 
+#include "kernel/base/printable.h"
+
 #include <algorithm>
 
 namespace oriel::cli {
@@ -18,7 +20,9 @@ bool is_number(const std::string& text) {
 
 }  // namespace
 
-std::string table(const std::vector<std::vector<std::string>>& rows) {
+std::string table(std::vector<std::vector<std::string>> rows) {
+  for (auto& row : rows)
+    for (std::string& cell : row) cell = printable(cell);
   std::vector<std::size_t> widths;
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) {

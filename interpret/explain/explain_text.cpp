@@ -1,4 +1,5 @@
 #include "interpret/explain/explain.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -224,18 +225,18 @@ std::string to_text(const Explanation& explanation) {
     start += width + 2;
     columns[cell] = start;
   }
-  std::string text = headline(explanation) + "\n";
+  std::string text = printable(headline(explanation)) + "\n";
   for (std::size_t i = 0; i < explanation.rounds.size(); ++i)
-    text += fmt::format("  round {}: {}\n", i + 1, to_string(explanation.rounds[i]));
+    text += fmt::format("  round {}: {}\n", i + 1, printable(to_string(explanation.rounds[i])));
   for (const ExplanationRow& line : lines) {
     std::string row(line.indent, ' ');
     for (std::size_t cell = 0; cell < columns.size(); ++cell) {
       row += line.cells[cell];
       pad(row, columns[cell]);
     }
-    text += row + place_text(line.place) + "\n";
+    text += printable(row + place_text(line.place)) + "\n";
   }
-  if (explanation.flip) text += "  " + flip_line(*explanation.flip) + "\n";
+  if (explanation.flip) text += "  " + printable(flip_line(*explanation.flip)) + "\n";
   return text;
 }
 

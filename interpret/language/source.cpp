@@ -1,5 +1,7 @@
 #include "interpret/language/source.h"
 
+#include "kernel/base/printable.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -33,22 +35,6 @@ std::string as_blanks(std::string_view text) {
   for (const char c : text)
     if (starts_character(c)) blanks += c == '\t' ? '\t' : ' ';
   return blanks;
-}
-
-/// The length of the UTF-8 character at the start of `text`, or 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return static_cast<unsigned>(static_cast<unsigned char>(text[i]));
-  };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t size = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < size) return 0;
-  for (std::size_t i = 1; i < size; ++i)
-    if (starts_character(text[i])) return 0;
-  const bool is_overlong = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
-  const bool is_outside = (lead == 0xED && byte(1) >= 0xA0) || (lead == 0xF4 && byte(1) >= 0x90);
-  return is_overlong || is_outside ? 0 : size;
 }
 
 }  // namespace
@@ -131,7 +117,7 @@ std::size_t find_bad_byte(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const bool is_control = byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r';
-    const std::size_t size = is_control || byte == 0x7F ? 0 : utf8_length(text.substr(i));
+    const std::size_t size = is_control || byte == 0x7F ? 0 : utf8_length(text, i);
     if (size == 0) return i;
     i += size;
   }

@@ -2,6 +2,7 @@
 
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/printable.h"
 #include "kernel/geometry/boxes.h"
 
 #include <algorithm>
@@ -99,8 +100,8 @@ std::string to_text(const AreaScore& score) {
                                  "both m2", "ours m2", "true m2", "precision", "recall", "F1");
   for (const auto& [label, area] : score.classes)
     text +=
-        fmt::format("{:<12} {:>9.2f} {:>9.2f} {:>9.2f} {:>10} {:>7} {:>6}\n", label, area.both_m2,
-                    area.predicted_m2, area.expected_m2, ratio_text(area.precision()),
+        fmt::format("{:<12} {:>9.2f} {:>9.2f} {:>9.2f} {:>10} {:>7} {:>6}\n", printable(label),
+                    area.both_m2, area.predicted_m2, area.expected_m2, ratio_text(area.precision()),
                     ratio_text(area.recall()), ratio_text(area.f1()));
   return text + fmt::format("macro-F1 by area {}, of {:.2f} m2\n", ratio_text(score.macro_f1()),
                             score.compared_m2);

@@ -1,6 +1,7 @@
 #include "interpret/score/label_diff.h"
 
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 #include <tuple>
@@ -20,7 +21,9 @@ void sort_by_id(std::vector<NamedFeature>& features) {
 
 using rules::json_string;
 
-std::string label_text(const std::string& label) { return label.empty() ? "unknown" : label; }
+std::string label_text(const std::string& label) {
+  return label.empty() ? "unknown" : printable(label);
+}
 
 /// The most frequent first; the order of names where they are equally frequent.
 std::vector<const LabelDiff::Changes::value_type*> by_count(const LabelDiff& diff) {
@@ -34,12 +37,14 @@ std::vector<const LabelDiff::Changes::value_type*> by_count(const LabelDiff& dif
 std::string examples_text(const LabelDiff::LabelChange& change) {
   std::string text;
   for (const auto& [building, id] : change.examples)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", building, id);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", printable(building), printable(id));
   if (change.count > change.examples.size()) text += ", …";
   return text;
 }
 
-std::string rule_text(const Naming& naming) { return naming.rule.empty() ? "-" : naming.rule; }
+std::string rule_text(const Naming& naming) {
+  return naming.rule.empty() ? "-" : printable(naming.rule);
+}
 
 std::string change_line(const LabelDiff::Changes::value_type& entry) {
   const auto& [before, after] = entry.first;

@@ -2,6 +2,7 @@
 
 #include "interpret/pack/pack.h"
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +53,8 @@ void add_mistake(const Miss& miss, RuleScore& rule) {
 
 std::string rule_line(const std::string& id, const RuleScore& rule, std::size_t width) {
   const double precision = rule.precision();
-  return fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>9} {:>10}\n", id, width, rule.label,
-                     rule.decided(), rule.right, rule.wrong, rule.left_out,
+  return fmt::format("{:<{}} {:<10} {:>7} {:>6} {:>6} {:>9} {:>10}\n", printable(id), width,
+                     printable(rule.label), rule.decided(), rule.right, rule.wrong, rule.left_out,
                      std::isnan(precision) ? "-" : fmt::format("{:.3f}", precision));
 }
 
@@ -62,7 +63,7 @@ std::string wrong_line(const RuleScore& rule) {
   std::string text;
   for (const auto& [label, count] : rule.taken_for)
     text += fmt::format("{}{} {}", text.empty() ? "    wrong: " : ", ", count,
-                        label == kNoObject ? "nothing there" : label);
+                        label == kNoObject ? "nothing there" : printable(label));
   return text.empty() ? text : text + "\n";
 }
 
@@ -70,17 +71,18 @@ std::string wrong_line(const RuleScore& rule) {
 std::string contest_line(const RuleScore& rule) {
   std::string text;
   for (const auto& [label, contest] : rule.contests) {
-    text +=
-        fmt::format("{}{} by {}", text.empty() ? "    contested: " : ", ", contest.count, label);
+    text += fmt::format("{}{} by {}", text.empty() ? "    contested: " : ", ", contest.count,
+                        printable(label));
     if (contest.wrong == 0) continue;
-    text +=
-        fmt::format(" ({} wrong, {} of them a {})", contest.wrong, contest.second_is_right, label);
+    text += fmt::format(" ({} wrong, {} of them a {})", contest.wrong, contest.second_is_right,
+                        printable(label));
   }
   return text.empty() ? text : text + "\n";
 }
 
-std::string mistake_line(const std::string& id, const Miss& miss) {
-  const std::string where = fmt::format("  {} {}: {} was called {}", id, miss.building,
+std::string mistake_line(const std::string& id, const Miss& of) {
+  const Miss miss = printable(of);
+  const std::string where = fmt::format("  {} {}: {} was called {}", printable(id), miss.building,
                                         miss.prediction_id, miss.prediction_label);
   if (miss.truth_id.empty()) return where + ", but nothing is there\n";
   return fmt::format("{}, is {} {} (IoU {:.2f})\n", where, miss.truth_label, miss.truth_id,
@@ -97,7 +99,7 @@ std::string idle_lines(const std::map<std::string, RuleScore>& rules) {
       text += line + "\n";
       line = "   ";
     }
-    line += " " + id + ",";
+    line += " " + printable(id) + ",";
   }
   if (!line.ends_with(',')) return {};
   line.back() = '\n';
@@ -211,7 +213,7 @@ std::string to_text(const std::map<std::string, RuleScore>& rules, std::size_t m
     const std::size_t shown = std::min(most, rule.mistakes.size());
     for (std::size_t i = 0; i < shown; ++i) text += mistake_line(id, rule.mistakes[i]);
     if (const std::size_t more = rule.mistakes.size() - shown; more > 0)
-      text += fmt::format("  {} ... and {} more\n", id, more);
+      text += fmt::format("  {} ... and {} more\n", printable(id), more);
   }
   return text;
 }

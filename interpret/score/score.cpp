@@ -1,6 +1,7 @@
 #include "interpret/score/score.h"
 
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/printable.h"
 #include "kernel/geometry/boxes.h"
 
 #include <algorithm>
@@ -133,12 +134,14 @@ using rules::json_string;
 std::string percent(double share) { return std::isnan(share) ? "-" : fmt::format("{:.3f}", share); }
 
 std::string class_line(const std::string& label, const ClassScore& counts) {
-  return fmt::format("{:<12} {:>6} {:>6} {:>6} {:>10} {:>7} {:>6}\n", label, counts.true_positives,
-                     counts.false_positives, counts.false_negatives, percent(counts.precision()),
-                     percent(counts.recall()), percent(counts.f1()));
+  return fmt::format("{:<12} {:>6} {:>6} {:>6} {:>10} {:>7} {:>6}\n", printable(label),
+                     counts.true_positives, counts.false_positives, counts.false_negatives,
+                     percent(counts.precision()), percent(counts.recall()), percent(counts.f1()));
 }
 
-std::string miss_line(const Miss& miss) {
+/// All words of it printable.
+std::string miss_line(const Miss& of) {
+  const Miss miss = printable(of);
   if (miss.prediction_id.empty())
     return fmt::format("  {}: {} {} was not found\n", miss.building, miss.truth_label,
                        miss.truth_id);
@@ -169,6 +172,12 @@ void append(std::string& list, const std::string& element) {
 }
 
 }  // namespace
+
+Miss printable(const Miss& miss) {
+  return {printable(miss.building),         printable(miss.truth_id),
+          printable(miss.truth_label),      printable(miss.prediction_id),
+          printable(miss.prediction_label), miss.iou};
+}
 
 bool is_left_out(const ExpectedObject& object) {
   return !object.has_faces || (object.label == "other" && object.subclass == "installation");
@@ -252,7 +261,8 @@ std::string to_text(const Score& score, std::size_t max_misses) {
     text += fmt::format("{} predictions on objects that are left out\n", score.neutral);
   if (!score.confusion.empty()) text += "truth -> predicted\n";
   for (const auto& [labels, count] : score.confusion)
-    text += fmt::format("  {:<12} -> {:<12} {:>6}\n", labels.first, labels.second, count);
+    text += fmt::format("  {:<12} -> {:<12} {:>6}\n", printable(labels.first),
+                        printable(labels.second), count);
   const std::size_t shown = std::min(max_misses, score.misses.size());
   if (!score.misses.empty()) text += fmt::format("misses: {}\n", score.misses.size());
   for (std::size_t i = 0; i < shown; ++i) text += miss_line(score.misses[i]);

@@ -73,6 +73,9 @@ struct Miss {
   double iou = 0;
 };
 
+/// The miss with its words as people may see them (kernel/base/printable.h).
+Miss printable(const Miss& miss);
+
 struct Score {
   /// By label: those of the truth that are scored, and those that were predicted.
   std::map<std::string, ClassScore> classes;

@@ -1,6 +1,7 @@
 #include "interpret/score/score_spread.h"
 
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,7 +110,8 @@ std::string to_text(const Intervals& intervals) {
   std::string text =
       fmt::format("95 % of {} samples of the buildings have F1\n", intervals.samples);
   for (const auto& [label, interval] : intervals.f1)
-    text += fmt::format("  {:<12} {:.3f} to {:.3f}\n", label, interval.low, interval.high);
+    text +=
+        fmt::format("  {:<12} {:.3f} to {:.3f}\n", printable(label), interval.low, interval.high);
   return text + fmt::format("  {:<12} {:.3f} to {:.3f}\n", "macro-F1", intervals.macro_f1.low,
                             intervals.macro_f1.high);
 }

@@ -2,6 +2,7 @@
 
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,7 +119,7 @@ std::string to_text(const SurfaceScore& score) {
                                  "ours m2", "precision", "recall");
   for (const std::string& type : types_of(score)) {
     const auto [theirs, ours] = areas_of(score, type);
-    text += fmt::format("{:<20}{:>13.2f}{:>13.2f}{:>11}{:>9}\n", type, theirs, ours,
+    text += fmt::format("{:<20}{:>13.2f}{:>13.2f}{:>11}{:>9}\n", printable(type), theirs, ours,
                         share_text(score.precision(type)), share_text(score.recall(type)));
   }
   text += fmt::format("agreement {} of {} polygons", share_text(score.agreement()), score.polygons);
@@ -129,8 +130,8 @@ std::string to_text(const SurfaceScore& score) {
   if (!score.differences.empty()) text += "theirs -> ours\n";
   for (const auto& [pair, area] : score.area_m2)
     if (pair.first != pair.second)
-      text += fmt::format("  {:<20} -> {:<20}{:>11.2f} m2\n", pair.first,
-                          pair.second.empty() ? "-" : pair.second, area);
+      text += fmt::format("  {:<20} -> {:<20}{:>11.2f} m2\n", printable(pair.first),
+                          pair.second.empty() ? "-" : printable(pair.second), area);
   return text;
 }
 
@@ -142,8 +143,9 @@ std::string differences_text(const SurfaceScore& score) {
   for (const SurfaceDifference* d : sorted)
     text += fmt::format(
         "{}: polygon {} is {}, by the rules {}: {:.2f} m2 at ({:.3f}, {:.3f}, {:.3f})\n",
-        d->building, d->polygon, d->theirs, d->ours.empty() ? "nothing" : d->ours, d->area_m2,
-        d->place.x, d->place.y, d->place.z);
+        printable(d->building), d->polygon, printable(d->theirs),
+        d->ours.empty() ? "nothing" : printable(d->ours), d->area_m2, d->place.x, d->place.y,
+        d->place.z);
   return text;
 }
 

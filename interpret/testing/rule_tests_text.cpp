@@ -1,4 +1,5 @@
 #include "interpret/testing/rule_tests.h"
+#include "kernel/base/printable.h"
 
 #include <algorithm>
 
@@ -9,7 +10,7 @@ namespace oriel {
 namespace {
 
 std::string text_of(const Place& place) {
-  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+  return fmt::format("{}:{}:{}", printable(place.file), place.line, place.column);
 }
 
 std::string escaped(const std::string& text) {
@@ -31,8 +32,8 @@ std::string escaped(const std::string& text) {
       case '\n':
         out += "&#10;";
         break;
-      default:
-        out += c;
+      default:  // XML has no way to write other control characters
+        out += static_cast<unsigned char>(c) < 0x20U ? printable({&c, 1}) : std::string(1, c);
     }
   }
   return out;
@@ -51,13 +52,14 @@ std::string testcase(const RuleTestReport& report, const RuleTestResult& test) {
 
 std::string uncovered(const RuleCoverage& rule) {
   std::string text;
-  if (rule.held == 0) text += fmt::format("  {}: never holds ({})\n", rule.id, text_of(rule.place));
+  if (rule.held == 0)
+    text += fmt::format("  {}: never holds ({})\n", printable(rule.id), text_of(rule.place));
   for (const ConditionCoverage& condition : rule.conditions) {
     if (condition.is_covered()) continue;
     const char* what = condition.held > 0     ? "never fails"
                        : condition.failed > 0 ? "never holds"
                                               : "is never known";
-    text += fmt::format("  {}: '{}' {} ({})\n", rule.id, condition.text, what,
+    text += fmt::format("  {}: '{}' {} ({})\n", printable(rule.id), printable(condition.text), what,
                         text_of(condition.place));
   }
   return text;
@@ -69,15 +71,17 @@ std::string to_text(const RuleTestReport& report) {
   std::string text;
   for (const RuleTestResult& test : report.tests)
     for (const std::string& failure : test.failures)
-      text += fmt::format("{}: failed: {}: {}\n", text_of(test.place), test.name, failure);
+      text += fmt::format("{}: failed: {}: {}\n", text_of(test.place), printable(test.name),
+                          printable(failure));
   std::string gaps;
   for (const RuleCoverage& rule : report.rules) gaps += uncovered(rule);
   if (!gaps.empty()) text += "not covered:\n" + gaps;
   return text + fmt::format(
                     "{}: {} of {} tests passed; {:.1f} % of rules held, {:.1f} % of "
                     "conditions held and failed\n",
-                    report.file, report.tests.size() - report.failed(), report.tests.size(),
-                    report.rule_coverage() * 100, report.condition_coverage() * 100);
+                    printable(report.file), report.tests.size() - report.failed(),
+                    report.tests.size(), report.rule_coverage() * 100,
+                    report.condition_coverage() * 100);
 }
 
 std::string to_junit(const std::vector<RuleTestReport>& reports) {

@@ -1,5 +1,7 @@
 #include "kernel/base/issue.h"
 
+#include "kernel/base/printable.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -21,11 +23,16 @@ std::string to_string(Severity severity) {
 namespace {
 
 std::string place_text(const Place& place) {
-  std::string text = place.file;
+  std::string text = printable(place.file);
   if (place.line > 0) text += fmt::format(":{}", place.line);
   if (place.line > 0 && place.column > 0) text += fmt::format(":{}", place.column);
-  if (!place.building.empty()) text += (text.empty() ? "" : ": ") + place.building;
-  if (!place.feature.empty()) text += (text.empty() ? "" : " ") + place.feature;
+  const auto add = [&](const char* separator, const std::string& word) {
+    if (word.empty()) return;
+    if (!text.empty()) text += separator;
+    text += printable(word);
+  };
+  add(": ", place.building);
+  add(" ", place.feature);
   return text;
 }
 
@@ -35,8 +42,8 @@ std::string to_string(const Issue& issue) {
   std::string text = place_text(issue.place);
   if (!text.empty()) text += ": ";
   if (issue.code != Code::none) text += to_string(issue.code) + " ";
-  text += issue.sentence;
-  if (!issue.excerpt.empty()) text += "\n" + issue.excerpt;
+  text += printable(issue.sentence);
+  if (!issue.excerpt.empty()) text.append("\n").append(printable_lines(issue.excerpt));
   return text;
 }
 

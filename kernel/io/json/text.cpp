@@ -1,5 +1,7 @@
 #include "kernel/io/json/text.h"
 
+#include "kernel/base/printable.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -16,32 +18,14 @@ constexpr std::size_t kQuoted = 40;
 
 constexpr bool is_continuation(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
 
-/// The length of the UTF-8 sequence at `text[at]`, 0 if there is none.
-std::size_t sequence_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80U) return 1;
-  const std::size_t length = first >= 0xF0U ? 4 : first >= 0xE0U ? 3 : 2;
-  if (first < 0xC2U || first > 0xF4U) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if (!is_continuation(static_cast<unsigned char>(byte(i)))) return 0;
-  // Overlong forms, surrogates and code points beyond U+10FFFF.
-  if ((first == 0xE0U && byte(1) < 0xA0U) || (first == 0xEDU && byte(1) > 0x9FU)) return 0;
-  if ((first == 0xF0U && byte(1) < 0x90U) || (first == 0xF4U && byte(1) > 0x8FU)) return 0;
-  return length;
-}
-
-/// `text` with everything that a terminal would not show replaced by '?'.
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::size_t at = 0;
-  while (at < result.size()) {
-    const std::size_t length = sequence_length(result, at);
-    const auto byte = static_cast<unsigned char>(result[at]);
-    if (length == 0 || byte < 0x20U || byte == 0x7FU) result[at] = '?';
-    at += std::max<std::size_t>(length, 1);
+/// `text` with a '?' for each character that is not printable, so that the caret stays under its
+/// place.
+std::string with_question_marks(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = std::max<std::size_t>(utf8_length(text, at), 1);
+    result += is_printable(text, at) ? text.substr(at, length) : "?";
+    at += length;
   }
   return result;
 }
@@ -52,10 +36,10 @@ std::string excerpt(std::string_view line, std::size_t offset) {
   while (from > 0 && is_continuation(static_cast<unsigned char>(line[from]))) --from;
   std::size_t to = std::min(line.size(), offset + kShown);
   while (to < line.size() && is_continuation(static_cast<unsigned char>(line[to]))) ++to;
-  const std::string before = printable(line.substr(from, offset - from));
+  const std::string before = with_question_marks(line.substr(from, offset - from));
   const auto columns = std::ranges::count_if(
       before, [](char c) { return !is_continuation(static_cast<unsigned char>(c)); });
-  return "  " + printable(line.substr(from, to - from)) + "\n  " +
+  return "  " + with_question_marks(line.substr(from, to - from)) + "\n  " +
          std::string(static_cast<std::size_t>(columns), ' ') + "^";
 }
 
@@ -92,7 +76,8 @@ Issue finding_of(const TextName& name, Severity severity, std::string_view build
 std::optional<std::size_t> find_non_utf8(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
-    const std::size_t length = sequence_length(text, at);
+    const bool is_ascii = static_cast<unsigned char>(text[at]) < 0x80U;
+    const std::size_t length = is_ascii ? 1 : utf8_length(text, at);
     if (length == 0) return at;
     at += length;
   }
@@ -109,19 +94,7 @@ std::string in_quotes(std::string_view text) {
   const bool is_cut = text.size() > kQuoted;
   std::size_t end = std::min(text.size(), kQuoted);
   while (end < text.size() && is_continuation(static_cast<unsigned char>(text[end]))) ++end;
-  text = text.substr(0, end);
-  std::string result = "'";
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t length = sequence_length(text, at);
-    const auto byte = static_cast<unsigned char>(text[at]);
-    if (length == 0 || byte < 0x20U || byte == 0x7FU)
-      result += fmt::format("\\x{:02X}", byte);
-    else
-      result += text.substr(at, length);
-    at += std::max<std::size_t>(length, 1);
-  }
-  return result + (is_cut ? "…'" : "'");
+  return fmt::format("'{}{}'", printable(text.substr(0, end)), is_cut ? "…" : "");
 }
 
 }  // namespace oriel::detail

@@ -37,8 +37,7 @@ std::optional<std::size_t> find_non_utf8(std::string_view text);
 /// `text` without a byte order mark at its start.
 std::string_view without_bom(std::string_view text);
 
-/// `text` as it may stand in a message: in single quotes, control bytes and what is not UTF-8 as
-/// \xHH, cut after 40 bytes.
+/// `text` as it may stand in a message: printable(), in single quotes, cut after 40 bytes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace oriel::detail
