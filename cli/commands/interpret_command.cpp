@@ -1,5 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
@@ -33,6 +34,7 @@ struct InterpretArguments {
   std::vector<std::string> records;
   std::string rules = "residential";
   std::string out;
+  bool has_safe_cells = false;
   std::size_t examples = 3;
   int jobs = 1;
   bool is_watching = false;
@@ -139,12 +141,16 @@ class StoredFeatures {
   }
 
   /// Writes the records as they were read with the verdicts of `run`.
-  void write(const std::string& path, const std::vector<Interpretation>& run) {
+  void write(const std::string& path, bool has_safe_cells, const std::vector<Interpretation>& run) {
+    const RecordFormat format = *record_format_of(path);
     FeatureRecordWriter writer(path);
     RecordLabeller labeller(buildings_, run);
     for (const std::string& file : files_) {
       const auto issues = visit_feature_records(file, [&](FeatureRecord record) {
-        if (labeller.label(record)) writer.append({std::move(record)});
+        if (!labeller.label(record)) return;
+        const std::string text = FeatureRecordWriter::text(format, {std::move(record)});
+        const bool is_safe = has_safe_cells && format == RecordFormat::csv;
+        writer.append(is_safe ? with_safe_cells(text) : text);
       });
       // Boxes and polygons, without which the tables could be read, are not reported yet.
       if (has_errors(issues) && code_ == ExitCode::clean) {
@@ -221,7 +227,7 @@ ExitCode work(const InterpretArguments& arguments) {
   if (arguments.out.empty())
     print(listing(run));
   else if (!features.buildings().empty() || features.code() != ExitCode::input)
-    features.write(arguments.out, run);
+    features.write(arguments.out, arguments.has_safe_cells, run);
   return features.code();
 }
 
@@ -238,6 +244,7 @@ void add_interpret(CLI::App& app, Action& action) {
   add_rules_argument(*command, arguments->rules);
   add_records_output(*command, "-o,--output", arguments->out,
                      "Write the records with their new labels: .csv, .json or .jsonl");
+  add_safe_cells_argument(*command, arguments->has_safe_cells);
   command->add_flag("--watch", arguments->is_watching,
                     "Do it again whenever the pack is saved, and say what changed");
   command->add_option("--examples", arguments->examples, "With --watch: so many of each change")

@@ -208,6 +208,12 @@ void add_records_output(CLI::App& command, const std::string& option, std::strin
   });
 }
 
+void add_safe_cells_argument(CLI::App& command, bool& is_safe) {
+  command.add_flag("--safe-cells", is_safe,
+                   "In CSV put a ' before cells that a spreadsheet would run as a formula: those "
+                   "that begin with = + - @ and are no numbers");
+}
+
 void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_line_arguments(command, a, true);
   add_rules_argument(command, a.rules);
@@ -216,6 +222,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   add_features_argument(command, a.features);
+  add_safe_cells_argument(command, a.has_safe_cells);
   add_resume_argument(command, a);
   add_reuse_argument(command, a);
   add_isolate_argument(command, a);

@@ -58,6 +58,9 @@ void add_features_argument(CLI::App& command, std::string& file);
 void add_records_output(CLI::App& command, const std::string& option, std::string& file,
                         const std::string& what);
 
+/// Adds `--safe-cells`, for commands that write CSV.
+void add_safe_cells_argument(CLI::App& command, bool& is_safe);
+
 /// Adds all that the commands share that label buildings and write them.
 void add_label_arguments(CLI::App& command, LabellingArguments& arguments);
 

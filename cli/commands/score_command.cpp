@@ -1,6 +1,7 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "kernel/io/files/output_file.h"
@@ -37,6 +38,7 @@ struct ScoreArguments : RunOptions {
   std::string curve;
   std::size_t samples = 0;
   bool is_by_rule = false;
+  bool has_safe_cells = false;
   bool is_json = false;
 };
 
@@ -144,6 +146,10 @@ std::string curve_csv(const std::vector<CurvePoint>& curve) {
   return text;
 }
 
+std::string cells_of(const std::string& csv, const ScoreArguments& arguments) {
+  return arguments.has_safe_cells ? with_safe_cells(csv) : csv;
+}
+
 ExitCode score_features(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
   std::optional<RuleBase> pack;
@@ -177,9 +183,10 @@ ExitCode score_features(const ScoreArguments& arguments) {
   }
   if (arguments.is_json) text = to_json(result, members) + "\n";
   if (!arguments.per_building.empty())
-    write_file(arguments.per_building, per_building_csv(buildings));
+    write_file(arguments.per_building, cells_of(per_building_csv(buildings), arguments));
   if (!arguments.curve.empty())
-    write_file(arguments.curve, curve_csv(precision_recall_curve(all, options)));
+    write_file(arguments.curve,
+               cells_of(curve_csv(precision_recall_curve(all, options)), arguments));
   print_out(text, arguments.is_json);
   return code;
 }
@@ -220,6 +227,7 @@ void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
                      "Write what was found in each building, as CSV");
   command.add_option("--curve", arguments.curve,
                      "Write precision and recall over the rules' score, as CSV");
+  add_safe_cells_argument(command, arguments.has_safe_cells);
   command
       .add_option("--bootstrap", arguments.samples,
                   "Also the 95 % intervals of F1 over so many samples of the buildings")

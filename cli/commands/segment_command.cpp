@@ -1,6 +1,7 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/safe_cells.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
@@ -25,6 +26,7 @@ struct SegmentArguments : RunOptions {
   bool has_tree = false;
   std::string out = "-";
   std::string features;
+  bool has_safe_cells = false;
 };
 
 /// The features of a building for a reader at a terminal.
@@ -156,7 +158,11 @@ class Segmenter final : public VisitingCommand {
             ? segmentation_json(building, *line.segmentation, table, complex ? &*complex : nullptr)
             : segment_listing(building, line);
     if (text_) text_->append(text);
-    if (features_) features_->append(feature_records(building, line));
+    if (!features_) return;
+    const RecordFormat format = *record_format_of(arguments_.features);
+    const std::string records = FeatureRecordWriter::text(format, feature_records(building, line));
+    const bool is_safe = arguments_.has_safe_cells && format == RecordFormat::csv;
+    features_->append(is_safe ? with_safe_cells(records) : records);
   }
 
   /// Of an open building nothing: it has no tree.
@@ -203,6 +209,7 @@ void add_segment(CLI::App& app, Action& action) {
                     "merged, its depth and weighted path, and the proof that it is the same body");
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   add_features_argument(*command, arguments->features);
+  add_safe_cells_argument(*command, arguments->has_safe_cells);
   command->footer(
       "Example:\n  oriel segment house.city.json --json | jq .stats\n  oriel segment "
       "tile.city.jsonl --lod 2.2 --features parts.csv");

@@ -1,5 +1,6 @@
 #include "cli/output/label_outputs.h"
 
+#include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "kernel/base/printable.h"
@@ -78,10 +79,10 @@ PartPlaces LabelOutputs::places() const {
 
 std::string LabelOutputs::recipe() const {
   if (!has_any() || !is_streaming() || arguments_.features.ends_with(".json")) return {};
-  return fmt::format("codelist={} buildings={} features={} ignores={}", arguments_.codelist,
+  return fmt::format("codelist={} buildings={} features={} safe={} ignores={}", arguments_.codelist,
                      has_buildings(),
                      std::filesystem::path(arguments_.features).extension().string(),
-                     arguments_.ignores_semantics);
+                     arguments_.has_safe_cells, arguments_.ignores_semantics);
 }
 
 void LabelOutputs::make_buildings(std::size_t input, const Document& document, OutputRecord output,
@@ -96,7 +97,8 @@ void LabelOutputs::make_features(const Building& building, const PipelineResult&
   if (arguments_.features.empty()) return;
   const RecordFormat format = *record_format_of(arguments_.features);
   std::string& text = product[OutputPart::features];
-  const std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
+  std::string more = FeatureRecordWriter::text(format, feature_records(building, line));
+  if (arguments_.has_safe_cells && format == RecordFormat::csv) more = with_safe_cells(more);
   if (format == RecordFormat::json && !text.empty() && !more.empty()) text += ",\n";
   text += more;
 }

@@ -20,6 +20,8 @@ struct LabellingArguments : RunOptions {
   std::string out;
   std::string to;
   std::string features;
+  /// Cells of CSV are with_safe_cells().
+  bool has_safe_cells = false;
   std::string codelist = "sig3d";
   /// Every surface and installation gets its reason, oriel_why.
   bool has_reasons = false;
