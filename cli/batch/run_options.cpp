@@ -74,7 +74,7 @@ LabelOptions RunOptions::label_options(StageObserver observer) const {
   options.tolerances = tolerances;
   options.fits_noise = !is_plane_offset_given;
   options.repair = {*parse_closing(close), cap_area_m2,
-                    crossings == "cut" ? Crossings::cut : Crossings::leave};
+                    crossings == "cut" ? Crossings::cut : Crossings::leave, ends_at_solid};
   options.order = order == "paper" ? Order::paper : Order::natural;
   options.budget = budget;
   options.ignores_semantics = ignores_semantics;

@@ -49,7 +49,7 @@ struct RunOptions {
   Tolerances tolerances;
   /// --plane-offset was given: it holds as it is, also for noisy buildings.
   bool is_plane_offset_given = false;
-  std::string close = "planar";
+  std::string close = to_string(RepairOptions{}.close);
   double cap_area_m2 = RepairOptions{}.cap_area_m2;
   std::string crossings = "leave";
   std::int64_t budget = SegmentOptions{}.budget;

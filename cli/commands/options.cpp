@@ -79,10 +79,11 @@ void add_solid_arguments(CLI::App& command, RunOptions& a) {
   command
       .add_option("--close", a.close,
                   "Holes to close where a building is no closed shell: none, plane ones of up to "
-                  "--close-area, or any plane one")
-      ->check(CLI::IsMember({"none", "planar", "any"}))
+                  "--close-area, besides them a missing ground and missing walls of any size, or "
+                  "any plane one")
+      ->check(CLI::IsMember({"none", "planar", "ground", "any"}))
       ->capture_default_str();
-  command.add_option("--close-area", a.cap_area_m2, "... with --close planar, in m2")
+  command.add_option("--close-area", a.cap_area_m2, "... with --close planar and ground, in m2")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command

@@ -227,7 +227,7 @@ class BlockBuilder {
       if (heights_m_.empty()) break;
       Building building = detail::prisms(view_, part_of_, heights_m_);
       building.id = name_;
-      auto solid = solidify(building, tolerances_);
+      auto solid = solidify(building, tolerances_, {Closing::planar});
       if (!solid.value || !is_closed(*solid.value)) continue;
       result.solid = std::move(*solid.value);
       for (Facet& facet : result.solid.facets) facet.polygons.clear();

@@ -15,6 +15,9 @@ enum class Closing {
   none,
   /// Those of up to RepairOptions::cap_area_m2, by one plane face or several.
   planar,
+  /// Those, and of any size a missing ground and missing upright walls (CapKind). Larger holes
+  /// elsewhere, those in roofs, stay open.
+  ground,
   /// Those of any size; larger ones only if the smaller ones do not close the building.
   any
 };
@@ -31,11 +34,14 @@ enum class Crossings {
 
 /// How much of a building that is no solid may be changed.
 struct RepairOptions {
-  Closing close = Closing::planar;
+  Closing close = Closing::ground;
   /// 10 m²: what windows, garage doors and shop fronts measure whose panes stand loose behind
   /// unfilled holes; a missing wall, roof or ground is larger.
   double cap_area_m2 = 10;
   Crossings crossings = Crossings::leave;
+  /// Facets of oriel's own stay facets of their own in the plane of a neighbour, too: to be written
+  /// as what they are. False: facets are maximal, as all that cuts needs them.
+  bool keeps_caps_apart = false;
 };
 
 /// An edge of one polygon only, in metres of the frame, as the polygon goes along it.
@@ -44,10 +50,23 @@ struct OpenEdge {
   int polygon = -1;  ///< Polygon::source
 };
 
+/// What a face that closes a hole stands for (docs/solidify.md, "What is closed"). It depends on
+/// neither the order of vertices and polygons nor the way round they run.
+enum class CapKind {
+  hole,
+  /// Level within 5°, the polygons along more than half of its rim rise from it, and nothing of the
+  /// building lies beneath it.
+  ground,
+  /// Upright within 5°: a party wall, say.
+  wall
+};
+
 /// A face that oriel made to close a hole.
 struct Cap {
   double area_m2 = 0;
   Vec3 centre;  ///< the mean of its corners, metres of the frame
+  /// In a report a wall of no more than RepairOptions::cap_area_m2 is a hole.
+  CapKind kind = CapKind::hole;
 };
 
 /// What solidify() did to a building that was no solid as it came. Polygons are given by their
@@ -84,6 +103,7 @@ struct RepairReport {
 
 /// "planar" and so on, and back; nothing for another text.
 std::string to_string(Closing closing);
+std::string to_string(CapKind kind);
 std::optional<Closing> parse_closing(std::string_view text);
 
 }  // namespace oriel

@@ -55,6 +55,38 @@ Issue warning(const Building& building, Code code, std::string sentence) {
   return building_issue(Severity::warning, code, building.id, std::move(sentence));
 }
 
+/// "2 holes were closed by faces of oriel's own, 80.00 m² together, the largest 60.00 m²: 1 ground
+/// (60.00 m²), 1 wall (20.00 m²)".
+std::string closed_holes(std::span<const Cap> caps) {
+  struct Sum {
+    int count = 0;
+    double area_m2 = 0;
+  };
+  std::map<CapKind, Sum> of_kind;
+  double sum = 0, largest = 0;
+  for (const Cap& cap : caps) {
+    sum += cap.area_m2;
+    largest = std::max(largest, cap.area_m2);
+    ++of_kind[cap.kind].count;
+    of_kind[cap.kind].area_m2 += cap.area_m2;
+  }
+  std::string text =
+      caps.size() == 1
+          ? fmt::format("1 hole was closed by a face of oriel's own, {:.2f} m²", sum)
+          : fmt::format(
+                "{} holes were closed by faces of oriel's own, {:.2f} m² together, the "
+                "largest {:.2f} m²",
+                caps.size(), sum, largest);
+  of_kind.erase(CapKind::hole);
+  const char* before = ": ";
+  for (const auto& [kind, of] : of_kind) {
+    text += fmt::format("{}{} {}{} ({:.2f} m²)", before, of.count, to_string(kind),
+                        of.count == 1 ? "" : "s", of.area_m2);
+    before = ", ";
+  }
+  return text;
+}
+
 /// What mending has done, as findings.
 void tell_repairs(const Building& building, const RepairReport& report, bool is_open,
                   std::vector<Issue>& issues) {
@@ -70,18 +102,8 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
         building, Code::E308,
         fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
                     report.turned)));
-  if (!report.caps.empty()) {
-    double sum = 0, largest = 0;
-    for (const Cap& cap : report.caps) {
-      sum += cap.area_m2;
-      largest = std::max(largest, cap.area_m2);
-    }
-    issues.push_back(
-        warning(building, Code::E316,
-                fmt::format("{} holes were closed by faces of oriel's own, {:.2f} m² together, the "
-                            "largest {:.2f} m²",
-                            report.caps.size(), sum, largest)));
-  }
+  if (!report.caps.empty())
+    issues.push_back(warning(building, Code::E316, closed_holes(report.caps)));
   if (!report.dangling.empty() || !report.inner.empty())
     issues.push_back(warning(
         building, Code::E315,
@@ -133,6 +155,12 @@ struct MeshedSoup {
   ShellMesh mesh;
 };
 
+/// The options allow that a hole is closed so.
+bool may_be_closed(const Cap& cap, const RepairOptions& repair) {
+  if (repair.close == Closing::any || cap.area_m2 <= repair.cap_area_m2) return true;
+  return repair.close == Closing::ground && cap.kind != CapKind::hole;
+}
+
 /// Where mending leaves the building open or closes holes: the shell of all polygons and of the
 /// faces that are missing, if such may be as large. Mending knows single loops only: with those of
 /// its windows it would close off what lies in a missing wall.
@@ -143,11 +171,16 @@ std::optional<detail::FilledShell> filled_instead(const detail::Mended& mended, 
   const bool has_holes = mended.is_open || !mended.report.caps.empty();
   if (repair.close == Closing::none || !has_holes) return std::nullopt;
   auto filled = detail::fill_missing_faces(soup, building.id, tolerances, work);
-  const auto is_small = [&](const Cap& cap) { return cap.area_m2 <= repair.cap_area_m2; };
-  if (filled && repair.close == Closing::planar &&
-      !std::ranges::all_of(filled->report.caps, is_small))
+  if (!filled || !std::ranges::all_of(filled->report.caps,
+                                      [&](const Cap& cap) { return may_be_closed(cap, repair); }))
     return std::nullopt;
   return filled;
+}
+
+/// A wall that was small enough to be closed whatever it is counts as a hole: a window, say.
+void name_holes(const RepairOptions& repair, RepairReport& report) {
+  for (Cap& cap : report.caps)
+    if (cap.kind == CapKind::wall && cap.area_m2 <= repair.cap_area_m2) cap.kind = CapKind::hole;
 }
 
 /// The shells of a building whose polygons are no closed shell as they came.
@@ -159,11 +192,13 @@ MeshedSoup mended_shells(const Building& building, const Tolerances& tolerances,
   detail::Mended mended = detail::mend(soup, building.is_solid, tolerances, repair, work);
   if (auto filled = filled_instead(mended, soup, building, tolerances, repair, work)) {
     out.report = std::move(filled->report);
+    name_holes(repair, out.report);
     out.issues.insert(out.issues.end(), filled->issues.begin(), filled->issues.end());
     tell_repairs(building, out.report, false, out.issues);
     return {std::move(filled->soup), std::move(filled->mesh)};
   }
   out.report = std::move(mended.report);
+  name_holes(repair, out.report);
   tell_repairs(building, out.report, mended.is_open, out.issues);
   MeshedSoup shells;
   if (mended.is_open) {
@@ -252,7 +287,8 @@ Solidified solidify(const Building& building, const Tolerances& tolerances,
   check_size(building, tolerances, out.issues);
   if (is_set_aside()) return out;
   const auto [soup, mesh] = closed_shells(building, tolerances, repair, out, work);
-  if (!is_set_aside()) detail::add_solid(building, soup, mesh, tolerances, out, work);
+  if (!is_set_aside())
+    detail::add_solid(building, soup, mesh, tolerances, out, work, repair.keeps_caps_apart);
   if (work.is_used_up())
     out.issues.push_back(used_up(building.id, budget, "solidifying",
                                  "it is not repaired further, and planes may stay apart"));

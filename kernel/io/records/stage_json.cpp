@@ -296,6 +296,7 @@ std::string repair_json(const Building& building, bool is_solid, const RepairRep
   append_objects(out, "caps", report.caps, [&](const Cap& cap) {
     append_field(out, "area_m2", cap.area_m2);
     append_vector(out, "centre", cap.centre + origin);
+    append_field(out, "kind", to_string(cap.kind));
   });
   append_field(out, "detached_shells", report.detached_shells);
   append_field(out, "cavities", report.cavities);

@@ -1,7 +1,9 @@
 #include "kernel/solidify/mend/mend.h"
 
 #include "kernel/base/index.h"
+#include "kernel/solidify/cap_kinds.h"
 #include "kernel/solidify/crossings/crossings.h"
+#include "kernel/solidify/crossings/faces.h"
 #include "kernel/solidify/mend/boundary_rays.h"
 #include "kernel/solidify/mend/caps.h"
 #include "kernel/solidify/mend/cells.h"
@@ -161,21 +163,40 @@ struct MendStage {
   [[nodiscard]] bool is_solid() const { return !is_open() && exposed.share <= kMostExposed; }
 };
 
-/// The soup with caps for its plane holes.
-Soup with_caps(const MendStage& stage, double reach, double max_area) {
+/// How far off its plane the rim of a cap may lie, grid units.
+double cap_reach(const Soup& soup, const Tolerances& tolerances) {
+  return kCapReach * tolerances.plane_offset_m / soup.grid_m;
+}
+
+std::vector<AddedFace> faces_of(std::vector<CapDraft> caps) {
   std::vector<AddedFace> faces;
-  for (CapDraft& cap : find_caps(stage.soup, stage.shapes, reach, max_area))
-    faces.push_back({{std::move(cap.ring)}, cap.beside});
-  return with_faces(stage.soup, std::move(faces));
+  for (CapDraft& cap : caps) faces.push_back({{std::move(cap.ring)}, cap.beside});
+  return faces;
 }
 
 /// The polygons with caps as far as they are needed, holes up to an area (m²) closed.
 MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_area_m2,
                       Work& work) {
   if (cap_area_m2 <= 0 || stage.is_solid() || work.is_used_up()) return stage;
-  const double grid_m = stage.soup.grid_m;
-  const double reach = kCapReach * tolerances.plane_offset_m / grid_m;
-  return MendStage(with_caps(stage, reach, cap_area_m2 / (grid_m * grid_m)), tolerances, work);
+  const double area = cap_area_m2 / (stage.soup.grid_m * stage.soup.grid_m);
+  auto caps = find_caps(stage.soup, stage.shapes, cap_reach(stage.soup, tolerances), area);
+  return MendStage(with_faces(stage.soup, faces_of(std::move(caps))), tolerances, work);
+}
+
+/// The same, and of larger holes the missing ground and missing walls.
+MendStage close_ground(MendStage stage, const Tolerances& tolerances, double cap_area_m2,
+                       Work& work) {
+  if (stage.is_solid() || work.is_used_up()) return stage;
+  const double area = cap_area_m2 / (stage.soup.grid_m * stage.soup.grid_m);
+  const double reach = cap_reach(stage.soup, tolerances);
+  std::vector<CapDraft> caps = find_caps(stage.soup, stage.shapes, reach, Box::kInfinity);
+  const std::vector<AddedFace> all = faces_of(caps);
+  const CapKinds kinds(stage.soup, stage.shapes, all, reach, work);
+  std::vector<AddedFace> faces;
+  for (std::size_t i = 0; i < caps.size(); ++i)
+    if (caps[i].area <= area || kinds.kind_of(all[i].rings) != CapKind::hole)
+      faces.push_back(all[i]);
+  return MendStage(with_faces(stage.soup, std::move(faces)), tolerances, work);
 }
 
 /// The polygons cut where others run through them or lie on them.
@@ -190,8 +211,8 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
   return std::move(joined);
 }
 
-/// Closes the shell: small holes first, then by cutting what crosses, then larger holes, as far as
-/// the options allow. Each only if what came before was not enough.
+/// Closes the shell: small holes first, then by cutting what crosses, then larger holes (a ground
+/// and walls, or any), as far as the options allow. Each only if what came before was not enough.
 MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& options,
                 RepairReport& report, Work& work) {
   const double area_m2 = options.close == Closing::none ? 0 : options.cap_area_m2;
@@ -200,7 +221,10 @@ MendStage close(Soup soup, const Tolerances& tolerances, const RepairOptions& op
     soup = without_crossings(soup, tolerances, report, work);
     stage = close_holes(MendStage(soup, tolerances, work), tolerances, area_m2, work);
   }
-  if (options.close != Closing::any || stage.is_solid()) return stage;
+  if (stage.is_solid()) return stage;
+  if (options.close == Closing::ground)
+    return close_ground(MendStage(std::move(soup), tolerances, work), tolerances, area_m2, work);
+  if (options.close != Closing::any) return stage;
   return close_holes(MendStage(std::move(soup), tolerances, work), tolerances,
                      std::numeric_limits<double>::infinity(), work);
 }
@@ -218,9 +242,11 @@ std::vector<OpenEdge> open_edges_of(const Soup& soup) {
   return open;
 }
 
-Cap cap_of(const MendStage& stage, int polygon) {
+Cap cap_of(const MendStage& stage, int polygon, const CapKinds& kinds) {
   const double grid_m = stage.soup.grid_m;
-  Cap cap{stage.shapes[at(polygon)].area * grid_m * grid_m, {}};
+  Cap cap{stage.shapes[at(polygon)].area * grid_m * grid_m,
+          {},
+          kinds.kind_of(rings_of(stage.soup, polygon))};
   const auto corners = stage.soup.corners_of(polygon);
   for (const int v : corners)
     cap.centre = cap.centre + exact::to_metres(stage.soup.points[at(v)], grid_m);
@@ -239,13 +265,15 @@ void drop_kept(const Soup& soup, std::vector<int>& polygons) {
 }
 
 /// Fills the soup and the rest of the report.
-void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended, Work& work) {
+void keep_boundary(const MendStage& stage, bool is_solid, const Tolerances& tolerances,
+                   Mended& mended, Work& work) {
   const Soup& soup = stage.soup;
   const auto& shapes = stage.shapes;
   const PolygonCells& cells = stage.cells;
   const std::vector<PieceRole> roles = find_roles(soup, shapes, cells, is_solid, work);
   RepairReport& report = mended.report;
   const double m2 = soup.grid_m * soup.grid_m;
+  const CapKinds kinds(soup, shapes, {}, cap_reach(soup, tolerances), work);
   SoupBuilder builder(soup);
   for (int p = 0; p < soup.polygon_count(); ++p) {
     const int source = soup.polygons[at(p)].source;
@@ -254,7 +282,7 @@ void keep_boundary(const MendStage& stage, bool is_solid, Mended& mended, Work& 
     if (cells.is_boundary(p) && role != PieceRole::within) {
       const bool is_turned = is_front == (role == PieceRole::cavity);
       builder.add_polygon(soup, p, is_turned);
-      if (source == kNoSource) report.caps.push_back(cap_of(stage, p));
+      if (source == kNoSource) report.caps.push_back(cap_of(stage, p, kinds));
       report.turned += is_turned && source != kNoSource;
     } else if (source != kNoSource) {
       const bool is_dangling = is_front && cells.is_back_outside(p);
@@ -295,7 +323,7 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
     mended.exposed.area *= soup.grid_m * soup.grid_m;
     report.open_edges = std::move(open);
   } else {
-    keep_boundary(stage, is_solid, mended, work);
+    keep_boundary(stage, is_solid, tolerances, mended, work);
   }
   return mended;
 }

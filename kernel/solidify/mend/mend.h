@@ -27,7 +27,8 @@ struct Mended {
 /// 3. polygons are cut where the edges of others lie on them (crossings.h);
 /// 4. the cells between the polygons are found, polygons sorted round the edges (cells.h);
 /// 5. if the outer cell has got in, holes are closed, the small ones first (caps.h); before larger
-///    ones, polygons are cut where they run through each other, if asked for (crossings.h);
+///    ones (of any size, or a ground and walls: cap_kinds.h), polygons are cut where they run
+///    through each other, if asked for (crossings.h);
 /// 6. if the solid would not show what can be seen from outside it is none (exposed_faces.h);
 /// 7. shells in the material of others are dropped or become cavities;
 /// 8. what has the outer cell on one side only stays.

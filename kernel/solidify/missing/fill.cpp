@@ -1,6 +1,7 @@
 #include "kernel/solidify/missing/fill.h"
 
 #include "kernel/base/index.h"
+#include "kernel/solidify/cap_kinds.h"
 #include "kernel/solidify/mend/duplicates.h"
 #include "kernel/solidify/mend/t_vertices.h"
 #include "kernel/solidify/missing/fits.h"
@@ -21,8 +22,8 @@ Soup joined(const Soup& soup, double weld, RepairReport& report) {
   return std::move(whole);
 }
 
-Cap missing_cap(const Soup& soup, const MissingFace& face) {
-  Cap cap{face.area * soup.grid_m * soup.grid_m, {}};
+Cap missing_cap(const Soup& soup, const MissingFace& face, const CapKinds& kinds) {
+  Cap cap{face.area * soup.grid_m * soup.grid_m, {}, kinds.kind_of(face.rings)};
   for (const int v : face.rings[0])
     cap.centre = cap.centre + exact::to_metres(soup.points[at(v)], soup.grid_m);
   cap.centre = 1.0 / static_cast<double>(face.rings[0].size()) * cap.centre;
@@ -42,10 +43,11 @@ std::optional<FilledShell> fill_missing_faces(const Soup& welded, const std::str
   auto faces = find_missing_faces(soup, mesh, shapes_of(soup), reach, work);
   if (!faces) return std::nullopt;
   std::vector<AddedFace> added;
-  for (MissingFace& face : *faces) {
-    filled.report.caps.push_back(missing_cap(soup, face));
-    added.push_back({std::move(face.rings), face.beside});
-  }
+  for (const MissingFace& face : *faces) added.push_back({face.rings, face.beside});
+  const auto shapes = shapes_of(soup);
+  const CapKinds kinds(soup, shapes, added, reach, work);
+  for (const MissingFace& face : *faces)
+    filled.report.caps.push_back(missing_cap(soup, face, kinds));
   filled.soup = with_faces(soup, std::move(added));
   if (!fits(filled.soup, shapes_of(filled.soup), reach, work)) return std::nullopt;
   filled.mesh = build_shell_mesh(filled.soup, building, filled.issues);

@@ -35,6 +35,8 @@ struct FacetDraft {
 
 /// Grows facets over the mesh and walks their loops. Vertices at which only two facets meet lie on
 /// a straight edge and are left out, unless a loop would keep fewer than three.
-FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh);
+/// If `keeps_caps_apart`, polygons without source make facets of their own.
+FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
+                        bool keeps_caps_apart = false);
 
 }  // namespace oriel::detail

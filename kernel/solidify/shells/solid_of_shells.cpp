@@ -31,13 +31,13 @@ std::vector<ComponentHint> hints_of(const Building& building, const Soup& soup,
 }  // namespace
 
 void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh,
-               const Tolerances& tolerances, Solidified& out, Work& work) {
+               const Tolerances& tolerances, Solidified& out, Work& work, bool keeps_caps_apart) {
   const auto is_set_aside = [&] { return has_errors(out.issues); };
   const auto report = [&](Severity severity, Code code, std::string sentence) {
     out.issues.push_back(building_issue(severity, code, building.id, std::move(sentence)));
   };
   const PlaneClusters clusters = cluster_planes(soup, mesh, tolerances, work);
-  FacetDraft draft = draft_facets(soup, clusters, mesh);
+  FacetDraft draft = draft_facets(soup, clusters, mesh, keeps_caps_apart);
   const auto hints = hints_of(building, soup, draft);
   SnappedSolid snapped = snap_vertices(soup, clusters, mesh, std::move(draft), tolerances);
   Solid& solid = snapped.solid;

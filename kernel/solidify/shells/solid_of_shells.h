@@ -11,7 +11,9 @@ namespace oriel::detail {
 
 /// Fills the solid that closed shells bound, or adds an error: planes, facets, vertices where the
 /// planes meet, shells. `mesh` is that of the soup and closed.
+/// `keeps_caps_apart`: RepairOptions.
 void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh,
-               const Tolerances& tolerances, Solidified& out, Work& work);
+               const Tolerances& tolerances, Solidified& out, Work& work,
+               bool keeps_caps_apart = false);
 
 }  // namespace oriel::detail

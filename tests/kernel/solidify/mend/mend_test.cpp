@@ -224,7 +224,7 @@ TEST_SUITE("kernel/solidify") {
   }
 
   TEST_CASE("a closed hole that costs the walls that can be seen is no repair") {
-    const Solidified out = solidify(hall_with_open_wedge());
+    const Solidified out = solidify(hall_with_open_wedge(), {}, {Closing::planar});
     CHECK_FALSE(out.value);
     CHECK_FALSE(out.report.open_edges.empty());
     CHECK(out.report.inner.empty());
