@@ -89,9 +89,9 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
         fmt::format("nothing closed would be left at {}; it stays as it is", target)));
     return out;
   }
-  out.value =
-      Generalised{std::move(done.solid),   std::move(done.removed),  std::move(done.refused), false,
-                  std::move(done.changed), std::move(done.uncleared)};
+  out.value = Generalised{
+      std::move(done.solid),   std::move(done.removed),   std::move(done.refused), false,
+      std::move(done.changed), std::move(done.uncleared), closing_faces(solid)};
   return out;
 }
 

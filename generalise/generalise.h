@@ -17,6 +17,15 @@
 
 namespace oriel {
 
+/// A face of a solid that oriel closed a hole with: no polygon of the input lies in it.
+struct ClosingFace {
+  Plane plane;
+  std::vector<std::vector<Vec3>> outlines;
+};
+
+/// Those of a building's own solid, before anything is cut off.
+std::vector<ClosingFace> closing_faces(const Solid& solid);
+
 /// A building redrawn for a scale.
 struct Generalised {
   /// Closed; what was taken off leaves no seams.
@@ -30,6 +39,8 @@ struct Generalised {
   /// Features that look different now, ascending.
   std::vector<FeatureId> changed{};
   std::vector<UnclearedEdge> uncleared{};
+  /// Of the solid that it was made from.
+  std::vector<ClosingFace> closing{};
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something
@@ -64,11 +75,12 @@ struct Redrawn {
 
 /// Carries the labels of the input polygons over to the facets of the generalised solid. A facet
 /// takes the semantic surface of the largest input polygon it is made of, of those that look the
-/// same way if there are any; one that no input polygon lies in is named by its slope.
-/// Installations keep the facets whose polygon is theirs, and get those without polygon that close
-/// the place of something that was on or in them; those that were removed go, with their ids
-/// listed. Imprints that stay are facets of their own.
-/// The building gets flat counts `oriel_removed_LABEL` and `oriel_removed_volume_m3`.
+/// same way if there are any; one that no input polygon lies in is a ClosureSurface if it is what
+/// is left of a face that closed a hole, else it is named by its slope. Installations keep the
+/// facets whose polygon is theirs, and get those without polygon that close the place of something
+/// that was on or in them; those that were removed go, with their ids listed. Imprints that stay
+/// are facets of their own. The building gets flat counts `oriel_removed_LABEL` and
+/// `oriel_removed_volume_m3`.
 ///
 /// If nothing is gone and the building came as a solid it stays as it is: `labelled`, which is what
 /// annotate says of it, so that generalising twice changes no byte of the geometry.

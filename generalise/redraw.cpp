@@ -37,6 +37,9 @@ std::string type_by_slope(Vec3 normal) {
 /// What is drawn looks the way of a polygon within 45 degrees.
 constexpr double kSameWay = 0.7071;
 
+/// Planes of one face before and after: within 2.6 degrees.
+constexpr double kSamePlane = 0.999;
+
 class Redrawer {
  public:
   Redrawer(const Building& building, const LabelledBuilding& labelled, Generalised generalised,
@@ -82,6 +85,20 @@ class Redrawer {
     return polygon < 0 ? -1 : labelled_.surface_of_polygon[at(polygon)];
   }
 
+  [[nodiscard]] std::string type_of_bare(const Facet& facet) const {
+    const Plane& plane = generalised_.solid.planes[facet.plane.index()];
+    const auto outlines = detail::outlines_of(generalised_.solid.vertices, facet.loops);
+    const auto inside = detail::interior_point(outlines, plane.normal);
+    const bool is_closing =
+        facet.polygons.empty() && inside &&
+        std::ranges::any_of(generalised_.closing, [&](const ClosingFace& face) {
+          return dot(face.plane.normal, plane.normal) > kSamePlane &&
+                 std::abs(dot(face.plane.normal, *inside) - face.plane.offset_m) <= reach_m_ &&
+                 detail::contains(face.outlines, face.plane.normal, *inside);
+        });
+    return is_closing ? "ClosureSurface" : type_by_slope(plane.normal);
+  }
+
   /// Surfaces are copied once; polygons of others that went into the same facet have that facet's
   /// surface now.
   void label_facets() {
@@ -89,8 +106,7 @@ class Redrawer {
       const int old = surface_of(facet);
       int number = static_cast<int>(out_.labelled.surfaces.size());
       if (old < 0) {
-        const Vec3 normal = generalised_.solid.planes[facet.plane.index()].normal;
-        out_.labelled.surfaces.push_back({type_by_slope(normal), -1, {}});
+        out_.labelled.surfaces.push_back({type_of_bare(facet), -1, {}});
       } else if (const auto [entry, is_new] = number_.emplace(old, number); is_new) {
         out_.labelled.surfaces.push_back(labelled_.surfaces[at(old)]);
       } else {
@@ -184,6 +200,15 @@ class Redrawer {
 };
 
 }  // namespace
+
+std::vector<ClosingFace> closing_faces(const Solid& solid) {
+  std::vector<ClosingFace> faces;
+  for (const Facet& facet : solid.facets)
+    if (facet.polygons.empty())
+      faces.push_back(
+          {solid.planes[facet.plane.index()], detail::outlines_of(solid.vertices, facet.loops)});
+  return faces;
+}
 
 void count_removed(const std::vector<FeatureId>& removed, const Segmentation& segmentation,
                    const Interpretation& interpretation, Redrawn& redrawn) {

@@ -66,6 +66,18 @@ class BuildingDrawer {
   /// becomes drawn.repaired; nothing is done if there is none, or if what was given up is so again.
   void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
+  [[nodiscard]] std::optional<PipelineResult> repaired_open(const PipelineResult& result) const {
+    return repair_open(document_, building_, result, rules_, options_);
+  }
+
+  /// What comes of a building that stays open.
+  [[nodiscard]] GeneralisedBuilding open() const {
+    GeneralisedBuilding drawn;
+    drawn.building = building_.id;
+    drawn.issues.push_back(stays_open(building_));
+    return drawn;
+  }
+
  private:
   struct LabelledResult {
     const PipelineResult& result;
@@ -196,6 +208,7 @@ void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised&
 Redrawn BuildingDrawer::untouched(const PipelineResult& result, GeneralisedBuilding& out) const {
   LabelledBuilding labelled = annotate(building_, result, rules_, options_);
   Generalised whole{*result.solid, {}};
+  whole.closing = closing_faces(whole.solid);
   redraw_unchanged(result, whole, out);
   if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
   Redrawn redrawn = redraw(building_, labelled, *result.segmentation, result.description.table,
@@ -313,6 +326,17 @@ GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineRe
   return drawn;
 }
 
+/// Of an open building, from what repair_open() makes of it.
+GeneralisedBuilding open_drawing(const BuildingDrawer& drawer, const PipelineResult& result,
+                                 const StageObserver& observer) {
+  auto repaired = drawer.repaired_open(result);
+  if (!repaired) return drawer.open();
+  GeneralisedBuilding drawn = valid_drawing(drawer, *repaired, observer);
+  drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
+  if (!drawn.repaired) drawn.repaired = std::move(repaired);
+  return drawn;
+}
+
 bool has_installation(const Redrawn& level, const std::string& id) {
   const auto& list = level.labelled.installations;
   return std::ranges::find(list, id, &Installation::id) != list.end();
@@ -347,14 +371,13 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   GeneralisedBuilding drawn;
   drawn.building = building.id;
   if (!result.is_done()) return drawn;
-  if (result.is_open) {
-    drawn.issues.push_back(building_issue(Severity::error, Code::G404, building.id,
-                                          "is open: there is no solid to redraw"));
-    return drawn;
-  }
   const BuildingDrawer drawer(document, building, rules, targets, options);
   return logged(
-      "generalised", building, [&] { return valid_drawing(drawer, result, options.observer); },
+      "generalised", building,
+      [&] {
+        return result.is_open ? open_drawing(drawer, result, options.observer)
+                              : valid_drawing(drawer, result, options.observer);
+      },
       [](const GeneralisedBuilding& made) {
         return fmt::format("targets={} issues={} repaired={}", made.levels.size(),
                            made.issues.size(), made.repaired.has_value());

@@ -66,7 +66,8 @@ struct GeneralisedBuilding {
   std::vector<TargetReport> reports;
   /// An error says that the building was rejected: G404 it is open, G402, G406, G410.
   std::vector<Issue> issues;
-  /// What it was drawn from, if its own solid could not be written as a valid one (G417).
+  /// What it was drawn from, if it was open (G420) or its own solid could not be written as a valid
+  /// one (G417).
   std::optional<PipelineResult> repaired;
 };
 
@@ -74,9 +75,9 @@ struct GeneralisedBuilding {
 /// (docs/generalisation.md; paper, section 5).
 ///
 /// `building` is one of the document; `result` is what label() said of it with the same rules and
-/// options. Of a building that did not come to its features nothing is made. Installations that
-/// were joined to it (ReadOptions) stay as they are: the building alone is labelled again and
-/// redrawn.
+/// options. Of a building that did not come to its features nothing is made; an open one is
+/// repaired first as repair() does it (G420). Installations that were joined to it (ReadOptions)
+/// stay as they are: the building alone is labelled again and redrawn.
 ///
 /// The solids are valid as they are written: where one is not, the building is drawn again with
 /// each step checked, then from a repaired solid (G417). What is valid at no scale stays unchanged,

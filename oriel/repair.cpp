@@ -75,6 +75,7 @@ Repaired checked_solid(const Document& document, const Building& building, Pipel
 PipelineOptions repair_defaults() {
   PipelineOptions options;
   options.repair.crossings = Crossings::cut;
+  options.repair.keeps_caps_apart = true;
   return options;
 }
 
@@ -105,6 +106,7 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
                             "is open: its polygons are labelled unchanged")}};
   Generalised whole{*result.solid, {}};
   whole.is_drawn_anew = true;
+  whole.closing = closing_faces(whole.solid);
   LabelledBuilding drawn =
       redraw(building, labelled, *result.segmentation, result.description.table,
              result.interpretation, std::move(whole), result.tolerances)

@@ -78,13 +78,11 @@ class SeriesDrawer {
   /// none (G413). First its steps are judged, then it is repaired, where either helps.
   void add_levels(const Building& building, const PipelineResult& result,
                   std::vector<LeveledBuilding>& all, Series& series) {
-    if (result.is_open) {
-      series.issues.push_back(building_issue(Severity::error, Code::G404, building.id,
-                                             "is open: there is no solid to redraw"));
-      return;
-    }
     LeveledBuilding one = logged(
-        "drawn at all scales", building, [&] { return valid_levels(building, result); },
+        "drawn at all scales", building,
+        [&] {
+          return result.is_open ? open_levels(building, result) : valid_levels(building, result);
+        },
         [](const LeveledBuilding& made) {
           return fmt::format("levels={} issues={}", made.levels.size(), made.issues.size());
         });
@@ -99,6 +97,22 @@ class SeriesDrawer {
     LeveledBuilding one = with_levels(building, result);
     if (has_errors(one.issues)) judge(one);
     if (!one.is_valid()) repair(one);
+    return one;
+  }
+
+  /// Of an open building, from what repair_open() makes of it.
+  [[nodiscard]] LeveledBuilding open_levels(const Building& building,
+                                            const PipelineResult& result) const {
+    auto repaired = repair_open(document_, building, result, rules_, options_);
+    if (!repaired) {
+      LeveledBuilding none{&building, &result, {}};
+      none.issues.push_back(stays_open(building));
+      return none;
+    }
+    auto closed = std::make_unique<const PipelineResult>(std::move(*repaired));
+    LeveledBuilding one = valid_levels(building, *closed);
+    one.issues.insert(one.issues.begin(), closed->issues.back());
+    if (!one.repaired) one.repaired = std::move(closed);
     return one;
   }
 

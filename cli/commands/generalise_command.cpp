@@ -178,10 +178,10 @@ class Generaliser final : public ProducingCommand {
       now_at_building(i);
       drawn.push_back(
           generalise(document, document.buildings[i], lines[i], rules_, targets_, options));
-      if (lines[i].is_open) report(drawn[i], product);
+      if (stays_open(lines[i], drawn[i])) report(drawn[i], product);
     }
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (!lines[i].is_done() || lines[i].is_open) continue;
+      if (!lines[i].is_done() || stays_open(lines[i], drawn[i])) continue;
       now_at_building(i);
       outputs_.make_features(document.buildings[i],
                              drawn[i].repaired ? *drawn[i].repaired : lines[i], product);
@@ -193,6 +193,11 @@ class Generaliser final : public ProducingCommand {
     timings.measure(Stage::write,
                     [&] { outputs_.make_buildings(input, document, std::move(output), product); });
     return product;
+  }
+
+  /// Nothing was drawn of it.
+  static bool stays_open(const PipelineResult& line, const GeneralisedBuilding& drawn) {
+    return line.is_open && !drawn.repaired;
   }
 
   [[nodiscard]] GeneraliseOptions options_of(Timings& timings) const {

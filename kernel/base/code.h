@@ -119,6 +119,7 @@
   X(G417, 0, "What runs through itself is mended first") \
   X(G418, 0, "A piece would be torn off") \
   X(G419, 0, "A building that was not valid is drawn anew") \
+  X(G420, 0, "An open building is repaired first") \
   X(R200, 0, "The pack cannot be read") \
   X(R201, 0, "Not YAML") \
   X(R202, 0, "A key stands twice") \

@@ -53,6 +53,34 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
                   why, result.repair.cut));
 }
 
+/// What repair() does: with crossings cut, and if that is not valid as it is written from the
+/// boundary of the inside.
+std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
+                                        const Tolerances& tolerances,
+                                        const PipelineOptions& options) {
+  RepairOptions cutting = options.repair;
+  cutting.crossings = Crossings::cut;
+  PipelineResult cut =
+      run_to_solid(building, tolerances, cutting, options.budget, options.observer);
+  if (!cut.solid) return std::nullopt;
+  cut.tolerances = tolerances;
+  if (!check_output(document, building, *cut.solid).fault) return cut;
+  auto repaired = repaired_solid(document, building, tolerances, options);
+  if (!repaired) return std::nullopt;
+  return std::move(repaired->result);
+}
+
+Issue mended_first(const Building& building, const RepairReport& report) {
+  double closed_m2 = 0;
+  for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
+  return building_issue(
+      Severity::warning, Code::G420, building.id,
+      fmt::format("is open as it was read: it is repaired first, with {} polygons cut, {} left out "
+                  "and {} holes closed ({:.2f} m²)",
+                  report.cut, report.dangling.size() + report.inner.size(), report.caps.size(),
+                  closed_m2));
+}
+
 }  // namespace
 
 std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
@@ -83,6 +111,23 @@ std::optional<PipelineResult> repair_and_retry(const Document& document, const B
   if (!again.is_done() || again.is_open) return std::nullopt;
   again.issues.push_back(repair_warning(building, again));
   return again;
+}
+
+std::optional<PipelineResult> repair_open(const Document& document, const Building& building,
+                                          const PipelineResult& result, const RuleBase& rules,
+                                          const LabelOptions& options) {
+  auto solid = cut_solid(document, building, result.tolerances, options);
+  if (!solid) return std::nullopt;
+  const Tolerances tolerances = solid->tolerances;
+  PipelineResult again = run_from_solid(std::move(*solid), building, &rules, tolerances, options);
+  if (!again.is_done() || again.is_open) return std::nullopt;
+  again.issues.push_back(mended_first(building, again.repair));
+  return again;
+}
+
+Issue stays_open(const Building& building) {
+  return building_issue(Severity::error, Code::G404, building.id,
+                        "is open, and cannot be repaired: there is no solid to redraw");
 }
 
 }  // namespace oriel

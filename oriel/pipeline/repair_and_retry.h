@@ -28,4 +28,14 @@ std::optional<PipelineResult> repair_and_retry(const Document& document, const B
                                                const PipelineResult& result, const RuleBase& rules,
                                                const LabelOptions& options);
 
+/// An open building once more in the whole pipeline, from the solid that repair() makes of it with
+/// the same options, and a warning G420 that says so, the last of its issues. `result`, is_open, is
+/// what came of it the first time. Nothing if there is no solid that is valid as it is written.
+std::optional<PipelineResult> repair_open(const Document& document, const Building& building,
+                                          const PipelineResult& result, const RuleBase& rules,
+                                          const LabelOptions& options);
+
+/// The error G404: an open building that repair_open() cannot help either.
+Issue stays_open(const Building& building);
+
 }  // namespace oriel
