@@ -3,8 +3,8 @@
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
-#include "kernel/mesh/triangulate.h"
 #include "kernel/solidify/shells/shells.h"
+#include "kernel/validate/polygons/fitted_plane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,8 +127,7 @@ class Parter {
     const Facet whole = solid_.facets[facet];
     const auto as_written = written_facet(whole, written, polygon);
     if (!as_written) return false;
-    const auto triangles = detail::triangulate(as_written->points, as_written->rings,
-                                               solid_.planes[whole.plane.index()].normal);
+    const auto triangles = detail::triangulate_in_plane(as_written->points, as_written->rings);
     if (triangles.size() < 2) return false;
     std::vector<char> is_main = find_main(*as_written, triangles);
     std::vector<Loop> loops = loops_round(triangles, is_main);

@@ -2,6 +2,7 @@
 
 #include "kernel/mesh/triangulate.h"
 #include "kernel/model/vec3.h"
+#include "kernel/validate/polygons/fitted_plane.h"
 #include "kernel/validate/polygons/ring_checks.h"
 
 #include <algorithm>
@@ -17,72 +18,6 @@
 namespace oriel::detail {
 
 namespace {
-
-/// The plane for which the sum of squared distances of the points is least.
-struct FittedPlane {
-  Vec3 centre;
-  /// Of length 1; across the line if all points are on one.
-  Vec3 normal;
-
-  [[nodiscard]] double distance(Vec3 point) const { return dot(normal, point - centre); }
-};
-
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-Matrix covariance(std::span<const Vec3> points, Vec3 centre) {
-  Matrix sum{};
-  for (const Vec3 point : points) {
-    const Vec3 d = point - centre;
-    const std::array v{d.x, d.y, d.z};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) sum[i][j] += v[i] * v[j];
-  }
-  return sum;
-}
-
-/// One rotation of Jacobi's method: makes m[p][q] zero.
-void rotate(Matrix& m, Matrix& vectors, std::size_t p, std::size_t q) {
-  if (m[p][q] == 0) return;
-  const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
-  const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::hypot(theta, 1.0));
-  const double c = 1 / std::hypot(t, 1.0);
-  const double s = t * c;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double kp = m[k][p];
-    const double kq = m[k][q];
-    m[k][p] = c * kp - s * kq;
-    m[k][q] = s * kp + c * kq;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double pk = m[p][k];
-    const double qk = m[q][k];
-    m[p][k] = c * pk - s * qk;
-    m[q][k] = s * pk + c * qk;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double kp = vectors[k][p];
-    const double kq = vectors[k][q];
-    vectors[k][p] = c * kp - s * kq;
-    vectors[k][q] = s * kp + c * kq;
-  }
-}
-
-/// `points` must not be empty.
-FittedPlane fit_plane(std::span<const Vec3> points) {
-  Vec3 centre;
-  for (const Vec3 point : points)
-    centre = centre + (1.0 / static_cast<double>(points.size())) * point;
-  Matrix m = covariance(points, centre);
-  Matrix vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  // Jacobi's method converges quadratically: a 3 × 3 matrix is diagonal after five or six sweeps.
-  for (int sweep = 0; sweep < 12; ++sweep)
-    for (const auto& [p, q] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
-      rotate(m, vectors, p, q);
-  std::size_t least = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if (m[i][i] < m[least][least]) least = i;
-  return {centre, normalised({vectors[0][least], vectors[1][least], vectors[2][least]})};
-}
 
 Subject subject_of(const SnappedPolygon& polygon) {
   return {polygon.body, polygon.shell, polygon.number, -1};
@@ -109,33 +44,58 @@ bool is_near_plane(const SnappedBuilding& building, const SnappedPolygon& polygo
   return false;
 }
 
-/// The triangles of a polygon whose rings are good.
-std::vector<std::array<int, 3>> triangles_of(const SnappedBuilding& building,
-                                             const SnappedPolygon& polygon, Vec3 axis) {
-  std::map<int, int> local_of;
+using CornersOfTriangle = std::array<int, 3>;
+
+/// The corners of a polygon once each, in micrometres, and its rings as numbers of these.
+struct LocalPolygon {
   std::vector<int> vertices;
   std::vector<Vec3> points;
-  std::vector<std::vector<int>> rings = polygon.rings;
-  for (auto& ring : rings)
+  std::vector<std::vector<int>> rings;
+};
+
+LocalPolygon local_polygon(const SnappedBuilding& building, const SnappedPolygon& polygon) {
+  LocalPolygon local{{}, {}, polygon.rings};
+  std::map<int, int> local_of;
+  for (auto& ring : local.rings)
     for (int& vertex : ring) {
-      const auto [found, is_new] = local_of.try_emplace(vertex, static_cast<int>(vertices.size()));
+      const auto [found, is_new] =
+          local_of.try_emplace(vertex, static_cast<int>(local.vertices.size()));
       if (is_new) {
         const MicrometrePoint& p = building.point(vertex);
-        vertices.push_back(vertex);
-        points.push_back(
+        local.vertices.push_back(vertex);
+        local.points.push_back(
             {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
       }
       vertex = found->second;
     }
-  auto triangles = triangulate(points, rings, axis);
-  for (auto& triangle : triangles)
-    for (int& corner : triangle) corner = vertices[static_cast<std::size_t>(corner)];
-  return triangles;
+  return local;
 }
 
-/// val3dity 204: the normals of the triangles, against that of the largest one.
+/// The triangles of a polygon whose rings are good: in the fitted plane, as val3dity has them.
+/// Those along the axis instead where rounding in that plane makes one of corners on a line.
+std::vector<CornersOfTriangle> triangles_of(const SnappedBuilding& building,
+                                            const SnappedPolygon& polygon, Vec3 axis) {
+  const LocalPolygon local = local_polygon(building, polygon);
+  const auto in_building = [&](std::vector<CornersOfTriangle> triangles) {
+    for (auto& triangle : triangles)
+      for (int& corner : triangle) corner = local.vertices[static_cast<std::size_t>(corner)];
+    return triangles;
+  };
+  auto triangles = in_building(triangulate_in_plane(local.points, local.rings));
+  const bool is_good = std::ranges::none_of(triangles, [&](const CornersOfTriangle& t) {
+    return are_collinear(building.point(t[0]), building.point(t[1]), building.point(t[2]));
+  });
+  if (is_good && !triangles.empty()) return triangles;
+  return in_building(triangulate(local.points, local.rings, axis));
+}
+
+double tilt_deg(Vec3 a, Vec3 b) {
+  return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
+}
+
+/// val3dity 204: the normals of any two of the triangles.
 bool is_unfolded(const SnappedBuilding& building, const SnappedPolygon& polygon,
-                 std::span<const std::array<int, 3>> triangles, double tolerance_deg,
+                 std::span<const CornersOfTriangle> triangles, double tolerance_deg,
                  FindingList& findings) {
   std::vector<Vec3> normals;
   for (const auto& [a, b, c] : triangles)
@@ -143,15 +103,20 @@ bool is_unfolded(const SnappedBuilding& building, const SnappedPolygon& polygon,
         cross(building.metres(b) - building.metres(a), building.metres(c) - building.metres(a)));
   if (normals.empty()) return true;
   const Vec3 main = *std::ranges::max_element(normals, {}, length);
-  double worst = -1;
+  // Two that deviate from each other by more than the tolerance: one does so by half of it from any
+  // third.
+  std::vector<std::size_t> tilted;
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    if (tilt_deg(main, normals[i]) > tolerance_deg / 2) tilted.push_back(i);
+  double worst_deg = -1;
   std::size_t where = 0;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double angle = std::atan2(length(cross(main, normals[i])), dot(main, normals[i]));
-    if (angle <= worst) continue;
-    worst = angle;
-    where = i;
-  }
-  const double worst_deg = worst * 180 / std::numbers::pi;
+  for (const std::size_t i : tilted)
+    for (const Vec3 normal : normals) {
+      const double angle_deg = tilt_deg(normal, normals[i]);
+      if (angle_deg <= worst_deg) continue;
+      worst_deg = angle_deg;
+      where = i;
+    }
   if (worst_deg <= tolerance_deg) return true;
   findings.add(Defect::folded, subject_of(polygon),
                fmt::format("polygon {} is folded: the normals of its triangles deviate by {:.1f}°; "

@@ -123,6 +123,33 @@ bool are_edges_manifold(const JudgedShell& shell, const ShellEdges& all, Finding
   return is_good;
 }
 
+/// val3dity 303, of a shell whose edges are manifold: no more than two triangles meet at an edge.
+/// That of two polygons may be a diagonal of a third one that is not flat, or two have one
+/// diagonal.
+bool are_diagonals_free(const JudgedShell& shell, FindingList& findings) {
+  std::vector<std::tuple<int, int, int>> sides;  // low, high, polygon
+  for (int p = 0; p < std::ssize(shell.polygons); ++p)
+    for (const auto& corners : shell.polygons[at(p)].triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
+        sides.emplace_back(low, high, p);
+      }
+  std::ranges::sort(sides);
+  bool is_good = true;
+  for (std::size_t i = 0; i + 2 < sides.size(); ++i) {
+    const auto& [low, high, first] = sides[i];
+    if (std::get<0>(sides[i + 2]) != low || std::get<1>(sides[i + 2]) != high) continue;
+    if (i > 0 && std::get<0>(sides[i - 1]) == low && std::get<1>(sides[i - 1]) == high) continue;
+    findings.add(Defect::many_at_edge, subject_of(shell, first),
+                 fmt::format("triangles of the polygons {}, {} and {} meet; expected two",
+                             number_of(shell, first), number_of(shell, std::get<2>(sides[i + 1])),
+                             number_of(shell, std::get<2>(sides[i + 2]))),
+                 {low, high});
+    is_good = false;
+  }
+  return is_good;
+}
+
 /// val3dity 307, of edges of at most two polygons: neighbours run along their edge in opposite
 /// directions. Reported of the polygons that are fewer in their piece, or once if no turning helps.
 bool are_turned_alike(const JudgedShell& shell, const ShellEdges& all, FindingList& findings) {
@@ -160,10 +187,10 @@ bool are_turned_alike(const JudgedShell& shell, const ShellEdges& all, FindingLi
   return false;
 }
 
-/// val3dity 303: around each vertex its polygons follow each other by edges in one cycle or row.
+/// val3dity 303: around each vertex its triangles follow each other by edges in one cycle or row.
 bool are_vertices_manifold(const JudgedShell& shell, FindingList& findings) {
-  // A corner is a polygon at a vertex; a polygon may come to a vertex by several rings, whose
-  // corners count by themselves. Corners on both sides of an edge belong together.
+  // A corner is a triangle at a vertex, as a polygon of which several rings come to a vertex is
+  // there in as many parts. Corners on both sides of an edge belong together.
   struct Corner {
     int vertex;
     int before;
@@ -172,10 +199,9 @@ bool are_vertices_manifold(const JudgedShell& shell, FindingList& findings) {
   };
   std::vector<Corner> corners;
   for (int p = 0; p < std::ssize(shell.polygons); ++p)
-    for (const auto& ring : shell.polygons[at(p)].polygon->rings)
-      for (std::size_t i = 0; i < ring.size(); ++i)
-        corners.push_back(
-            {ring[i], ring[(i + ring.size() - 1) % ring.size()], ring[(i + 1) % ring.size()], p});
+    for (const auto& triangle : shell.polygons[at(p)].triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        corners.push_back({triangle[i], triangle[(i + 2) % 3], triangle[(i + 1) % 3], p});
   std::vector<std::tuple<int, int, int>> sides;  // vertex, neighbour, corner
   for (int c = 0; c < std::ssize(corners); ++c) {
     sides.emplace_back(corners[at(c)].vertex, corners[at(c)].before, c);
@@ -362,7 +388,7 @@ bool judge(const SnappedBuilding& building, const JudgedShell& shell, bool may_b
   return are_turned_alike(shell, edges, findings) && are_vertices_manifold(shell, findings) &&
          is_one_piece(shell, edges, findings) &&
          (may_be_open || is_closed(shell, edges, findings)) &&
-         is_free_of_crossings(building, shell, findings);
+         are_diagonals_free(shell, findings) && is_free_of_crossings(building, shell, findings);
 }
 
 }  // namespace oriel::detail

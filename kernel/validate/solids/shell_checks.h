@@ -21,8 +21,9 @@ struct JudgedShell {
   std::vector<ShellPolygon> polygons;
 };
 
-/// Judges a shell: val3dity 301, then 303 and 307 at edges, 303 at vertices, 305, 302, 306; the
-/// first of these that fails ends it. A surface that `may_be_open` is not judged for 301 and 302.
+/// Judges a shell: val3dity 301, then 303 and 307 at edges, 303 at vertices, 305, 302, 303 at
+/// diagonals, 306; the first of these that fails ends it. A surface that `may_be_open` is not
+/// judged for 301 and 302.
 bool judge(const SnappedBuilding& building, const JudgedShell& shell, bool may_be_open,
            FindingList& findings);
 

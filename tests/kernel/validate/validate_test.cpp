@@ -64,7 +64,46 @@ Building prism_with_shafts(const std::vector<double>& xs) {
   return building;
 }
 
+/// A block with two pits whose rims meet in the corner (2, 2). Each has a bottom of its own, or
+/// they are one pit below the corner, in which two wedges of the block meet.
+Building block_with_pits(bool are_joined) {
+  const Vec3 v{2, 2, 0}, p1{2, 1, 0}, p2{1, 1, 0}, p3{1, 2, 0};
+  const Vec3 q1{3, 2, 0}, q2{3, 3, 0}, q3{2, 3, 0};
+  std::vector<std::vector<Vec3>> polygons{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
+                                          {{0, 0, -4}, {0, 4, -4}, {4, 4, -4}, {4, 0, -4}},
+                                          {{0, 0, -4}, {4, 0, -4}, {4, 0, 0}, {0, 0, 0}},
+                                          {{4, 0, -4}, {4, 4, -4}, {4, 4, 0}, {4, 0, 0}},
+                                          {{4, 4, -4}, {0, 4, -4}, {0, 4, 0}, {4, 4, 0}},
+                                          {{0, 4, -4}, {0, 0, -4}, {0, 0, 0}, {0, 4, 0}}};
+  const auto dig = [&](const std::vector<Vec3>& rim, Vec3 bottom) {
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      polygons.push_back({rim[i], rim[(i + 1) % rim.size()], bottom});
+  };
+  if (are_joined) {
+    const Vec3 w1{2.3, 1.7, -1}, w2{1.7, 2.3, -1};
+    polygons.insert(polygons.end(), {{p1, v, w1}, {v, q1, w1}, {v, p3, w2}, {q3, v, w2}});
+    dig({p2, p1, w1, q1, q2, q3, w2, p3}, {2, 2, -2});
+  } else {
+    dig({p2, p1, v, p3}, {1.5, 1.5, -1});
+    dig({v, q1, q2, q3}, {2.5, 2.5, -1});
+  }
+  polygons.push_back({v, p1, p2, p3});
+  polygons.push_back({v, q3, q2, q1});
+  Building building = test::building_of(polygons);
+  building.is_solid = true;
+  for (int i = 0; i < 2; ++i) {
+    building.polygons[0].rings.push_back(building.polygons.back().rings[0]);
+    building.polygons.pop_back();
+  }
+  return building;
+}
+
 TEST_SUITE("kernel/validate") {
+  TEST_CASE("where rings of a polygon meet its parts around the corner count and not its rings") {
+    CHECK(codes_of(block_with_pits(false)).empty());
+    CHECK(codes_of(block_with_pits(true)) == "E350 303");
+  }
+
   TEST_CASE("a box is valid wherever it stands and whatever is taken out of it") {
     const Building box = BoxBody().add({0, 0, 0}, {3, 4, 5}).build();
     CHECK(validate(box).empty());
@@ -100,6 +139,24 @@ TEST_SUITE("kernel/validate") {
     const auto findings = validate(bent, lax);
     REQUIRE(findings.size() == 1);
     CHECK(findings[0].val3dity == 204);
+  }
+
+  TEST_CASE("triangles of a polygon are compared with each other and not with the largest alone") {
+    // A floor with a flap of 2 cm on either side that rises by 15 degrees: 5 mm off its plane.
+    const double width = 0.02, height = 0.0053;
+    const auto floor_with_flaps = [&](double left, double right) {
+      return surfaces({{{-width, 0, left},
+                        {0, 0, 0},
+                        {1, 0, 0},
+                        {1 + width, 0, right},
+                        {1 + width, 1, right},
+                        {1, 1, 0},
+                        {0, 1, 0},
+                        {-width, 1, left}}});
+    };
+    CHECK(codes_of(floor_with_flaps(height, 0)).empty());
+    CHECK(codes_of(floor_with_flaps(height, -height)).empty());
+    CHECK(codes_of(floor_with_flaps(height, height)) == "E345 204");
   }
 
   TEST_CASE("a finding has its polygon and its place in the input's coordinates") {
