@@ -30,8 +30,11 @@ bool keep(const std::vector<Issue>& issues, GeneralisedBuilding& out) {
   return !has_errors(issues);
 }
 
-bool is_given_up(const GeneralisedBuilding& drawn) {
-  return std::ranges::find(drawn.issues, Code::G410, &Issue::code) != drawn.issues.end();
+/// It could not be drawn as a valid solid of its own.
+bool is_invalid(const GeneralisedBuilding& drawn) {
+  return std::ranges::any_of(drawn.issues, [](const Issue& issue) {
+    return issue.code == Code::G413 || issue.code == Code::G410;
+  });
 }
 
 /// How what is cut is judged on the way, by how it would be written.
@@ -57,9 +60,8 @@ class BuildingDrawer {
   [[nodiscard]] GeneralisedBuilding draw(const PipelineResult& result,
                                          Judging judging = Judging::refused) const;
 
-  /// Says how fine the file has to be for the building to be valid in it. What is valid at no scale
-  /// is drawn again with each step judged; if that is valid at none either it stays unchanged,
-  /// levels of detail are rejected (G410).
+  /// What is not valid as it is written is drawn again with each step judged; if that is not valid
+  /// either it stays unchanged, levels of detail are rejected (G410).
   void keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
   /// Draws a building that is not valid, or was given up, from its repair_and_retry(), which
@@ -101,7 +103,8 @@ class BuildingDrawer {
                     const Generalised& changes, const Redrawn& redrawn,
                     GeneralisedBuilding& out) const;
   void give_up(const PipelineResult& result, Issue fault, GeneralisedBuilding& drawn) const;
-  [[nodiscard]] Redrawn untouched(const PipelineResult& result, GeneralisedBuilding& out) const;
+  [[nodiscard]] Redrawn untouched(const PipelineResult& result, bool is_invalid_before,
+                                  GeneralisedBuilding& out) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;
 
   const Document& document_;
@@ -131,10 +134,13 @@ GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging j
 void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const {
   std::optional<Issue> fault = check(result, drawn);
   if (!fault) return;
-  GeneralisedBuilding again = draw(result, Judging::thorough);
-  if (!again.levels.empty() && !check(result, again)) {
-    drawn = std::move(again);
-    return;
+  // Where not even the solid itself is valid no step can be told to spoil it.
+  if (fault->code != Code::G413) {
+    GeneralisedBuilding again = draw(result, Judging::thorough);
+    if (!again.levels.empty() && !check(result, again)) {
+      drawn = std::move(again);
+      return;
+    }
   }
   give_up(result, std::move(*fault), drawn);
 }
@@ -151,13 +157,13 @@ void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& d
     if (!is_intricate) return keep_valid(*repaired, again);
     if (auto fault = check(*repaired, again)) give_up(*repaired, std::move(*fault), again);
   });
-  if (is_given_up(drawn) && is_given_up(again)) return;
+  if (is_invalid(drawn) && is_invalid(again)) return;
   drawn = std::move(again);
   drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
   drawn.repaired = std::move(repaired);
 }
 
-/// Of each target how fine the file has to be; what is valid at no scale is the fault.
+/// What is not valid as it is written is the fault.
 std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
                                            GeneralisedBuilding& drawn) const {
   std::optional<Issue> fault;
@@ -165,9 +171,7 @@ std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
     if (!redrawn.labelled.geometry) continue;
     OutputCheck found =
         check_redrawn(document_, building_, *result.solid, *redrawn.labelled.geometry);
-    redrawn.labelled.digits = found.digits;
     if (found.fault) fault = std::move(found.fault);
-    if (found.excuse) drawn.issues.push_back(std::move(*found.excuse));
   }
   return fault;
 }
@@ -175,14 +179,16 @@ std::optional<Issue> BuildingDrawer::check(const PipelineResult& result,
 void BuildingDrawer::give_up(const PipelineResult& result, Issue fault,
                              GeneralisedBuilding& drawn) const {
   drawn.levels.clear();
+  std::erase_if(drawn.issues, [](const Issue& issue) { return issue.code == Code::G413; });
   if (targets_.has_lods()) {
+    fault.severity = Severity::error;
     drawn.issues.push_back(fault);
     return;
   }
   fault.severity = Severity::warning;
   fault.sentence += "; it stays unchanged";
   drawn.issues.push_back(fault);
-  drawn.levels.push_back(untouched(result, drawn));
+  drawn.levels.push_back(untouched(result, fault.code == Code::G413, drawn));
 }
 
 /// What nothing was done to stays unchanged, unless it came as no valid solid and its solid is
@@ -204,17 +210,16 @@ void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised&
       fmt::format("was not valid in the input ({}) and is redrawn", to_string(findings[0].code))));
 }
 
-/// The building without any operation.
-Redrawn BuildingDrawer::untouched(const PipelineResult& result, GeneralisedBuilding& out) const {
+/// The building without any operation: as it was read if its own solid is not valid either.
+Redrawn BuildingDrawer::untouched(const PipelineResult& result, bool is_invalid_before,
+                                  GeneralisedBuilding& out) const {
   LabelledBuilding labelled = annotate(building_, result, rules_, options_);
   Generalised whole{*result.solid, {}};
   whole.closing = closing_faces(whole.solid);
-  redraw_unchanged(result, whole, out);
+  if (!is_invalid_before) redraw_unchanged(result, whole, out);
   if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
-  Redrawn redrawn = redraw(building_, labelled, *result.segmentation, result.description.table,
-                           result.interpretation, std::move(whole), result.tolerances);
-  redrawn.labelled.digits = check_output(document_, building_, *redrawn.labelled.geometry).digits;
-  return redrawn;
+  return redraw(building_, labelled, *result.segmentation, result.description.table,
+                result.interpretation, std::move(whole), result.tolerances);
 }
 
 std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const LabelledResult& of,
@@ -308,13 +313,6 @@ void BuildingDrawer::keep_figures(const Profile* profile, const PipelineResult& 
 
 std::string BuildingDrawer::target_text(const Profile* profile) const {
   return targets_.has_lods() ? "LoD " + profile->level : targets_.text();
-}
-
-/// It could not be drawn as a valid solid of its own.
-bool is_invalid(const GeneralisedBuilding& drawn) {
-  return std::ranges::any_of(drawn.issues, [](const Issue& issue) {
-    return issue.code == Code::G413 || issue.code == Code::G410;
-  });
 }
 
 GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineResult& result,

@@ -30,12 +30,11 @@ void label_caps(const Building& building, LabelledBuilding& repaired) {
 }
 
 /// The building with its solid in the place of its polygons, and counts of what was repaired.
-LabelledBuilding output_of(const Building& building, const Repaired& repaired, bool keeps_semantics,
-                           int digits) {
+LabelledBuilding output_of(const Building& building, const Repaired& repaired,
+                           bool keeps_semantics) {
   LabelledBuilding output;
   output.building = building.id;
   output.geometry = repaired.solid;
-  output.digits = digits;
   output.keeps_semantics = keeps_semantics;
   if (keeps_semantics) label_caps(building, output);
   const auto add_count = [&](const char* name, std::size_t count) {
@@ -49,24 +48,36 @@ LabelledBuilding output_of(const Building& building, const Repaired& repaired, b
   return output;
 }
 
+/// Makes the solid one that is valid as it is written: as it is, mended, or redrawn. Why it could
+/// not be done.
+std::optional<Issue> make_valid(const Document& document, const Building& building,
+                                const PipelineOptions& options, Repaired& out) {
+  const OutputCheck check = check_output(document, building, *out.solid);
+  if (!check.fault) return std::nullopt;
+  Solid mended = *out.solid;
+  mend_written(document, building, mended);
+  if (!check_output(document, building, mended).fault) {
+    out.solid = std::move(mended);
+    return std::nullopt;
+  }
+  if (options.repair.crossings != Crossings::cut) return check.fault;
+  auto again = repaired_solid(document, building, options.tolerances, options);
+  if (!again) return check.fault;
+  out.solid = std::move(again->solid);
+  out.report = std::move(again->repair);
+  return std::nullopt;
+}
+
 Repaired checked_solid(const Document& document, const Building& building, PipelineResult solid,
                        const PipelineOptions& options) {
   Repaired out{std::move(solid.solid), std::move(solid.repair), {}, std::move(solid.issues)};
   if (!out.solid) return out;
-  OutputCheck check = check_output(document, building, *out.solid);
-  if (check.fault && options.repair.crossings == Crossings::cut) {
-    if (auto again = repaired_solid(document, building, options.tolerances, options)) {
-      out.solid = std::move(again->result.solid);
-      out.report = std::move(again->result.repair);
-      check = {again->digits, {}, {}};
-    }
-  }
-  if (check.fault) {
+  if (auto fault = make_valid(document, building, options, out)) {
     out.solid.reset();
-    out.issues.push_back(std::move(*check.fault));
+    out.issues.push_back(std::move(*fault));
     return out;
   }
-  out.output = output_of(building, out, !options.ignores_semantics, check.digits);
+  out.output = output_of(building, out, !options.ignores_semantics);
   return out;
 }
 
@@ -113,7 +124,6 @@ Checked<LabelledBuilding> on_solid(const Document& document, const Building& bui
           .labelled;
   const OutputCheck check = check_output(document, building, *drawn.geometry);
   if (check.fault) return {{}, {*check.fault}};
-  drawn.digits = check.digits;
   return {std::move(drawn), {}};
 }
 

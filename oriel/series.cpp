@@ -34,10 +34,7 @@ struct LeveledBuilding {
   std::unique_ptr<const PipelineResult> repaired{};  ///< what `result` is, if it was repaired
 
   /// All levels are valid solids in the file.
-  [[nodiscard]] bool is_valid() const {
-    return !has_errors(issues) &&
-           std::ranges::find(issues, Code::G413, &Issue::code) == issues.end();
-  }
+  [[nodiscard]] bool is_valid() const { return !has_errors(issues); }
 };
 
 /// Draws the levels of a record's buildings.
@@ -62,10 +59,7 @@ class SeriesDrawer {
       for (std::size_t i = 0; i < results.size(); ++i)
         if (results[i].is_done()) add_levels(document_.buildings[i], results[i], all, series);
     });
-    std::vector<const LabelledBuilding*> solids;
-    for (const LeveledBuilding& one : all)
-      for (const SeriesLevel& level : one.levels) solids.push_back(&level.redrawn.labelled);
-    const WrittenGrid grid(document_, solids);
+    const WrittenGrid grid(document_);
     series.finer_digits = grid.finer_digits();
     measure(observer, Stage::generalise, [&] {
       for (const LeveledBuilding& one : all) add_operations(one, grid, series);
@@ -74,8 +68,8 @@ class SeriesDrawer {
   }
 
  private:
-  /// The levels of a building; none if one cannot be written as a valid solid, unless it came as
-  /// none (G413). First its steps are judged, then it is repaired, where either helps.
+  /// The levels of a building; none if one cannot be written as a valid solid (G410, G413). First
+  /// its steps are judged, then it is repaired, where either helps.
   void add_levels(const Building& building, const PipelineResult& result,
                   std::vector<LeveledBuilding>& all, Series& series) {
     LeveledBuilding one = logged(
@@ -190,22 +184,20 @@ class SeriesDrawer {
     one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
   }
 
-  /// Says of each level how fine the file has to be; what is valid at no scale of the file is an
-  /// error.
+  /// A level that is not valid as it is written is an error.
   void check(LeveledBuilding& one) const {
     for (std::size_t i = 1; i < one.levels.size() && !has_errors(one.issues); ++i) {
       SeriesLevel& level = one.levels[i];
       const SeriesLevel& before = one.levels[i - 1];
       LabelledBuilding& labelled = level.redrawn.labelled;
-      labelled.digits = before.redrawn.labelled.digits;
       const bool is_same = level.generalised.removed == before.generalised.removed &&
                            level.generalised.changed.empty();
       if (is_same && i > 1) continue;
       OutputCheck found =
           check_redrawn(document_, *one.building, *one.result->solid, *labelled.geometry);
-      labelled.digits = std::max(labelled.digits, found.digits);
-      if (found.excuse) one.issues.push_back(std::move(*found.excuse));
-      if (found.fault) one.issues.push_back(std::move(*found.fault));
+      if (!found.fault) continue;
+      found.fault->severity = Severity::error;
+      one.issues.push_back(std::move(*found.fault));
     }
   }
 

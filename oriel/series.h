@@ -55,8 +55,8 @@ struct SeriesOptions : LabelOptions {
 ///
 /// Open buildings are repaired first (G420). A level never has what a finer one lost. First the
 /// steps of a building that would not be valid are judged one by one, then it is drawn from a
-/// repaired solid (G417); what helps neither is rejected, unless it came as no valid solid (G413).
-/// Throws GeometryError for a fault of oriel's own.
+/// repaired solid (G417); what helps neither is rejected (G410, or G413 if it was not valid when it
+/// was read). Throws GeometryError for a fault of oriel's own.
 Series series(const Document& document, const std::vector<PipelineResult>& results,
               const RuleBase& rules, const std::vector<double>& scales,
               const SeriesOptions& options = {});

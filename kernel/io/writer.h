@@ -39,10 +39,10 @@ struct WriteOptions {
 ///   polygons; with LabelledBuilding::keeps_semantics they keep the semantic surface that their
 ///   input polygons share, if they do; its material and texture go, and vertices that nothing uses
 ///   any more leave the file. New vertices are rounded to the transform's scale; if that is coarser
-///   than 1 mm, or would move a vertex off a facet's plane by more than 2 mm, or would make two
-///   vertices one, or if LabelledBuilding::digits asks for it, the file gets a scale finer by
-///   powers of ten. A line of a CityJSONSeq keeps its
-///   header's transform.
+///   than 1 mm, the file gets one finer by powers of ten that is not. What is written has no say in
+///   it, so that a building's numbers are the same whatever else is in the file. Vertices that
+///   rounding makes one are one.
+///   A line of a CityJSONSeq keeps its header's transform.
 /// - With LabelledBuilding::lod that geometry gets this level of detail, and another geometry of
 /// the
 ///   object with it goes. Of several labelled buildings with one id the first takes the place of

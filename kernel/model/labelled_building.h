@@ -56,9 +56,6 @@ struct LabelledBuilding {
   /// The level of detail that `geometry` is written with; empty: the input's. Buildings with the
   /// same id and several levels stand one behind the other.
   std::string lod{};
-  /// With `geometry`: a CityJSON file gets a scale finer by so many powers of ten at least (see
-  /// as_written).
-  int digits = 0;
   /// With `geometry`: facets whose polygons all have one semantic surface in the input keep that.
   bool keeps_semantics = false;
 };

@@ -2,10 +2,14 @@
 
 #include "kernel/base/assert.h"
 #include "kernel/base/index.h"
+#include "kernel/base/whole_point.h"
 #include "kernel/geometry/exact.h"
+#include "kernel/geometry/near_points.h"
 #include "kernel/solidify/shells/shells.h"
+#include "kernel/validate/validate_closely.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -14,16 +18,35 @@ namespace oriel {
 
 namespace {
 
-/// By vertex of the solid the first one that is written as the same point.
+/// By vertex as written the first one of those that lie so near each other that they are one.
+std::vector<int> near_vertices(const Building& written) {
+  constexpr double kPerMetre = 1e6;
+  std::vector<MicrometrePoint> points;
+  for (const Vec3 v : written.vertices)
+    points.push_back({std::llround(v.x * kPerMetre), std::llround(v.y * kPerMetre),
+                      std::llround(v.z * kPerMetre)});
+  std::vector<MicrometrePoint> sorted = points;
+  std::ranges::sort(sorted);
+  const auto doubles = std::ranges::unique(sorted);
+  sorted.erase(doubles.begin(), doubles.end());
+  const detail::Numbers first = detail::group_near_points(sorted, kSurelyApart_m * kPerMetre);
+  std::vector<int> group;
+  for (const MicrometrePoint& p : points)
+    group.push_back(first[at(std::ranges::lower_bound(sorted, p) - sorted.begin())]);
+  return group;
+}
+
+/// By vertex of the solid the first one that is one point with it as they are written.
 std::vector<int> first_of_each_point(const Solid& solid, const Building& written) {
+  const std::vector<int> group = near_vertices(written);
   std::vector<int> first(solid.vertices.size(), -1);
-  std::map<int, int> vertex_at;  // by vertex as written
+  std::map<int, int> vertex_at;  // by group
   for (const Polygon& polygon : written.polygons) {
     const auto& loops = solid.facets[at(polygon.source)].loops;
     for (std::size_t r = 0; r < loops.size(); ++r)
       for (std::size_t i = 0; i < loops[r].size(); ++i)
         first[at(loops[r][i])] =
-            vertex_at.try_emplace(polygon.rings[r][i], loops[r][i]).first->second;
+            vertex_at.try_emplace(group[at(polygon.rings[r][i])], loops[r][i]).first->second;
   }
   return first;
 }

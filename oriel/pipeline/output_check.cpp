@@ -4,6 +4,7 @@
 #include "kernel/io/levels/written_grid.h"
 #include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
+#include "kernel/validate/validate_closely.h"
 #include "kernel/validate/weld_written.h"
 
 #include <algorithm>
@@ -16,17 +17,11 @@
 namespace oriel {
 
 OutputCheck check_output(const Document& document, const Building& building, const Solid& solid) {
-  OutputCheck check;
-  const int spare = spare_digits(document);
-  for (;; ++check.digits) {
-    const auto findings = validate(as_written(document, building, solid, check.digits));
-    if (findings.empty()) return check;
-    if (check.digits < spare) continue;
-    check.fault = building_issue(Severity::error, Code::E318, building.id,
-                                 fmt::format("the repaired solid is not valid: {} {}",
-                                             to_string(findings[0].code), findings[0].sentence));
-    return check;
-  }
+  const auto findings = validate_closely(as_written(document, building, solid));
+  if (findings.empty()) return {};
+  return {building_issue(Severity::error, Code::E318, building.id,
+                         fmt::format("the repaired solid is not valid: {} {}",
+                                     to_string(findings[0].code), findings[0].sentence))};
 }
 
 namespace {
@@ -56,18 +51,14 @@ void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
   }
 }
 
-/// Welds what is written as one point, else parts facets that are folded as they are written. False
-/// if there is neither, or if something else is wrong, too.
-bool part_once(const Document& document, const Building& building, LabelledBuilding& labelled) {
-  if (!labelled.geometry) return false;
-  const Building written =
-      as_written(document, building, *labelled.geometry, spare_digits(document));
-  const auto findings = validate(written);
-  auto parted = weld_written(*labelled.geometry, written, findings);
-  if (!parted) parted = part_folded(*labelled.geometry, written, findings);
-  if (!parted) return false;
-  put_parted(std::move(*parted), labelled);
-  return true;
+/// Welds what is written as one point, else parts facets that are folded as they are written.
+/// Nothing if there is neither, or if something else is wrong, too.
+std::optional<PartedSolid> parted_once(const Document& document, const Building& building,
+                                       const Solid& solid) {
+  const Building written = as_written(document, building, solid);
+  const auto findings = validate_closely(written);
+  auto welded = weld_written(solid, written, findings);
+  return welded ? std::move(welded) : part_folded(solid, written, findings);
 }
 
 bool can_be_valid(const Document& document, const Building& building, const Solid& own) {
@@ -87,15 +78,26 @@ OutputCheck check_redrawn(const Document& document, const Building& building, co
   if (!check.fault) return check;
   std::string why = check.fault->sentence;
   why.erase(0, why.find(": ") + 2);
-  if (!can_be_valid(document, building, own)) return {0, {}, invalid_before(building, why)};
+  if (!can_be_valid(document, building, own)) return {invalid_before(building, why)};
   check.fault->code = Code::G410;
   check.fault->sentence = "would not be valid as it is written: " + why;
   return check;
 }
 
+void mend_written(const Document& document, const Building& building, Solid& solid) {
+  for (int i = 0; i < kPartings; ++i) {
+    auto parted = parted_once(document, building, solid);
+    if (!parted) return;
+    solid = std::move(parted->solid);
+  }
+}
+
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled) {
-  int partings = 0;
-  while (partings < kPartings && part_once(document, building, labelled)) ++partings;
+  for (int i = 0; i < kPartings && labelled.geometry; ++i) {
+    auto parted = parted_once(document, building, *labelled.geometry);
+    if (!parted) return;
+    put_parted(std::move(*parted), labelled);
+  }
 }
 
 SolidValidator judge_as_written(const Document& document, const Building& building,

@@ -12,26 +12,28 @@ namespace oriel {
 
 /// Whether a solid is valid when it is read again.
 struct OutputCheck {
-  int digits = 0;               ///< LabelledBuilding::digits that it takes, the fewest
-  std::optional<Issue> fault;   ///< E318: it is not, whatever the scale; the first finding says why
-  std::optional<Issue> excuse;  ///< G413, a warning: it is not, but could not have been either
+  std::optional<Issue> fault;  ///< E318: it is not; the first finding says why
 };
 
-/// Judges `solid` in the place of the polygons of `building`, one of the document, by validate() on
-/// what as_written() makes of it, first at the scale that the document has.
+/// Judges `solid` in the place of the polygons of `building`, one of the document, by
+/// validate_closely() on what as_written() makes of it: the very numbers that the file gets.
 OutputCheck check_output(const Document& document, const Building& building, const Solid& solid);
 
-/// The same of a solid that was redrawn. Its fault is a G410; if the building was not valid as it
-/// was read and its own solid, nothing done to it, would not be either, that is its excuse.
+/// The same of a solid that was redrawn. Its fault is a G410, an error; if the building was not
+/// valid as it was read, and its own solid, nothing done to it, would not be either, a G413, a
+/// warning.
 OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
                           const Solid& solid);
 
 /// The warning G413.
 Issue invalid_before(const Building& building, const std::string& why);
 
-/// Of what is to be written in the place of the polygons of `building`, welds what the file's grid
-/// makes one point (weld_written), and parts facets that would be folded there (part_folded), if
-/// nothing else is wrong; what is left of facets is what they were.
+/// Of what is to be written in the place of the polygons of `building`, welds what is one point in
+/// the file (weld_written), and parts facets that would be folded there (part_folded), if nothing
+/// else is wrong. Whether the rest is valid has to be judged.
+void mend_written(const Document& document, const Building& building, Solid& solid);
+
+/// The same with labels: what is left of facets is what they were.
 void part_written(const Document& document, const Building& building, LabelledBuilding& labelled);
 
 /// A judge of solids to be written in the place of the polygons of `building`, whose solid is

@@ -1,7 +1,5 @@
 #include "oriel/pipeline/repair_and_retry.h"
 
-#include "kernel/io/levels/written_grid.h"
-#include "kernel/validate/part_folded.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
@@ -23,23 +21,6 @@ struct Times {
 };
 constexpr std::array<Times, 4> kTimes{{{1, 1}, {0.5, 1}, {2.5, 2.5}, {5, 5}}};
 
-/// Facets are parted so often; what is folded then is given up.
-constexpr int kSolidPartings = 4;
-
-/// True if the solid is valid as it is written, once its folded facets are parted.
-bool make_valid(const Document& document, const Building& building, RepairedSolid& repaired) {
-  for (int i = 0; i < kSolidPartings; ++i) {
-    const OutputCheck check = check_output(document, building, *repaired.result.solid);
-    repaired.digits = check.digits;
-    if (!check.fault) return true;
-    const Building written = as_written(document, building, *repaired.result.solid, check.digits);
-    auto parted = part_folded(*repaired.result.solid, written, validate(written));
-    if (!parted) return false;
-    repaired.result.solid = std::move(parted->solid);
-  }
-  return !check_output(document, building, *repaired.result.solid).fault;
-}
-
 Issue repair_warning(const Building& building, const PipelineResult& result) {
   const auto findings = validate(building);
   const std::string why = findings.empty()
@@ -53,8 +34,8 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
                   why, result.repair.cut));
 }
 
-/// What repair() does: with crossings cut, and if that is not valid as it is written from the
-/// boundary of the inside.
+/// What repair() does: with crossings cut, and if that is not valid as it is written mended, or from
+/// the boundary of the inside.
 std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
                                         const Tolerances& tolerances,
                                         const PipelineOptions& options) {
@@ -65,9 +46,9 @@ std::optional<PipelineResult> cut_solid(const Document& document, const Building
   if (!cut.solid) return std::nullopt;
   cut.tolerances = tolerances;
   if (!check_output(document, building, *cut.solid).fault) return cut;
-  auto repaired = repaired_solid(document, building, tolerances, options);
-  if (!repaired) return std::nullopt;
-  return std::move(repaired->result);
+  mend_written(document, building, *cut.solid);
+  if (!check_output(document, building, *cut.solid).fault) return cut;
+  return repaired_solid(document, building, tolerances, options);
 }
 
 Issue mended_first(const Building& building, const RepairReport& report) {
@@ -83,19 +64,20 @@ Issue mended_first(const Building& building, const RepairReport& report) {
 
 }  // namespace
 
-std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
-                                            const Tolerances& tolerances,
-                                            const PipelineOptions& options) {
+std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
+                                             const Tolerances& tolerances,
+                                             const PipelineOptions& options) {
   RepairOptions repair = options.repair;
   repair.crossings = Crossings::cut_closed;
   for (const Times& times : kTimes) {
     Tolerances tried = tolerances;
     tried.plane_offset_m *= times.plane_offset;
     tried.weld_m *= times.weld;
-    RepairedSolid repaired{run_to_solid(building, tried, repair, options.budget, options.observer),
-                           0};
-    repaired.result.tolerances = tried;
-    if (repaired.result.solid && make_valid(document, building, repaired)) return repaired;
+    PipelineResult made = run_to_solid(building, tried, repair, options.budget, options.observer);
+    made.tolerances = tried;
+    if (!made.solid) continue;
+    mend_written(document, building, *made.solid);
+    if (!check_output(document, building, *made.solid).fault) return made;
   }
   return std::nullopt;
 }
@@ -105,9 +87,9 @@ std::optional<PipelineResult> repair_and_retry(const Document& document, const B
                                                const LabelOptions& options) {
   auto repaired = repaired_solid(document, building, result.tolerances, options);
   if (!repaired) return std::nullopt;
-  const Tolerances tolerances = repaired->result.tolerances;
+  const Tolerances tolerances = repaired->tolerances;
   PipelineResult again =
-      run_from_solid(std::move(repaired->result), building, &rules, tolerances, options);
+      run_from_solid(std::move(*repaired), building, &rules, tolerances, options);
   if (!again.is_done() || again.is_open) return std::nullopt;
   again.issues.push_back(repair_warning(building, again));
   return again;

@@ -8,19 +8,15 @@
 
 namespace oriel {
 
-/// A solid that is valid as it is written, made of a building whose own solid would not be.
-struct RepairedSolid {
-  PipelineResult result;  ///< as far as the solid; `tolerances` are those it was made with
-  int digits = 0;         ///< LabelledBuilding::digits that it takes
-};
-
 /// The solid of a building whose own solid would not be valid as it is written: its surface runs
-/// through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), and facets
-/// that are folded in the file are parted (part_folded), with the tolerances given, or finer or up
-/// to five times coarser ones if they do not help. Nothing if none makes it valid.
-std::optional<RepairedSolid> repaired_solid(const Document& document, const Building& building,
-                                            const Tolerances& tolerances,
-                                            const PipelineOptions& options);
+/// through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), what the
+/// file makes one point is welded (weld_written), and facets that are folded there are parted
+/// (part_folded), with the tolerances given, or finer or up to five times coarser ones if they do
+/// not help. Nothing if none makes it valid; else the result as far as the solid, with the
+/// tolerances that it was made with.
+std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
+                                             const Tolerances& tolerances,
+                                             const PipelineOptions& options);
 
 /// The building once more in the whole pipeline, from its repaired_solid(), and a warning G417 that
 /// says so, the last of its issues. `result` is what came of it the first time.

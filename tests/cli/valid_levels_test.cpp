@@ -114,6 +114,18 @@ std::string slanting_stream() {
 )";
 }
 
+/// The same with a small chimney that stands well.
+std::string slanting_stream_with_chimney() {
+  return replaced(
+      replaced(replaced(slanting_stream(), "[8, 11, 10, 9]]", "[8, 11, 10, 9], [16, 19, 18, 17]]"),
+               "[[12, 13, 14, 15]]]]",
+               "[[12, 13, 14, 15]], [[16, 17, 21, 20]], [[17, 18, 22, 21]], [[18, 19, 23, 22]], "
+               "[[19, 16, 20, 23]], [[20, 21, 22, 23]]]]"),
+      "[7, 5, 8]]",
+      "[7, 5, 8], [2, 3, 6], [3, 3, 6], [3, 4, 6], [2, 4, 6], [2, 3, 7], [3, 3, 7], [3, 4, 7], [2, "
+      "4, 7]]");
+}
+
 /// Houses of the generator, with noise of 0, 1 and 2 mm in turn.
 Names generated(int count, const Folder& folder) {
   oriel::generator::Options options;
@@ -209,6 +221,21 @@ TEST_SUITE("cli") {
     CHECK(made.err.find("G413") != std::string::npos);
     CHECK(made.err.find("G413") == made.err.rfind("G413"));
     CHECK(made.err.find("G417") == std::string::npos);
+  }
+
+  TEST_CASE("what cannot be valid stays as it came and has no levels") {
+    const Folder folder;
+    const std::string file = folder.write("b.city.jsonl", slanting_stream_with_chimney());
+    const std::string out = folder / "out.city.jsonl";
+    const Outcome made = run({"generalise", file, "--scale", "1:2500", "-o", out});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("G413") != std::string::npos);
+    CHECK(made.err.find("it stays unchanged") != std::string::npos);
+    CHECK(bytes_of(out).find("[[19, 16, 20, 23]], [[20, 21, 22, 23]]]]") != std::string::npos);
+    const Outcome series =
+        run({"generalise", file, "--series", "1:1000,1:2500", "-o", folder / "series"});
+    CHECK(series.exit == 3);
+    CHECK(series.err.find("error: b: G413") != std::string::npos);
   }
 
   TEST_CASE("published buildings that run through themselves are valid at every target") {

@@ -28,11 +28,6 @@ DocumentGrid grid_of(const Document& document) {
   return {detail::fresh_cityjson(document.buildings).transform, false};
 }
 
-const Frame* frame_of(const Document& document, const std::string& id) {
-  const auto found = std::ranges::find(document.buildings, id, &Building::id);
-  return found == document.buildings.end() ? nullptr : &found->frame;
-}
-
 /// How many decimals of a metre a whole number of micrometres has.
 int decimals_of(std::int64_t number) {
   int decimals = kDecimals;
@@ -50,17 +45,9 @@ void note_decimals(const MicrometreRing& ring, int& decimals) {
 
 }  // namespace
 
-WrittenGrid::WrittenGrid(const Document& document,
-                         const std::vector<const LabelledBuilding*>& labelled) {
+WrittenGrid::WrittenGrid(const Document& document) {
   const DocumentGrid grid = grid_of(document);
-  std::vector<detail::PlacedSolid> solids;
-  for (const LabelledBuilding* building : labelled)
-    if (!grid.is_fixed) digits_ = std::max(digits_, building->digits);
-  for (const LabelledBuilding* building : labelled)
-    if (const Frame* frame = frame_of(document, building->building); frame && building->geometry)
-      solids.push_back({&*building->geometry, frame});
-  if (!grid.is_fixed && !solids.empty())
-    digits_ = std::max(digits_, detail::finer_digits(grid.transform, solids));
+  if (!grid.is_fixed) digits_ = detail::finer_digits(grid.transform);
   const detail::Transform transform = detail::finer(grid.transform, digits_);
   scale_ = transform.scale;
   translate_ = transform.translate;
@@ -99,11 +86,6 @@ MicrometrePoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale
 
 namespace {
 
-detail::Transform transform_of(const Document& document) {
-  return document.source ? document.source->transform
-                         : detail::fresh_cityjson(document.buildings).transform;
-}
-
 /// Vertices that rounding makes one are one.
 std::vector<int> add_vertices(const Solid& solid, const detail::Transform& transform,
                               Building& written) {
@@ -129,19 +111,15 @@ Polygon polygon_of(const Facet& facet, const std::vector<int>& number_of) {
 
 }  // namespace
 
-int spare_digits(const Document& document) {
-  if (document.source && document.source->is_feature) return 0;
-  return detail::spare_digits(transform_of(document));
-}
-
-Building as_written(const Document& document, const Building& building, const Solid& solid,
-                    int digits) {
+Building as_written(const Document& document, const Building& building, const Solid& solid) {
   Building written;
   written.id = building.id;
   written.lod = building.lod;
   written.frame = building.frame;
+  const DocumentGrid grid = grid_of(document);
+  const int digits = grid.is_fixed ? 0 : detail::finer_digits(grid.transform);
   const std::vector<int> number_of =
-      add_vertices(solid, detail::finer(transform_of(document), digits), written);
+      add_vertices(solid, detail::finer(grid.transform, digits), written);
   std::vector<int> shells_of_lump;
   for (const Shell& shell : solid.shells) {
     const auto lump = static_cast<std::size_t>(shell.lump);

@@ -15,9 +15,8 @@ namespace oriel {
 /// Where a CityJSON file has the points of its vertices: on the grid that its transform makes.
 class WrittenGrid {
  public:
-  /// The grid of write_cityjson for a document, fine enough for the geometries of all of
-  /// `labelled` (and for LabelledBuilding::digits), which need not go into one file.
-  WrittenGrid(const Document& document, const std::vector<const LabelledBuilding*>& labelled);
+  /// The grid of write_cityjson for a document, whatever the geometries are.
+  explicit WrittenGrid(const Document& document);
 
   /// The grid of a file that can state all points of `states`, no finer than a micrometre.
   WrittenGrid(const Document& document, const std::vector<LevelState>& states);
@@ -36,15 +35,9 @@ class WrittenGrid {
 /// The point of a file's vertex: translate + scale × integer, to the micrometre.
 MicrometrePoint grid_point(const std::array<std::int64_t, 3>& vertex, Vec3 scale, Vec3 translate);
 
-/// By how many powers of ten write_cityjson may make the scale of a document finer, from the one
-/// that it has or 0.001 on: 0 for a line of a CityJSONSeq, whose header has the transform.
-int spare_digits(const Document& document);
-
 /// `building`, one of the document, as it is read again after `solid` was written in the place of
 /// its polygons: one polygon for each facet (Polygon::source is its number), vertices rounded to
-/// the transform's scale, which is finer by `digits` powers of ten. Repeated vertices are kept: it
-/// is what a validator gets to see.
-Building as_written(const Document& document, const Building& building, const Solid& solid,
-                    int digits);
+/// the WrittenGrid of the document. Repeated vertices are kept: it is what a validator gets to see.
+Building as_written(const Document& document, const Building& building, const Solid& solid);
 
 }  // namespace oriel

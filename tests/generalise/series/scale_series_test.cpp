@@ -40,9 +40,7 @@ ScaleSeries series_of(const Line& line, const SeriesInput& input) {
   const PlanAt plan_at = plan_of(line);
   const auto levels = series_levels(input, kSeriesScales, plan_at);
   REQUIRE(levels.value);
-  std::vector<const LabelledBuilding*> all;
-  for (const SeriesLevel& level : *levels.value) all.push_back(&level.redrawn.labelled);
-  const WrittenGrid grid(line.document, all);
+  const WrittenGrid grid(line.document);
   return scale_series(input, *levels.value,
                       FiringScales(kSeriesScales, plan_bounds(residential()), plan_at),
                       [&](Vec3 local_m) { return grid.place(local_m, line.building().frame); });

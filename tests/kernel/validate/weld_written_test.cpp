@@ -1,6 +1,7 @@
 #include "kernel/validate/weld_written.h"
 
 #include "kernel/base/index.h"
+#include "kernel/validate/validate_closely.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solidified.h"
 
@@ -38,8 +39,8 @@ Building in_millimetres(const Solid& solid) {
   return building;
 }
 
-/// A block of 10 x 10 x 5 m with a bevel of 0.2 mm where its top meets its front.
-Solid block_with_bevel() {
+/// A block of 10 x 10 x 5 m with a bevel of this height where its top meets its front.
+Solid block_with_bevel(double height = 0.0002) {
   Solid solid = test::solid_of(test::BoxBody().add({0, 0, 0}, {10, 10, 5}).build());
   const std::size_t top = test::facet_looking(solid, {0, 0, 1}).index();
   const std::size_t front = test::facet_looking(solid, {0, -1, 0}).index();
@@ -50,7 +51,7 @@ Solid block_with_bevel() {
   const int first = static_cast<int>(solid.vertices.size());
   for (const int v : ends) {
     Vec3 lower = solid.vertices[at(v)].point;
-    lower.z -= 0.0002;
+    lower.z -= height;
     solid.vertices.push_back({lower, false});
   }
   for (int& v : solid.facets[front].loops[0])
@@ -98,6 +99,19 @@ TEST_SUITE("kernel/validate") {
     for (const Facet& facet : welded->solid.facets)
       corners.insert(facet.loops[0].begin(), facet.loops[0].end());
     CHECK(corners.size() == 8);
+  }
+
+  TEST_CASE("corners a millimetre apart may be one point to others and are one") {
+    const Solid solid = block_with_bevel(0.001);
+    const Building written = in_millimetres(solid);
+    CHECK(validate(written).empty());
+    const auto findings = validate_closely(written);
+    REQUIRE(std::ranges::find(findings, Code::E312, &Finding::code) != findings.end());
+    const auto welded = weld_written(solid, written, findings);
+    REQUIRE(welded);
+    CHECK(welded->solid.facets.size() == 6);
+    CHECK(validate_closely(in_millimetres(welded->solid)).empty());
+    CHECK(validate_closely(in_millimetres(block_with_bevel(0.002))).empty());
   }
 
   TEST_CASE("a solid whose corners stay apart in the file is not welded") {

@@ -139,17 +139,10 @@ class CityJsonWriter {
 
   /// Starts the exchange of vertices if a geometry is replaced.
   void make_pool(const std::vector<LabelledBuilding>& labelled) {
-    std::vector<detail::PlacedSolid> solids;
-    int asked_for = least_digits_;
-    for (const LabelledBuilding& building : labelled) {
-      if (!building.geometry) continue;
-      asked_for = std::max(asked_for, building.digits);
-      solids.push_back(
-          {&*building.geometry, &document_.buildings[building_index(building.building)].frame});
-    }
-    if (solids.empty()) return;
+    if (std::ranges::none_of(labelled, [](const auto& one) { return one.geometry.has_value(); }))
+      return;
     if (!source_.is_feature)
-      digits_ = std::max(asked_for, detail::finer_digits(source_.transform, solids));
+      digits_ = std::max(least_digits_, detail::finer_digits(source_.transform));
     pool_.emplace(root_.value_of("vertices"), source_.transform, digits_);
   }
 

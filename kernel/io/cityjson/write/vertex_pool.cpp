@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,37 +16,12 @@ namespace oriel::detail {
 
 namespace {
 
-/// No coarser than this without need: what surveys are written in.
-constexpr double kCoarsest_m = 0.001;
-/// How far rounding may move a vertex off a facet's plane: Tolerances::plane_offset_m.
-constexpr double kOffPlane_m = 0.002;
-/// Finer than this gains nothing over the grid that solids live on.
-constexpr double kFinest_m = 1e-6;  // a unit, no tolerance
+/// No coarser than this: what surveys are written in. The factor allows for scales such as
+/// 1.0000001e-3.
+constexpr double kCoarsest_m = 1.01 * 0.001;
 
 double coarsest_scale(const Transform& transform) {
   return std::max({transform.scale.x, transform.scale.y, transform.scale.z});
-}
-
-/// True if rounding keeps the vertices apart and near the planes of their facets.
-bool keeps_shape(const PlacedSolid& placed, const Transform& transform) {
-  const Solid& solid = *placed.solid;
-  std::set<int> used;
-  for (const Facet& facet : solid.facets) {
-    const Plane& plane = solid.planes[facet.plane.index()];
-    for (const Loop& loop : facet.loops)
-      for (const int v : loop) {
-        const Vec3 point = solid.vertices[static_cast<std::size_t>(v)].point;
-        const Vec3 moved =
-            local_point(rounded(point, *placed.frame, transform), *placed.frame, transform);
-        if (std::abs(dot(plane.normal, moved - point)) > kOffPlane_m) return false;
-        used.insert(v);
-      }
-  }
-  std::set<std::array<std::int64_t, 3>> places;
-  for (const int v : used)
-    places.insert(
-        rounded(solid.vertices[static_cast<std::size_t>(v)].point, *placed.frame, transform));
-  return places.size() == used.size();
 }
 
 /// The whole number `text` times 10^digits, as text; other text stays.
@@ -118,25 +92,10 @@ double scaled_down(double number, int digits) {
   return std::stod(text.substr(0, e + 1) + std::to_string(exponent));
 }
 
-int spare_digits(const Transform& transform) {
-  // The factor allows for scales such as 1.0000001e-5.
+int finer_digits(const Transform& transform) {
   int digits = 0;
-  while (coarsest_scale(finer(transform, digits)) >= 9.9 * kFinest_m) ++digits;
+  while (coarsest_scale(finer(transform, digits)) > kCoarsest_m) ++digits;
   return digits;
-}
-
-int finer_digits(const Transform& transform, const std::vector<PlacedSolid>& solids) {
-  const int most = spare_digits(transform);
-  int digits = 0;
-  while (true) {
-    if (digits == most) return digits;
-    const double coarsest = coarsest_scale(finer(transform, digits));
-    const bool is_good = std::ranges::all_of(solids, [&](const PlacedSolid& placed) {
-      return keeps_shape(placed, finer(transform, digits));
-    });
-    if (coarsest <= kCoarsest_m && is_good) return digits;
-    ++digits;
-  }
 }
 
 std::size_t FileVertices::KeyHash::operator()(const Key& key) const noexcept {

@@ -30,13 +30,10 @@ std::array<std::int64_t, 3> rounded(Vec3 local, const Frame& frame, const Transf
 Vec3 local_point(const std::array<std::int64_t, 3>& key, const Frame& frame,
                  const Transform& transform);
 
-/// By how many powers of ten the transform's scale may get finer at most.
-int spare_digits(const Transform& transform);
-
-/// By how many powers of ten the transform's scale must get finer so that it is no coarser than
-/// 1 mm, no vertex leaves the plane of one of its facets by more than 2 mm, and no two vertices of
-/// a solid become one; at most as many as make it 1e-6.
-int finer_digits(const Transform& transform, const std::vector<PlacedSolid>& solids);
+/// By how many powers of ten the scale of a file gets finer where geometries are exchanged: as few
+/// as make it no coarser than 1 mm. It does not depend on the geometries, so that what becomes of
+/// one is the same whatever else is in the file.
+int finer_digits(const Transform& transform);
 
 /// The vertices of a CityJSON file while geometries are exchanged.
 class FileVertices {

@@ -1,0 +1,35 @@
+#include "kernel/validate/validate_closely.h"
+
+#include "kernel/validate/polygons/snapped.h"
+
+#include <algorithm>
+
+namespace oriel {
+
+namespace {
+
+/// True if there are vertices that are one to a judge who takes points of this distance for one.
+bool has_doubtful_vertices(const Building& building) {
+  const auto used = [&](double snap_m) {
+    std::vector<int> vertices;
+    const auto judged = detail::snapped(building, snap_m);
+    if (!judged) return vertices;
+    for (const detail::SnappedPolygon& polygon : judged->polygons)
+      for (const auto& ring : polygon.rings)
+        vertices.insert(vertices.end(), ring.begin(), ring.end());
+    return vertices;
+  };
+  return used(ValidateOptions{}.snap_m) != used(kSurelyApart_m);
+}
+
+}  // namespace
+
+std::vector<Finding> validate_closely(const Building& written) {
+  auto findings = validate(written);
+  if (!findings.empty() || !has_doubtful_vertices(written)) return findings;
+  ValidateOptions wide;
+  wide.snap_m = kSurelyApart_m;
+  return validate(written, wide);
+}
+
+}  // namespace oriel
