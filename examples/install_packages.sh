@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what building oriel takes and Debian 12 has, where it is missing. Asks for nothing and downloads nothing else.
+# Installs what building oriel takes and Debian 12 has, where it is missing, and the packages that are given besides. Asks for
+# nothing and downloads nothing else.
 set -euo pipefail
 
 packages=(
@@ -7,6 +8,7 @@ packages=(
   libcgal-dev libopenmesh-dev libboost-dev libgmp-dev libmpfr-dev
   libyaml-cpp-dev libspdlog-dev libfmt-dev libcli11-dev libsimdjson-dev libexpat1-dev nlohmann-json3-dev libtbb-dev libmimalloc-dev nettle-dev
   doctest-dev librapidcheck-dev libbenchmark-dev libeigen3-dev
+  "$@"
 )
 
 missing=()

@@ -99,7 +99,12 @@ bool BatchRunner::begin_status() {
     if (cache_->fault()) report_.add(*cache_->fault());
   }
   status_.emplace(options_.status_stem);
-  if (resume_ && resume_->state()) restore(*resume_->state());
+  if (!resume_ || !resume_->state()) return true;
+  try {
+    restore(*resume_->state());
+  } catch (const ordered_json::exception&) {
+    throw damaged_journal(resume_->path());
+  }
   return true;
 }
 

@@ -80,6 +80,16 @@ FileMarks marks_of(const ordered_json& json) {
   return marks;
 }
 
+JournalState journal_state_of(const ordered_json& json) {
+  return {json.at("command"),
+          {json.at("input"), json.at("records"), json.at("read_sha256")},
+          marks_of(json.at("files"))};
+}
+
+InputError damaged_journal(const std::string& path) {
+  return not_the_same(path, "is damaged: it has what oriel does not write");
+}
+
 Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -90,8 +100,12 @@ std::optional<ordered_json> Journal::load() {
   for (std::string text; std::getline(file, text) && !file.eof();) {
     const ordered_json line = ordered_json::parse(text, nullptr, false);
     if (!line.is_object()) break;
-    if (line.contains("done")) done_.merge(marks_of(line["done"]));
-    if (line.contains("read")) read_.merge(marks_of(line["read"]));
+    try {
+      if (line.contains("done")) done_.merge(marks_of(line["done"]));
+      if (line.contains("read")) read_.merge(marks_of(line["read"]));
+    } catch (const ordered_json::exception&) {
+      throw damaged_journal(path_);
+    }
     if (line.contains("state")) state = line["state"];
   }
   return state;
@@ -157,28 +171,45 @@ Resume::Resume(const RunOptions& options, const std::string& rules_sha256)
   PartialFiles::keep();
   state_ = journal_.load();
   if (!state_) return;
-  const std::string path = options.status_stem + ".journal";
-  if (state_->at("command") != command_sha256_)
-    throw not_the_same(path, "is of another command, program or rule pack");
-  position_ = {state_->at("input"), state_->at("records"), state_->at("read_sha256")};
-  if (!PartialFiles::restore(marks_of(state_->at("files"))))
-    throw not_the_same(path, "lists outputs that are not there any more");
+  JournalState state;
+  try {
+    state = journal_state_of(*state_);
+  } catch (const ordered_json::exception&) {
+    throw damaged_journal(path());
+  }
+  if (state.command != command_sha256_)
+    throw not_the_same(path(), "is of another command, program or rule pack");
+  position_ = std::move(state.position);
+  if (!PartialFiles::restore(state.files))
+    throw not_the_same(path(), "lists outputs that are not there any more");
   for (const auto& [name, mark] : journal_.read())
     if (name != "-" && sha256_of_file(name) != mark.sha256)
-      throw not_the_same(path, name + " has changed since");
+      throw not_the_same(path(), name + " has changed since");
 }
 
-std::optional<int> Resume::finished() const {
-  if (state_) return std::nullopt;
-  std::ifstream file(options_.status_stem + ".status.json", std::ios::binary);
-  const ordered_json status = ordered_json::parse(file, nullptr, false);
-  if (!status.is_object() || status.value("command_sha256", "") != command_sha256_)
+namespace {
+
+/// The exit code in the status of a run of that command, if its files still have their hashes.
+std::optional<int> finished_as(const ordered_json& status, const std::string& command_sha256) {
+  if (!status.is_object() || status.value("command_sha256", "") != command_sha256)
     return std::nullopt;
   for (const auto& [name, sha256] : status.at("input_sha256").items())
     if (sha256_of_file(name) != sha256.get<std::string>()) return std::nullopt;
   for (const auto& [path, mark] : marks_of(status.at("outputs")))
     if (PartialFiles::mark_of(path, kWhole) != mark) return std::nullopt;
   return status.at("exit_code").get<int>();
+}
+
+}  // namespace
+
+std::optional<int> Resume::finished() const {
+  if (state_) return std::nullopt;
+  std::ifstream file(options_.status_stem + ".status.json", std::ios::binary);
+  try {
+    return finished_as(ordered_json::parse(file, nullptr, false), command_sha256_);
+  } catch (const ordered_json::exception&) {
+    return std::nullopt;  // no status that oriel wrote: all is done again
+  }
 }
 
 void Resume::note(const InputPosition& position, ordered_json state) {

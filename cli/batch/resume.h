@@ -21,8 +21,10 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// The last state; nothing if there is no journal.
+  /// The last state; nothing if there is no journal. Throws InputError E117 for a line that oriel
+  /// does not write.
   std::optional<nlohmann::ordered_json> load();
+  [[nodiscard]] const std::string& path() const { return path_; }
   /// Outputs that are done so far.
   [[nodiscard]] const FileMarks& done() const { return done_; }
   /// Inputs that are read so far, with their SHA-256.
@@ -56,18 +58,31 @@ struct InputPosition {
   std::string sha256;       ///< of what was read of it
 };
 
+/// What the state in a journal says of the run, besides what came of it (run_state_of). Throws
+/// ordered_json::exception if it is none that oriel wrote.
+struct JournalState {
+  std::string command;
+  InputPosition position;
+  FileMarks files;  ///< that were open
+};
+JournalState journal_state_of(const nlohmann::ordered_json& json);
+
+/// E117 for a journal that was changed since oriel wrote it.
+InputError damaged_journal(const std::string& path);
+
 /// A run of a command that may be killed at any moment and resumes after its last whole record when
 /// the same command is given again. What it needs to know stands in STEM.journal; outputs grow as
 /// PATH.partial and come to their place by rename.
 class Resume {
  public:
   /// `rules_sha256` and the command line say whether it is the same run. Throws InputError E117 if
-  /// the journal is that of another command, or the outputs that it names are not there.
+  /// the journal is that of another command or damaged, or the outputs that it names are not there.
   Resume(const RunOptions& options, const std::string& rules_sha256);
 
   /// What went before: empty for a run that begins.
   [[nodiscard]] const std::optional<nlohmann::ordered_json>& state() const { return state_; }
   [[nodiscard]] const InputPosition& position() const { return position_; }
+  [[nodiscard]] const std::string& path() const { return journal_.path(); }
   /// The exit code of a run that is over, if its inputs and outputs still have their hashes.
   [[nodiscard]] std::optional<int> finished() const;
 

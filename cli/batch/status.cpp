@@ -64,7 +64,7 @@ RunState run_state_of(const ordered_json& json) {
           json.at("set_aside"),
           json.at("open"),
           json.at("labels").get<std::map<std::string, int>>(),
-          {counted[0], counted[1], counted[2], counted[3]},
+          {counted.at(0), counted.at(1), counted.at(2), counted.at(3)},
           static_cast<ExitCode>(json.at("code").get<int>())};
 }
 

@@ -1,0 +1,60 @@
+#include "kernel/io/records/operation_log.h"
+#include "oriel/series.h"
+#include "oriel/write.h"
+#include "tests/fuzz/support/pack.h"
+#include "tests/fuzz/support/promises.h"
+#include "tests/fuzz/support/scratch_file.h"
+#include "tests/fuzz/targets.h"
+
+#include <fmt/format.h>
+
+namespace oriel::fuzz {
+
+namespace {
+
+constexpr double kFine = 1000, kMiddle = 3000, kCoarse = 10000;
+
+/// The files of a series, from which levels between are made.
+void check_files(const Document& document, const Series& series) {
+  static const ScratchFile fine("s.1-1000.city.json");
+  const std::string folder = fine.path().substr(0, fine.path().rfind('/'));
+  std::string text;
+  for (const SeriesOperation& operation : series.operations()) text += operation_line(operation);
+  if (text.empty()) return;
+  write_file(folder + "/s.oplog.jsonl", text);
+  for (const double scale : {kFine, kCoarse})
+    write_file(fmt::format("{}/s.1-{}.city.json", folder, scale),
+               write(document, at(series, scale)));
+  std::string level;
+  const LevelFromFiles made =
+      at(folder + "/s", kMiddle, [&](std::string_view bytes) { level += bytes; });
+  promise(made.is_complete, "a level can be made from the files of a series",
+          made.issues.empty() ? "" : to_string(made.issues.front()));
+  promise(level == write(document, at(series, kMiddle)),
+          "a level made from files is the level of the series");
+}
+
+}  // namespace
+
+/// A series: its levels replay, in memory and from files, and are valid unless it came as no valid
+/// solid (G413).
+void levels(std::string_view input) {
+  ByteSource bytes(input);
+  const auto document = changed_document(bytes);
+  if (!document) return;
+  const SeriesOptions options;
+  std::vector<PipelineResult> results;
+  results.push_back(oriel::label(document->buildings[0], default_pack(), options));
+  promise_no_fault(results[0].issues);
+  const Series series =
+      oriel::series(*document, results, default_pack(), {kFine, kMiddle, kCoarse}, options);
+  promise_no_fault(series.issues);
+  if (series.buildings.empty()) return;
+  check_files(*document, series);
+  for (const Issue& issue : series.issues)
+    if (issue.code == Code::G413) return;
+  for (const double scale : {1.0, kFine, kMiddle, kCoarse})
+    promise_valid(write(*document, at(series, scale)), "series");
+}
+
+}  // namespace oriel::fuzz
