@@ -54,6 +54,9 @@ void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh
   if (!is_set_aside() && may_be_open && !oriel::is_closed(solid))
     report(Severity::error, Code::E302,
            "not closed after its vertices were put on their planes (val3dity 302)");
+  // Cavities that nearly are the shell around them may be larger than it.
+  if (!is_set_aside() && volume_m3(solid) <= 0)
+    report(Severity::error, Code::E310, "its cavities leave nothing that encloses a volume");
   if (!is_set_aside()) out.value = std::move(solid);
 }
 

@@ -158,6 +158,23 @@ TEST_SUITE("cli") {
     CHECK(run(arguments).exit == 0);
   }
 
+  TEST_CASE("a journal with what oriel does not write is refused and named") {
+    const Folder folder;
+    const std::string input = folder.write("in.city.jsonl", city(3));
+    for (const char* journal :
+         {"{\"state\":5}\n", "{\"state\":{}}\n", "{\"done\":{\"x\":1}}\n", "{\"read\":[7]}\n",
+          "{\"state\":{\"command\":[],\"input\":-1}}\n"}) {
+      CAPTURE(std::string(journal));
+      folder.write("s.journal", journal);
+      const Outcome refused = run(label(folder, input));
+      CHECK(refused.exit == 5);
+      CHECK(refused.says("s.journal: E117 is damaged"));
+    }
+    folder.write("s.status.json", "{\"command_sha256\":5}");
+    std::filesystem::remove(folder / "s.journal");
+    CHECK(run(label(folder, input)).exit == 0);
+  }
+
   TEST_CASE("records whose source is the same are taken from an earlier run") {
     const Folder folder, whole;
     const std::string text = with_broken_lines(city(120));

@@ -16,7 +16,7 @@ Targets targets_of(ByteSource& bytes) {
   constexpr double kScales[] = {500, 1000, 2500, 5000, 10000};
   const std::size_t choice = bytes.below(std::size(kScales) + 3);
   if (choice < std::size(kScales)) return at_scale(kScales[choice]);
-  constexpr const char* kLevels[] = {"lod:1.2", "lod:2.0", "lod:2.2"};
+  constexpr const char* kLevels[] = {"lod:1.2", "lod:1.3", "lod:2.0"};
   Targets targets;
   targets.profiles.push_back(load_profile_file(kLevels[choice - std::size(kScales)]).value.value());
   return targets;

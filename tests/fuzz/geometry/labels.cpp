@@ -12,9 +12,10 @@ namespace oriel::fuzz {
 
 namespace {
 
-PipelineResult labelled(const Building& building) {
+PipelineResult labelled(const Building& building, bool ignores_semantics = false) {
   LabelOptions options;
   options.measures_surfaces = true;
+  options.ignores_semantics = ignores_semantics;
   PipelineResult result = oriel::label(building, default_pack(), options);
   promise_no_fault(result.issues);
   promise(result.is_done() || has_errors(result.issues), "labels or an error");
@@ -30,13 +31,14 @@ void check_records(const Building& building, const PipelineResult& result) {
   if (result.has_surfaces()) (void)explain_surfaces(building, result, default_pack());
 }
 
-/// What was written, read and labelled again, has the labels that are in it.
+/// What was written, read and labelled again, has the labels that are in it. Names of surfaces
+/// delimit imprints, so they are not looked at: there were none before.
 void check_written(const Document& document, const PipelineResult& result) {
   OutputRecord output;
   add(result.output, output);
   const auto again = document_of(write(document, output));
   promise(again.has_value(), "a labelled file can be read");
-  const PipelineResult twice = labelled(again->buildings[0]);
+  const PipelineResult twice = labelled(again->buildings[0], true);
   promise(result.is_done() == twice.is_done(), "a labelled file can be labelled");
   promise(labels_of(result) == labels_of(twice), "a labelled file gets the labels that are in it",
           joined(labels_of(result)) + " / " + joined(labels_of(twice)));

@@ -66,6 +66,22 @@ TEST_SUITE("kernel/solidify") {
     }
   }
 
+  TEST_CASE("a cavity that is larger than the shell around its corner leaves no solid") {
+    Building building = test::BoxBody().add({0, 0, 0}, {4, 4, 4}).build();
+    const Building larger = test::BoxBody().add({1, 1, 1}, {9, 9, 9}).build();
+    building.is_solid = true;
+    const int first = static_cast<int>(building.vertices.size());
+    building.vertices.insert(building.vertices.end(), larger.vertices.begin(),
+                             larger.vertices.end());
+    for (Polygon polygon : larger.polygons) {
+      polygon.shell = 1;
+      polygon.source = static_cast<int>(building.polygons.size());
+      for (int& v : polygon.rings[0]) v += first;
+      building.polygons.push_back(std::move(polygon));
+    }
+    CHECK(test::outcome_of(building) == "E308 E310");
+  }
+
   TEST_CASE("bodies apart are lumps and a cavity belongs to the lump around it") {
     const Solid solid = solid_of(BoxBody()
                                      .add({0, 0, 0}, {1, 1, 1})
