@@ -363,7 +363,7 @@ TEST_SUITE("cli") {
 
   TEST_CASE("a page shows a building that stays open and says so, and none that cannot be read") {
     auto city = cubes({"open", "far"});
-    city["CityObjects"]["open"]["geometry"][0]["boundaries"][0].erase(0);
+    city["CityObjects"]["open"]["geometry"][0]["boundaries"][0].erase(1);
     city["vertices"][8][0] = 9'000'000;
     const Folder folder;
     const std::string input = folder.write("in.city.json", city.dump());

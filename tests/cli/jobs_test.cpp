@@ -25,7 +25,7 @@ std::string mixed_stream() {
     std::string record = good.substr(begin, end - begin);
     begin = end;
     if (line % 7 == 3) record = record.substr(0, record.size() / 2) + "\n";
-    if (line % 11 == 5) record = replaced(record, "[[0,2,3,1]],", "");
+    if (line % 11 == 5) record = replaced(record, "[[4,5,7,6]],", "");
     text += record;
   }
   return text;

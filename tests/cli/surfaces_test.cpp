@@ -104,7 +104,8 @@ TEST_SUITE("cli") {
     json& shell = city["CityObjects"]["c"]["geometry"][0]["boundaries"][0];
     shell.erase(5);
     const std::string out = folder / "out.city.json";
-    const Outcome outcome = run({"label", folder.write("open.city.json", city.dump()), "-o", out});
+    const Outcome outcome =
+        run({"label", folder.write("open.city.json", city.dump()), "-o", out, "--close", "planar"});
     CHECK(outcome.exit == 0);
     CHECK(outcome.says("1 open"));
     const json found = json::parse(bytes_of(out));

@@ -14,8 +14,8 @@ namespace {
 class Drafter {
  public:
   Drafter(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
-          bool keeps_caps_apart)
-      : soup_(soup), clusters_(clusters), mesh_(mesh), keeps_caps_apart_(keeps_caps_apart) {}
+          std::span<const char> is_apart)
+      : soup_(soup), clusters_(clusters), mesh_(mesh), is_apart_(is_apart) {}
 
   FacetDraft run() {
     grow_facets();
@@ -56,10 +56,10 @@ class Drafter {
     const int *const polygon_of = mesh_.polygon_of.data(), *const twin = mesh_.twin.data();
     const int* const plane_of = clusters_.plane_of.data();
     HalfEdgeState* const side = side_.data();
-    const bool is_own = is_cap(polygon);
+    const bool is_own = is_kept_apart(polygon);
     for (int h = begin; h < end; ++h) {
       const int q = polygon_of[twin[h]];
-      const bool is_rim = plane_of[q] != plane || (keeps_caps_apart_ && is_cap(q) != is_own);
+      const bool is_rim = plane_of[q] != plane || is_kept_apart(q) != is_own;
       side[h] = is_rim ? HalfEdgeState::rim : HalfEdgeState::interior;
       if (is_rim || draft_.facet_of[at(q)] >= 0) continue;
       draft_.facet_of[at(q)] = facet;
@@ -67,8 +67,8 @@ class Drafter {
     }
   }
 
-  [[nodiscard]] bool is_cap(int polygon) const {
-    return soup_.polygons[at(polygon)].source == kNoSource;
+  [[nodiscard]] bool is_kept_apart(int polygon) const {
+    return !is_apart_.empty() && is_apart_[at(polygon)] != 0;
   }
 
   /// What is connected over edges is one component, numbered by its first polygon.
@@ -238,7 +238,7 @@ class Drafter {
   const Soup& soup_;
   const PlaneClusters& clusters_;
   const ShellMesh& mesh_;
-  bool keeps_caps_apart_;
+  std::span<const char> is_apart_;
   FacetDraft draft_;
   /// What lies on the other side of a half-edge: its own facet, or another one; whether a loop went
   /// along it.
@@ -252,10 +252,10 @@ class Drafter {
 }  // namespace
 
 FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
-                        bool keeps_caps_apart) {
+                        std::span<const char> is_apart) {
   ORIEL_ASSERT(clusters.plane_of.size() == soup.polygons.size());
   ORIEL_ASSERT(mesh.half_edge_count() == soup.corners.size(), "the mesh is of another soup");
-  return Drafter(soup, clusters, mesh, keeps_caps_apart).run();
+  return Drafter(soup, clusters, mesh, is_apart).run();
 }
 
 }  // namespace oriel::detail

@@ -35,8 +35,9 @@ struct FacetDraft {
 
 /// Grows facets over the mesh and walks their loops. Vertices at which only two facets meet lie on
 /// a straight edge and are left out, unless a loop would keep fewer than three.
-/// If `keeps_caps_apart`, polygons without source make facets of their own.
+/// Polygons for which `is_apart` is 1 make facets of their own, without the others in their plane;
+/// empty: none.
 FacetDraft draft_facets(const Soup& soup, const PlaneClusters& clusters, const ShellMesh& mesh,
-                        bool keeps_caps_apart = false);
+                        std::span<const char> is_apart = {});
 
 }  // namespace oriel::detail

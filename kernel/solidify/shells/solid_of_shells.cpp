@@ -4,8 +4,10 @@
 #include "kernel/solidify/planes/snap.h"
 #include "kernel/solidify/shells/facets.h"
 #include "kernel/solidify/shells/shells.h"
+#include "kernel/solidify/soup/polygon_shape.h"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,6 +30,20 @@ std::vector<ComponentHint> hints_of(const Building& building, const Soup& soup,
   return hints;
 }
 
+/// Of every polygon 1 if it closes a hole and is no sliver: facets of those would be folded on the
+/// file's grid, and say nothing.
+std::vector<char> caps_of(const Soup& soup, const Tolerances& tolerances) {
+  const auto shapes = shapes_of(soup);
+  const double thin = 2 * tolerances.plane_offset_m / soup.grid_m;
+  std::vector<char> is_cap(soup.polygons.size(), 0);
+  for (int p = 0; p < soup.polygon_count(); ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    is_cap[i] =
+        soup.polygons[i].source == kNoSource && height_of(soup, p, shapes[i].area) > thin ? 1 : 0;
+  }
+  return is_cap;
+}
+
 }  // namespace
 
 void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh,
@@ -37,7 +53,8 @@ void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh
     out.issues.push_back(building_issue(severity, code, building.id, std::move(sentence)));
   };
   const PlaneClusters clusters = cluster_planes(soup, mesh, tolerances, work);
-  FacetDraft draft = draft_facets(soup, clusters, mesh, keeps_caps_apart);
+  FacetDraft draft = draft_facets(
+      soup, clusters, mesh, keeps_caps_apart ? caps_of(soup, tolerances) : std::vector<char>{});
   const auto hints = hints_of(building, soup, draft);
   SnappedSolid snapped = snap_vertices(soup, clusters, mesh, std::move(draft), tolerances);
   Solid& solid = snapped.solid;
