@@ -31,8 +31,8 @@ CapKinds::CapKinds(const Soup& soup, std::span<const PolygonShape> shapes,
   ORIEL_ASSERT(shapes.size() == soup.polygons.size());
 }
 
-CapKind CapKinds::kind_of(const Rings& rings) const {
-  const Sheet face = sheet_of(rings);
+CapKind CapKinds::kind_of(const CapRings& rings) const {
+  const LevelSheet face = sheet_of(rings);
   if (length(face.normal) == 0) return CapKind::hole;
   if (is_upright(face.normal)) return CapKind::wall;
   const bool is_ground = is_level(face.normal) && is_risen_from(rings) && !has_beneath(face);
@@ -40,8 +40,8 @@ CapKind CapKinds::kind_of(const Rings& rings) const {
 }
 
 /// Of all rings: those of holes run the other way round.
-CapKinds::Sheet CapKinds::sheet_of(const Rings& rings) const {
-  Sheet sheet;
+CapKinds::LevelSheet CapKinds::sheet_of(const CapRings& rings) const {
+  LevelSheet sheet;
   Vec3 area;
   for (const auto& ring : rings) {
     area = area + area_vector(ring.size(), [&](std::size_t i) { return place(ring[i]); });
@@ -60,7 +60,7 @@ CapKinds::Sheet CapKinds::sheet_of(const Rings& rings) const {
 }
 
 /// Polygons of the input rise from more than half of the rim.
-bool CapKinds::is_risen_from(const Rings& rings) const {
+bool CapKinds::is_risen_from(const CapRings& rings) const {
   std::set<PointPair> rim;
   for (const auto& ring : rings)
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -91,20 +91,20 @@ void CapKinds::collect_sheets() const {
   for (const AddedFace& face : faces_) keep_sheet(sheet_of(face.rings));
 }
 
-void CapKinds::keep_sheet(Sheet sheet) const {
+void CapKinds::keep_sheet(LevelSheet sheet) const {
   if (!is_upright(sheet.normal)) sheets_.push_back(std::move(sheet));
 }
 
-bool CapKinds::has_beneath(const Sheet& face) const {
+bool CapKinds::has_beneath(const LevelSheet& face) const {
   const auto middle = interior_point(face.outlines, face.normal);
   if (!middle) return true;  // so thin that it has none: it is no ground
   collect_sheets();
   work_.add(std::ssize(sheets_));
   return std::ranges::any_of(
-      sheets_, [&](const Sheet& other) { return lies_beneath(other, face, *middle); });
+      sheets_, [&](const LevelSheet& other) { return lies_beneath(other, face, *middle); });
 }
 
-bool CapKinds::lies_beneath(const Sheet& other, const Sheet& face, Vec3 middle) const {
+bool CapKinds::lies_beneath(const LevelSheet& other, const LevelSheet& face, Vec3 middle) const {
   if (other.box.min.z >= face.box.max.z - reach_ || other.box.min.x >= face.box.max.x ||
       other.box.max.x <= face.box.min.x || other.box.min.y >= face.box.max.y ||
       other.box.max.y <= face.box.min.y)

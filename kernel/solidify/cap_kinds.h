@@ -21,7 +21,7 @@ namespace oriel::detail {
 /// its own middle below it. All else is a hole.
 class CapKinds {
  public:
-  using Rings = std::vector<std::vector<int>>;
+  using CapRings = std::vector<std::vector<int>>;
 
   /// The soup, whose polygons without source close holes, with `faces` that would as well. All must
   /// outlive it. Polygons that are looked at are counted in `work`.
@@ -30,11 +30,11 @@ class CapKinds {
 
   /// Of a face of the soup's points, whether or not it is in the soup. Takes time as the soup has
   /// polygons if it is level, else as the face has corners.
-  [[nodiscard]] CapKind kind_of(const Rings& rings) const;
+  [[nodiscard]] CapKind kind_of(const CapRings& rings) const;
 
  private:
   /// What is not upright.
-  struct Sheet {
+  struct LevelSheet {
     std::vector<Outline> outlines;
     Vec3 normal;
     double level = 0;  ///< along the normal, on average
@@ -46,19 +46,20 @@ class CapKinds {
   };
 
   [[nodiscard]] Vec3 place(int point) const { return exact::to_metres(soup_.points[at(point)], 1); }
-  [[nodiscard]] Sheet sheet_of(const Rings& rings) const;
+  [[nodiscard]] LevelSheet sheet_of(const CapRings& rings) const;
   void collect_sheets() const;
-  void keep_sheet(Sheet sheet) const;
-  [[nodiscard]] bool is_risen_from(const Rings& rings) const;
-  [[nodiscard]] bool has_beneath(const Sheet& face) const;
-  [[nodiscard]] bool lies_beneath(const Sheet& other, const Sheet& face, Vec3 middle) const;
+  void keep_sheet(LevelSheet sheet) const;
+  [[nodiscard]] bool is_risen_from(const CapRings& rings) const;
+  [[nodiscard]] bool has_beneath(const LevelSheet& face) const;
+  [[nodiscard]] bool lies_beneath(const LevelSheet& other, const LevelSheet& face,
+                                  Vec3 middle) const;
 
   const Soup& soup_;
   std::span<const PolygonShape> shapes_;
   std::span<const AddedFace> faces_;
   double reach_;
   Work& work_;
-  mutable std::vector<Sheet> sheets_;  ///< made for the first face that asks for them
+  mutable std::vector<LevelSheet> sheets_;  ///< made for the first face that asks for them
 };
 
 }  // namespace oriel::detail
