@@ -1,5 +1,6 @@
 #include "kernel/validate/validate_closely.h"
 
+#include "kernel/validate/polygons/polygon_checks.h"
 #include "kernel/validate/polygons/snapped.h"
 
 #include <algorithm>
@@ -22,10 +23,21 @@ bool has_doubtful_vertices(const Building& building) {
   return used(ValidateOptions{}.snap_m) != used(kSurelyApart_m);
 }
 
+/// Where polygons, which validate() found good, are folded between any two of their triangles.
+std::vector<Finding> folds_in(const Building& building) {
+  const auto judged = detail::snapped(building, ValidateOptions{}.snap_m);
+  if (!judged) return {};
+  detail::FindingList findings(*judged);
+  for (const detail::SnappedPolygon& polygon : judged->polygons)
+    detail::judge(*judged, polygon, {}, findings, detail::FoldsBetween::any_two);
+  return findings.take();
+}
+
 }  // namespace
 
 std::vector<Finding> validate_closely(const Building& written) {
   auto findings = validate(written);
+  if (findings.empty()) findings = folds_in(written);
   if (!findings.empty() || !has_doubtful_vertices(written)) return findings;
   ValidateOptions wide;
   wide.snap_m = kSurelyApart_m;

@@ -13,7 +13,8 @@ inline constexpr double kSurelyApart_m = 0.001001;
 
 /// What validate() finds with its default tolerances in a building that oriel is about to write,
 /// and where that is nothing, what a judge finds whose decisions differ where the tolerances leave
-/// them open: vertices exactly 1 mm apart are one to it.
+/// them open: vertices exactly 1 mm apart are one to it, and any two triangles of a polygon may be
+/// those that it compares (E345).
 std::vector<Finding> validate_closely(const Building& written);
 
 }  // namespace oriel

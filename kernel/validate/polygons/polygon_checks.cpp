@@ -93,36 +93,44 @@ double tilt_deg(Vec3 a, Vec3 b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
 }
 
-/// val3dity 204: the normals of any two of the triangles.
+/// How far the normals deviate at most, and of which triangle.
+struct WorstFold {
+  double tilt_deg = 0;
+  std::size_t triangle = 0;
+};
+
+WorstFold worst_fold(std::span<const Vec3> normals, double tolerance_deg, FoldsBetween folds) {
+  const Vec3 largest = *std::ranges::max_element(normals, {}, length);
+  std::vector<double> tilts_deg;
+  for (const Vec3 normal : normals) tilts_deg.push_back(tilt_deg(largest, normal));
+  const auto worst = std::ranges::max_element(tilts_deg);
+  WorstFold fold{*worst, static_cast<std::size_t>(worst - tilts_deg.begin())};
+  if (folds == FoldsBetween::largest_and_others) return fold;
+  // Of two that deviate too much from each other one does so by half of it from any third.
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (tilts_deg[i] <= tolerance_deg / 2) continue;
+    for (const Vec3 normal : normals)
+      if (const double tilt = tilt_deg(normal, normals[i]); tilt > fold.tilt_deg) fold = {tilt, i};
+  }
+  return fold;
+}
+
+/// val3dity 204.
 bool is_unfolded(const SnappedBuilding& building, const SnappedPolygon& polygon,
                  std::span<const CornersOfTriangle> triangles, double tolerance_deg,
-                 FindingList& findings) {
+                 FoldsBetween folds, FindingList& findings) {
   std::vector<Vec3> normals;
   for (const auto& [a, b, c] : triangles)
     normals.push_back(
         cross(building.metres(b) - building.metres(a), building.metres(c) - building.metres(a)));
   if (normals.empty()) return true;
-  const Vec3 main = *std::ranges::max_element(normals, {}, length);
-  // Two that deviate from each other by more than the tolerance: one does so by half of it from any
-  // third.
-  std::vector<std::size_t> tilted;
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    if (tilt_deg(main, normals[i]) > tolerance_deg / 2) tilted.push_back(i);
-  double worst_deg = -1;
-  std::size_t where = 0;
-  for (const std::size_t i : tilted)
-    for (const Vec3 normal : normals) {
-      const double angle_deg = tilt_deg(normal, normals[i]);
-      if (angle_deg <= worst_deg) continue;
-      worst_deg = angle_deg;
-      where = i;
-    }
-  if (worst_deg <= tolerance_deg) return true;
+  const WorstFold worst = worst_fold(normals, tolerance_deg, folds);
+  if (worst.tilt_deg <= tolerance_deg) return true;
   findings.add(Defect::folded, subject_of(polygon),
                fmt::format("polygon {} is folded: the normals of its triangles deviate by {:.1f}°; "
                            "the tolerance is {}°",
-                           polygon.number, worst_deg, tolerance_deg),
-               {triangles[where][0]});
+                           polygon.number, worst.tilt_deg, tolerance_deg),
+               {triangles[worst.triangle][0]});
   return false;
 }
 
@@ -146,7 +154,7 @@ JudgedPolygon judge_triangle(const SnappedBuilding& building, const SnappedPolyg
 }  // namespace
 
 JudgedPolygon judge(const SnappedBuilding& building, const SnappedPolygon& polygon,
-                    const ValidateOptions& options, FindingList& findings) {
+                    const ValidateOptions& options, FindingList& findings, FoldsBetween folds) {
   if (!have_good_points(polygon, findings)) return {};
   if (is_bare_triangle(polygon)) return judge_triangle(building, polygon, findings);
   std::vector<Vec3> points;
@@ -160,7 +168,8 @@ JudgedPolygon judge(const SnappedBuilding& building, const SnappedPolygon& polyg
                        lie_well(polygon, flat, findings);
   if (!is_good) return {};
   JudgedPolygon out{true, triangles_of(building, polygon, flat.axis)};
-  out.is_good = is_unfolded(building, polygon, out.triangles, options.planarity_deg, findings);
+  out.is_good =
+      is_unfolded(building, polygon, out.triangles, options.planarity_deg, folds, findings);
   return out;
 }
 

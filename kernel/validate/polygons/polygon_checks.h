@@ -15,11 +15,19 @@ struct JudgedPolygon {
   std::vector<std::array<int, 3>> triangles;
 };
 
+/// Which triangles of a polygon are compared with each other for 204.
+enum class FoldsBetween {
+  largest_and_others,
+  /// Whichever comes first to a judge who compares that one with the others.
+  any_two
+};
+
 /// Judges the rings of a polygon (val3dity 101, 102, 104), its planarity (203, 204) and how its
 /// rings lie to each other (201, 202, 205–208). As in val3dity the order is 101, 102, 203, 104,
 /// 208, then the others, and the first that fails ends it; a triangle is only looked at for 101,
 /// 102 and 104.
 JudgedPolygon judge(const SnappedBuilding& building, const SnappedPolygon& polygon,
-                    const ValidateOptions& options, FindingList& findings);
+                    const ValidateOptions& options, FindingList& findings,
+                    FoldsBetween folds = FoldsBetween::largest_and_others);
 
 }  // namespace oriel::detail
