@@ -4,15 +4,16 @@
 # in build/fuzz/found/TARGET, corpora as they have grown in build/fuzz/grown/TARGET.
 #   ORIEL_FUZZ_MINIMISE=1  afterwards the files of the corpora that add nothing to the others are left out (in tests/fuzz/corpus)
 #   ORIEL_FUZZ_JOBS=N      processes at the same time; default: one a core
+#   ORIEL_FUZZ_LONGEST=N   seconds that one input may take (5): more on a machine that others use
 set -euo pipefail
-[ $# -ge 1 ] || { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
+[ $# -ge 1 ] || { sed -n '2,8s/^# *//p' "$0" >&2; exit 2; }
 cd "$(dirname "$0")/../.."
 root=$PWD
 minutes=$1
 shift
 jobs=${ORIEL_FUZZ_JOBS:-$(nproc)}
-longest_s=5         # longer is a hang
-most_mb=4096        # more is a leak, or bytes that ask for too much
+longest_s=${ORIEL_FUZZ_LONGEST:-5}  # longer is a hang
+most_mb=4096  # more is a leak, or bytes that ask for too much
 build=$root/build/fuzz
 fuzz=$root/tests/fuzz
 
