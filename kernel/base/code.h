@@ -42,6 +42,11 @@
   X(E127, 0, "There is no building to show") \
   X(E128, 0, "Nothing to show after") \
   X(E129, 0, "A building that is in none of the models") \
+  X(E130, 0, "The selection takes nothing") \
+  X(E131, 0, "Nothing to compare with the truth") \
+  X(E132, 0, "A file of a series was changed") \
+  X(E133, 0, "A log of a series without checks") \
+  X(E134, 0, "Nothing to work on") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that is not there") \
@@ -55,6 +60,7 @@
   X(E211, 0, "A link that leads out of the building") \
   X(E212, 0, "Links in a circle") \
   X(E213, 0, "Coordinates in degrees") \
+  X(E214, 0, "Geometry that is not judged") \
   X(E301, 301, "Too few polygons") \
   X(E302, 302, "The shell is not closed") \
   X(E303, 303, "Polygons that do not pair up at an edge") \
@@ -92,13 +98,16 @@
   X(E356, 501, "Solids that overlap") \
   X(E357, 502, "A solid given twice") \
   X(E358, 503, "Solids that do not hang together") \
+  X(E359, 601, "Building parts that overlap") \
   X(E501, 0, "The building is too large") \
   X(E502, 0, "The work budget is used up") \
   X(E503, 0, "Nested too deep") \
   X(E504, 0, "A number out of range") \
   X(E505, 0, "The record is too large") \
   X(E506, 0, "A coordinate is out of range") \
+  X(E507, 0, "Memory is used up") \
   X(E601, 0, "The output cannot be written") \
+  X(E602, 0, "A file is named twice") \
   X(E901, 0, "A fault of oriel's own") \
   X(G401, 0, "A feature is not omitted") \
   X(G402, 0, "Nothing closed would be left") \
