@@ -1,6 +1,7 @@
 #include "kernel/io/files/output_file.h"
 
 #include "kernel/base/issue.h"
+#include "kernel/io/files/leftovers.h"
 #include "kernel/io/files/partial_files.h"
 #include "kernel/io/json/text.h"
 
@@ -52,6 +53,20 @@ int list_temporary(const std::string& name) {
   return -1;
 }
 
+/// A second descriptor of an open file, which keeps its lock when the first is closed.
+class LockHolder {
+ public:
+  explicit LockHolder(int descriptor) : descriptor_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 0)) {}
+  ~LockHolder() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  LockHolder(const LockHolder&) = delete;
+  LockHolder& operator=(const LockHolder&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 void strike_temporary(int listed) {
   if (listed >= 0) temporaries[static_cast<std::size_t>(listed)].state = Listed::is_free;
 }
@@ -84,16 +99,21 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(resol
 }
 
 void OutputFile::open_temporary() {
-  const std::string stem = target_ + ".tmp-" + std::to_string(::getpid()) + "-";
+  detail::remove_leftovers(target_);
   for (int i = 0; i < kMaxTries; ++i) {
-    const std::string name = stem + std::to_string(i);
+    const std::string name = detail::temporary_name(target_, i);
     listed_ = list_temporary(name);  // first, as a signal may come at any time
     descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) {
+    const int reason = errno;
+    if (descriptor_ >= 0 && detail::lock_temporary(descriptor_)) {
       temporary_ = name;
       return;
     }
-    const int reason = errno;
+    if (descriptor_ >= 0) {  // another run took it for a leftover before it was locked
+      ::close(std::exchange(descriptor_, -1));
+      strike_temporary(std::exchange(listed_, -1));
+      continue;
+    }
     strike_temporary(std::exchange(listed_, -1));
     errno = reason;
     if (errno != EEXIST) break;
@@ -157,6 +177,8 @@ void OutputFile::commit() {
   flush();
   if (temporary_.empty()) return;
   if (::fsync(descriptor_) != 0) fail(errno);
+  // The lock is held until the file has its name: what is closed first is only one of two.
+  const LockHolder lock(descriptor_);
   if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
