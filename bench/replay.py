@@ -143,7 +143,8 @@ class Replay:
     def prefixes(self):
         self.prefix_count, self.invalid, pending = 0, 0, []
         with open(self.folder + "/s.oplog.jsonl") as log:
-            for building, lines in itertools.groupby(map(json.loads, log), lambda line: line["building"]):
+            operations = (line for line in map(json.loads, log) if "end" not in line)
+            for building, lines in itertools.groupby(operations, lambda line: line["building"]):
                 try:
                     for number, state in enumerate(self.walk(building, list(lines))):
                         pending.append(feature_line(f"{building}#{number}", state))

@@ -75,11 +75,16 @@ struct LevelFromFiles {
   std::vector<Issue> issues;
 };
 
+/// The levels and the log of the series NAME, as at() finds them. Throws InputError as at() does.
+std::vector<std::string> files_of_series(const std::string& name);
+
 /// The level at 1 : scale of the series NAME, from its files NAME.1-N.city.json (of streams
 /// .city.jsonl) and NAME.oplog.jsonl: the stored level that is nearest, with the operations between
 /// carried out or undone. `sink` gets the text, record by record; if is_complete is false in the
-/// end, what it got is not whole. Throws InputError: E101 there is no log or no level, G409 there
-/// are levels of two series, E119 the log is none.
+/// end, what it got is not whole. Before that all checks of the log, and the level's hash in it,
+/// are compared; a log without checks, of an older version, is a warning (E133). Throws InputError:
+/// E101 there is no log or no level, G409 there are levels of two series, E119 the log is none,
+/// E132 log or level is not what was written.
 LevelFromFiles at(const std::string& name, double scale,
                   const std::function<void(std::string_view)>& sink);
 

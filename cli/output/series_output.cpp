@@ -8,12 +8,16 @@
 #include "kernel/base/printable.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
+#include "kernel/io/files/partial_files.h"
+#include "kernel/io/records/log_seal.h"
 #include "kernel/io/records/operation_log.h"
 #include "oriel/series.h"
 #include "oriel/write.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,6 +59,8 @@ class SeriesFiles {
   /// `scales` ascend. Refuses with G414 (refuse_usage) what makes no series.
   SeriesFiles(const LabellingArguments& arguments, const std::vector<double>& scales);
 
+  /// Adds the levels and the log.
+  void name_files(NamedFiles& files) const;
   /// Before the first record of an input; with `is_rehearsal` nothing is kept.
   void begin(std::size_t input, bool is_rehearsal);
   /// A record at all scales, and its lines of the log (operation_line). Adds nothing if it has the
@@ -75,6 +81,7 @@ class SeriesFiles {
 
   static Kind kind_of(const LabellingArguments& arguments);
   [[nodiscard]] std::string path_of(double scale) const;
+  [[nodiscard]] std::map<std::string, std::string> hashes() const;
   void check_header(const std::string& header, const Document& document);
   [[nodiscard]] std::optional<std::string> twin(const Document& document,
                                                 const std::vector<std::string>& texts) const;
@@ -85,6 +92,7 @@ class SeriesFiles {
   Kind kind_;
   std::vector<Level> levels_;  ///< by scale
   std::unique_ptr<OutputFile> log_;
+  LogSealer sealer_;
   CommonHeader headers_;
   std::unordered_set<std::string> ids_;  ///< of buildings, of several inputs
   std::size_t input_ = 0;
@@ -112,6 +120,11 @@ SeriesFiles::SeriesFiles(const LabellingArguments& arguments, const std::vector<
   check_outputs(arguments);
 }
 
+void SeriesFiles::name_files(NamedFiles& files) const {
+  for (const double scale : scales_) files.add_output("-o", path_of(scale));
+  files.add_output("-o", arguments_.out + ".oplog.jsonl");
+}
+
 std::string SeriesFiles::path_of(double scale) const {
   return fmt::format("{}.1-{}.city.json{}", arguments_.out, scale,
                      kind_ == Kind::streams ? "l" : "");
@@ -126,6 +139,7 @@ void SeriesFiles::begin(std::size_t input, bool is_rehearsal) {
     return;
   }
   ids_.clear();
+  sealer_ = {};
   headers_ =
       CommonHeader(kind_ == Kind::streams ? CommonHeader::Of::stream : CommonHeader::Of::file);
   const auto path = [&](const std::string& name) { return is_rehearsal ? "/dev/null" : name; };
@@ -193,7 +207,7 @@ std::optional<std::string> SeriesFiles::add(const Document& document,
   }
   if (arguments_.inputs.size() > 1)
     for (const Building& building : document.buildings) ids_.insert(building.id);
-  log_->append(lines);
+  log_->append(sealer_.sealed(lines));
   return std::nullopt;
 }
 
@@ -210,7 +224,17 @@ void SeriesFiles::commit() {
     if (kind_ == Kind::several_files) level.file->append(level.collector.text());
     level.file->commit();
   }
+  log_->append(sealer_.end(hashes()));
   log_->commit();
+}
+
+/// Of the levels, which are in their places.
+std::map<std::string, std::string> SeriesFiles::hashes() const {
+  constexpr auto kWhole = std::numeric_limits<std::uint64_t>::max();
+  std::map<std::string, std::string> hashes;
+  for (const double scale : scales_)
+    hashes[fmt::format("{}", scale)] = PartialFiles::mark_of(path_of(scale), kWhole).sha256;
+  return hashes;
 }
 
 class SeriesWriter final : public VisitingCommand {
@@ -230,6 +254,10 @@ class SeriesWriter final : public VisitingCommand {
     options_.profile = std::move(profile);
   }
 
+  void name_files(NamedFiles& files) const override {
+    files_.name_files(files);
+    outputs_.name_files(files);
+  }
   void begin(std::size_t input) override {
     files_.begin(input, !runner_.is_last_run());
     outputs_.begin(input, !runner_.is_last_run());
@@ -343,6 +371,10 @@ ExitCode write_series(const LabellingArguments& arguments, const std::vector<dou
 
 ExitCode write_level_at(const std::string& name, double scale, const std::string& out,
                         Report& report) {
+  NamedFiles files;
+  for (const std::string& file : files_of_series(name)) files.add_input("--from", file);
+  files.add_output("-o", out);
+  files.check();
   std::optional<OutputFile> whole;
   const auto file = [&]() -> OutputFile& { return whole ? *whole : whole.emplace(out); };
   const LevelFromFiles level = at(name, scale, [&](std::string_view text) { file().append(text); });

@@ -1,7 +1,9 @@
 #include "generalise/series/scale_series.h"
+#include "kernel/io/files/partial_files.h"
 #include "kernel/io/levels/level_file.h"
 #include "kernel/io/levels/written_grid.h"
 #include "kernel/io/reader.h"
+#include "kernel/io/records/log_seal.h"
 #include "kernel/io/records/operation_log.h"
 #include "kernel/io/writer.h"
 #include "oriel/series.h"
@@ -9,10 +11,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -79,6 +83,29 @@ std::map<double, std::string> levels_of(const std::string& name) {
 std::pair<double, std::string> nearest(const std::map<double, std::string>& levels, double scale) {
   return *std::ranges::min_element(
       levels, {}, [&](const auto& level) { return std::abs(std::log(level.first / scale)); });
+}
+
+/// Log and level are what was written together; of logs without checks a warning says that nobody
+/// knows. Throws InputError E132.
+std::vector<Issue> check_seal(const std::string& log, double scale, const std::string& level) {
+  const LogSeal seal = check_log(log);
+  if (!seal.is_sealed) {
+    Issue issue;
+    issue.severity = Severity::warning;
+    issue.code = Code::E133;
+    issue.sentence = "has no checks: whether log and levels are what was written is not known";
+    issue.place.file = log;
+    return {issue};
+  }
+  const auto written = seal.levels.find(fmt::format("{}", scale));
+  if (written == seal.levels.end())
+    throw unusable(level, Code::E132, fmt::format("is no level of the series that {} is of", log));
+  constexpr auto kWhole = std::numeric_limits<std::uint64_t>::max();
+  if (PartialFiles::mark_of(level, kWhole).sha256 != written->second)
+    throw unusable(
+        level, Code::E132,
+        fmt::format("is not the file that was written with {}: it has another hash", log));
+  return {};
 }
 
 /// Takes the buildings of a level to another scale, record by record. The log has them in the same
@@ -180,14 +207,21 @@ class LevelMover {
 
 }  // namespace
 
+std::vector<std::string> files_of_series(const std::string& name) {
+  std::vector<std::string> files{name + ".oplog.jsonl"};
+  for (const auto& [scale, file] : levels_of(name)) files.push_back(file);
+  return files;
+}
+
 LevelFromFiles at(const std::string& name, double scale,
                   const std::function<void(std::string_view)>& sink) {
   const std::string log = name + ".oplog.jsonl";
   LevelFromFiles level;
   std::tie(level.from_scale, level.from_file) = nearest(levels_of(name), scale);
+  level.issues = check_seal(log, level.from_scale, level.from_file);
   LevelMover mover(log, level.from_scale, scale);
   level.is_complete = mover.move(level.from_file, sink);
-  level.issues = std::move(mover).issues();
+  std::ranges::move(std::move(mover).issues(), std::back_inserter(level.issues));
   return level;
 }
 

@@ -2,6 +2,7 @@
 
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/text.h"
+#include "kernel/io/records/log_seal.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -210,6 +211,7 @@ Checked<std::vector<SeriesOperation>> read_operations(std::string_view text,
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
+    if (is_end_of_log(line)) continue;
     try {
       operations.push_back(operation_in(line, {file, number}));
     } catch (const InputError& fault) {
@@ -238,6 +240,7 @@ void OperationReader::read() {
   next_.reset();
   if (!file_->input.read_line(file_->line)) return;
   ++file_->name.line;
+  if (is_end_of_log(file_->line)) return;
   next_ = operation_in(file_->line, file_->name);
 }
 

@@ -13,7 +13,8 @@ namespace oriel {
 
 /// One line of `NAME.oplog.jsonl`, with its line end: building, lod, oriel_id, label, operation,
 /// rule, scale, with, aabb, forward, inverse (docs/formats.md). Points are in the input's
-/// coordinates, to the micrometre; aabb = [xmin, ymin, zmin, xmax, ymax, zmax].
+/// coordinates, to the micrometre; aabb = [xmin, ymin, zmin, xmax, ymax, zmax]. In the file it has
+/// a check, too (log_seal.h).
 std::string operation_line(const SeriesOperation& operation);
 
 /// The operations of such a text, in their order. E119 for a line that is none, with its number;
