@@ -1,18 +1,27 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/printable.h"
+#include "kernel/io/cityjson/object_survey.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/read.h"
 #include "oriel/validate.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace oriel::cli {
@@ -20,6 +29,11 @@ namespace oriel::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// What --lod says to judge all levels of detail.
+constexpr const char* kAllLods = "all";
+/// CityGML's levels of detail, which no header lists.
+constexpr std::array<const char*, 5> kGmlLods{"0", "1", "2", "3", "4"};
 
 struct ValidateArguments : RunOptions {
   bool is_json = false;
@@ -36,6 +50,51 @@ struct BuildingFindings {
   /// "solid" or "surfaces"; empty for a building that could not be read.
   std::string primitive;
   std::vector<Finding> findings;
+
+  /// It can be told whether other parts overlap it.
+  [[nodiscard]] bool is_valid_solid() const { return primitive == "solid" && findings.empty(); }
+};
+
+/// What was read and not judged: ids by type.
+class UnjudgedObjects {
+ public:
+  void add(const std::vector<UnreadObject>& objects) {
+    for (const UnreadObject& object : objects) {
+      Kind& kind = kinds_[object.type];
+      ++kind.count;
+      if (kind.ids.size() < kShown) kind.ids.push_back(object.id);
+    }
+  }
+  [[nodiscard]] int count() const {
+    int count = 0;
+    for (const auto& [type, kind] : kinds_) count += kind.count;
+    return count;
+  }
+  /// A warning E214 for each type.
+  [[nodiscard]] std::vector<Issue> issues(const std::string& input) const {
+    std::vector<Issue> issues;
+    for (const auto& [type, kind] : kinds_) {
+      Issue issue;
+      issue.severity = Severity::warning;
+      issue.code = Code::E214;
+      issue.sentence = fmt::format(
+          "{} object{} of type {} with geometry {} not judged, only buildings and their parts are: "
+          "{}{}",
+          kind.count, kind.count == 1 ? "" : "s", type, kind.count == 1 ? "is" : "are",
+          fmt::join(kind.ids, ", "), std::cmp_less(kind.ids.size(), kind.count) ? ", ..." : "");
+      issue.place.file = input;
+      issues.push_back(std::move(issue));
+    }
+    return issues;
+  }
+
+ private:
+  static constexpr std::size_t kShown = 5;
+  struct Kind {
+    int count = 0;
+    std::vector<std::string> ids{};
+  };
+  std::map<std::string, Kind> kinds_;
 };
 
 /// What reading says of a building, as a finding.
@@ -79,11 +138,14 @@ std::string json_line(const BuildingFindings& found) {
   return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string text_of(const BuildingFindings& found) {
+/// `names_lod`: several levels of detail are judged.
+std::string text_of(const BuildingFindings& found, bool names_lod) {
+  const std::string name = printable(
+      names_lod && !found.lod.empty() ? fmt::format("{} (lod {})", found.id, found.lod) : found.id);
   if (found.findings.empty())
-    return fmt::format("{}: valid{}\n", printable(found.id),
+    return fmt::format("{}: valid{}\n", name,
                        found.primitive == "surfaces" ? " as loose surfaces" : "");
-  std::string text = fmt::format("{}: {} finding{}\n", printable(found.id), found.findings.size(),
+  std::string text = fmt::format("{}: {} finding{}\n", name, found.findings.size(),
                                  found.findings.size() == 1 ? "" : "s");
   for (const Finding& finding : found.findings) {
     text += fmt::format("  {} {}", to_string(finding.code), printable(finding.sentence));
@@ -104,7 +166,15 @@ class Validation {
   ExitCode go() {
     if (std::ranges::count(arguments_.inputs, "-") > 1)
       throw CLI::ValidationError("input", "stdin can be read only once");
-    for (const std::string& input : arguments_.inputs) read(input);
+    if (is_of_all_lods() && std::ranges::count(arguments_.inputs, "-") > 0)
+      throw CLI::ValidationError("--lod",
+                                 "all reads its inputs several times, and stdin cannot be");
+    for (const std::string& input : arguments_.inputs)
+      if (is_of_all_lods())
+        read_all_lods(input);
+      else
+        read(input, arguments_.read_options(input));
+    report_emptiness();
     out_.commit();
     report_summary();
     return code_;
@@ -113,30 +183,73 @@ class Validation {
  private:
   void raise(ExitCode code) { code_ = graver(code_, code); }
 
-  void read(const std::string& input) {
+  [[nodiscard]] bool is_of_all_lods() const { return arguments_.lod == kAllLods; }
+
+  /// Level by level, from the lowest; what has no geometry at one of them is no error.
+  void read_all_lods(const std::string& input) {
+    ReadOptions options = arguments_.read_options(input);
+    options.lod.reset();
+    lods_.clear();
+    is_survey_ = true;
+    read(input, options);
+    is_survey_ = false;
+    for (const std::string& lod : std::set(lods_)) {
+      options.lod = lod;
+      read(input, options);
+    }
+    // Buildings without any geometry, and meshes, have none to go through.
+    options.lod.reset();
+    if (lods_.empty()) read(input, options);
+  }
+
+  void read(const std::string& input, const ReadOptions& options) {
+    UnjudgedObjects unjudged;
+    read(input, options, unjudged);
+    if (is_survey_ || !arguments_.selection.is_all() || has_told_.contains(input)) return;
+    has_told_.insert(input);
+    unjudged_ += unjudged.count();
+    for (const Issue& issue : unjudged.issues(input)) report_.add(issue);
+    if (unjudged.count() > 0) raise(ExitCode::set_aside);
+  }
+
+  void read(const std::string& input, const ReadOptions& options, UnjudgedObjects& unjudged) {
     try {
-      Reader reader(input, arguments_.read_options(input));
+      Reader reader(input, options);
       for (bool is_first = true;; is_first = false) {
         auto record = reader.next();
         if (!record) return;
         if (record->value) {
-          judge(*record);
+          const ObjectSurvey found = survey(*record->value);
+          unjudged.add(found.unread);
+          if (is_survey_)
+            note_lods(*record->value, found);
+          else
+            judge(*record, found.families);
           continue;
         }
+        if (is_survey_) continue;
         report_.add(record->issues);
         const bool is_line = reader.format() == Format::cityjson_seq && !is_first;
         raise(is_line ? ExitCode::set_aside : ExitCode::input);
         unread_records_ += is_line ? 1 : 0;
       }
     } catch (const InputError& error) {
+      if (is_survey_) return;
       report_.add(error.issue());
       raise(ExitCode::input);
     }
   }
 
-  void judge(const Checked<Document>& record) {
+  void note_lods(const Document& document, const ObjectSurvey& found) {
+    lods_.insert(found.lods.begin(), found.lods.end());
+    if (document.format == Format::citygml) lods_.insert(kGmlLods.begin(), kGmlLods.end());
+  }
+
+  void judge(const Checked<Document>& record, const std::vector<std::size_t>& families) {
     std::map<std::string, std::vector<Finding>> open_rings;
     for (const Issue& issue : record.issues) {
+      found_ids_.insert(issue.place.building);
+      if (is_of_all_lods() && (issue.code == Code::E205 || was_told(issue))) continue;
       if (issue.code == Code::E314)
         open_rings[issue.place.building].push_back(finding_of(issue));
       else if (issue.severity == Severity::error &&
@@ -150,12 +263,41 @@ class Validation {
       else if (issue.code != Code::E311 && issue.code != Code::E312)  // judged with their places
         report_.add(issue);
     }
-    for (const Building& building : record.value->buildings)
-      if (arguments_.selection.takes(building, record.value->feature_type))
-        judge(building, record.value->format, std::move(open_rings[building.id]));
+    std::vector<BuildingFindings> judged;
+    std::map<std::size_t, std::vector<std::size_t>> parts;  // of each family, numbers in `judged`
+    std::vector<const Building*> buildings;
+    for (std::size_t i = 0; i < record.value->buildings.size(); ++i) {
+      const Building& building = record.value->buildings[i];
+      found_ids_.insert(building.id);
+      if (!arguments_.selection.takes(building, record.value->feature_type)) continue;
+      judged.push_back(
+          findings_of(building, record.value->format, std::move(open_rings[building.id])));
+      buildings.push_back(&building);
+      if (judged.back().is_valid_solid()) parts[families[i]].push_back(judged.size() - 1);
+    }
+    for (const auto& [family, members] : parts) judge_parts(buildings, members, judged);
+    for (const BuildingFindings& found : judged) add(found);
   }
 
-  void judge(const Building& building, Format format, std::vector<Finding> open_rings) {
+  /// A warning about a building that has no geometry comes at every level of detail.
+  bool was_told(const Issue& issue) {
+    if (issue.severity == Severity::error || issue.code == Code::E314) return false;
+    return !told_.insert(issue.place.file + '\n' + issue.place.building + to_string(issue.code))
+                .second;
+  }
+
+  /// The solids of a building that are valid by themselves.
+  void judge_parts(const std::vector<const Building*>& buildings,
+                   const std::vector<std::size_t>& members,
+                   std::vector<BuildingFindings>& judged) const {
+    std::vector<const Building*> parts;
+    for (const std::size_t member : members) parts.push_back(buildings[member]);
+    for (PartOverlap& overlap : overlapping_parts(parts, arguments_.options))
+      judged[members[overlap.part]].findings.push_back(std::move(overlap.finding));
+  }
+
+  BuildingFindings findings_of(const Building& building, Format format,
+                               std::vector<Finding> open_rings) const {
     ValidateOptions options = arguments_.options;
     // A mesh file does not state what it holds.
     const bool is_mesh = oriel::is_mesh(format);
@@ -170,7 +312,7 @@ class Validation {
     if (!open_rings.empty()) options.primitive = ValidateOptions::Primitive::surfaces;
     std::vector<Finding> findings = std::move(open_rings);
     for (Finding& finding : validate(building, options)) findings.push_back(std::move(finding));
-    add({building.id, building.lod, is_solid ? "solid" : "surfaces", std::move(findings)});
+    return {building.id, building.lod, is_solid ? "solid" : "surfaces", std::move(findings)};
   }
 
   void add(const BuildingFindings& found) {
@@ -182,12 +324,25 @@ class Validation {
     } else if (arguments_.shows_problems_only) {
       return;
     }
-    out_.append(arguments_.is_json ? json_line(found) : text_of(found));
+    out_.append(arguments_.is_json ? json_line(found) : text_of(found, is_of_all_lods()));
+  }
+
+  /// What was asked for and is not there; nothing to judge is no clean end either.
+  void report_emptiness() {
+    if (code_ == ExitCode::input) return;
+    auto issues = arguments_.selection.unmet(found_ids_, buildings_ > 0);
+    if (arguments_.selection.is_all() && buildings_ == 0)
+      issues.push_back(nothing_to_work_on(arguments_.inputs, "no building"));
+    for (const Issue& issue : issues) report_.add(issue);
+    if (!issues.empty()) raise(ExitCode::set_aside);
   }
 
   void report_summary() const {
-    std::string text = fmt::format("{} of {} building{} valid", buildings_ - invalid_, buildings_,
-                                   buildings_ == 1 ? " is" : "s are");
+    const char* what = is_of_all_lods() ? "geometr" : "building";
+    const char* ending = buildings_ == 1 ? (is_of_all_lods() ? "y is" : " is")
+                                         : (is_of_all_lods() ? "ies are" : "s are");
+    std::string text =
+        fmt::format("{} of {} {}{} valid", buildings_ - invalid_, buildings_, what, ending);
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
       text += fmt::format("{}{} {}", separator, count, to_string(code.first));
@@ -196,6 +351,9 @@ class Validation {
       separator = ", ";
     }
     if (unread_records_ > 0) text += fmt::format("; {} records could not be read", unread_records_);
+    if (unjudged_ > 0)
+      text += fmt::format("; {} other object{} not judged", unjudged_,
+                          unjudged_ == 1 ? " was" : "s were");
     run_log().write(LogLevel::info, text);
   }
 
@@ -206,8 +364,22 @@ class Validation {
   int buildings_ = 0;
   int invalid_ = 0;
   int unread_records_ = 0;
+  int unjudged_ = 0;  ///< objects
+  std::set<std::string> found_ids_;
+  std::set<std::string> lods_;      ///< of the input at hand, with --lod all
+  bool is_survey_ = false;          ///< only lods_ are looked for
+  std::set<std::string> told_;      ///< warnings of buildings
+  std::set<std::string> has_told_;  ///< inputs of which is told what was not judged
   std::map<std::pair<Code, int>, int> counts_;
 };
+
+ExitCode work(const ValidateArguments& arguments) {
+  NamedFiles files;
+  files.add(arguments);
+  files.add_output("-o", arguments.out);
+  files.check();
+  return Validation(arguments).go();
+}
 
 }  // namespace
 
@@ -216,6 +388,8 @@ void add_validate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "validate", "Check the geometry of buildings as it was read, as val3dity does");
   add_input_arguments(*command, *arguments, true);
+  command->get_option("--lod")->description(
+      "Level of detail to judge, as written in the input, or all of them (default: the highest)");
   command->add_flag("--json", arguments->is_json,
                     "One JSON object per building and line instead of text");
   command->add_flag("--only-problems", arguments->shows_problems_only,
@@ -245,8 +419,7 @@ void add_validate(CLI::App& app, Action& action) {
   command->footer(
       "Example:\n  oriel validate tile.city.jsonl --lod 2.2 --only-problems\n  oriel validate "
       "house.gml --json | jq '.findings[].code'");
-  command->callback(
-      [arguments, &action] { action = [arguments] { return Validation(*arguments).go(); }; });
+  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 
 }  // namespace oriel::cli

@@ -43,6 +43,7 @@ constexpr std::array kNames{
     DefectName{501, "INTERSECTION_SOLIDS"},
     DefectName{502, "DUPLICATED_SOLIDS"},
     DefectName{503, "DISCONNECTED_SOLIDS"},
+    DefectName{601, "BUILDINGPARTS_OVERLAP"},
     DefectName{902, "EMPTY_PRIMITIVE"},
 };
 
@@ -115,6 +116,8 @@ Code code_of(Defect defect) {
       return Code::E357;
     case Defect::solids_apart:
       return Code::E358;
+    case Defect::parts_overlap:
+      return Code::E359;
   }
   return Code::E901;
 }

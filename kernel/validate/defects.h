@@ -39,6 +39,7 @@ enum class Defect {
   solids_cross,
   solids_alike,
   solids_apart,
+  parts_overlap,
 };
 
 /// Of what a finding is; -1 where it is not of one.

@@ -3,11 +3,15 @@
 #include "kernel/validate/defects.h"
 #include "kernel/validate/polygons/polygon_checks.h"
 #include "kernel/validate/polygons/snapped.h"
+#include "kernel/validate/solids/closed_surface.h"
 #include "kernel/validate/solids/shell_checks.h"
 #include "kernel/validate/solids/solid_checks.h"
 
+#include <algorithm>
+#include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,6 +77,59 @@ JudgedSolids judge_shells(const SnappedBuilding& building, const JudgedShells& s
   return out;
 }
 
+/// All parts as the solids of one building, in the frame of the first, and which part each solid is
+/// of.
+struct JoinedParts {
+  Building building;
+  std::vector<std::size_t> part_of;
+};
+
+JoinedParts joined(std::span<const Building* const> parts) {
+  JoinedParts out;
+  out.building.frame = parts[0]->frame;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Building part = without_installations(*parts[p]);
+    const Vec3 shift = part.frame.origin_m - out.building.frame.origin_m;
+    const int first_vertex = static_cast<int>(out.building.vertices.size());
+    const int first_body = static_cast<int>(out.part_of.size());
+    for (const Vec3 v : part.vertices) out.building.vertices.push_back(v + shift);
+    for (Polygon polygon : part.polygons) {
+      for (std::vector<int>& ring : polygon.rings)
+        for (int& vertex : ring) vertex += first_vertex;
+      polygon.body += first_body;
+      out.part_of.resize(std::max(out.part_of.size(), static_cast<std::size_t>(polygon.body) + 1),
+                         p);
+      out.building.polygons.push_back(std::move(polygon));
+    }
+  }
+  return out;
+}
+
+/// The bodies of a solid: that of its outer shell, then those of its cavities.
+std::vector<std::deque<detail::ClosedSurface>> surfaces_of(
+    const SnappedBuilding& building, const std::vector<detail::JudgedSolid>& solids) {
+  std::vector<std::deque<detail::ClosedSurface>> out;
+  for (const detail::JudgedSolid& solid : solids) {
+    out.emplace_back();
+    for (const JudgedShell* shell : solid.shells) out.back().emplace_back(building, *shell);
+  }
+  return out;
+}
+
+/// True if `body` has no point outside one of the cavities of `host`.
+bool is_in_cavity(const std::deque<detail::ClosedSurface>& host,
+                  const detail::ClosedSurface& body) {
+  for (std::size_t i = 1; i < host.size(); ++i)
+    if (relate(host[i], body).is_second_inside) return true;
+  return false;
+}
+
+bool do_solids_overlap(const std::deque<detail::ClosedSurface>& p,
+                       const std::deque<detail::ClosedSurface>& q) {
+  if (!overlap(p[0].box(), q[0].box())) return false;
+  return relate(p[0], q[0]).do_overlap && !is_in_cavity(p, q[0]) && !is_in_cavity(q, p[0]);
+}
+
 Finding out_of_range(const Building& building) {
   Finding finding;
   finding.code = Code::E506;
@@ -101,6 +158,38 @@ std::vector<Finding> validate(const Building& building, const ValidateOptions& o
       if (shell) detail::judge(*snapped, *shell, true, findings);
   }
   return findings.take();
+}
+
+std::vector<PartOverlap> overlapping_parts(std::span<const Building* const> parts,
+                                           const ValidateOptions& options) {
+  if (parts.size() < 2) return {};
+  const JoinedParts all = joined(parts);
+  const auto snapped = detail::snapped(all.building, options.snap_m);
+  if (!snapped) return {};
+  FindingList unheard(*snapped), findings(*snapped);
+  const JudgedShells shells = judge_polygons(*snapped, options, unheard);
+  const JudgedSolids judged = judge_shells(*snapped, shells, unheard);
+  const auto surfaces = surfaces_of(*snapped, judged.solids);
+  const auto part_of = [&](std::size_t solid) {
+    return all.part_of[static_cast<std::size_t>(judged.solids[solid].body)];
+  };
+  std::set<std::pair<std::size_t, std::size_t>> told;
+  std::vector<PartOverlap> overlaps;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
+      const std::pair pair(part_of(i), part_of(j));
+      if (pair.first == pair.second || told.contains(pair) ||
+          !do_solids_overlap(surfaces[i], surfaces[j]))
+        continue;
+      told.insert(pair);
+      findings.add(detail::Defect::parts_overlap, {},
+                   fmt::format("it overlaps {} of the same building", parts[pair.first]->id),
+                   {judged.solids[j].shells[0]->polygons[0].polygon->rings[0][0]});
+      overlaps.push_back({pair.second, {}});
+    }
+  std::vector<Finding> found = findings.take();
+  for (std::size_t i = 0; i < overlaps.size(); ++i) overlaps[i].finding = std::move(found[i]);
+  return overlaps;
 }
 
 }  // namespace oriel

@@ -3,6 +3,8 @@
 #include "kernel/base/code.h"
 #include "kernel/model/building.h"
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,5 +70,19 @@ std::string_view val3dity_name(int number);
 /// Source: Ledoux, On the validation of solids represented with the international standards for
 /// geographic information (2013), and val3dity's documentation; differences: docs/validate.md.
 std::vector<Finding> validate(const Building& building, const ValidateOptions& options = {});
+
+/// A part of a building that overlaps another one.
+struct PartOverlap {
+  /// Its number among the parts.
+  std::size_t part = 0;
+  Finding finding;
+};
+
+/// Each pair of `parts` whose interiors have points in common (601), as a finding of the later one;
+/// `parts` are of one building, solids without findings. Parts that share a face or lie in the
+/// cavity of another one do not overlap. Exact as validate(); parts further than 4 km from the
+/// first, and ones that are no solids next to each other, are passed over.
+std::vector<PartOverlap> overlapping_parts(std::span<const Building* const> parts,
+                                           const ValidateOptions& options = {});
 
 }  // namespace oriel
