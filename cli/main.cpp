@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/printable.h"
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <sstream>
 #include <system_error>
 
@@ -111,14 +113,30 @@ int run(int argc, char** argv) {
   }
 }
 
+/// What was allocated is free again, as a rule; else a fixed sentence must do.
+int end_without_memory(Report& report) {
+  try {
+    oriel::Issue issue;
+    issue.code = oriel::Code::E507;
+    issue.sentence = "memory is used up: the run ends here, and what it was writing is not kept";
+    report.add(issue);
+  } catch (...) {
+    say_memory_is_used_up();
+  }
+  return exit_with(ExitCode::internal);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  begin_to_throw_without_memory();
   clean_up_on_signals();
   set_up_logging({});
   Report report(true);
   try {
     return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return end_without_memory(report);
   } catch (const oriel::InputError& error) {
     report.add(error.issue());
     return exit_with(ExitCode::input);

@@ -1,0 +1,71 @@
+#include "cli/terminal/last_words.h"
+
+#include "cli/terminal/exit_code.h"
+#include "kernel/io/files/output_file.h"
+
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string_view>
+#include <unistd.h>
+
+namespace oriel::cli {
+
+namespace {
+
+constexpr std::string_view kNoMemory =
+    "error: E507 memory is used up: the run ends here, and what it was writing is not kept\n";
+constexpr std::string_view kNobodyCaught =
+    "error: E901 a fault of oriel's own: the run ends here, and what it was writing is not kept\n";
+
+/// The process whose temporary files there are: forked workers have only copies of its list.
+pid_t main_process = 0;
+
+void say(std::string_view sentence) noexcept {
+  [[maybe_unused]] const ssize_t count = ::write(STDERR_FILENO, sentence.data(), sentence.size());
+}
+
+/// Before main() nobody would catch anything.
+void end_without_memory() {
+  say(kNoMemory);
+  ::_exit(static_cast<int>(ExitCode::internal));
+}
+
+/// For allocators that, written in C, would abort.
+void throw_without_memory() { throw std::bad_alloc(); }
+
+bool is_for_memory() noexcept {
+  try {
+    if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+  }
+  return false;
+}
+
+[[noreturn]] void end_uncaught() {
+  if (::getpid() != main_process) std::abort();  // a worker: the parent tells by the signal
+  say(is_for_memory() ? kNoMemory : kNobodyCaught);
+  remove_temporary_files();
+  ::_exit(static_cast<int>(ExitCode::internal));
+}
+
+void begin_process() { std::set_new_handler(end_without_memory); }
+
+#ifdef __ELF__
+// Libraries allocate in their initialisers, which run before those of the program.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const kBeginProcess)() = begin_process;
+#endif
+
+}  // namespace
+
+void begin_to_throw_without_memory() {
+  main_process = ::getpid();
+  std::set_terminate(end_uncaught);
+  std::set_new_handler(throw_without_memory);
+}
+
+void say_memory_is_used_up() noexcept { say(kNoMemory); }
+
+}  // namespace oriel::cli
