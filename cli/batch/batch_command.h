@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/batch/outcome.h"
+#include "cli/output/named_files.h"
 #include "kernel/io/document.h"
 
 #include <cstddef>
@@ -19,6 +20,11 @@ class BatchCommand {
  public:
   virtual ~BatchCommand() = default;
 
+  /// Adds the files that it reads besides the inputs and those that it writes, so that none is
+  /// named twice. Before anything is read or written.
+  virtual void name_files(NamedFiles& /*files*/) const {}
+  /// How many features it took that are no buildings.
+  [[nodiscard]] virtual std::size_t other_features() const { return 0; }
   /// Before the first record of an input.
   virtual void begin(std::size_t /*input*/) {}
   /// After the last record. Not called for an input that could not be read as a whole.

@@ -61,6 +61,10 @@ ExitCode BatchRunner::run_all() {
                                          std::pair("--reuse", !options_.reuse.empty())})
     if (producer_ == nullptr && is_given)
       throw CLI::ValidationError(option, "works only with commands that write record by record");
+  NamedFiles files;
+  files.add(options_);
+  command_->name_files(files);
+  files.check();
   if (!begin_status()) return state_.code;
   const bool is_all_read =
       resume_ && resume_->state() && resume_->position().input >= options_.inputs.size();
@@ -76,9 +80,22 @@ ExitCode BatchRunner::run_all() {
   if (!options_.timings_file.empty()) write_file(options_.timings_file, timings_json(timings_));
   if (state_.code == ExitCode::set_aside && options_.allows(state_.set_aside, state_.buildings))
     state_.code = ExitCode::clean;
+  report_emptiness();
   if (status_) write_status();
   if (resume_) resume_->remove();
   return state_.code;
+}
+
+/// Says what was asked for and is not there; nothing on which to work is no clean end either.
+void BatchRunner::report_emptiness() {
+  if (state_.code == ExitCode::input || !options_.reports_emptiness) return;
+  const bool has_any = state_.buildings > 0 || command_->other_features() > 0;
+  std::vector<Issue> issues = options_.selection.unmet(state_.found_ids, has_any);
+  if (options_.selection.is_all() && !has_any)
+    issues.push_back(nothing_to_work_on(options_.inputs, "no building"));
+  if (issues.empty()) return;
+  report_.add(issues);
+  state_.raise(ExitCode::set_aside);
 }
 
 /// False if there is nothing to do: the same command has come to its end before.
@@ -257,6 +274,7 @@ void BatchRunner::settle_read(WorkItem& item, const Record& record) {
   state_.buildings += unread;
   state_.set_aside += unread;
   if (unread > 0) state_.raise(ExitCode::set_aside);
+  note_found_ids(record.document);
   for (const BuildingOutcome& building : item.outcome.buildings) {
     if (building.is_passed_over) continue;
     ++state_.buildings;
@@ -273,6 +291,17 @@ void BatchRunner::settle_read(WorkItem& item, const Record& record) {
     settle_product(item, *record.document.value);
   else
     visitor_->visit(*record.document.value, item.results);
+}
+
+/// Of those that --id names, also of buildings that cannot be read or that lie elsewhere.
+void BatchRunner::note_found_ids(const Checked<Document>& document) {
+  const std::vector<std::string>& ids = options_.selection.ids;
+  if (ids.empty()) return;
+  const auto note = [&](const std::string& id) {
+    if (std::ranges::find(ids, id) != ids.end()) state_.found_ids.insert(id);
+  };
+  for (const Building& building : document.value->buildings) note(building.id);
+  for (const Issue& issue : document.issues) note(issue.place.building);
 }
 
 void BatchRunner::settle_product(WorkItem& item, const Document& document) {

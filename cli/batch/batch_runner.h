@@ -70,6 +70,8 @@ class BatchRunner {
   void settle(const InputFailure& failure);
   void settle_read(WorkItem& item, const Record& record);
   void settle_refused(const Record& record);
+  void note_found_ids(const Checked<Document>& document);
+  void report_emptiness();
   void settle_product(WorkItem& item, const Document& document);
   void report(const std::vector<Issue>& issues);
   void keep_errors(const std::vector<Issue>& issues);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -70,6 +71,8 @@ void RecordWorker::make_product(WorkItem& item) const {
   };
   try {
     item.outcome.product = make();
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the record's
   } catch (const std::exception& fault) {
     set_all_aside(item, Code::E901, fmt::format("a fault of oriel's own: {}", fault.what()));
     item.outcome.product = make();

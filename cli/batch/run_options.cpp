@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace oriel::cli {
 
@@ -49,6 +52,30 @@ bool Selection::takes_feature(const std::string& id, const std::string& type) co
 
 bool Selection::takes(const std::string& id, const std::string& type) const {
   return (fits(id, type) && bbox.empty()) != is_exclusion;
+}
+
+std::vector<Issue> Selection::unmet(const std::set<std::string>& found, bool has_any) const {
+  std::vector<Issue> issues;
+  for (const std::string& id : std::set(ids.begin(), ids.end()))
+    if (!found.contains(id) && (cotype.empty() || !has_any))
+      issues.push_back(building_issue(Severity::warning, Code::E130, id,
+                                      "is asked for by --id and is in none of the inputs"));
+  if (!issues.empty() || has_any || is_all()) return issues;
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E130;
+  issue.sentence = "the selection (--id, --bbox, --cotype, --random, --exclude) takes no building";
+  return {issue};
+}
+
+Issue nothing_to_work_on(const std::vector<std::string>& inputs, const std::string& what) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E134;
+  const bool is_one = inputs.size() == 1;
+  if (is_one) issue.place.file = inputs[0];
+  issue.sentence = fmt::format("{}there is {} to work on", is_one ? "" : "in the inputs ", what);
+  return issue;
 }
 
 ReadOptions RunOptions::read_options() const {

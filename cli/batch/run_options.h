@@ -1,10 +1,12 @@
 #pragma once
 
+#include "kernel/base/issue.h"
 #include "kernel/model/building.h"
 #include "oriel/label.h"
 #include "oriel/read.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,9 @@ struct Selection {
   [[nodiscard]] bool takes(const std::string& id, const std::string& type) const;
   /// A feature without a building that could be read: only if a type was asked for.
   [[nodiscard]] bool takes_feature(const std::string& id, const std::string& type) const;
+  /// A warning E130 for each id that was asked for and is none of `found`, or for a selection that
+  /// took nothing (`has_any` is false).
+  [[nodiscard]] std::vector<Issue> unmet(const std::set<std::string>& found, bool has_any) const;
 
  private:
   [[nodiscard]] bool fits(const std::string& id, const std::string& type) const;
@@ -75,6 +80,8 @@ struct RunOptions {
   bool is_resumable = false;
   /// So much may be set aside and all is well: a number of buildings, or a share of them.
   std::string allowed_bad = "0";
+  /// Nothing to work on, and ids that are not there, are reported (E130, E134).
+  bool reports_emptiness = true;
   /// ReadOptions::joins_installations.
   bool joins_installations = false;
   /// Only what was read is asked for: buildings do not pass the pipeline.
@@ -100,5 +107,8 @@ struct RunOptions {
   /// True if no more of `buildings` was set aside than --allow-bad says.
   [[nodiscard]] bool allows(int set_aside, int buildings) const;
 };
+
+/// A warning E134: there is `what` ("no building") in the inputs.
+Issue nothing_to_work_on(const std::vector<std::string>& inputs, const std::string& what);
 
 }  // namespace oriel::cli

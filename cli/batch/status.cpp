@@ -55,6 +55,7 @@ ordered_json to_json(const RunState& state) {
           {"open", state.open},
           {"code", static_cast<int>(state.code)},
           {"labels", state.labels},
+          {"found_ids", state.found_ids},
           {"counted", {records.read, records.refused, records.not_selected, records.passed_on}}};
 }
 
@@ -65,7 +66,8 @@ RunState run_state_of(const ordered_json& json) {
           json.at("open"),
           json.at("labels").get<std::map<std::string, int>>(),
           {counted.at(0), counted.at(1), counted.at(2), counted.at(3)},
-          static_cast<ExitCode>(json.at("code").get<int>())};
+          static_cast<ExitCode>(json.at("code").get<int>()),
+          json.at("found_ids").get<std::set<std::string>>()};
 }
 
 StatusWriter::StatusWriter(const std::string& stem)

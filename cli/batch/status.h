@@ -7,6 +7,7 @@
 #include "kernel/io/files/partial_files.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,8 @@ struct RunState {
   std::map<std::string, int> labels{};
   RecordCounts records{};
   ExitCode code = ExitCode::clean;
+  /// Of the ids that were asked for those that are there.
+  std::set<std::string> found_ids{};
 
   void raise(ExitCode graver_code) { code = graver(code, graver_code); }
 };

@@ -26,6 +26,8 @@ class Cat final : public VisitingCommand {
                 [&](const std::string& line) { append(line); }},
                arguments.selection) {}
 
+  void name_files(NamedFiles& files) const override { files.add_output("-o", arguments_.out); }
+  [[nodiscard]] std::size_t other_features() const override { return lines_.features(); }
   void begin(std::size_t input) override {
     lines_.begin();
     input_ = input;

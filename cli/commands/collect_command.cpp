@@ -28,6 +28,8 @@ class Collect final : public VisitingCommand {
                 [&](const std::string& line) { add_feature(line); }},
                arguments.selection) {}
 
+  void name_files(NamedFiles& files) const override { files.add_output("-o", arguments_.out); }
+  [[nodiscard]] std::size_t other_features() const override { return lines_.features(); }
   void begin(std::size_t input) override {
     lines_.begin();
     input_ = input;

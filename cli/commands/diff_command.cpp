@@ -1,3 +1,4 @@
+#include "cli/batch/run_options.h"
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
@@ -43,6 +44,10 @@ ExitCode work(const DiffArguments& arguments) {
   auto before = read_run(arguments.before, report, code);
   auto after = read_run(arguments.after, report, code);
   if (code == ExitCode::input) return code;
+  if (before.empty() && after.empty()) {
+    report.add(nothing_to_work_on({arguments.before, arguments.after}, "no feature"));
+    code = graver(code, ExitCode::set_aside);
+  }
   const LabelDiff diff = diff_labels(std::move(before), std::move(after), arguments.examples);
   const std::string text = arguments.is_json ? to_json(diff) + "\n" : to_text(diff);
   print_out(text, arguments.is_json);

@@ -124,6 +124,10 @@ class Generaliser final : public ProducingCommand {
         outputs_(arguments, rules),
         changes_(arguments.explain, arguments.metrics) {}
 
+  void name_files(NamedFiles& files) const override {
+    outputs_.name_files(files);
+    changes_.name_files(files);
+  }
   void begin(std::size_t input) override {
     if (input == 0 && arguments_.repeat > 1) counts_.clear();
     changes_.begin(!runner_.is_last_run());

@@ -1,5 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
@@ -214,6 +215,11 @@ void print_now(const std::string& text) {
 ExitCode work(const InterpretArguments& arguments) {
   if (arguments.is_watching && !arguments.out.empty())
     throw CLI::ValidationError("--watch", "writes no file: leave out -o");
+  NamedFiles names;
+  for (const std::string& records : arguments.records) names.add_input("records", records);
+  names.add_input("--rules", arguments.rules);
+  names.add_output("-o", arguments.out);
+  names.check();
   Report report(arguments.is_verbose);
   if (arguments.is_watching) {
     const StoredFeatures features(arguments.records, report);
@@ -228,7 +234,9 @@ ExitCode work(const InterpretArguments& arguments) {
     print(listing(run));
   else if (!features.buildings().empty() || features.code() != ExitCode::input)
     features.write(arguments.out, arguments.has_safe_cells, run);
-  return features.code();
+  if (!features.buildings().empty() || features.code() == ExitCode::input) return features.code();
+  report.add(nothing_to_work_on(arguments.records, "no feature"));
+  return graver(features.code(), ExitCode::set_aside);
 }
 
 }  // namespace

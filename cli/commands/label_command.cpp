@@ -93,6 +93,7 @@ class Labeller final : public ProducingCommand {
   Labeller(const LabelArguments& arguments, const RuleBase& rules, BatchRunner& runner)
       : arguments_(arguments), runner_(runner), outputs_(arguments, rules) {}
 
+  void name_files(NamedFiles& files) const override { outputs_.name_files(files); }
   void begin(std::size_t input) override { outputs_.begin(input, !runner_.is_last_run()); }
   Product make(std::size_t input, const Document& document,
                const std::vector<PipelineResult>& results, Timings& timings) const override {

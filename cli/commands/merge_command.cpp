@@ -1,5 +1,6 @@
 #include "cli/batch/resume.h"
 #include "cli/commands/commands.h"
+#include "cli/output/named_files.h"
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
@@ -108,6 +109,7 @@ class Merger {
       : arguments_(arguments), list_(ShardList::load(arguments.list)), report_(true) {}
 
   ExitCode go() {
+    check_names();
     find_files();
     if (has_errors_) return ExitCode::input;
     OutputFile out(arguments_.out);
@@ -120,6 +122,14 @@ class Merger {
   }
 
  private:
+  void check_names() const {
+    NamedFiles files;
+    for (const std::string& file : arguments_.files) files.add_input("shards", file);
+    files.add_input("--split", arguments_.list);
+    files.add_output("-o", arguments_.out);
+    files.check();
+  }
+
   void tell(const Issue& issue) {
     report_.add(issue);
     has_errors_ = true;

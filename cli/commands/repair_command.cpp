@@ -52,6 +52,10 @@ class Repairer final : public VisitingCommand {
         runner_(runner),
         sink_(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format) {}
 
+  void name_files(NamedFiles& files) const override {
+    for (const std::string& path : sink_.paths()) files.add_output("-o", path);
+    files.add_output("--report", arguments_.report);
+  }
   void begin(std::size_t input) override {
     sink_.begin(input, !runner_.is_last_run());
     if (runner_.is_last_run() && !report_ && !arguments_.report.empty())

@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "kernel/base/printable.h"
@@ -101,6 +102,13 @@ bool is_covered(const RuleTestReport& report, const RulesTestArguments& argument
 }
 
 ExitCode test(const RulesTestArguments& arguments) {
+  NamedFiles names;
+  for (const std::string& file : arguments.files) {
+    names.add_input("file", file);
+    if (tests_of(file) != file) names.add_input("file", tests_of(file));
+  }
+  names.add_output("--junit", arguments.junit);
+  names.check();
   Report report(true);
   ExitCode code = ExitCode::clean;
   std::vector<RuleTestReport> reports;

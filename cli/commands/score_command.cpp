@@ -1,6 +1,7 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
@@ -10,8 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,6 +24,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -150,6 +154,39 @@ std::string cells_of(const std::string& csv, const ScoreArguments& arguments) {
   return arguments.has_safe_cells ? with_safe_cells(csv) : csv;
 }
 
+/// A warning E131: no building of the truth has records, or some have none.
+std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptions& options) {
+  constexpr std::size_t kShown = 5;
+  std::set<std::string> recorded, expected;
+  for (const Prediction& prediction : all.predictions) recorded.insert(prediction.building);
+  for (const ExpectedObject& object : all.truth)
+    if (!is_left_out(object) &&
+        std::ranges::find(options.not_scored, object.label) == options.not_scored.end())
+      expected.insert(object.building);
+  std::vector<std::string> missing;
+  std::ranges::set_difference(expected, recorded, std::back_inserter(missing));
+  if (missing.empty() && !expected.empty()) return std::nullopt;
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E131;
+  if (expected.empty()) {
+    issue.sentence = "the truth has no objects: nothing is compared";
+    return issue;
+  }
+  issue.sentence = missing.size() == expected.size()
+                       ? "no building of the truth has a record"
+                       : fmt::format(
+                             "{} of {} buildings of the truth have no record, and all "
+                             "their objects count as missed",
+                             missing.size(), expected.size());
+  const std::size_t shown = std::min(kShown, missing.size());
+  issue.sentence +=
+      ": " +
+      fmt::format("{}", fmt::join(missing.begin(), missing.begin() + std::ptrdiff_t(shown), ", "));
+  if (shown < missing.size()) issue.sentence += ", ...";
+  return issue;
+}
+
 ExitCode score_features(const ScoreArguments& arguments) {
   Report report(arguments.is_verbose);
   std::optional<RuleBase> pack;
@@ -158,6 +195,10 @@ ExitCode score_features(const ScoreArguments& arguments) {
   const LabelsAndTruth all = read(arguments, report, code);
   ScoreOptions options;
   options.min_iou = arguments.min_iou;
+  if (const auto issue = missing_records(all, options)) {
+    report.add(*issue);
+    code = graver(code, ExitCode::set_aside);
+  }
   const auto buildings = score_by_building(all, options);
   const Score result = total(buildings);
   constexpr std::size_t kShown = 20;
@@ -234,7 +275,19 @@ void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
       ->check(CLI::Range(1, 1'000'000));
 }
 
+void check_names(const ScoreArguments& arguments) {
+  NamedFiles files;
+  files.add(arguments);
+  files.add_input("--rules", arguments.rules);
+  for (const std::string& model : arguments.models) files.add_input("--models", model);
+  for (const std::string& truth : arguments.truth) files.add_input("--truth", truth);
+  files.add_output("--per-building", arguments.per_building);
+  files.add_output("--curve", arguments.curve);
+  files.check();
+}
+
 ExitCode work(const ScoreArguments& arguments) {
+  check_names(arguments);
   if (arguments.is_of_surfaces) return score_surfaces(arguments);
   if (arguments.truth.empty()) throw CLI::RequiredError("--truth");
   return score_features(arguments);

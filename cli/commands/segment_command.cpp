@@ -126,11 +126,13 @@ class Segmenter final : public VisitingCommand {
   Segmenter(const SegmentArguments& arguments, BatchRunner& runner)
       : arguments_(arguments), runner_(runner) {}
 
+  void name_files(NamedFiles& files) const override {
+    if (has_text()) files.add_output("-o", arguments_.out);
+    files.add_output("--features", arguments_.features);
+  }
   void begin(std::size_t /*input*/) override {
     if (!runner_.is_last_run()) return;
-    const bool has_listing = arguments_.features.empty() || arguments_.out != "-";
-    if (!text_ && (arguments_.is_json || has_listing))
-      text_ = std::make_unique<OutputFile>(arguments_.out);
+    if (!text_ && has_text()) text_ = std::make_unique<OutputFile>(arguments_.out);
     if (!features_ && !arguments_.features.empty())
       features_ = std::make_unique<FeatureRecordWriter>(arguments_.features);
   }
@@ -147,6 +149,10 @@ class Segmenter final : public VisitingCommand {
   }
 
  private:
+  [[nodiscard]] bool has_text() const {
+    return arguments_.is_json || arguments_.features.empty() || arguments_.out != "-";
+  }
+
   /// In runs for the clock nothing is kept.
   void add(const Building& building, const PipelineResult& line) {
     const FeatureTable& table = line.description.table;

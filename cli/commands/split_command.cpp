@@ -40,6 +40,13 @@ class Splitter final : public VisitingCommand {
                 [&](const std::string& line) { add_feature(line); }},
                arguments.selection) {}
 
+  void name_files(NamedFiles& files) const override {
+    const std::filesystem::path folder(arguments_.folder);
+    files.add_output("-o", (folder / kShardList).string());
+    for (const std::string& input : arguments_.inputs)
+      if (is_in(folder, input)) files.add_output("-o", input);
+  }
+  [[nodiscard]] std::size_t other_features() const override { return lines_.features(); }
   void begin(std::size_t input) override {
     lines_.begin();
     input_ = input;
@@ -56,6 +63,14 @@ class Splitter final : public VisitingCommand {
   [[nodiscard]] std::size_t shards() const { return list_.shards.size(); }
 
  private:
+  /// Shards would take its name, or might.
+  static bool is_in(const std::filesystem::path& folder, const std::string& input) {
+    const std::string name = std::filesystem::path(input).filename().string();
+    std::error_code error;
+    return name.find_first_not_of("0123456789") == name.find('.') &&
+           std::filesystem::equivalent(folder / name, input, error);
+  }
+
   using GridCell = std::pair<std::int64_t, std::int64_t>;
 
   void add_header(const std::string& line) {
@@ -104,6 +119,8 @@ class Splitter final : public VisitingCommand {
   }
 
   void begin_shard() {
+    std::error_code error;
+    std::filesystem::create_directories(arguments_.folder, error);  // shows when it is opened
     open_.emplace_back(arguments_.folder, fmt::format("{:06}", begun_++));
     open_.back().append(header_);
   }
@@ -123,8 +140,6 @@ class Splitter final : public VisitingCommand {
 ExitCode work(const SplitArguments& arguments) {
   Report report(arguments.is_verbose);
   BatchRunner runner(arguments, nullptr, report);
-  std::error_code error;
-  std::filesystem::create_directories(arguments.folder, error);  // shows when a shard is opened
   Splitter command(arguments);
   const ExitCode code = runner.run(command);
   runner.report_summary(fmt::format("split into {} shards", command.shards()), {});

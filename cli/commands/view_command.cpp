@@ -70,10 +70,21 @@ RunOptions arguments_after(const ViewArguments& arguments, std::vector<std::stri
   after.timings_file.clear();
   after.status_stem.clear();
   after.repeat = 1;
+  after.reports_emptiness = false;  // E128 does, and rejected buildings are none
   return after;
 }
 
+void check_names(const ViewArguments& arguments) {
+  NamedFiles files;
+  files.add(arguments);
+  files.add_input("--rules", arguments.rules);
+  files.add_input("--after", arguments.after);
+  files.add_output("-o", arguments.out);
+  files.check();
+}
+
 ExitCode work(const ViewArguments& arguments) {
+  check_names(arguments);
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;

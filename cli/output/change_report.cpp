@@ -14,6 +14,11 @@ constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
 }  // namespace
 
+void ChangeReport::name_files(NamedFiles& files) const {
+  files.add_output("--explain", explain_);
+  files.add_output("--metrics", metrics_);
+}
+
 void ChangeReport::begin(bool is_rehearsal) {
   if (is_rehearsal) return;
   if (!changes_file_ && !explain_.empty()) changes_file_ = std::make_unique<OutputFile>(explain_);

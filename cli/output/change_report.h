@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/batch/outcome.h"
+#include "cli/output/named_files.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/generalise.h"
 
@@ -21,6 +22,7 @@ class ChangeReport {
 
   [[nodiscard]] bool has_metrics() const { return !metrics_.empty(); }
   [[nodiscard]] bool has_any() const { return !explain_.empty() || !metrics_.empty(); }
+  void name_files(NamedFiles& files) const;
   /// An input begins. What follows is kept unless it is a rehearsal.
   void begin(bool is_rehearsal);
   /// What is written of a building. Several threads may call them; empty if it is not asked for.

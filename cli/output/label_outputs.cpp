@@ -51,6 +51,13 @@ LabelledBuilding LabelOutputs::annotated(const Building& building,
   return annotate(building, line, rules_, options_);
 }
 
+void LabelOutputs::name_files(NamedFiles& files) const {
+  files.add_input("--rules", arguments_.rules);
+  if (sink_)
+    for (const std::string& path : sink_->paths()) files.add_output("-o", path);
+  files.add_output("--features", arguments_.features);
+}
+
 bool LabelOutputs::is_streaming() const { return !sink_ || sink_->is_streaming(); }
 
 void LabelOutputs::begin(std::size_t input, bool is_rehearsal) {

@@ -2,6 +2,7 @@
 
 #include "cli/batch/outcome.h"
 #include "cli/batch/run_options.h"
+#include "cli/output/named_files.h"
 #include "cli/output/output_sink.h"
 #include "oriel/rules.h"
 #include "oriel/write.h"
@@ -41,6 +42,9 @@ class LabelOutputs {
 
   [[nodiscard]] bool has_buildings() const { return sink_.has_value(); }
   [[nodiscard]] bool has_any() const { return has_buildings() || !arguments_.features.empty(); }
+
+  /// Adds the outputs, and the rules as an input.
+  void name_files(NamedFiles& files) const;
 
   /// What was added is written by the next flush: nothing waits for the end of the input.
   [[nodiscard]] bool is_streaming() const;

@@ -94,6 +94,12 @@ std::string OutputSink::path_for(std::size_t input) const {
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
+std::vector<std::string> OutputSink::paths() const {
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) paths.push_back(path_for(i));
+  return paths;
+}
+
 Format OutputSink::format_of_output(std::size_t input) const {
   if (to_) return *to_;
   const Format from = format_of_input(input);

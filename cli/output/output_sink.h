@@ -28,6 +28,8 @@ class OutputSink {
   /// A file says which feature its faces belong to.
   [[nodiscard]] bool names_features() const;
 
+  /// The files of all inputs, in their order; "-": stdout.
+  [[nodiscard]] std::vector<std::string> paths() const;
   /// The file at hand and its size so far.
   [[nodiscard]] PartPlace place() const;
   /// With `is_rehearsal` the bytes go to nowhere.

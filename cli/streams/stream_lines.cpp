@@ -13,8 +13,7 @@
 namespace oriel::cli {
 
 /// The first record is a whole file, or a header, which may have buildings, too.
-void StreamLines::take_apart(const Document& document,
-                             const std::vector<PipelineResult>& lines) const {
+void StreamLines::take_apart(const Document& document, const std::vector<PipelineResult>& lines) {
   std::unordered_set<std::string> selected, buildings;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     buildings.insert(document.buildings[i].id);
@@ -29,16 +28,21 @@ void StreamLines::take_apart(const Document& document,
     if (selection_.is_all() || std::ranges::any_of(ids, is_selected) ||
         (std::ranges::none_of(ids, is_building) &&
          selection_.takes_feature(ids[0], splitter.type(i))))
-      visitor_.feature(splitter.feature(i));
+      give(splitter.feature(i));
   }
+}
+
+void StreamLines::give(const std::string& line) {
+  ++features_;
+  visitor_.feature(line);
 }
 
 void StreamLines::add(const Document& document, const std::vector<PipelineResult>& lines) {
   if (std::exchange(is_first_, false)) return take_apart(document, lines);
   if (const std::string_view line = source_line(document); !line.empty())
-    return visitor_.feature(std::string(line) + '\n');
+    return give(std::string(line) + '\n');
   const std::string line = write(document, OutputRecord{});
-  if (!line.empty()) visitor_.feature(line);  // CityGML: empty for a Building with a fault
+  if (!line.empty()) give(line);  // CityGML: empty for a Building with a fault
 }
 
 std::optional<Issue> CommonHeader::check(const std::string& header, const std::string& input) {

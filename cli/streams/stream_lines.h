@@ -5,6 +5,7 @@
 #include "kernel/io/document.h"
 #include "oriel/result.h"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,15 +28,19 @@ class StreamLines {
       : visitor_(std::move(visitor)), selection_(selection) {}
 
   void begin() { is_first_ = true; }
+  /// How many lines were given to the visitor, headers not counted.
+  [[nodiscard]] std::size_t features() const { return features_; }
   /// `lines` belong to the document's buildings.
   void add(const Document& document, const std::vector<PipelineResult>& lines);
 
  private:
-  void take_apart(const Document& document, const std::vector<PipelineResult>& lines) const;
+  void take_apart(const Document& document, const std::vector<PipelineResult>& lines);
+  void give(const std::string& line);
 
   LineVisitor visitor_;
   const Selection& selection_;
   bool is_first_ = true;  ///< record of its input
+  std::size_t features_ = 0;
 };
 
 /// Several inputs that become one stream, or one file, have one header: this compares the later

@@ -1,0 +1,87 @@
+#include "cli/output/named_files.h"
+
+#include "cli/batch/run_options.h"
+#include "cli/commands/options.h"
+#include "kernel/io/files/partial_files.h"
+
+#include <optional>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace oriel::cli {
+
+/// Where files are, each with what named it first.
+class NamedFiles::Places {
+ public:
+  /// What named the same file before, or null; then it is remembered. `descriptor`: an open file in
+  /// place of the path.
+  const Named* enter(const Named& named, int descriptor = -1) {
+    struct stat found {};
+    const bool exists =
+        (descriptor >= 0 ? ::fstat(descriptor, &found) : ::stat(named.path.c_str(), &found)) == 0;
+    if (exists && !S_ISREG(found.st_mode)) return nullptr;
+    if (!exists && descriptor >= 0) return nullptr;
+    const Named* first = nullptr;
+    if (exists) first = enter(by_number_, {found.st_dev, found.st_ino}, named);
+    if (descriptor >= 0) return first;
+    const Named* by_path = enter(by_path_, detail::resolved(named.path), named);
+    return first != nullptr ? first : by_path;
+  }
+
+  /// Only one output can be stdout.
+  const Named* enter_stdout(const Named& named) {
+    if (stdout_ != nullptr) return stdout_;
+    stdout_ = &named;
+    return nullptr;
+  }
+
+ private:
+  template <class Map>
+  static const Named* enter(Map& map, const typename Map::key_type& key, const Named& named) {
+    const auto [place, is_new] = map.try_emplace(key, &named);
+    return is_new ? nullptr : place->second;
+  }
+
+  std::map<std::string, const Named*> by_path_;
+  std::map<FileNumber, const Named*> by_number_;
+  const Named* stdout_ = nullptr;
+};
+
+void NamedFiles::add_output(const std::string& option, const std::string& path) {
+  if (!path.empty()) outputs_.push_back({option, path, true});
+}
+
+void NamedFiles::add_input(const std::string& option, const std::string& path) {
+  if (!path.empty()) inputs_.push_back({option, path, false});
+}
+
+void NamedFiles::add(const RunOptions& options) {
+  for (const std::string& input : options.inputs) add_input("input", input);
+  add_output("--timings", options.timings_file);
+  if (options.status_stem.empty()) return;
+  for (const char* ending : {".status.json", ".quarantine.jsonl", ".journal"})
+    add_output("--status", options.status_stem + ending);
+}
+
+void NamedFiles::check() const {
+  static const Named kStdout{"stdout", "-", true};
+  Places places;
+  // The same input twice is no harm.
+  for (const Named& input : inputs_) places.enter(input, input.path == "-" ? STDIN_FILENO : -1);
+  const auto refuse = [](const Named& named, const Named& first) {
+    refuse_usage(named.option, Code::E602,
+                 first.is_output
+                     ? fmt::format("'{}' is written by {}, too", named.path, first.option)
+                     : fmt::format("'{}' is an input, which would be overwritten", named.path));
+  };
+  for (const Named& output : outputs_) {
+    const bool is_stdout = output.path == "-";
+    const Named* first = is_stdout ? places.enter_stdout(output) : places.enter(output);
+    if (first != nullptr) refuse(output, *first);
+  }
+  if (const Named* first = places.enter(kStdout, STDOUT_FILENO)) refuse(*first, kStdout);
+}
+
+}  // namespace oriel::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oriel::cli {
+
+struct RunOptions;
+
+/// The files that a command line names, by the options that name them, to find one that two outputs
+/// would write, or that is read and written.
+class NamedFiles {
+ public:
+  /// A file that is written. Empty: not asked for; "-" is stdout.
+  void add_output(const std::string& option, const std::string& path);
+  /// A file that is read; "-" is stdin.
+  void add_input(const std::string& option, const std::string& path);
+  /// The inputs of a run, and what it writes about itself: --timings, --status.
+  void add(const RunOptions& options);
+
+  /// Throws CLI::ValidationError E602 if an output is the same file as another output, an input or
+  /// what stdout goes to, under whatever name: links are resolved and regular files compared by
+  /// their number on the disk. What is no regular file (/dev/null, a pipe) may be named twice.
+  void check() const;
+
+ private:
+  struct Named {
+    std::string option, path;
+    bool is_output = false;
+  };
+  using FileNumber = std::pair<std::uint64_t, std::uint64_t>;  ///< device, file
+  class Places;
+
+  std::vector<Named> inputs_, outputs_;
+};
+
+}  // namespace oriel::cli

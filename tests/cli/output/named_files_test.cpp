@@ -1,0 +1,131 @@
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace oriel::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// Nothing was read or written: the folder is as it was.
+void check_refused(const Folder& folder, const Words& arguments) {
+  std::vector<std::string> before;
+  for (const std::string& name : folder.names()) before.push_back(name + bytes_of(folder / name));
+  const Outcome outcome = run(arguments);
+  CAPTURE(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit == 2);
+  CHECK(outcome.says("E602"));
+  std::vector<std::string> after;
+  for (const std::string& name : folder.names()) after.push_back(name + bytes_of(folder / name));
+  CHECK(after == before);
+}
+
+TEST_SUITE("cli") {
+  TEST_CASE("two outputs of one file are wrong usage in every command") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    const std::string lines = folder.write("in.city.jsonl", cube_lines({"a"}));
+    const std::string parts = folder.write("parts.csv", "building,id\n");
+    const std::string truth = folder.write("a.truth.json", "{}");
+    const std::string x = folder / "x.city.json", csv = folder / "x.csv", json = folder / "x.json";
+    for (const Words& arguments : std::vector<Words>{
+             {"segment", in, "-o", csv, "--features", csv},
+             {"segment", in, "--features", json, "--timings", json},
+             {"label", in, "-o", x, "--features", x},
+             {"label", in, "-o", x, "--timings", x},
+             {"label", in, "-o", "-", "--timings", "-"},
+             {"label", in, "-o", folder / "s.status.json", "--to", "cityjson", "--status",
+              folder / "s"},
+             {"label", in, "-o", folder / "out/", "--features", folder / "out/in.city.json"},
+             {"generalise", in, "--scale", "1:500", "-o", x, "--explain", x},
+             {"generalise", in, "--scale", "1:500", "-o", x, "--metrics", x},
+             {"generalise", in, "--scale", "1:500", "-o", x, "--explain", json, "--metrics", json},
+             {"generalise", in, "--series", "1:500", "-o", folder / "s", "--timings",
+              folder / "s.1-500.city.json"},
+             {"generalise", in, "--series", "1:500", "-o", folder / "s", "--features",
+              folder / "s.oplog.jsonl"},
+             {"repair", in, "-o", x, "--report", x},
+             {"view", in, "-o", x, "--timings", x},
+             {"cat", in, "-o", x, "--timings", x},
+             {"collect", lines, "-o", x, "--timings", x},
+             {"split", lines, "--count", "1", "-o", folder / "d", "--timings",
+              folder / "d/split.json"},
+             {"score", parts, "--truth", truth, "--per-building", csv, "--curve", csv}})
+      check_refused(folder, arguments);
+  }
+
+  TEST_CASE("an output that is an input is wrong usage in every command") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    const std::string lines = folder.write("000000.city.jsonl", cube_lines({"a"}));
+    const std::string level = folder.write("s.1-500.city.json", cubes({"a"}).dump());
+    const std::string parts = folder.write("parts.csv", "building,id\n");
+    const std::string truth = folder.write("a.truth.json", "{}");
+    const std::string pack = folder.write("p.yaml", "pack: x\n");
+    folder.write("s.oplog.jsonl", "{}\n");
+    for (const Words& arguments :
+         std::vector<Words>{{"segment", in, "-o", in},
+                            {"label", in, "-o", in},
+                            {"label", in, "-o", folder.path().string() + "/"},
+                            {"label", in, "--timings", in},
+                            {"label", "-", "-o", in, "--to", "cityjsonseq"},
+                            {"generalise", in, "--scale", "1:500", "-o", in},
+                            {"generalise", level, "--series", "1:500", "-o", folder / "s"},
+                            {"generalise", "--at", "1:600", "--from", folder / "s", "-o", level},
+                            {"repair", in, "-o", in},
+                            {"repair", in, "-o", folder / "x.city.json", "--report", in},
+                            {"explain", in, "f", "--timings", in},
+                            {"view", in, "-o", in},
+                            {"view", in, "--after", level, "-o", level},
+                            {"validate", in, "-o", in},
+                            {"cat", lines, "-o", lines},
+                            {"collect", lines, "-o", lines},
+                            {"split", lines, "--count", "1", "-o", folder.path().string()},
+                            {"merge", lines, "--split", in, "-o", lines},
+                            {"merge", lines, "--split", in, "-o", in},
+                            {"interpret", parts, "-o", parts},
+                            {"score", parts, "--truth", truth, "--curve", truth},
+                            {"score", parts, "--truth", truth, "--per-building", parts},
+                            {"rules", "test", pack, "--junit", pack}}) {
+      if (arguments[1] != "-") {
+        check_refused(folder, arguments);
+        continue;
+      }
+      const Outcome outcome = run(arguments, {.in = cube_lines({"a"})});
+      CHECK(outcome.exit != 2);  // a pipe is no file
+      folder.write("in.city.json", cubes({"a"}).dump());
+    }
+  }
+
+  TEST_CASE("other spellings links and hard links are the same file") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    fs::create_symlink(in, folder / "link.city.json");
+    fs::create_hard_link(in, folder / "hard.city.json");
+    fs::create_directory(folder / "d");
+    fs::create_directory_symlink(folder.path(), folder / "again");
+    for (const std::string name : {"link.city.json", "hard.city.json", "d/../in.city.json",
+                                   "./in.city.json", "again/in.city.json"})
+      check_refused(folder, {"label", in, "-o", folder / name});
+    check_refused(folder, {"label", in, "-o", folder / "x.city.json", "--timings",
+                           folder / "again/x.city.json"});
+  }
+
+  TEST_CASE("what is no regular file may be named twice") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    CHECK(
+        run({"label", in, "-o", "/dev/null", "--to", "cityjson", "--timings", "/dev/null"}).exit ==
+        0);
+  }
+}
+
+}  // namespace
