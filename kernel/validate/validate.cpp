@@ -127,7 +127,9 @@ bool is_in_cavity(const std::deque<detail::ClosedSurface>& host,
 bool do_solids_overlap(const std::deque<detail::ClosedSurface>& p,
                        const std::deque<detail::ClosedSurface>& q) {
   if (!overlap(p[0].box(), q[0].box())) return false;
-  return relate(p[0], q[0]).do_overlap && !is_in_cavity(p, q[0]) && !is_in_cavity(q, p[0]);
+  const detail::SurfaceRelation relation = relate(p[0], q[0]);
+  return (relation.do_overlap || relation.are_alike) && !is_in_cavity(p, q[0]) &&
+         !is_in_cavity(q, p[0]);
 }
 
 Finding out_of_range(const Building& building) {

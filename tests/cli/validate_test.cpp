@@ -102,6 +102,90 @@ TEST_SUITE("cli") {
     CHECK(run({"validate", folder / "no.city.json"}).exit == 5);
   }
 
+  TEST_CASE("objects that are not judged are named and the end is not clean") {
+    const Folder folder;
+    for (const std::string type : {"GenericCityObject", "Bridge", "+Shed"}) {
+      auto city = cubes({"a", "b"});
+      for (const char* id : {"a", "b"}) city["CityObjects"][id]["type"] = type;
+      city["CityObjects"]["b"]["geometry"][0]["type"] = "CompositeSolid";
+      city["CityObjects"]["b"]["geometry"][0]["boundaries"] =
+          json::array({city["CityObjects"]["b"]["geometry"][0]["boundaries"]});
+      const Outcome none = run({"validate", folder.write("none.city.json", city.dump())});
+      CAPTURE(none.err);
+      CHECK(none.exit == 3);
+      CHECK(none.says("E214 2 objects of type " + type));
+      CHECK(none.says("a, b"));
+      CHECK(none.says("E134"));
+      CHECK(none.says("0 of 0 buildings are valid; 2 other objects were not judged"));
+      city["CityObjects"]["a"]["type"] = "Building";
+      const Outcome one = run({"validate", folder.write("one.city.json", city.dump())});
+      CHECK(one.exit == 3);
+      CHECK(one.out == "a: valid\n");
+      CHECK(one.says("E214 1 object of type " + type));
+    }
+  }
+
+  TEST_CASE("what has no geometry or shares that of its building is not missed") {
+    const Folder folder;
+    auto city = cubes({"a"});
+    city["CityObjects"]["r"] = {{"type", "Road"}};
+    city["CityObjects"]["e"] = {{"type", "Road"}, {"geometry", json::array()}};
+    CHECK(run({"validate", folder.write("a.city.json", city.dump())}).exit == 0);
+    const std::string labelled = folder / "labelled.city.json";
+    REQUIRE(run({"label", sample("house"), "-o", labelled}).exit == 0);
+    CHECK(bytes_of(labelled).find("BuildingInstallation") != std::string::npos);
+    CHECK_FALSE(run({"validate", labelled}).says("E214"));
+    const std::string shaft = folder.write("shaft.city.json", cube_with_shaft().dump());
+    CHECK(run({"validate", shaft}).says("E214 1 object of type BuildingInstallation"));
+  }
+
+  TEST_CASE("all levels of detail are judged if asked for") {
+    const Folder folder;
+    auto city = cubes({"a", "b"});
+    auto& geometries = city["CityObjects"]["a"]["geometry"];
+    geometries.push_back(geometries[0]);
+    geometries[0]["lod"] = "1";
+    geometries[0]["boundaries"][0].erase(1);  // open, and not the highest
+    const std::string path = folder.write("lods.city.json", city.dump());
+    CHECK(run({"validate", path}).exit == 0);
+    const Outcome all = run({"validate", path, "--lod", "all"});
+    CHECK(all.exit == 3);
+    CHECK(all.out.starts_with("a (lod 1): 1 finding\n  E302"));
+    CHECK(all.out.find("a (lod 3): valid\nb (lod 3): valid\n") != std::string::npos);
+    CHECK(all.says("2 of 3 geometries are valid"));
+    const auto lines = judged({path, "--lod", "all"}, 3);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0]["lod"] == "1");
+    CHECK(lines[1]["lod"] == "3");
+    CHECK(run({"validate", "-", "--lod", "all"}).exit == 2);
+  }
+
+  TEST_CASE("building parts that overlap are 601 and parts that touch are not") {
+    const Folder folder;
+    // Cubes of 4 m, the second shifted from 10 m to `x`.
+    const auto parts_at = [&](int x_mm) {
+      auto city = cubes({"p", "q"});
+      for (std::size_t i = 8; i < 16; ++i)
+        city["vertices"][i][0] = city["vertices"][i][0].get<int>() - 10000 + x_mm;
+      city["CityObjects"]["h"] = {{"type", "Building"}, {"children", {"p", "q"}}};
+      for (const char* id : {"p", "q"}) {
+        city["CityObjects"][id]["type"] = "BuildingPart";
+        city["CityObjects"][id]["parents"] = {"h"};
+      }
+      return folder.write("parts.city.json", city.dump());
+    };
+    for (const int overlapping : {3999, 2000, 1, 0, -1})
+      for (const json& line : judged({parts_at(overlapping), "--snap", "1e-6"}, 3)) {
+        if (line["id"] == "p") CHECK(line["valid"] == true);
+        if (line["id"] == "q") CHECK(codes_in(line) == std::set<std::string>{"E359_601"});
+      }
+    for (const int apart : {4000, 4001, 10000}) CHECK(judged({parts_at(apart)}, 0).size() == 2);
+    auto strangers = cubes({"p", "q"});
+    for (std::size_t i = 8; i < 16; ++i)
+      strangers["vertices"][i][0] = strangers["vertices"][i][0].get<int>() - 8000;
+    CHECK(judged({folder.write("two.city.json", strangers.dump())}, 0).size() == 2);
+  }
+
   TEST_CASE("line ends and a byte order mark change nothing") {
     const Folder folder;
     for (const ErrorFile& file : error_files()) {

@@ -54,6 +54,16 @@ std::string header_line(const std::string& out) { return out.substr(0, out.find(
 
 }  // namespace
 
+using Words = std::vector<std::string>;
+
+/// A log as it was before its lines had checks.
+std::string without_checks(const std::string& log) {
+  std::string out;
+  for (const std::string& line : lines_of(log))
+    if (!line.starts_with("{\"end\":")) out += line.substr(0, line.rfind(",\"check\":")) + "}\n";
+  return out;
+}
+
 TEST_SUITE("cli") {
   TEST_CASE("a series of several files is one file for each scale and one log") {
     const Folder folder;
@@ -73,7 +83,8 @@ TEST_SUITE("cli") {
     CHECK(facets_in(folder / "both.1-500.city.json", "b").size() >
           facets_in(folder / "both.1-10000.city.json", "b").size());
     const std::string log = bytes_of(folder / "both.oplog.jsonl");
-    CHECK(log.starts_with(bytes_of(folder / "one.oplog.jsonl")));
+    const std::string one = bytes_of(folder / "one.oplog.jsonl");
+    CHECK(log.starts_with(one.substr(0, one.find("{\"end\":"))));
     CHECK(log.find("\"building\":\"b\"") != std::string::npos);
     for (const std::string id : {"a", "b"}) {
       const Outcome at = run({"generalise", "--at", "1:500", "--from", folder / "both", "-o",
@@ -250,6 +261,12 @@ TEST_SUITE("cli") {
     int operations = 0;
     for (std::string line; std::getline(lines, line); ++operations) {
       const json operation = json::parse(line);
+      CHECK(operation["check"].get<std::string>().size() == 16);
+      if (operation.contains("end")) {
+        CHECK(operation["end"] == operations);
+        CHECK(operation["levels"].size() == 3);
+        break;
+      }
       for (const char* key : {"building", "oriel_id", "label", "operation", "rule", "scale", "aabb",
                               "forward", "inverse"})
         CHECK(operation.contains(key));
@@ -322,6 +339,69 @@ TEST_SUITE("cli") {
     const Outcome wrong = run(
         {"generalise", "--at", "1:500", "--from", folder / "a", "-o", folder / "out.city.json"});
     CHECK(wrong.exit == 5);
-    CHECK(wrong.says("G409"));
+    CHECK(wrong.says("E132"));
+    CHECK(wrong.says("a.1-10000.city.json"));
+    // Of a log without checks the operations themselves show it, as a rule.
+    folder.write("a.oplog.jsonl", without_checks(bytes_of(folder / "a.oplog.jsonl")));
+    const Outcome unsealed = run(
+        {"generalise", "--at", "1:500", "--from", folder / "a", "-o", folder / "out.city.json"});
+    CHECK(unsealed.exit == 5);
+    CHECK(unsealed.says("G409"));
+    CHECK(unsealed.says("E133"));
+  }
+
+  TEST_CASE("a series of which a log line or a level was damaged makes no other building") {
+    const Folder folder;
+    REQUIRE(run({"generalise", sample("house"), "--series", "1:500,1:10000", "-o", folder / "s"})
+                .exit == 0);
+    const std::string log = bytes_of(folder / "s.oplog.jsonl");
+    const std::string level = bytes_of(folder / "s.1-500.city.json");
+    const auto at = [&] {
+      return run(
+          {"generalise", "--at", "1:900", "--from", folder / "s", "-o", folder / "at.city.json"});
+    };
+    const auto check_refused = [&](const std::string& place) {
+      const Outcome outcome = at();
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit == 5);
+      CHECK(outcome.says("E132"));
+      CHECK(outcome.says(place));
+      CHECK(bytes_of(folder / "at.city.json").empty());
+    };
+    // Digits all over the log: coordinates, scales, checks.
+    for (std::size_t i = 0, n = 0; i < log.size(); ++i) {
+      if (log[i] < '0' || log[i] > '8' || n++ % 400 != 0) continue;
+      std::string damaged = log;
+      ++damaged[i];
+      folder.write("s.oplog.jsonl", damaged);
+      check_refused("s.oplog.jsonl:");
+    }
+    const std::size_t second = log.find('\n') + 1, third = log.find('\n', second) + 1;
+    for (const std::string& damaged :
+         {log.substr(second), log.substr(0, second) + log.substr(third), log.substr(0, third),
+          log.substr(0, log.find("{\"end\":")), std::string(), log + log})
+      folder.write("s.oplog.jsonl", damaged), check_refused("s.oplog.jsonl");
+    folder.write("s.oplog.jsonl", log);
+    const std::size_t vertices = level.find_first_of("12345678", level.find("\"vertices\""));
+    std::string moved = level;
+    ++moved[vertices];
+    folder.write("s.1-500.city.json", moved);
+    check_refused("s.1-500.city.json");
+    folder.write("s.1-500.city.json", level);
+    CHECK(at().exit == 0);
+  }
+
+  TEST_CASE("a log of a version without checks is read with a warning") {
+    const Folder folder;
+    REQUIRE(run({"generalise", sample("house"), "--series", "1:500,1:10000", "-o", folder / "s"})
+                .exit == 0);
+    const Words at{"generalise", "--at", "1:900", "--from", folder / "s", "-o", "-"};
+    const Outcome sealed = run(at);
+    CHECK_FALSE(sealed.says("E133"));
+    folder.write("s.oplog.jsonl", without_checks(bytes_of(folder / "s.oplog.jsonl")));
+    const Outcome old = run(at);
+    CHECK(old.exit == 0);
+    CHECK(old.says("E133"));
+    CHECK(old.out == sealed.out);
   }
 }

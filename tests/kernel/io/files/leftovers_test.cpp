@@ -33,7 +33,7 @@ TEST_SUITE("kernel/io") {
     for (const char* name :
          {"b.json.tmp-123-0", "a.json.tmp-123", "a.json.tmp-123-", "a.json.tmp-x-0", "a.json.tmp-",
           "a.json.tmp-1-0.bak", "aa.json.tmp-1-0", "a.json.tmp-1-0-0", "a.json.tmp-12345678901-0"})
-      folder.write(name, name);
+      (void)folder.write(name, name);
     std::filesystem::create_directory(folder.file("a.json.tmp-1-1"));
     std::filesystem::create_symlink(folder.file("b.json.tmp-123-0"), folder.file("a.json.tmp-1-2"));
     write_file(folder.file("a.json"), "whole");
