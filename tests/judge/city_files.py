@@ -61,7 +61,7 @@ def geometries(path, lod):
     for transform, vertices, objects in documents(path):
         for name, city_object in objects.items():
             geometry = chosen_geometry(city_object, lod)
-            if geometry:
+            if geometry and max(vertices_in(geometry["boundaries"], {-1})) < len(vertices):
                 found[name] = Geometry(transform, vertices, city_object, geometry)
     return found
 
