@@ -231,7 +231,7 @@ ExitCode work(const InterpretArguments& arguments) {
   StoredFeatures features(arguments.records, report);
   const auto run = features.interpreted(*rules, arguments.jobs);
   if (arguments.out.empty())
-    print(listing(run));
+    print_now(listing(run));
   else if (!features.buildings().empty() || features.code() != ExitCode::input)
     features.write(arguments.out, arguments.has_safe_cells, run);
   if (!features.buildings().empty() || features.code() == ExitCode::input) return features.code();
