@@ -9,7 +9,6 @@
 #include "oriel/repair.h"
 #include "oriel/score.h"
 
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

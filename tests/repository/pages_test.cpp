@@ -22,7 +22,8 @@ std::string page_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// README.md, CONTRIBUTING.md, CHANGELOG.md, SECURITY.md, docs/*.md and the README.md of every room and example.
+/// README.md, CONTRIBUTING.md, CHANGELOG.md, SECURITY.md, docs/*.md and the README.md of every room
+/// and example.
 std::vector<fs::path> pages() {
   std::vector<fs::path> found;
   for (const char* name : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"})
