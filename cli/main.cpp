@@ -46,9 +46,8 @@ void clean_up_on_signals() {
 
 /// What CLI11 says of the arguments, in which names of files may stand; its exit code.
 int explain_usage(const CLI::App& app, const CLI::Error& error) {
-  std::ostringstream out, err;
-  const int code = app.exit(error, out, err);
-  std::cout << out.str();
+  std::ostringstream err;
+  const int code = app.exit(error, std::cout, err);
   std::cerr << oriel::printable_lines(err.str());
   return code;
 }

@@ -102,6 +102,14 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
                         shard.name, shard.features + 1, shard.features + 1 - expected));
 }
 
+void check_names(const MergeArguments& arguments) {
+  NamedFiles files;
+  for (const std::string& file : arguments.files) files.add_input("shards", file);
+  files.add_input("--split", arguments.list);
+  files.add_output("-o", arguments.out);
+  files.check();
+}
+
 /// The files of the list's shards, in its order. Says which are missing, strange or there twice.
 class Merger {
  public:
@@ -109,7 +117,6 @@ class Merger {
       : arguments_(arguments), list_(ShardList::load(arguments.list)), report_(true) {}
 
   ExitCode go() {
-    check_names();
     find_files();
     if (has_errors_) return ExitCode::input;
     OutputFile out(arguments_.out);
@@ -122,14 +129,6 @@ class Merger {
   }
 
  private:
-  void check_names() const {
-    NamedFiles files;
-    for (const std::string& file : arguments_.files) files.add_input("shards", file);
-    files.add_input("--split", arguments_.list);
-    files.add_output("-o", arguments_.out);
-    files.check();
-  }
-
   void tell(const Issue& issue) {
     report_.add(issue);
     has_errors_ = true;
@@ -205,8 +204,12 @@ void add_merge(CLI::App& app, Action& action) {
   command->footer(
       "Hashes, counts and gaps are checked; nothing is written if something does not fit.\n"
       "Example:\n  oriel merge labelled/*.city.jsonl --split shards/split.json -o city.city.jsonl");
-  command->callback(
-      [arguments, &action] { action = [arguments] { return Merger(*arguments).go(); }; });
+  command->callback([arguments, &action] {
+    action = [arguments] {
+      check_names(*arguments);
+      return Merger(*arguments).go();
+    };
+  });
 }
 
 }  // namespace oriel::cli

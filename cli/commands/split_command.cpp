@@ -56,8 +56,9 @@ class Splitter final : public VisitingCommand {
   }
   void commit() override {
     for (ShardFile& file : open_) list_.shards.push_back(file.commit());
-    if (!header_.empty())
-      write_file((std::filesystem::path(arguments_.folder) / kShardList).string(), list_.json());
+    if (header_.empty()) return;
+    make_folder();  // there may be no shard
+    write_file((std::filesystem::path(arguments_.folder) / kShardList).string(), list_.json());
   }
 
   [[nodiscard]] std::size_t shards() const { return list_.shards.size(); }
@@ -118,9 +119,13 @@ class Splitter final : public VisitingCommand {
             static_cast<std::int64_t>(std::floor(middle.y / arguments_.grid_m))};
   }
 
-  void begin_shard() {
+  void make_folder() const {
     std::error_code error;
     std::filesystem::create_directories(arguments_.folder, error);  // shows when it is opened
+  }
+
+  void begin_shard() {
+    make_folder();
     open_.emplace_back(arguments_.folder, fmt::format("{:06}", begun_++));
     open_.back().append(header_);
   }

@@ -65,17 +65,19 @@ class UnjudgedObjects {
       if (kind.ids.size() < kShown) kind.ids.push_back(object.id);
     }
   }
+  /// Without what belongs to a building.
   [[nodiscard]] int count() const {
     int count = 0;
-    for (const auto& [type, kind] : kinds_) count += kind.count;
+    for (const auto& [type, kind] : kinds_)
+      if (!is_of_building(type)) count += kind.count;
     return count;
   }
-  /// A warning E214 for each type.
+  /// A warning E214 for each type, a note of what belongs to a building.
   [[nodiscard]] std::vector<Issue> issues(const std::string& input) const {
     std::vector<Issue> issues;
     for (const auto& [type, kind] : kinds_) {
       Issue issue;
-      issue.severity = Severity::warning;
+      issue.severity = is_of_building(type) ? Severity::note : Severity::warning;
       issue.code = Code::E214;
       issue.sentence = fmt::format(
           "{} object{} of type {} with geometry {} not judged, only buildings and their parts are: "
@@ -90,6 +92,12 @@ class UnjudgedObjects {
 
  private:
   static constexpr std::size_t kShown = 5;
+
+  /// Its solid is judged; what stands on it or in it need not be one.
+  static bool is_of_building(const std::string& type) {
+    return type.starts_with("Building") && type != "Building" && type != "BuildingPart";
+  }
+
   struct Kind {
     int count = 0;
     std::vector<std::string> ids{};

@@ -1,3 +1,5 @@
+#include "kernel/base/sha256.h"
+#include "kernel/io/records/log_seal.h"
 #include "kernel/io/records/operation_log.h"
 #include "kernel/io/records/stage_json.h"
 #include "oriel/oriel.h"
@@ -9,11 +11,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 using namespace oriel;
 using oriel::test::bytes_of;
@@ -181,7 +185,12 @@ TEST_SUITE("oriel") {
     CHECK(bytes_of(folder / "house.1-10000.city.json") == write(records[0], at(made, 10000)));
     std::string log;
     for (const SeriesOperation& operation : made.operations()) log += operation_line(operation);
-    CHECK(bytes_of(folder / "house.oplog.jsonl") == log);
+    LogSealer sealer;
+    log = sealer.sealed(log);
+    std::map<std::string, std::string> hashes;
+    for (const char* scale : {"500", "2000", "10000"})
+      hashes[scale] = sha256(bytes_of(folder / fmt::format("house.1-{}.city.json", scale)));
+    CHECK(bytes_of(folder / "house.oplog.jsonl") == log + sealer.end(hashes));
     // A level that no file has.
     run({"generalise", "--at", "1:1200", "--from", folder / "house", "-o",
          folder / "at.city.json"});

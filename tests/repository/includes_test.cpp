@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::string> kAllowed{
     {"kernel/base/issue.h", "what is reported, with its code"},
     {"kernel/base/log.h", "the loggers that command and library share"},
+    {"kernel/base/printable.h", "words of files cannot command a terminal"},
     {"kernel/base/sha256.h", "hashes of inputs, outputs and shards"},
     {"kernel/io/cityjson/carried_labels.h", "view shows the labels that a file carries"},
     {"kernel/io/cityjson/cityjson_collector.h", "lines of a stream become one file"},
