@@ -104,14 +104,20 @@ double area_of(World& world, const CutCap& cap) {
 
 /// What is to be put back if a cut fails.
 struct Snapshot {
-  std::optional<Boundary> body;  ///< none of a cut along edges: it fails before it changes the body
+  std::optional<Boundary> body;  ///< none of a cut of pockets along edges: it does not fail
   NodeId node;
   std::size_t nodes, features, waiting;
   PointTable::PointMark points;
 };
 
+/// The outlines of lumps that are no pockets are put into the body before they are known to part
+/// it.
 Snapshot snapshot_of(const GrowingTree& tree, const WaitingBody& from, const CutChoice& choice) {
-  const bool may_fail = !choice.is_natural || choice.has_neck || choice.imprinted;
+  const bool has_pockets_only =
+      choice.patches.empty() &&
+      std::ranges::all_of(choice.lumps, [](const Lump& lump) { return lump.pocket >= 0; });
+  const bool may_fail =
+      !choice.is_natural || choice.has_neck || choice.imprinted || !has_pockets_only;
   return {may_fail ? std::optional(from.body) : std::nullopt,
           from.node,
           tree.out.nodes.size(),
