@@ -112,41 +112,37 @@ int run(int argc, char** argv) {
   }
 }
 
-/// What was allocated is free again, as a rule; else a fixed sentence must do.
-int end_without_memory(Report& report) {
-  try {
-    oriel::Issue issue;
-    issue.code = oriel::Code::E507;
-    issue.sentence = "memory is used up: the run ends here, and what it was writing is not kept";
-    report.add(issue);
-  } catch (...) {
-    say_memory_is_used_up();
-  }
-  return exit_with(ExitCode::internal);
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  begin_to_throw_without_memory();
-  clean_up_on_signals();
+int guarded_main(int argc, char** argv) {
   set_up_logging({});
   Report report(true);
   try {
     return run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return end_without_memory(report);
   } catch (const oriel::InputError& error) {
     report.add(error.issue());
     return exit_with(ExitCode::input);
   } catch (const oriel::OutputError& error) {
     report.add(error.issue());
     return exit_with(ExitCode::output);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& fault) {
     oriel::Issue issue;
     issue.code = oriel::Code::E901;
     issue.sentence = std::string("a fault of oriel's own: ") + fault.what();
     report.add(issue);
     return exit_with(ExitCode::internal);
+  }
+}
+
+}  // namespace
+
+/// Words about a failure need memory, too.
+int main(int argc, char** argv) {
+  begin_to_throw_without_memory();
+  clean_up_on_signals();
+  try {
+    return guarded_main(argc, argv);
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
   }
 }

@@ -2,6 +2,7 @@
 
 #include "cli/batch/isolation.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/out_of_memory.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/log.h"
 #include "kernel/base/printable.h"
@@ -10,6 +11,7 @@
 #include "kernel/io/files/partial_files.h"
 
 #include <algorithm>
+#include <new>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -168,12 +170,17 @@ void BatchRunner::run_in_threads(InputReader& reader) {
     return item;
   };
   const auto end = [&](const SharedItem& item) { settle(*item); };
-  arena.execute([&] {
-    tbb::parallel_pipeline(
-        records, tbb::make_filter<void, SharedItem>(tbb::filter_mode::serial_in_order, read) &
-                     tbb::make_filter<SharedItem, SharedItem>(tbb::filter_mode::parallel, work) &
-                     tbb::make_filter<SharedItem, void>(tbb::filter_mode::serial_in_order, end));
-  });
+  // Where it lacked memory for itself, TBB waits for ever when its arena goes.
+  try {
+    arena.execute([&] {
+      tbb::parallel_pipeline(
+          records, tbb::make_filter<void, SharedItem>(tbb::filter_mode::serial_in_order, read) &
+                       tbb::make_filter<SharedItem, SharedItem>(tbb::filter_mode::parallel, work) &
+                       tbb::make_filter<SharedItem, void>(tbb::filter_mode::serial_in_order, end));
+    });
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  }
 }
 
 /// Workers have worked on a copy: issues that they dropped are still here.

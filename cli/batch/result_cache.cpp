@@ -41,6 +41,7 @@ std::string stretch_of(int file, std::uint64_t at, std::uint64_t count) {
   while (got < count) {
     const ssize_t more =
         ::pread(file, bytes.data() + got, count - got, static_cast<off_t>(at + got));
+    if (more < 0 && errno == EINTR) continue;
     if (more <= 0) break;
     got += static_cast<std::size_t>(more);
   }

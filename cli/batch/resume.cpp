@@ -1,5 +1,6 @@
 #include "cli/batch/resume.h"
 
+#include "cli/terminal/exit_code.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"
 
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -35,7 +37,7 @@ constexpr std::size_t kMostBytes = 1 << 20;
 }
 
 std::string line_of(const char* key, const ordered_json& value) {
-  ordered_json line;
+  ordered_json line = ordered_json::object();
   line[key] = value;
   return line.dump() + '\n';
 }
@@ -52,6 +54,7 @@ std::string command_line() {
       continue;
     text += word + '\0';
   }
+  if (text.empty() || file.bad()) throw std::runtime_error("/proc/self/cmdline cannot be read");
   return text;
 }
 
@@ -193,6 +196,7 @@ namespace {
 std::optional<int> finished_as(const ordered_json& status, const std::string& command_sha256) {
   if (!status.is_object() || status.value("command_sha256", "") != command_sha256)
     return std::nullopt;
+  if (status.value("exit_code", 0) == static_cast<int>(ExitCode::input)) return std::nullopt;
   for (const auto& [name, sha256] : status.at("input_sha256").items())
     if (sha256_of_file(name) != sha256.get<std::string>()) return std::nullopt;
   for (const auto& [path, mark] : marks_of(status.at("outputs")))

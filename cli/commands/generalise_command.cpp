@@ -146,7 +146,7 @@ class Generaliser final : public ProducingCommand {
   }
   void commit() override {
     outputs_.commit();
-    changes_.commit();
+    if (outputs_.has_ended()) changes_.commit();
   }
   void reopen() override {
     changes_.begin(false);

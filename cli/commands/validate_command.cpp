@@ -183,7 +183,7 @@ class Validation {
       else
         read(input, arguments_.read_options(input));
     report_emptiness();
-    out_.commit();
+    if (has_ended_ || arguments_.out == "-") out_.commit();
     report_summary();
     return code_;
   }
@@ -225,6 +225,7 @@ class Validation {
       Reader reader(input, options);
       for (bool is_first = true;; is_first = false) {
         auto record = reader.next();
+        has_ended_ |= !record;
         if (!record) return;
         if (record->value) {
           const ObjectSurvey found = survey(*record->value);
@@ -369,6 +370,7 @@ class Validation {
   Report report_;
   OutputFile out_;
   ExitCode code_ = ExitCode::clean;
+  bool has_ended_ = false;  ///< an input did
   int buildings_ = 0;
   int invalid_ = 0;
   int unread_records_ = 0;

@@ -32,7 +32,7 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
   const bool is_json = explain_.ends_with(".jsonl");
   for (const FeatureOutcome& one : outcomes) {
     if (is_json) {
-      nlohmann::ordered_json line;
+      nlohmann::ordered_json line = nlohmann::ordered_json::object();
       line["building"] = building;
       line["target"] = target;
       line["feature"] = one.feature;
@@ -57,7 +57,7 @@ std::string ChangeReport::text(const std::string& building, const std::string& t
 std::string ChangeReport::text(const std::string& building, const std::string& target,
                                const TargetFigures& figures) const {
   if (metrics_.empty()) return {};
-  nlohmann::ordered_json line;
+  nlohmann::ordered_json line = nlohmann::ordered_json::object();
   line["building"] = building;
   line["target"] = target;
   line["least_edge_m"] = figures.least_edge_m;

@@ -75,6 +75,8 @@ class LabelOutputs {
   void take(const Document& document, const Product& product);
   /// An input is done: its file is put in its place.
   void end();
+  /// An input could be read to its end.
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
   /// All inputs are done. Records are written if one of them could be read.
   void commit();
 

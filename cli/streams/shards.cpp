@@ -58,6 +58,13 @@ ShardFile::ShardFile(const std::string& folder, std::string name)
     : name_(std::move(name)),
       path_((std::filesystem::path(folder) / (name_ + kShardExtension)).string()) {}
 
+ShardFile::~ShardFile() {
+  std::error_code error;
+  if (is_begun_) std::filesystem::remove(partial(), error);
+}
+
+std::string ShardFile::partial() const { return path_ + ".partial"; }
+
 void ShardFile::fail() const {
   Issue issue = shard_issue(path_, "cannot be written: " + std::generic_category().message(errno));
   issue.code = Code::E601;
@@ -73,7 +80,7 @@ void ShardFile::append(std::string_view line) {
 void ShardFile::flush() {
   errno = 0;
   std::ofstream file(
-      path_ + ".partial",
+      partial(),
       std::ios::binary | (std::exchange(is_begun_, true) ? std::ios::app : std::ios::trunc));
   file.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   file.close();
@@ -83,7 +90,8 @@ void ShardFile::flush() {
 
 Shard ShardFile::commit() {
   flush();
-  if (std::rename((path_ + ".partial").c_str(), path_.c_str()) != 0) fail();
+  if (std::rename(partial().c_str(), path_.c_str()) != 0) fail();
+  is_begun_ = false;
   return {name_, lines_ - 1, hash_.bytes(), hash_.digest()};
 }
 

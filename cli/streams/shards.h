@@ -34,11 +34,15 @@ inline constexpr const char* kShardExtension = ".city.jsonl";
 /// An error E118: shards do not make up the whole.
 Issue shard_issue(const std::string& file, std::string sentence);
 
-/// The file of a shard while it grows, as PATH.partial. It is open only while it is written to, so
-/// that there may be any number of them. Failures throw OutputError E601.
+/// The file of a shard while it grows, as PATH.partial, which goes if it is not committed. It is
+/// open only while it is written to, so that there may be any number of them. Failures throw
+/// OutputError E601.
 class ShardFile {
  public:
   ShardFile(const std::string& folder, std::string name);
+  ~ShardFile();
+  ShardFile(const ShardFile&) = delete;
+  ShardFile& operator=(const ShardFile&) = delete;
 
   void append(std::string_view line);
   /// Writes what is in memory.
@@ -48,6 +52,7 @@ class ShardFile {
 
  private:
   [[noreturn]] void fail() const;
+  [[nodiscard]] std::string partial() const;
 
   std::string name_, path_;
   std::string buffer_;

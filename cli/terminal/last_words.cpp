@@ -1,6 +1,7 @@
 #include "cli/terminal/last_words.h"
 
 #include "cli/terminal/exit_code.h"
+#include "cli/terminal/logging.h"
 #include "kernel/io/files/output_file.h"
 
 #include <cstdlib>
@@ -15,8 +16,9 @@ namespace {
 
 constexpr std::string_view kNoMemory =
     "error: E507 memory is used up: the run ends here, and what it was writing is not kept\n";
-constexpr std::string_view kNobodyCaught =
-    "error: E901 a fault of oriel's own: the run ends here, and what it was writing is not kept\n";
+constexpr std::string_view kNoMemoryJson =
+    "{\"level\":\"error\",\"logger\":\"findings\",\"code\":\"E507\",\"message\":\"memory is "
+    "used up: the run ends here, and what it was writing is not kept\"}\n";
 
 /// The process whose temporary files there are: forked workers have only copies of its list.
 pid_t main_process = 0;
@@ -26,7 +28,7 @@ void say(std::string_view sentence) noexcept {
 }
 
 /// Before main() nobody would catch anything.
-void end_without_memory() {
+void end_before_main() {
   say(kNoMemory);
   ::_exit(static_cast<int>(ExitCode::internal));
 }
@@ -34,24 +36,23 @@ void end_without_memory() {
 /// For allocators that, written in C, would abort.
 void throw_without_memory() { throw std::bad_alloc(); }
 
-bool is_for_memory() noexcept {
+[[noreturn]] void end_uncaught() noexcept {
   try {
-    if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
-    return true;
+    end_without_memory();
+  } catch (const std::exception& fault) {
+    say("error: E901 a fault of oriel's own: ");
+    say(fault.what());
+    say("\n");
   } catch (...) {
   }
-  return false;
-}
-
-[[noreturn]] void end_uncaught() {
-  if (::getpid() != main_process) std::abort();  // a worker: the parent tells by the signal
-  say(is_for_memory() ? kNoMemory : kNobodyCaught);
+  if (::getpid() != main_process) std::abort();  // the parent tells by the signal
   remove_temporary_files();
   ::_exit(static_cast<int>(ExitCode::internal));
 }
 
-void begin_process() { std::set_new_handler(end_without_memory); }
+void begin_process() { std::set_new_handler(end_before_main); }
 
 #ifdef __ELF__
 // Libraries allocate in their initialisers, which run before those of the program.
@@ -66,6 +67,10 @@ void begin_to_throw_without_memory() {
   std::set_new_handler(throw_without_memory);
 }
 
-void say_memory_is_used_up() noexcept { say(kNoMemory); }
+void end_without_memory() noexcept {
+  say(logs_json() ? kNoMemoryJson : kNoMemory);
+  if (::getpid() == main_process) remove_temporary_files();
+  ::_exit(static_cast<int>(ExitCode::internal));
+}
 
 }  // namespace oriel::cli

@@ -262,15 +262,28 @@ rules::PackFinder finder_for(const std::string& path) {
   };
 }
 
+Checked<RuleBase> load(std::string text, std::string file, const rules::PackFinder& find) {
+  Checked<RuleBase> checked;
+  if (auto pack = rules::load(std::move(text), std::move(file), find, checked.issues))
+    checked.value.emplace(std::move(pack));
+  return checked;
+}
+
+/// `found` is what find_pack has at `path`.
+Checked<RuleBase> load(const std::optional<rules::FoundPack>& found, const std::string& path) {
+  if (found) return load(found->text, found->file, finder_for(path));
+  return refuse(path, "there is no pack here that can be read; the packs built in are: " +
+                          rules::join(embedded_packs()));
+}
+
 /// Prints a pack that can be loaded; `printed` gives a tree and its text, of which it is certain
 /// that it says the same.
 template <class Print>
 Checked<std::string> print(const std::string& path, const Print& printed) {
-  auto loaded = load_pack_file(path);
+  auto found = find_pack(path);
+  auto loaded = load(found, path);
   Checked<std::string> result{std::nullopt, std::move(loaded.issues)};
   if (!loaded.value) return result;
-  auto found = find_pack(path);
-  if (!found) return result;
   rules::drop_byte_order_mark(found->text);
   rules::Source source(std::move(found->file), std::move(found->text));
   rules::Findings findings(source);
@@ -282,13 +295,6 @@ Checked<std::string> print(const std::string& path, const Print& printed) {
     throw std::logic_error("the printed pack does not say the same");
   result.value = std::move(text);
   return result;
-}
-
-Checked<RuleBase> load(std::string text, std::string file, const rules::PackFinder& find) {
-  Checked<RuleBase> checked;
-  if (auto pack = rules::load(std::move(text), std::move(file), find, checked.issues))
-    checked.value.emplace(std::move(pack));
-  return checked;
 }
 
 }  // namespace
@@ -332,12 +338,7 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
   return load(std::move(text), std::move(file), find_embedded);
 }
 
-Checked<RuleBase> load_pack_file(const std::string& path) {
-  auto found = find_pack(path);
-  if (found) return load(std::move(found->text), std::move(found->file), finder_for(path));
-  return refuse(path, "there is no pack here that can be read; the packs built in are: " +
-                          rules::join(embedded_packs()));
-}
+Checked<RuleBase> load_pack_file(const std::string& path) { return load(find_pack(path), path); }
 
 Checked<std::string> format_pack_file(const std::string& path) {
   return print(path, [](rules::Source& source, rules::Findings& findings) {

@@ -45,7 +45,7 @@ class MeasuredWhenAsked : public MoreAttributes {
 };
 
 /// Runs `describe`, which returns the number of surfaces; what it throws is a fault of ours in this
-/// building.
+/// building, which is rejected.
 template <class Describe>
 void measured_describe(const Building& building, const StageObserver& observer,
                        PipelineResult& result, const char* done, Describe describe) {
@@ -53,6 +53,7 @@ void measured_describe(const Building& building, const StageObserver& observer,
     measured(observer, Stage::describe, done, building, describe,
              [](std::size_t surfaces) { return fmt::format("surfaces={}", surfaces); });
   } catch (const std::exception& fault) {
+    result.segmentation.reset();  // nothing is drawn or counted of it
     result.issues.push_back(own_fault(building, fault));
   }
 }

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <set>
 #include <utility>
 #include <vector>
@@ -296,8 +297,9 @@ const SequenceHeader& CityJsonReader::header() const { return state_->header; }
 
 bool CityJsonReader::State::parse_plain(dom::object& root) {
   dom::element element;
-  return parser.parse(plain.rest()).get(element) == simdjson::SUCCESS &&
-         element.get(root) == simdjson::SUCCESS;
+  const auto error = parser.parse(plain.rest()).get(element);
+  if (error == simdjson::MEMALLOC) throw std::bad_alloc();  // to parse once more would crash
+  return error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS;
 }
 
 std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const TextName& name,
@@ -308,6 +310,7 @@ std::optional<Issue> CityJsonReader::State::parse(const std::string& text, const
   dom::element element;
   const auto error = parser.parse(text.data(), text.size(), !has_padding).get(element);
   if (error == simdjson::SUCCESS && element.get(root) == simdjson::SUCCESS) return std::nullopt;
+  if (error == simdjson::MEMALLOC) throw std::bad_alloc();
   if (auto issue = find_json_error(name, text)) return issue;
   return error_in(name,
                   {Code::E104, fmt::format("not valid JSON: {}", simdjson::error_message(error))});

@@ -1,8 +1,11 @@
 #include "kernel/io/files/partial_files.h"
 
+#include "kernel/io/files/input.h"
+
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -35,14 +38,15 @@ std::vector<OutputFile*> open_files;
 std::map<std::string, Left> left_by_target;
 FileMarks done;
 
+/// Throws InputError E101 if the file is there and cannot be read: part of it is not the whole.
 Left left_in(const std::string& path, std::uint64_t bytes) {
   Left left;
-  std::ifstream file(path, std::ios::binary);
-  std::string chunk(std::size_t{1} << 18U, '\0');
-  while (left.bytes < bytes && file) {
-    file.read(chunk.data(), static_cast<std::streamsize>(
-                                std::min<std::uint64_t>(chunk.size(), bytes - left.bytes)));
-    const std::string_view got(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return left;
+  detail::Input file(path);
+  while (left.bytes < bytes) {
+    const std::string_view got = file.read_some().substr(0, bytes - left.bytes);
+    if (got.empty()) break;
     left.hash.add(got);
     left.bytes += got.size();
     left.lines += static_cast<std::uint64_t>(std::ranges::count(got, '\n'));

@@ -35,14 +35,16 @@ class PartialFiles {
 
   /// Makes PATH.partial again what it was at its mark, also where the file has been put in its
   /// place since; OutputFiles that are opened for these paths go on there. False, and nothing is
-  /// changed, if a file with those bytes is not there.
+  /// changed, if a file with those bytes is not there. Throws InputError E101 if one cannot be
+  /// read.
   static bool restore(const FileMarks& marks);
   /// Writes what open files hold in memory and returns their marks. Throws OutputError E601.
   static FileMarks flush();
   /// The files that were put in their place since the last call.
   static FileMarks take_done();
 
-  /// The mark of the first `bytes` bytes of a file; of fewer if it is shorter.
+  /// The mark of the first `bytes` bytes of a file; of fewer if it is shorter, of none if there is
+  /// no such file. Throws InputError E101 if it cannot be read.
   static FileMark mark_of(const std::string& path, std::uint64_t bytes);
 
  private:

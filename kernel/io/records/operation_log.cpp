@@ -47,7 +47,7 @@ ordered_json json_of(const std::vector<MicrometreRing>& rings) {
 ordered_json json_of(const std::vector<std::pair<MicrometreRing, LevelFacet>>& facets) {
   ordered_json out = ordered_json::array();
   for (const auto& [outer, facet] : facets) {
-    ordered_json one;
+    ordered_json one = ordered_json::object();
     one["rings"] = ordered_json::array({json_of(outer)});
     for (const MicrometreRing& hole : facet.holes) one["rings"].push_back(json_of(hole));
     one["type"] = facet.type;
@@ -184,7 +184,7 @@ SeriesOperation operation_in(std::string_view line, const detail::TextName& name
 }  // namespace
 
 std::string operation_line(const SeriesOperation& operation) {
-  ordered_json out;
+  ordered_json out = ordered_json::object();
   out["building"] = operation.building;
   if (!operation.lod.empty()) out["lod"] = operation.lod;
   out["oriel_id"] = operation.oriel_id;
