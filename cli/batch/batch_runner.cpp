@@ -1,8 +1,8 @@
 #include "cli/batch/batch_runner.h"
 
 #include "cli/batch/isolation.h"
+#include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
-#include "cli/terminal/out_of_memory.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/log.h"
 #include "kernel/base/printable.h"
