@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/print_out.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
@@ -46,9 +47,11 @@ void clean_up_on_signals() {
 
 /// What CLI11 says of the arguments, in which names of files may stand; its exit code.
 int explain_usage(const CLI::App& app, const CLI::Error& error) {
-  std::ostringstream err;
-  const int code = app.exit(error, std::cout, err);
-  std::cerr << oriel::printable_lines(err.str());
+  std::ostringstream out, err;
+  const int code = app.exit(error, out, err);
+  print_out(out.str());
+  // Even nothing on cerr flushes cout, whose errno would be lost.
+  if (!err.str().empty()) std::cerr << oriel::printable_lines(err.str());
   return code;
 }
 
@@ -60,9 +63,10 @@ void finish_stdout() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush()) return;
   oriel::Issue issue;
   issue.code = oriel::Code::E601;
+  const int number = errno != 0 ? errno : print_failure();
   // What failed may have failed long ago, and the reason is gone.
   const std::string reason =
-      errno == 0 ? "not all of it arrived" : std::generic_category().message(errno);
+      number == 0 ? "not all of it arrived" : std::generic_category().message(number);
   issue.sentence = "cannot be written: " + reason;
   issue.place.file = "stdout";
   throw oriel::OutputError(std::move(issue));

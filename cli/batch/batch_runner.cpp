@@ -270,6 +270,7 @@ void BatchRunner::settle_refused(const Record& record) {
 }
 
 void BatchRunner::settle_read(WorkItem& item, const Record& record) {
+  note_found_ids(record.document);
   if (worker().is_passed_over(item)) {
     ++state_.records.not_selected;
     return;
@@ -281,7 +282,6 @@ void BatchRunner::settle_read(WorkItem& item, const Record& record) {
   state_.buildings += unread;
   state_.set_aside += unread;
   if (unread > 0) state_.raise(ExitCode::set_aside);
-  note_found_ids(record.document);
   for (const BuildingOutcome& building : item.outcome.buildings) {
     if (building.is_passed_over) continue;
     ++state_.buildings;
@@ -300,7 +300,8 @@ void BatchRunner::settle_read(WorkItem& item, const Record& record) {
     visitor_->visit(*record.document.value, item.results);
 }
 
-/// Of those that --id names, also of buildings that cannot be read or that lie elsewhere.
+/// Of those that --id names, also of buildings that cannot be read, lie elsewhere, or are passed
+/// over by --exclude.
 void BatchRunner::note_found_ids(const Checked<Document>& document) {
   const std::vector<std::string>& ids = options_.selection.ids;
   if (ids.empty()) return;

@@ -2,6 +2,7 @@
 
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/issue.h"
 #include "kernel/io/files/output_file.h"
 
 #include <cstdlib>
@@ -15,10 +16,7 @@ namespace oriel::cli {
 namespace {
 
 constexpr std::string_view kNoMemory =
-    "error: E507 memory is used up: the run ends here, and what it was writing is not kept\n";
-constexpr std::string_view kNoMemoryJson =
-    "{\"level\":\"error\",\"logger\":\"findings\",\"code\":\"E507\",\"message\":\"memory is "
-    "used up: the run ends here, and what it was writing is not kept\"}\n";
+    "memory is used up: the run ends here, and what it was writing is not kept";
 
 /// The process whose temporary files there are: forked workers have only copies of its list.
 pid_t main_process = 0;
@@ -27,9 +25,18 @@ void say(std::string_view sentence) noexcept {
   [[maybe_unused]] const ssize_t count = ::write(STDERR_FILENO, sentence.data(), sentence.size());
 }
 
+/// A code is so short that its text is not allocated.
+void say_memory_is_used_up(bool is_json) noexcept {
+  say(is_json ? R"({"level":"error","logger":"findings","code":")" : "error: ");
+  say(to_string(Code::E507));
+  say(is_json ? R"(","message":")" : " ");
+  say(kNoMemory);
+  say(is_json ? "\"}\n" : "\n");
+}
+
 /// Before main() nobody would catch anything.
 void end_before_main() {
-  say(kNoMemory);
+  say_memory_is_used_up(false);
   ::_exit(static_cast<int>(ExitCode::internal));
 }
 
@@ -42,7 +49,9 @@ void throw_without_memory() { throw std::bad_alloc(); }
   } catch (const std::bad_alloc&) {
     end_without_memory();
   } catch (const std::exception& fault) {
-    say("error: E901 a fault of oriel's own: ");
+    say("error: ");
+    say(to_string(Code::E901));
+    say(" a fault of oriel's own: ");
     say(fault.what());
     say("\n");
   } catch (...) {
@@ -68,7 +77,7 @@ void begin_to_throw_without_memory() {
 }
 
 void end_without_memory() noexcept {
-  say(logs_json() ? kNoMemoryJson : kNoMemory);
+  say_memory_is_used_up(logs_json());
   if (::getpid() == main_process) remove_temporary_files();
   ::_exit(static_cast<int>(ExitCode::internal));
 }

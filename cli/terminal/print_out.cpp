@@ -2,13 +2,24 @@
 
 #include "kernel/base/printable.h"
 
+#include <cerrno>
 #include <cstdio>
 
 namespace oriel::cli {
 
+namespace {
+
+int first_failure = 0;
+
+}  // namespace
+
 void print_out(const std::string& text, bool is_for_programs) {
   const std::string& lines = is_for_programs ? text : printable_lines(text);
-  std::fwrite(lines.data(), 1, lines.size(), stdout);
+  errno = 0;
+  if (std::fwrite(lines.data(), 1, lines.size(), stdout) != lines.size() && first_failure == 0)
+    first_failure = errno;
 }
+
+int print_failure() { return first_failure; }
 
 }  // namespace oriel::cli

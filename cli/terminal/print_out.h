@@ -8,4 +8,7 @@ namespace oriel::cli {
 /// for the format has escaped them.
 void print_out(const std::string& text, bool is_for_programs = false);
 
+/// The errno of the first print_out() of which not all arrived, 0 if there was none.
+int print_failure();
+
 }  // namespace oriel::cli

@@ -34,8 +34,8 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
                   why, result.repair.cut));
 }
 
-/// What repair() does: with crossings cut, and if that is not valid as it is written mended, or from
-/// the boundary of the inside.
+/// What repair() does: with crossings cut, and if that is not valid as it is written mended, or
+/// from the boundary of the inside.
 std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
                                         const Tolerances& tolerances,
                                         const PipelineOptions& options) {

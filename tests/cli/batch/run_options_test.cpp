@@ -87,9 +87,9 @@ TEST_SUITE("cli") {
     house["CityObjects"]["part"]["parents"] = {"house"};
     const std::string text = cube_lines({"a", "b"}) + road.dump() + "\n" + house.dump() + "\n";
     CHECK(labelled(text, {"--cotype", "Building"}) == Names{"a", "b", "house"});
-    CHECK(labelled(text, {"--cotype", "Road"}) == Names{"road"});
+    CHECK(labelled(text, {"--cotype", "Road"}, 3) == Names{"road"});
     CHECK(labelled(text, {"--cotype", "Road", "--exclude"}) == Names{"a", "b", "house"});
-    CHECK(labelled(text, {"--cotype", "Building", "--exclude"}) == Names{"road"});
+    CHECK(labelled(text, {"--cotype", "Building", "--exclude"}, 3) == Names{"road"});
     CHECK(labelled(text, {"--cotype", "Building", "--id", "b"}) == Names{"b"});
     CHECK(labelled(text, {"--cotype", "BuildingPart"}, 3).empty());
     // The same of a file that is taken apart.
