@@ -357,10 +357,10 @@ void BatchRunner::note(const InputPosition& position) {
 
 void BatchRunner::restore(const ordered_json& journal) {
   state_ = run_state_of(journal);
-  report_.restore(journal.at("errors").get<std::map<std::string, int>>());
+  report_.restore(counts_of(journal.at("errors")));
   status_->restore(journal.at("ledger"));
   if (auto* counts = producer_ != nullptr ? producer_->counts() : nullptr)
-    *counts = journal.at("counts").get<std::map<std::string, int>>();
+    *counts = counts_of(journal.at("counts"));
   run_log().info("resumes after {} building{}", state_.buildings, state_.buildings == 1 ? "" : "s");
 }
 

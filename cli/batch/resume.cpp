@@ -76,16 +76,32 @@ ordered_json to_json(const FileMarks& marks) {
   return json;
 }
 
+std::int64_t whole_number_of(const ordered_json& json) {
+  // To convert a number that is not whole may be undefined; this throws for it.
+  if (!json.is_number_integer()) (void)json.get_ref<const ordered_json::number_integer_t&>();
+  return json.get<std::int64_t>();
+}
+
+std::map<std::string, int> counts_of(const ordered_json& json) {
+  std::map<std::string, int> counts;
+  for (const auto& [name, count] : json.items())
+    counts[name] = static_cast<int>(whole_number_of(count));
+  return counts;
+}
+
 FileMarks marks_of(const ordered_json& json) {
   FileMarks marks;
   for (const auto& [path, mark] : json.items())
-    marks[path] = {mark.at("bytes"), mark.at("lines"), mark.at("sha256")};
+    marks[path] = {static_cast<std::uint64_t>(whole_number_of(mark.at("bytes"))),
+                   static_cast<std::uint64_t>(whole_number_of(mark.at("lines"))),
+                   mark.at("sha256")};
   return marks;
 }
 
 JournalState journal_state_of(const ordered_json& json) {
   return {json.at("command"),
-          {json.at("input"), json.at("records"), json.at("read_sha256")},
+          {static_cast<std::size_t>(whole_number_of(json.at("input"))),
+           static_cast<std::size_t>(whole_number_of(json.at("records"))), json.at("read_sha256")},
           marks_of(json.at("files"))};
 }
 
@@ -201,7 +217,7 @@ std::optional<int> finished_as(const ordered_json& status, const std::string& co
     if (sha256_of_file(name) != sha256.get<std::string>()) return std::nullopt;
   for (const auto& [path, mark] : marks_of(status.at("outputs")))
     if (PartialFiles::mark_of(path, kWhole) != mark) return std::nullopt;
-  return status.at("exit_code").get<int>();
+  return static_cast<int>(whole_number_of(status.at("exit_code")));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include "cli/batch/run_options.h"
 #include "kernel/io/files/partial_files.h"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +48,11 @@ class Journal {
   std::size_t bytes_ = 0;
   FileMarks done_, read_;
 };
+
+/// A whole number; of a number that is none, or too large for one, ordered_json::exception.
+std::int64_t whole_number_of(const nlohmann::ordered_json& json);
+/// Whole numbers by name.
+std::map<std::string, int> counts_of(const nlohmann::ordered_json& json);
 
 /// {"bytes","lines","sha256"} by path, there and back.
 nlohmann::ordered_json to_json(const FileMarks& marks);

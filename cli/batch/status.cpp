@@ -60,13 +60,18 @@ ordered_json to_json(const RunState& state) {
 }
 
 RunState run_state_of(const ordered_json& json) {
-  const ordered_json& counted = json.at("counted");
-  return {json.at("buildings"),
-          json.at("set_aside"),
-          json.at("open"),
-          json.at("labels").get<std::map<std::string, int>>(),
-          {counted.at(0), counted.at(1), counted.at(2), counted.at(3)},
-          static_cast<ExitCode>(json.at("code").get<int>()),
+  const auto number = [](const ordered_json& value) {
+    return static_cast<int>(whole_number_of(value));
+  };
+  const auto record = [counted = json.at("counted")](std::size_t i) {
+    return static_cast<std::size_t>(whole_number_of(counted.at(i)));
+  };
+  return {number(json.at("buildings")),
+          number(json.at("set_aside")),
+          number(json.at("open")),
+          counts_of(json.at("labels")),
+          {record(0), record(1), record(2), record(3)},
+          static_cast<ExitCode>(number(json.at("code"))),
           json.at("found_ids").get<std::set<std::string>>()};
 }
 
@@ -110,8 +115,8 @@ void StatusWriter::append(const std::string& input, int line, const std::vector<
 ordered_json StatusWriter::state() const { return {{"codes", codes_}, {"records", records_}}; }
 
 void StatusWriter::restore(const ordered_json& state) {
-  codes_ = state.at("codes").get<std::map<std::string, int>>();
-  records_ = state.at("records");
+  codes_ = counts_of(state.at("codes"));
+  records_ = static_cast<int>(whole_number_of(state.at("records")));
 }
 
 void StatusWriter::commit(const RunStatus& run) {

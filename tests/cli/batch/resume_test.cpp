@@ -163,6 +163,7 @@ TEST_SUITE("cli") {
     const std::string input = folder.write("in.city.jsonl", city(3));
     for (const char* journal :
          {"{\"state\":5}\n", "{\"state\":{}}\n", "{\"done\":{\"x\":1}}\n", "{\"read\":[7]}\n",
+          "{\"done\":{\"x\":{\"bytes\":1e300,\"lines\":1,\"sha256\":\"\"}}}\n",
           "{\"state\":{\"command\":[],\"input\":-1}}\n"}) {
       CAPTURE(std::string(journal));
       folder.write("s.journal", journal);
