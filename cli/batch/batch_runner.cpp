@@ -22,11 +22,30 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#if defined(__SANITIZE_THREAD__)
+extern "C" void __tsan_acquire(void*);
+extern "C" void __tsan_release(void*);
+#endif
+
 namespace oriel::cli {
 
 using nlohmann::ordered_json;
 
 namespace {
+
+/// What one thread did to `what` before it was handed on is seen by the one that takes it over. TBB
+/// does that; its library is not instrumented, so the thread sanitizer is told.
+void hand_on([[maybe_unused]] const void* what) {
+#if defined(__SANITIZE_THREAD__)
+  __tsan_release(const_cast<void*>(what));
+#endif
+}
+
+void take_over([[maybe_unused]] const void* what) {
+#if defined(__SANITIZE_THREAD__)
+  __tsan_acquire(const_cast<void*>(what));
+#endif
+}
 
 /// The medians of the stages over several runs:
 /// {"read_ms":…,"solidify_ms":…,…,"runs":N} with a line end.
@@ -160,16 +179,26 @@ void BatchRunner::run_in_threads(InputReader& reader) {
   const std::size_t records = kRecordsPerJob * static_cast<std::size_t>(options_.jobs);
   const RecordWorker worker = this->worker();
   const auto read = [&](tbb::flow_control& control) -> SharedItem {
-    auto item = next(reader);
+    take_over(&reader);
+    SharedItem item = next(reader);
     if (!item) control.stop();
+    hand_on(item.get());
+    hand_on(&reader);
     return item;
   };
   const auto work = [&](SharedItem item) {
+    take_over(item.get());
     reuse(*item);
     worker.work_on(*item);
+    hand_on(item.get());
     return item;
   };
-  const auto end = [&](const SharedItem& item) { settle(*item); };
+  const auto end = [&](const SharedItem& item) {
+    take_over(item.get());
+    take_over(this);
+    settle(*item);
+    hand_on(this);
+  };
   // Where it lacked memory for itself, TBB waits for ever when its arena goes.
   try {
     arena.execute([&] {
@@ -181,6 +210,8 @@ void BatchRunner::run_in_threads(InputReader& reader) {
   } catch (const std::bad_alloc&) {
     end_without_memory();
   }
+  take_over(&reader);
+  take_over(this);
 }
 
 /// Workers have worked on a copy: issues that they dropped are still here.
