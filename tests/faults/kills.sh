@@ -56,7 +56,12 @@ while [ "$all" -lt "$kills" ]; do
       process=$!
       wait_ns=$((${took_ns[$name]} / 1000 * (RANDOM % 1000)))
       sleep "$((wait_ns / 1000000000)).$(printf %09d $((wait_ns % 1000000000)))"
-      if kill -9 "$process" 2>/dev/null; then killed[$name]=$((${killed[$name]} + 1)) all=$((all + 1)); fi
+      # How long a run takes depends on what else the machine does.
+      if kill -9 "$process" 2>/dev/null; then
+        killed[$name]=$((${killed[$name]} + 1)) all=$((all + 1)) took_ns[$name]=$((${took_ns[$name]} / 20 * 21))
+      else
+        took_ns[$name]=$((${took_ns[$name]} / 10 * 8))
+      fi
       wait "$process" 2>/dev/null || true
       for final in out/*.city.jsonl out/*.csv; do
         [ ! -e "$final" ] || cmp "$final" "undisturbed/${final#out/}"  # whole or absent
