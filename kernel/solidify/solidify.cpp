@@ -280,8 +280,13 @@ MeshedSoup closed_shells(const Building& building, const Tolerances& tolerances,
 
 Solidified solidify(const Building& building, const Tolerances& tolerances,
                     const RepairOptions& repair, std::int64_t budget) {
-  Solidified out;
   Work work(budget);
+  return solidify(building, tolerances, repair, work);
+}
+
+Solidified solidify(const Building& building, const Tolerances& tolerances,
+                    const RepairOptions& repair, Work& work) {
+  Solidified out;
   const auto is_set_aside = [&] { return has_errors(out.issues); };
 
   check_size(building, tolerances, out.issues);
@@ -290,7 +295,7 @@ Solidified solidify(const Building& building, const Tolerances& tolerances,
   if (!is_set_aside())
     detail::add_solid(building, soup, mesh, tolerances, out, work, repair.keeps_caps_apart);
   if (work.is_used_up())
-    out.issues.push_back(used_up(building.id, budget, "solidifying",
+    out.issues.push_back(used_up(building.id, work.budget(), "solidifying",
                                  "it is not repaired further, and planes may stay apart"));
   return out;
 }

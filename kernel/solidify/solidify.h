@@ -41,4 +41,8 @@ struct Solidified : Checked<Solid> {
 Solidified solidify(const Building& building, const Tolerances& tolerances = {},
                     const RepairOptions& repair = {}, std::int64_t budget = kWorkBudget);
 
+/// The same, as a part of work that has a budget of its own; E502 if it is used up.
+Solidified solidify(const Building& building, const Tolerances& tolerances,
+                    const RepairOptions& repair, Work& work);
+
 }  // namespace oriel

@@ -4,6 +4,7 @@
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/boxes.h"
+#include "kernel/solidify/planes/number_table.h"
 #include "kernel/solidify/shells/shell_mesh.h"
 
 #include <algorithm>
@@ -20,6 +21,9 @@ constexpr double kParallelSine = 0.0087;
 /// Up to so many corners both polygons of a pair are asked where they have their common line: more
 /// would make a wall with many windows quadratic.
 constexpr std::size_t kFewCorners = 32;
+
+/// Looking up a point, or making one.
+constexpr std::int64_t kStepsPerNewPoint = 32;
 
 /// Where a polygon has the line that it shares with another one's plane.
 struct Stretch {
@@ -169,6 +173,7 @@ class ChordFinder {
     if (std::abs(low) <= reach_ && std::abs(low) <= std::abs(high)) return edge.first;
     if (std::abs(high) <= reach_) return edge.second;
     const Vec3 from = points_.place(edge.first), to = points_.place(edge.second);
+    work_.add(kStepsPerNewPoint);
     return points_.point_at(from + (low / (low - high)) * (to - from));
   }
 
@@ -222,6 +227,10 @@ int GrowingPoints::point_at(Vec3 where) {
   points_.push_back(exact::round_to_grid(where, 1));
   enter(static_cast<int>(points_.size()) - 1);
   return static_cast<int>(points_.size()) - 1;
+}
+
+std::size_t GrowingPoints::Hash::operator()(const GridCell& cell) const noexcept {
+  return table_key(cell, 0);
 }
 
 GrowingPoints::GridCell GrowingPoints::cell_of(Vec3 where) const {

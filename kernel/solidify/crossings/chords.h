@@ -7,9 +7,12 @@
 #include "kernel/solidify/soup/soup.h"
 
 #include <array>
-#include <map>
+#include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 namespace oriel::detail {
 
@@ -25,12 +28,15 @@ class GrowingPoints {
 
  private:
   using GridCell = std::array<std::int64_t, 3>;
+  struct Hash {
+    std::size_t operator()(const GridCell& cell) const noexcept;
+  };
   [[nodiscard]] GridCell cell_of(Vec3 place) const;
   void enter(int point);
 
   std::vector<exact::GridPoint> points_;
   double weld_;
-  std::map<GridCell, std::vector<int>> cells_;
+  std::unordered_map<GridCell, boost::container::small_vector<int, 2>, Hash> cells_;
 };
 
 /// Of every polygon the edges on it along which others of its body run through it or lie on it, as

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -222,18 +223,22 @@ bool add_signed_faces(const Soup& soup, const PolygonShape& shape, const CutPoly
   return true;
 }
 
+/// What finding out how two edges meet takes, and what sorting one into faces.
+constexpr std::int64_t kStepsPerMeeting = 8, kStepsPerFaceEdge = 32;
+
 /// The edges of a polygon's rings and the chords on it, cut where they meet.
 class ChordSubdivision {
  public:
   ChordSubdivision(const Soup& soup, const PolygonShape& shape, int polygon,
                    std::span<const PointPair> chords, GrowingPoints& points, double weld,
-                   RingKind kind)
+                   RingKind kind, Work& work)
       : shape_(shape),
         polygon_(polygon),
         rings_(rings_of(soup, polygon)),
         points_(points),
         weld_(weld),
-        kind_(kind) {
+        kind_(kind),
+        work_(work) {
     for (const auto& ring : rings_)
       for (std::size_t i = 0; i < ring.size(); ++i)
         edges_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
@@ -296,6 +301,8 @@ class ChordSubdivision {
   }
 
   void meet(std::size_t e, std::size_t f) {
+    work_.add(kStepsPerMeeting);
+    if (work_.is_used_up()) return;
     bool is_met = false;
     for (const int v : {edges_[f].first, edges_[f].second}) is_met |= put_on(e, v);
     for (const int v : {edges_[e].first, edges_[e].second}) is_met |= put_on(f, v);
@@ -349,6 +356,7 @@ class ChordSubdivision {
   }
 
   [[nodiscard]] bool lies_within(const PointPair& edge) {
+    work_.add(static_cast<std::int64_t>(ring_edges_));
     if (outlines_.empty())
       for (const auto& ring : rings_) {
         outlines_.emplace_back();
@@ -364,11 +372,22 @@ class ChordSubdivision {
   GrowingPoints& points_;
   double weld_;
   RingKind kind_;
+  Work& work_;
   std::vector<PointPair> edges_;  ///< of the rings as they run, then the chords
   std::size_t ring_edges_ = 0;
   std::vector<std::vector<int>> on_;  ///< by edge the points between its ends
   std::vector<Outline> outlines_;
 };
+
+}  // namespace
+
+namespace {
+
+std::int64_t edges_in(const CutPolygon& cut) {
+  std::int64_t count = std::ssize(cut.edges);
+  for (const auto& ring : cut.rings) count += std::ssize(ring);
+  return count;
+}
 
 }  // namespace
 
@@ -382,14 +401,17 @@ SoupWithoutCrossings cut_at_crossings(const Soup& soup, double reach, double wel
   for (int p = 0; p < soup.polygon_count(); ++p) {
     work.add(std::ssize(chords[at(p)]) + std::ssize(soup.corners_of(p)));
     if (work.is_used_up()) break;
-    ChordSubdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings);
+    ChordSubdivision subdivision(soup, shapes[at(p)], p, chords[at(p)], points, weld, rings, work);
     if (rings == RingKind::crossing || subdivision.has_chords()) cuts[at(p)] = subdivision.run();
   }
+  if (work.is_used_up()) return {soup, 0};
   Soup grown = soup;
   grown.points = points.take();
   SoupBuilder builder(grown);
   SoupWithoutCrossings out;
   for (int p = 0; p < soup.polygon_count(); ++p) {
+    if (cuts[at(p)]) work.add(kStepsPerFaceEdge * edges_in(*cuts[at(p)]));
+    if (work.is_used_up()) return {soup, 0};
     if (!cuts[at(p)]) {
       builder.add_polygon(grown, p);
       continue;

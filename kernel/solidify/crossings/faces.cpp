@@ -92,16 +92,20 @@ void Faces::find_faces_around(Vec3 normal) {
   std::vector<Box> boxes(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (const Vec3 p : outlines[i]) boxes[i].grow(p);
+  const BoxTree tree(boxes);
   for (std::size_t j = 0; j < loops.size(); ++j) {
     if (areas[j] >= 0) continue;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-      const int best = face_of[j];
-      if (areas[i] <= 0 || (best >= 0 && areas[at(best)] <= areas[i])) continue;
-      if (!comes_near(boxes[i], outlines[j].front(), outlines[j].front(), 0)) continue;
-      const bool is_own_side = std::ranges::find(loops[i], loops[j][0]) != loops[i].end();
-      if (!is_own_side && contains({&outlines[i], 1}, normal, outlines[j].front()))
-        face_of[j] = static_cast<int>(i);
-    }
+    const Vec3 start = outlines[j].front();
+    tree.search([&](const Box& box) { return comes_near(box, start, start, 0); },
+                [&](int i) {
+                  const int best = face_of[j];
+                  const auto rank = [&](int loop) { return std::pair(areas[at(loop)], loop); };
+                  if (areas[at(i)] <= 0 || (best >= 0 && rank(best) <= rank(i))) return;
+                  const auto& loop = loops[at(i)];
+                  const bool is_own_side = std::ranges::find(loop, loops[j][0]) != loop.end();
+                  if (!is_own_side && contains({&outlines[at(i)], 1}, normal, start))
+                    face_of[j] = i;
+                });
   }
 }
 

@@ -141,10 +141,15 @@ Soup outward(const Soup& soup) {
   return builder.finish();
 }
 
+/// What finding the shapes, the cells and the windings of pieces takes.
+constexpr std::int64_t kStepsPerPieceCorner = 32;
+
 std::optional<Uncrossed> uncross_within(const Soup& soup, double reach, double weld, Work& work) {
   auto [parted, cut] = cut_at_crossings(soup, reach, weld, work, RingKind::crossing);
   if (work.is_used_up()) return std::nullopt;
-  auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
+  auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all, &work);
+  work.add(kStepsPerPieceCorner * joined.corner_count());
+  if (work.is_used_up()) return std::nullopt;
   const Soup pieces = without_opposites(joined);
   if (pieces.polygons.empty()) return std::nullopt;
   const std::vector<PolygonShape> shapes = shapes_of(pieces);
@@ -180,7 +185,9 @@ std::optional<Uncrossed> uncross(const Soup& soup, const Tolerances& tolerances,
   const double weld = tolerances.weld_m / soup.grid_m;
   for (const auto& [on_plane, together] :
        {std::pair{reach, weld}, {reach / 10, weld}, {reach / 100, weld / 10}})
-    if (auto uncrossed = uncross_within(facing, on_plane, together, work)) return uncrossed;
+    if (auto uncrossed = uncross_within(facing, on_plane, together, work);
+        uncrossed || work.is_used_up())
+      return uncrossed;
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include "kernel/solidify/shells/edge_groups.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <numbers>
 #include <set>
@@ -27,8 +28,9 @@ struct OpenHalfEdge {
 
 class CapFinder {
  public:
-  CapFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach, double max_area)
-      : soup_(soup), shapes_(shapes), reach_(reach), max_area_(max_area) {
+  CapFinder(const Soup& soup, std::span<const PolygonShape> shapes, double reach, double max_area,
+            Work& work)
+      : soup_(soup), shapes_(shapes), reach_(reach), max_area_(max_area), work_(work) {
     collect_edges();
   }
 
@@ -81,6 +83,8 @@ class CapFinder {
     }
   }
 
+  using WalkedHalfEdge = std::pair<int, int>;
+
   /// Follows the smallest loop with the edge from → to, its inside to the left seen against the
   /// normal, and keeps it as a cap if it is a hole.
   void follow(int from, int to, Vec3 normal, int polygon) {
@@ -89,14 +93,19 @@ class CapFinder {
     const auto is_near = [&](int v) { return std::abs(dot(normal, place(v)) - offset) <= reach_; };
     if (!is_near(to)) return;
     std::vector<int> ring{from};
+    WalkedHalfEdge marked{from, to};  // the last one whose number is a power of two
     for (int before = from, v = to; v != from;) {
+      work_.add(std::ssize(neighbours_[at(v)]));
+      if (work_.is_used_up()) return;
       const int next = leftmost(before, v, normal, is_near);
       if (next < 0) return;
       ring.push_back(v);
       is_first_visit(v, next, normal);
       before = std::exchange(v, next);
-      // It came to a point again that is not its start: it never will come to that.
-      if (ring.size() > neighbours_.size()) return;
+      // Where it comes to a half-edge again it goes round for ever and never comes to its start
+      // (cycles as Brent finds them, 1980).
+      if (marked == WalkedHalfEdge{before, v}) return;
+      if (std::has_single_bit(ring.size())) marked = {before, v};
     }
     keep_if_hole(std::move(ring), normal, polygon);
   }
@@ -166,6 +175,7 @@ class CapFinder {
     std::vector<CapDraft> pieces;
     double area = 0;
     while (!loop.empty()) {
+      if (work_.is_used_up()) return;
       HoleLoop piece = take_plane_piece(loop);
       const Vec3 vector = area_of(piece);
       const Vec3 normal = normalised(vector);
@@ -185,6 +195,7 @@ class CapFinder {
   /// shortest chord. What is left of the loop stays; nothing if all of it is plane.
   HoleLoop take_plane_piece(HoleLoop& loop) const {
     const std::size_t size = loop.size();
+    work_.add(std::ssize(loop) * std::ssize(loop));
     if (is_plane(loop)) return std::exchange(loop, {});
     HoleLoop best;
     std::size_t best_start = 0;
@@ -245,6 +256,7 @@ class CapFinder {
   const Soup& soup_;
   std::span<const PolygonShape> shapes_;
   double reach_, max_area_;
+  Work& work_;
   std::vector<OpenHalfEdge> open_;
   std::vector<std::vector<int>> neighbours_, open_at_;  ///< by point
   std::map<std::pair<int, int>, std::vector<PolygonAtEdge>> polygons_at_;
@@ -256,9 +268,9 @@ class CapFinder {
 }  // namespace
 
 std::vector<CapDraft> find_caps(const Soup& soup, std::span<const PolygonShape> shapes,
-                                double reach, double max_area) {
+                                double reach, double max_area, Work& work) {
   ORIEL_ASSERT(shapes.size() == soup.polygons.size());
-  return CapFinder(soup, shapes, reach, max_area).run();
+  return CapFinder(soup, shapes, reach, max_area, work).run();
 }
 
 }  // namespace oriel::detail

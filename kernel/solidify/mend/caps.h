@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 #include "kernel/solidify/soup/soup.h"
 
@@ -26,7 +27,9 @@ struct CapDraft {
 /// What open edges are left then are followed from point to point, as long as there are two at
 /// each; a loop of them that is not plane is cut into plane pieces by the chords that part the
 /// largest of them (a strip of wall that is missing round a corner).
+///
+/// Once `work` is used up no more are looked for.
 std::vector<CapDraft> find_caps(const Soup& soup, std::span<const PolygonShape> shapes,
-                                double reach, double max_area);
+                                double reach, double max_area, Work& work);
 
 }  // namespace oriel::detail

@@ -131,6 +131,14 @@ constexpr double kCapReach = 5;
 /// of its surface, and losing one is no repair.
 constexpr double kMostExposed = 0.01;
 
+/// What finding shapes and cells takes.
+constexpr std::int64_t kStepsPerCorner = 16;
+
+Soup counted(Soup soup, Work& work) {
+  work.add(kStepsPerCorner * soup.corner_count());
+  return soup;
+}
+
 /// A soup with what is known of it.
 struct MendStage {
   Soup soup;
@@ -141,7 +149,7 @@ struct MendStage {
   ExposedFaces exposed;
 
   MendStage(Soup polygons, const Tolerances& tolerances, Work& work)
-      : soup(std::move(polygons)),
+      : soup(counted(std::move(polygons), work)),
         shapes(shapes_of(soup)),
         cells(find_cells(soup, shapes)),
         exposed(is_open() ? ExposedFaces{}
@@ -179,7 +187,7 @@ MendStage close_holes(MendStage stage, const Tolerances& tolerances, double cap_
                       Work& work) {
   if (cap_area_m2 <= 0 || stage.is_solid() || work.is_used_up()) return stage;
   const double area = cap_area_m2 / (stage.soup.grid_m * stage.soup.grid_m);
-  auto caps = find_caps(stage.soup, stage.shapes, cap_reach(stage.soup, tolerances), area);
+  auto caps = find_caps(stage.soup, stage.shapes, cap_reach(stage.soup, tolerances), area, work);
   return MendStage(with_faces(stage.soup, faces_of(std::move(caps))), tolerances, work);
 }
 
@@ -189,7 +197,7 @@ MendStage close_ground(MendStage stage, const Tolerances& tolerances, double cap
   if (stage.is_solid() || work.is_used_up()) return stage;
   const double area = cap_area_m2 / (stage.soup.grid_m * stage.soup.grid_m);
   const double reach = cap_reach(stage.soup, tolerances);
-  std::vector<CapDraft> caps = find_caps(stage.soup, stage.shapes, reach, Box::kInfinity);
+  std::vector<CapDraft> caps = find_caps(stage.soup, stage.shapes, reach, Box::kInfinity, work);
   const std::vector<AddedFace> all = faces_of(caps);
   const CapKinds kinds(stage.soup, stage.shapes, all, reach, work);
   std::vector<AddedFace> faces;
@@ -205,7 +213,7 @@ Soup without_crossings(const Soup& soup, const Tolerances& tolerances, RepairRep
   const double weld = tolerances.weld_m / soup.grid_m;
   const auto [parted, cut] =
       cut_at_crossings(soup, tolerances.plane_offset_m / soup.grid_m, weld, work);
-  auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all);
+  auto [joined, inserted] = insert_t_vertices(parted, weld, Inserted::all, &work);
   report.cut += cut;
   report.t_vertices += inserted;
   return std::move(joined);
@@ -306,7 +314,8 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
   RepairReport& report = mended.report;
   report.was_needed = true;
   const Soup single = without_duplicates(soup, report.duplicates);
-  auto [joined, inserted] = insert_t_vertices(single, tolerances.weld_m / soup.grid_m);
+  auto [joined, inserted] =
+      insert_t_vertices(single, tolerances.weld_m / soup.grid_m, Inserted::odd_ends, &work);
   report.t_vertices = inserted;
   if (joined.polygons.empty()) {
     mended.is_open = true;

@@ -16,6 +16,9 @@ namespace {
 
 Vec3 place(const Soup& soup, int point) { return exact::to_metres(soup.points[at(point)], 1); }
 
+/// What sorting the edges, making their tree and looking up an end in it takes.
+constexpr std::int64_t kStepsPerEdge = 16;
+
 /// Every edge once, and the ends that are asked for.
 struct Edges {
   std::vector<std::pair<int, int>> all;
@@ -40,8 +43,9 @@ Edges edges_of(const Soup& soup, Inserted inserted) {
 /// By edge (the smaller point first) the points between its ends, in order.
 using Between = std::map<std::pair<int, int>, std::vector<int>>;
 
-Between find_between(const Soup& soup, double reach, Inserted inserted) {
+Between find_between(const Soup& soup, double reach, Inserted inserted, Work& work) {
   const Edges edges = edges_of(soup, inserted);
+  work.add(kStepsPerEdge * std::ssize(edges.all));
   std::map<std::pair<int, int>, std::vector<std::pair<double, int>>> found;
   if (!edges.ends.empty()) {
     std::vector<Box> boxes(edges.all.size());
@@ -51,9 +55,11 @@ Between find_between(const Soup& soup, double reach, Inserted inserted) {
     }
     const BoxTree tree(std::move(boxes));
     for (const int v : edges.ends) {
+      if (work.is_used_up()) return {};
       const Vec3 point = place(soup, v);
       tree.search([&](const Box& box) { return comes_near(box, point, point, reach); },
                   [&](int i) {
+                    work.add(1);
                     const auto& edge = edges.all[at(i)];
                     if (v == edge.first || v == edge.second) return;
                     const Vec3 from = place(soup, edge.first), to = place(soup, edge.second);
@@ -74,9 +80,10 @@ Between find_between(const Soup& soup, double reach, Inserted inserted) {
 
 }  // namespace
 
-SoupWithTVertices insert_t_vertices(const Soup& soup, double reach, Inserted which) {
+SoupWithTVertices insert_t_vertices(const Soup& soup, double reach, Inserted which, Work* work) {
   ORIEL_ASSERT(reach >= 0);
-  const Between between = find_between(soup, reach, which);
+  Work uncounted;
+  const Between between = find_between(soup, reach, which, work != nullptr ? *work : uncounted);
   SoupBuilder builder(soup);
   int inserted = 0;
   for (const auto& [edge, points] : between) inserted += static_cast<int>(points.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/solidify/soup/soup.h"
 
 namespace oriel::detail {
@@ -17,7 +18,8 @@ struct SoupWithTVertices {
 /// Puts the vertices that lie within `reach` (grid units) of an edge, between its ends, into that
 /// edge: of all its polygons. Only the ends of edges with an odd number of polygons are put in, if
 /// not all are asked for: where the numbers are even nothing is missing in what was drawn to meet.
+/// Once `work`, if given, is used up no more are looked for.
 SoupWithTVertices insert_t_vertices(const Soup& soup, double reach,
-                                    Inserted inserted = Inserted::odd_ends);
+                                    Inserted inserted = Inserted::odd_ends, Work* work = nullptr);
 
 }  // namespace oriel::detail

@@ -7,6 +7,7 @@
 #include "kernel/geometry/planar.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -15,14 +16,20 @@ namespace oriel::detail {
 
 namespace {
 
+/// What a volume may be off by, as a share of the cones under the facets that it is the sum of.
+constexpr double kVolumeError = 1e-12;  // tolerance of doubles
+
+/// 0 if it is no more than rounding, as where all facets lie in one plane.
 double volume_of(const Solid& solid, const Shell& shell) {
-  double sum = 0;
+  double sum = 0, cones = 0;
   for (const FacetId f : shell.facets) {
     const Facet& facet = solid.facets[f.index()];
     const Plane& plane = solid.planes[facet.plane.index()];
-    sum += plane.offset_m * area_m2(solid.vertices, facet, plane.normal);
+    const double cone = plane.offset_m * area_m2(solid.vertices, facet, plane.normal);
+    sum += cone;
+    cones += std::abs(cone);
   }
-  return sum / 3;
+  return std::abs(sum) <= kVolumeError * cones ? 0 : sum / 3;
 }
 
 /// How often the shell winds around a point: 1 inside an outer shell, 0 outside.

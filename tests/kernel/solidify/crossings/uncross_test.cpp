@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -218,6 +219,26 @@ TEST_SUITE("kernel/solidify") {
       RC_ASSERT(is_closed(*out.value));
       RC_ASSERT(std::abs(volume_m3(*out.value) - cells_in(blocks)) < 1e-6);
     }));
+  }
+
+  TEST_CASE("a body that takes more work to cut than there is stays as it came") {
+    std::vector<Block> blocks;
+    for (int i = 0; i < 6; ++i) {
+      blocks.push_back({{1.0 + i, 0, 0}, {1.5 + i, 8, 8}});
+      blocks.push_back({{0, 1.0 + i, 1}, {8, 1.5 + i, 7}});
+    }
+    const Building building = in_one_shell(blocks);
+    bool is_cut = false;
+    for (std::int64_t budget = 100; budget <= kWorkBudget; budget *= 10) {
+      const Solidified out = solidify(building, {}, kCutClosed, budget);
+      const bool is_used_up =
+          std::ranges::find(out.issues, Code::E502, &Issue::code) != out.issues.end();
+      CAPTURE(budget);
+      CHECK(is_used_up == (out.report.cut == 0));
+      if (is_cut) CHECK(!is_used_up);
+      is_cut = out.report.cut > 0;
+    }
+    CHECK(is_cut);
   }
 }
 

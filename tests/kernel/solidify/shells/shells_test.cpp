@@ -3,8 +3,11 @@
 #include "tests/support/solidified.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
+#include <rapidcheck.h>
 
 namespace oriel {
 namespace {
@@ -199,6 +202,23 @@ TEST_SUITE("kernel/solidify") {
     CHECK(solid.facets.size() == 12);
     CHECK(volume_m3(solid) == doctest::Approx(2).epsilon(1e-12));
     check_shells(solid);
+  }
+
+  TEST_CASE("walls that all lie in one plane enclose no volume though doubles say a little") {
+    CHECK(rc::check([] {
+      const auto metres = [](int low, int high) { return 1e-3 * *rc::gen::inRange(low, high); };
+      const double x = metres(-300000, 300000), z = metres(-9000, 9000);
+      // One wall looks one way, three between the same ends the other way.
+      const double a = metres(-320000, -310000);
+      const double b = a + metres(1, 900), c = b + metres(1, 900), d = c + metres(1, 900);
+      const auto wall = [&](double from, double to) {
+        return std::vector<Vec3>{
+            {x, from, z}, {x, to, z}, {x, to, z + 7.224}, {x, from, z + 7.224}};
+      };
+      const std::string outcome = outcome_of(
+          test::framed(test::building_of({wall(a, d), wall(d, c), wall(c, b), wall(b, a)})));
+      RC_ASSERT(outcome.find("solid") == std::string::npos);
+    }));
   }
 }
 
