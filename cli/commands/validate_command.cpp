@@ -424,6 +424,11 @@ void add_validate(CLI::App& app, Action& action) {
                    "How far the normals of a polygon's triangles may deviate")
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();
+  command
+      ->add_option("--budget", arguments->options.budget,
+                   "Steps that validating may take on one building")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   command->add_flag("-v,--verbose", arguments->is_verbose, "Show notes, too");
   command->footer(

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/validate/polygons/snapped.h"
 #include "kernel/validate/validate.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -53,18 +55,26 @@ struct Subject {
 /// Collects findings about one building.
 class FindingList {
  public:
-  explicit FindingList(const SnappedBuilding& building) : building_(building) {}
+  explicit FindingList(const SnappedBuilding& building, std::int64_t budget = kWorkBudget)
+      : building_(building), work_(budget) {}
 
   /// Adds a finding; `sentence` is completed with the place of `vertices` (none, a point, or the
   /// ends of an edge) and val3dity's name.
   void add(Defect defect, const Subject& subject, std::string sentence,
            const std::vector<int>& vertices = {});
 
+  /// Steps that judging took. Once they are used up nothing more is judged: what a check says then
+  /// is no finding.
+  void count(std::int64_t steps) { work_.add(steps); }
+  [[nodiscard]] bool is_used_up() const { return work_.is_used_up(); }
+  [[nodiscard]] Work& work() { return work_; }
+
   [[nodiscard]] std::size_t size() const { return findings_.size(); }
   [[nodiscard]] std::vector<Finding> take() { return std::move(findings_); }
 
  private:
   const SnappedBuilding& building_;
+  Work work_;
   std::vector<Finding> findings_;
 };
 

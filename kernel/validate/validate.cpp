@@ -24,6 +24,9 @@ using detail::FindingList;
 using detail::JudgedShell;
 using detail::SnappedBuilding;
 
+/// What the rings of a polygon and its triangles take, but for edges whose boxes overlap.
+constexpr std::int64_t kStepsPerCorner = 16;
+
 bool is_judged_as_solid(const Building& building, ValidateOptions::Primitive primitive) {
   if (primitive == ValidateOptions::Primitive::as_stated) return building.is_solid;
   return primitive == ValidateOptions::Primitive::solid;
@@ -43,6 +46,8 @@ JudgedShells judge_polygons(const SnappedBuilding& building, const ValidateOptio
     JudgedShell shell{place.first, place.second, {}};
     bool is_good = true;
     for (const detail::SnappedPolygon* polygon : polygons) {
+      for (const auto& ring : polygon->rings) findings.count(kStepsPerCorner * std::ssize(ring));
+      if (findings.is_used_up()) return shells;
       auto judged = detail::judge(building, *polygon, options, findings);
       is_good = is_good && judged.is_good;
       shell.polygons.push_back({polygon, std::move(judged.triangles)});
@@ -68,6 +73,7 @@ JudgedSolids judge_shells(const SnappedBuilding& building, const JudgedShells& s
     for (; at != shells.end() && at->first.first == body; ++at) {
       const auto& shell = at->second;
       is_good = shell && detail::judge(building, *shell, false, findings) && is_good;
+      if (findings.is_used_up()) return {{}, false};
       if (shell) solid.shells.push_back(&*shell);
     }
     is_good = is_good && detail::judge(building, solid, findings);
@@ -132,6 +138,22 @@ bool do_solids_overlap(const std::deque<detail::ClosedSurface>& p,
          !is_in_cavity(q, p[0]);
 }
 
+Finding not_all_judged(std::int64_t budget) {
+  Finding finding;
+  finding.code = Code::E502;
+  finding.sentence =
+      fmt::format("validating used up the work budget of {} steps; the rest is not judged", budget);
+  return finding;
+}
+
+/// What was found, and whether that may not be all.
+std::vector<Finding> all_of(FindingList& findings, std::int64_t budget) {
+  const bool is_used_up = findings.is_used_up();
+  std::vector<Finding> found = findings.take();
+  if (is_used_up) found.push_back(not_all_judged(budget));
+  return found;
+}
+
 Finding out_of_range(const Building& building) {
   Finding finding;
   finding.code = Code::E506;
@@ -148,9 +170,10 @@ std::vector<Finding> validate(const Building& building, const ValidateOptions& o
   if (!building.installations.empty()) return validate(without_installations(building), options);
   const auto snapped = detail::snapped(building, options.snap_m);
   if (!snapped) return {out_of_range(building)};
-  FindingList findings(*snapped);
+  FindingList findings(*snapped, options.budget);
   if (building.polygons.empty()) findings.add(detail::Defect::empty, {}, "it has no polygons");
   const JudgedShells shells = judge_polygons(*snapped, options, findings);
+  if (findings.is_used_up()) return all_of(findings, options.budget);
   if (is_judged_as_solid(building, options.primitive)) {
     const JudgedSolids judged = judge_shells(*snapped, shells, findings);
     if (judged.are_all_good && building.is_composite)
@@ -159,7 +182,7 @@ std::vector<Finding> validate(const Building& building, const ValidateOptions& o
     for (const auto& [place, shell] : shells)
       if (shell) detail::judge(*snapped, *shell, true, findings);
   }
-  return findings.take();
+  return all_of(findings, options.budget);
 }
 
 std::vector<PartOverlap> overlapping_parts(std::span<const Building* const> parts,

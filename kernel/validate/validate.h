@@ -1,9 +1,11 @@
 #pragma once
 
 #include "kernel/base/code.h"
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +33,8 @@ struct ValidateOptions {
     surfaces
   };
   Primitive primitive = Primitive::as_stated;
+  /// Pairs of edges and triangles, and corners, that may be looked at; then E502.
+  std::int64_t budget = kWorkBudget;
 };
 
 /// Something wrong with the geometry of a building, and where.
@@ -65,7 +69,9 @@ std::string_view val3dity_name(int number);
 ///
 /// Decided exactly on whole micrometres; only 203 and 204 measure in doubles. E506 and E501 for
 /// coordinates that are not finite or a building of more than 4 km: then nothing else is judged.
-/// Near linear in the number of polygons and of pairs whose boxes overlap.
+/// Near linear in the number of polygons and of pairs whose boxes overlap; after
+/// ValidateOptions::budget steps nothing more is judged, and a finding E502 comes last: what has it
+/// is not known to be valid.
 ///
 /// Source: Ledoux, On the validation of solids represented with the international standards for
 /// geographic information (2013), and val3dity's documentation; differences: docs/validate.md.

@@ -185,6 +185,8 @@ bool is_simple(const SnappedPolygon& polygon, const FlatPolygon& flat, std::size
   for_each_pair(boxes_of(edges), [&](std::size_t i, std::size_t j) {
     const FlatEdge& p = edges[i];
     const FlatEdge& q = edges[j];
+    findings.count(1);
+    if (findings.is_used_up()) return is_good = false;
     const bool are_neighbours = j == i + 1 || (i == 0 && j + 1 == edges.size());
     const Meeting how = meeting(p.from, p.to, q.from, q.to);
     if (how == Meeting::none || (are_neighbours && how == Meeting::touch)) return true;
@@ -252,6 +254,8 @@ bool are_apart(const SnappedPolygon& polygon, const FlatPolygon& flat, std::set<
                  where);
   };
   for_each_pair(boxes_of(edges), [&](std::size_t i, std::size_t j) {
+    findings.count(1);
+    if (findings.is_used_up()) return false;
     if (edges[i].ring == edges[j].ring) return true;
     const Meeting how = meeting(edges[i].from, edges[i].to, edges[j].from, edges[j].to);
     if (how == Meeting::touch) add_touches(edges[i], edges[j], touches);
@@ -259,6 +263,7 @@ bool are_apart(const SnappedPolygon& polygon, const FlatPolygon& flat, std::set<
       tell(edges[i].ring, edges[j].ring, ends_of(polygon, edges[i]));
     return true;
   });
+  if (findings.is_used_up()) return false;
   for (const auto& [p, q, point] : touches)
     if (!crossed.contains({p, q}) && cross_at(point, flat.rings[p], flat.rings[q]))
       tell(p, q, {polygon.rings[q][0]});
@@ -319,14 +324,19 @@ bool are_holes_placed_well(const SnappedPolygon& polygon, const FlatPolygon& fla
     twice.push_back(doubled(ring));
     boxes.push_back(flat_box(ring));
   }
-  for (std::size_t i = 1; i < flat.rings.size(); ++i)
+  for (std::size_t i = 1; i < flat.rings.size(); ++i) {
+    findings.count(std::ssize(flat.rings[0]));
+    if (findings.is_used_up()) return false;
     if (side_of_ring(flat.rings[i], twice[0]) < 0)
       findings.add(Defect::hole_outside, subject_of(polygon, i),
                    fmt::format("{} lies outside its outer ring", name_of(polygon, i)),
                    {polygon.rings[i][0]});
+  }
   if (findings.size() > before) return false;
   for_each_pair(boxes, [&](std::size_t i, std::size_t j) {
     if (i == 0) return true;
+    findings.count(std::ssize(flat.rings[i]) + std::ssize(flat.rings[j]));
+    if (findings.is_used_up()) return false;
     const bool is_inside = side_of_ring(flat.rings[j], twice[i]) > 0;
     const bool is_around = !is_inside && side_of_ring(flat.rings[i], twice[j]) > 0;
     const std::size_t inner = is_inside ? j : i;
@@ -337,7 +347,7 @@ bool are_holes_placed_well(const SnappedPolygon& polygon, const FlatPolygon& fla
                    {polygon.rings[inner][0]});
     return true;
   });
-  return findings.size() == before;
+  return findings.size() == before && !findings.is_used_up();
 }
 
 }  // namespace

@@ -151,29 +151,50 @@ bool ClosedSurface::contains(const MicrometrePoint& point) const {
   }
 }
 
-SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second) {
+namespace {
+
+/// What a triangle costs in a Nef polyhedron: a millisecond.
+constexpr std::int64_t kStepsPerNefTriangle = 40'000;
+
+bool may_make_nef(std::size_t triangles, Work& work) {
+  work.add(kStepsPerNefTriangle * static_cast<std::int64_t>(triangles));
+  return !work.is_used_up();
+}
+
+}  // namespace
+
+SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second, Work& work) {
   bool do_pierce = false;
   SurfaceRelation out;
   for (const MicrometreTriangle& triangle : second.triangles()) {
-    if (do_pierce) break;
+    if (do_pierce || work.is_used_up()) break;
     first.tree().for_each_overlap(box_of(triangle), [&](int i) {
-      if (do_pierce) return;
+      work.add(1);
+      if (do_pierce || work.is_used_up()) return;
       const MicrometreTriangle& other = first.triangles()[at(i)];
       out.do_touch = out.do_touch || meet(other, triangle);
       do_pierce = pierce(other, triangle);
     });
   }
+  if (work.is_used_up()) return out;
   if (do_pierce) {
     out.do_touch = out.do_overlap = true;
     return out;
   }
-  if (out.do_touch) return relate_by_nef(first, second);
+  if (out.do_touch)
+    return may_make_nef(first.corners().size() + second.corners().size(), work)
+               ? relate_by_nef(first, second)
+               : out;
   out.is_second_inside = first.contains(second.points()[0]);
   out.do_overlap = out.is_second_inside || second.contains(first.points()[0]);
   return out;
 }
 
-int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities) {
+int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities,
+                 Work& work) {
+  std::size_t triangles = outer.corners().size();
+  for (const ClosedSurface* cavity : cavities) triangles += cavity->corners().size();
+  if (!may_make_nef(triangles, work)) return 1;
   return count_pieces_by_nef(outer, cavities);
 }
 

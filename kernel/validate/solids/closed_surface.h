@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/validate/solids/shell_checks.h"
 
@@ -52,10 +53,11 @@ struct SurfaceRelation {
 
 /// Exact. Bodies whose surfaces do not meet, or pierce each other, take near-linear time; those
 /// that touch are put to CGAL's Nef polyhedra, which take about a millisecond a triangle.
-SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second);
+SurfaceRelation relate(const ClosedSurface& first, const ClosedSurface& second, Work& work);
 
 /// The number of pieces of the interior of `outer` without `cavities`, which lie inside it and
 /// share no area with it or each other.
-int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities);
+int count_pieces(const ClosedSurface& outer, std::span<const ClosedSurface* const> cavities,
+                 Work& work);
 
 }  // namespace oriel::detail

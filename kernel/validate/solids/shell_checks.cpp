@@ -5,6 +5,8 @@
 #include "kernel/geometry/disjoint_sets.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -318,11 +320,48 @@ bool intersect(const SnappedBuilding& building, TriangleCorners a, TriangleCorne
   return meets(one[1], one[2], other) || meets(other[1], other[2], one);
 }
 
+/// The plane of a triangle in doubles, to tell which boxes lie beside it.
+class RoughPlane {
+ public:
+  explicit RoughPlane(const MicrometreTriangle& triangle) {
+    const auto vec = [](const MicrometrePoint& p) {
+      return std::array{static_cast<double>(p[0]), static_cast<double>(p[1]),
+                        static_cast<double>(p[2])};
+    };
+    point_ = vec(triangle[0]);
+    const auto b = vec(triangle[1]), c = vec(triangle[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const double first = (b[j] - point_[j]) * (c[k] - point_[k]);
+      const double second = (b[k] - point_[k]) * (c[j] - point_[j]);
+      normal_[i] = first - second;
+      size_[i] = std::abs(first) + std::abs(second);
+    }
+  }
+
+  /// All of the box is on one side, and no corner on the plane: for certain, whatever rounding did.
+  [[nodiscard]] bool is_beside(const Box& box) const {
+    constexpr double kError = 1e-14;  // tolerance of doubles: some 50 ulp, the sums have 10 terms
+    const std::array low{box.min.x, box.min.y, box.min.z}, high{box.max.x, box.max.y, box.max.z};
+    double height = 0, reach = 0, error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double middle = 0.5 * (low[i] + high[i]) - point_[i], half = 0.5 * (high[i] - low[i]);
+      height += normal_[i] * middle;
+      reach += std::abs(normal_[i]) * half;
+      error += size_[i] * (std::abs(middle) + half);
+    }
+    return std::abs(height) > reach + kError * error;
+  }
+
+ private:
+  std::array<double, 3> point_{}, normal_{}, size_{};
+};
+
 /// For each polygon of a shell one that it meets elsewhere than in common vertices and edges, if
 /// there is any: the first in the order of pairs of triangles, so that it is named whatever tree
 /// finds it.
 std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding& building,
-                                                          const JudgedShell& shell) {
+                                                          const JudgedShell& shell, Work& work) {
   std::vector<ShellTriangle> triangles;
   std::vector<Box> boxes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
@@ -335,14 +374,19 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
   std::vector<std::size_t> later;  // whose boxes overlap that of triangle i
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     later.clear();
-    tree.for_each_overlap(boxes[i], [&](int number) {
-      if (const std::size_t j = at(number); j > i) later.push_back(j);
-    });
-    std::ranges::sort(later);
     const std::size_t p = triangles[i].polygon;
+    const RoughPlane plane(points_of(building, triangles[i].corners));
+    tree.search([&](const Box& box) { return overlap(box, boxes[i]) && !plane.is_beside(box); },
+                [&](int number) {
+                  work.add(1);
+                  const std::size_t j = at(number);
+                  if (j > i && triangles[j].polygon != p) later.push_back(j);
+                });
+    if (work.is_used_up()) return {};
+    std::ranges::sort(later);
     for (const std::size_t j : later) {
       const std::size_t q = triangles[j].polygon;
-      if (p == q || (crossed_by[p] && crossed_by[q])) continue;
+      if (crossed_by[p] && crossed_by[q]) continue;
       if (!intersect(building, triangles[i].corners, triangles[j].corners)) continue;
       if (!crossed_by[p]) crossed_by[p] = q;
       if (!crossed_by[q]) crossed_by[q] = p;
@@ -355,7 +399,8 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
 /// polygon.
 bool is_free_of_crossings(const SnappedBuilding& building, const JudgedShell& shell,
                           FindingList& findings) {
-  const auto crossed_by = crossing_partners(building, shell);
+  const auto crossed_by = crossing_partners(building, shell, findings.work());
+  if (findings.is_used_up()) return false;
   bool is_good = true;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p) {
     if (!crossed_by[p]) continue;

@@ -112,14 +112,16 @@ bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface
   const std::size_t before = findings.size();
   bool do_touch = false;
   for (std::size_t i = 1; i < surfaces.size(); ++i) {
-    const SurfaceRelation relation = relate(surfaces[0], surfaces[i]);
+    const SurfaceRelation relation = relate(surfaces[0], surfaces[i], findings.work());
+    if (findings.is_used_up()) return false;
     do_touch = do_touch || relation.do_touch;
     lies_inside(*solid.shells[0], *solid.shells[i], relation, findings);
   }
   for (std::size_t i = 1; i < surfaces.size(); ++i)
     for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
       if (!overlap(surfaces[i].box(), surfaces[j].box())) continue;
-      const SurfaceRelation relation = relate(surfaces[i], surfaces[j]);
+      const SurfaceRelation relation = relate(surfaces[i], surfaces[j], findings.work());
+      if (findings.is_used_up()) return false;
       do_touch = do_touch || relation.do_touch;
       lie_apart(*solid.shells[i], *solid.shells[j], relation, findings);
     }
@@ -127,7 +129,8 @@ bool do_shells_lie_well(const JudgedSolid& solid, const std::deque<ClosedSurface
   if (!do_touch) return true;
   std::vector<const ClosedSurface*> cavities;
   for (std::size_t i = 1; i < surfaces.size(); ++i) cavities.push_back(&surfaces[i]);
-  const int pieces = count_pieces(surfaces[0], cavities);
+  const int pieces = count_pieces(surfaces[0], cavities, findings.work());
+  if (findings.is_used_up()) return false;
   if (pieces == 1) return true;
   findings.add(Defect::solid_in_pieces, {solid.body, -1, -1, -1},
                fmt::format("its cavities part the interior into {} pieces", pieces),
@@ -167,7 +170,8 @@ bool judge_composite(const SnappedBuilding& building, std::span<const JudgedSoli
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     for (std::size_t j = i + 1; j < surfaces.size(); ++j)
       if (overlap(surfaces[i].box(), surfaces[j].box()))
-        pairs.push_back({i, j, relate(surfaces[i], surfaces[j])});
+        pairs.push_back({i, j, relate(surfaces[i], surfaces[j], findings.work())});
+  if (findings.is_used_up()) return false;
   for (const BodyPair& pair : pairs)
     if (pair.relation.are_alike) tell(Defect::solids_alike, pair.p, pair.q, "are the same");
   if (findings.size() > before) return false;

@@ -5,7 +5,9 @@
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -96,6 +98,24 @@ Building block_with_pits(bool are_joined) {
     building.polygons[0].rings.push_back(building.polygons.back().rings[0]);
     building.polygons.pop_back();
   }
+  return building;
+}
+
+/// A prism over a star with so many points.
+Building star_prism(int points) {
+  std::vector<Vec3> low, high;
+  for (int i = 0; i < 2 * points; ++i) {
+    const double angle = std::numbers::pi * i / points, radius = i % 2 == 0 ? 20 : 10;
+    low.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    high.push_back(low.back() + Vec3{0, 0, 5});
+  }
+  std::vector<std::vector<Vec3>> polygons{{low.rbegin(), low.rend()}, high};
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const std::size_t next = (i + 1) % low.size();
+    polygons.push_back({low[i], low[next], high[next], high[i]});
+  }
+  Building building = test::building_of(polygons);
+  building.is_solid = true;
   return building;
 }
 
@@ -264,6 +284,52 @@ TEST_SUITE("kernel/validate") {
     const auto findings = validate(building);
     REQUIRE(findings.size() == 999);
     CHECK(findings[0].val3dity == 502);
+  }
+
+  TEST_CASE("a used up budget ends the judging and is the last finding") {
+    Building building = star_prism(40);
+    CHECK(codes_of(building).empty());
+    ValidateOptions options;
+    options.budget = 1;
+    auto findings = validate(building, options);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].code == Code::E502);
+    // What is found at any budget is true.
+    building.vertices[0].z += 1;
+    const std::size_t all = validate(building).size();
+    for (options.budget = 1; options.budget < 1'000'000; options.budget *= 3) {
+      findings = validate(building, options);
+      const bool is_whole = findings.empty() || findings.back().code != Code::E502;
+      CHECK(findings.size() <= all + (is_whole ? 0 : 1));
+      if (is_whole) CHECK(findings.size() == all);
+    }
+  }
+
+  TEST_CASE("a prism with a face of thousands of corners is judged within little work") {
+    ValidateOptions options;
+    options.budget = 4'000'000;
+    CHECK(validate(star_prism(4000), options).empty());
+  }
+
+  TEST_CASE("bodies that touch within no budget are not judged further") {
+    Building building = BoxBody().add({0, 0, 0}, {4, 4, 4}).build();
+    const Building other = BoxBody().add({4, 0, 0}, {8, 4, 4}).build();
+    const int first = static_cast<int>(building.vertices.size());
+    building.vertices.insert(building.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (Polygon polygon : other.polygons) {
+      polygon.body = 1;
+      polygon.source = static_cast<int>(building.polygons.size());
+      for (auto& ring : polygon.rings)
+        for (int& v : ring) v += first;
+      building.polygons.push_back(std::move(polygon));
+    }
+    building.is_solid = building.is_composite = true;
+    CHECK(codes_of(building).empty());
+    ValidateOptions options;
+    options.budget = 100'000;
+    const auto findings = validate(building, options);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].code == Code::E502);
   }
 }
 
