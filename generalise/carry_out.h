@@ -53,6 +53,9 @@ struct Pieces {
 ///   thin, and belongs to something thin that stays or to what carries the piece, or if an edge of
 ///   the body arises within it: its step is taken back, if it may stay (G418).
 ///
+/// Once Invariants::work is used up, what was taken off by then is kept if nothing is violated;
+/// else nothing is carried out. The rest is refused (E502).
+///
 /// Of the new edges that are still too short those are cleared that can be (clear_edges), except
 /// those of parts that stay as they were (without_whole_edges).
 CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
@@ -67,5 +70,8 @@ CarriedOut carry_out(const Solid& solid, const Segmentation& segmentation, const
 /// takes it.
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                            const SegmentOptions& options, const SolidValidator& validator);
+
+/// The solid as it is, all steps refused as the work budget is used up (E502).
+CarriedOut nothing_carried_out(const Solid& solid, const Plan& plan);
 
 }  // namespace oriel

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 namespace oriel {
@@ -25,6 +26,8 @@ class StepRunner {
     while (true) {
       const std::size_t failures = failed_.size();
       CarriedOut out = attempt();
+      const bool is_used_up = validator_.work != nullptr && validator_.work->is_used_up();
+      if (failed_.size() > failures && is_used_up) return nothing_carried_out(solid_, plan_);
       if (failed_.size() > failures) continue;
       for (const auto& [id, refused] : failed_) out.refused.push_back(refused);
       std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
@@ -116,6 +119,14 @@ class StepRunner {
 };
 
 }  // namespace
+
+CarriedOut nothing_carried_out(const Solid& solid, const Plan& plan) {
+  CarriedOut out{solid, {}, {}};
+  const std::string reason = "the work budget is used up";
+  for (const Step& step : plan.steps) out.refused.push_back({step.feature, Code::E502, reason});
+  std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
+  return out;
+}
 
 CarriedOut carry_out_steps(const Solid& solid, const Segmentation& segmentation, const Plan& plan,
                            const SegmentOptions& options, const SolidValidator& validator) {

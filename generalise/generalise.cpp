@@ -81,8 +81,11 @@ Checked<Generalised> generalise(const Solid& solid, const Segmentation& segmenta
       plan.scale > 0 ? fmt::format("1:{}", plan.scale) : std::string("this level of detail");
   CarriedOut done = carry_out(solid, segmentation, plan, options, invariants,
                               pieces_of(plan, table, interpretation));
+  // What there was no work left for is told of the building as a whole, by who gave the work.
   for (const CarriedOut::Refused& refusal : done.refused)
-    out.issues.push_back(refusal_issue(refusal, segmentation, table, interpretation, plan, target));
+    if (refusal.code != Code::E502)
+      out.issues.push_back(
+          refusal_issue(refusal, segmentation, table, interpretation, plan, target));
   if (done.solid.facets.empty() || volume_m3(done.solid) <= 0 || !is_closed(done.solid)) {
     out.issues.push_back(building_issue(
         Severity::error, Code::G402, table.building(),

@@ -49,12 +49,13 @@ enum class Judging {
 class BuildingDrawer {
  public:
   BuildingDrawer(const Document& document, const Building& building, const RuleBase& rules,
-                 const Targets& targets, const GeneraliseOptions& options)
+                 const Targets& targets, const GeneraliseOptions& options, Work& work)
       : document_(document),
         building_(building),
         rules_(rules),
         targets_(targets),
-        options_(options) {}
+        options_(options),
+        work_(work) {}
 
   /// `result` has a solid that is closed.
   [[nodiscard]] GeneralisedBuilding draw(const PipelineResult& result,
@@ -69,7 +70,7 @@ class BuildingDrawer {
   void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
   [[nodiscard]] std::optional<PipelineResult> repaired_open(const PipelineResult& result) const {
-    return repair_open(document_, building_, result, rules_, options_);
+    return repair_open(document_, building_, result, rules_, options_, work_);
   }
 
   /// What comes of a building that stays open.
@@ -112,6 +113,7 @@ class BuildingDrawer {
   const RuleBase& rules_;
   const Targets& targets_;
   const GeneraliseOptions& options_;
+  Work& work_;  ///< of all targets and all ways that are tried
 };
 
 GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging judging) const {
@@ -134,6 +136,7 @@ GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging j
 void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const {
   std::optional<Issue> fault = check(result, drawn);
   if (!fault) return;
+  if (work_.is_used_up()) return give_up(result, std::move(*fault), drawn);
   // Where not even the solid itself is valid no step can be told to spoil it.
   if (fault->code != Code::G413) {
     GeneralisedBuilding again = draw(result, Judging::thorough);
@@ -146,7 +149,8 @@ void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuildin
 }
 
 void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
-  auto repaired = repair_and_retry(document_, building_, result, rules_, options_);
+  if (work_.is_used_up()) return;
+  auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work_);
   if (!repaired) return;
   const bool is_intricate = repaired->solid->facets.size() > kIntricateFacets;
   GeneralisedBuilding again = measure(options_.observer, Stage::generalise, [&] {
@@ -268,9 +272,10 @@ Invariants BuildingDrawer::invariants_for(const Profile* profile, const Pipeline
                                           Judging judging) const {
   Invariants invariants = with_party_walls(invariants_of(profile, rules_, targets_.scale),
                                            document_, building_, *result.solid);
+  invariants.work = &work_;
   if (judging != Judging::none)
-    invariants.validator =
-        judge_as_written(document_, building_, *result.solid, judging == Judging::thorough);
+    invariants.validator = counted(
+        judge_as_written(document_, building_, *result.solid, judging == Judging::thorough), work_);
   return invariants;
 }
 
@@ -286,7 +291,7 @@ Checked<Generalised> BuildingDrawer::carried_out(const Profile* profile,
   };
   auto made = carry_out();
   if (profile == nullptr || !profile->edge_min_m || !profile->edge_owner_b_m) return made;
-  while (made.value &&
+  while (made.value && !work_.is_used_up() &&
          add_fine_owners(*made.value, *result.segmentation, table, *profile->edge_min_m,
                          *profile->edge_owner_b_m, profile->title() + "/edge-min", plan))
     made = carry_out();
@@ -369,12 +374,15 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   GeneralisedBuilding drawn;
   drawn.building = building.id;
   if (!result.is_done()) return drawn;
-  const BuildingDrawer drawer(document, building, rules, targets, options);
+  Work work(options.budget);
+  const BuildingDrawer drawer(document, building, rules, targets, options, work);
   return logged(
       "generalised", building,
       [&] {
-        return result.is_open ? open_drawing(drawer, result, options.observer)
-                              : valid_drawing(drawer, result, options.observer);
+        GeneralisedBuilding made = result.is_open ? open_drawing(drawer, result, options.observer)
+                                                  : valid_drawing(drawer, result, options.observer);
+        if (work.is_used_up()) made.issues.push_back(not_all_drawn(building, work));
+        return made;
       },
       [](const GeneralisedBuilding& made) {
         return fmt::format("targets={} issues={} repaired={}", made.levels.size(),

@@ -51,7 +51,7 @@ LabelledBuilding output_of(const Building& building, const Repaired& repaired,
 /// Makes the solid one that is valid as it is written: as it is, mended, or redrawn. Why it could
 /// not be done.
 std::optional<Issue> make_valid(const Document& document, const Building& building,
-                                const PipelineOptions& options, Repaired& out) {
+                                const PipelineOptions& options, Repaired& out, Work& work) {
   const OutputCheck check = check_output(document, building, *out.solid);
   if (!check.fault) return std::nullopt;
   Solid mended = *out.solid;
@@ -61,7 +61,7 @@ std::optional<Issue> make_valid(const Document& document, const Building& buildi
     return std::nullopt;
   }
   if (options.repair.crossings != Crossings::cut) return check.fault;
-  auto again = repaired_solid(document, building, options.tolerances, options);
+  auto again = repaired_solid(document, building, options.tolerances, options, work);
   if (!again) return check.fault;
   out.solid = std::move(again->solid);
   out.report = std::move(again->repair);
@@ -72,7 +72,12 @@ Repaired checked_solid(const Document& document, const Building& building, Pipel
                        const PipelineOptions& options) {
   Repaired out{std::move(solid.solid), std::move(solid.repair), {}, std::move(solid.issues)};
   if (!out.solid) return out;
-  if (auto fault = make_valid(document, building, options, out)) {
+  Work work(options.budget);
+  auto fault = make_valid(document, building, options, out, work);
+  if (fault && work.is_used_up())
+    out.issues.push_back(used_up(building.id, work.budget(), "repairing",
+                                 "not all ways to make it valid were tried"));
+  if (fault) {
     out.solid.reset();
     out.issues.push_back(std::move(*fault));
     return out;

@@ -8,8 +8,8 @@
 namespace oriel {
 
 PipelineResult solid_of(const Building& building, const PipelineOptions& options) {
-  return run_to_solid(building, options.tolerances, options.repair, options.budget,
-                      options.observer);
+  Work work(options.budget);
+  return run_to_solid(building, options.tolerances, options.repair, work, options.observer);
 }
 
 PipelineResult segment(const Building& building, const PipelineOptions& options) {

@@ -32,6 +32,7 @@ struct LeveledBuilding {
   std::unique_ptr<FiringScales> firing{};
   std::vector<Issue> issues{};                       ///< of its levels
   std::unique_ptr<const PipelineResult> repaired{};  ///< what `result` is, if it was repaired
+  std::shared_ptr<Work> work{};                      ///< of all its levels and operations
 
   /// All levels are valid solids in the file.
   [[nodiscard]] bool is_valid() const { return !has_errors(issues); }
@@ -81,6 +82,7 @@ class SeriesDrawer {
           return fmt::format("levels={} issues={}", made.levels.size(), made.issues.size());
         });
     series.issues.insert(series.issues.end(), one.issues.begin(), one.issues.end());
+    if (one.work->is_used_up()) series.issues.push_back(not_all_drawn(building, *one.work));
     if (has_errors(one.issues)) return;
     series.drawn.push_back(building.id);
     all.push_back(std::move(one));
@@ -88,18 +90,21 @@ class SeriesDrawer {
 
   [[nodiscard]] LeveledBuilding valid_levels(const Building& building,
                                              const PipelineResult& result) const {
-    LeveledBuilding one = with_levels(building, result);
-    if (has_errors(one.issues)) judge(one);
-    if (!one.is_valid()) repair(one);
+    const auto work = std::make_shared<Work>(options_.budget);
+    LeveledBuilding one = with_levels(building, result, work);
+    if (has_errors(one.issues) && !work->is_used_up()) judge(one);
+    if (!one.is_valid() && !work->is_used_up()) repair(one);
     return one;
   }
 
   /// Of an open building, from what repair_open() makes of it.
   [[nodiscard]] LeveledBuilding open_levels(const Building& building,
                                             const PipelineResult& result) const {
-    auto repaired = repair_open(document_, building, result, rules_, options_);
+    const auto work = std::make_shared<Work>(options_.budget);
+    auto repaired = repair_open(document_, building, result, rules_, options_, *work);
     if (!repaired) {
       LeveledBuilding none{&building, &result, {}};
+      none.work = work;
       none.issues.push_back(stays_open(building));
       return none;
     }
@@ -111,9 +116,11 @@ class SeriesDrawer {
   }
 
   [[nodiscard]] LeveledBuilding with_levels(const Building& building, const PipelineResult& result,
+                                            const std::shared_ptr<Work>& work,
                                             bool is_repaired = false) const {
     LeveledBuilding one{&building, &result, annotate(building, result, rules_, options_)};
     one.is_repaired = is_repaired;
+    one.work = work;
     draw_levels(one);
     return one;
   }
@@ -126,10 +133,11 @@ class SeriesDrawer {
 
   /// Draws them from the repaired solid, if they are valid then.
   void repair(LeveledBuilding& one) const {
-    auto repaired = repair_and_retry(document_, *one.building, *one.result, rules_, options_);
+    auto repaired =
+        repair_and_retry(document_, *one.building, *one.result, rules_, options_, *one.work);
     if (!repaired) return;
     auto result = std::make_unique<const PipelineResult>(std::move(*repaired));
-    LeveledBuilding anew = with_levels(*one.building, *result, true);
+    LeveledBuilding anew = with_levels(*one.building, *result, one.work, true);
     if (!anew.is_valid()) return;
     anew.issues.insert(anew.issues.begin(), result->issues.back());
     anew.repaired = std::move(result);
@@ -146,7 +154,8 @@ class SeriesDrawer {
                       segment_options(options_, one.result->tolerances),
                       [this, &one](double scale) { return invariants_at(one, scale); },
                       nullptr,
-                      nullptr};
+                      nullptr,
+                      one.work.get()};
     if (!one.is_repaired) return input;
     input.finish = [this, building = one.building](LabelledBuilding& labelled) {
       part_written(document_, *building, labelled);
@@ -161,8 +170,10 @@ class SeriesDrawer {
     const Solid& solid = *one.result->solid;
     Invariants invariants =
         with_party_walls(invariants_of(profile_, rules_, scale), document_, *one.building, solid);
+    invariants.work = one.work.get();
     if (one.is_judged)
-      invariants.validator = judge_as_written(document_, *one.building, solid, true);
+      invariants.validator =
+          counted(judge_as_written(document_, *one.building, solid, true), *one.work);
     return invariants;
   }
 
@@ -209,12 +220,23 @@ class SeriesDrawer {
     try {
       building.series = scale_series(input_of(one), one.levels, *one.firing,
                                      [&](Vec3 local_m) { return grid.place(local_m, frame); });
+    } catch (const DoubledFacet& fault) {
+      out.issues.push_back(doubled(*one.building, fault));
+      return;
     } catch (const GeometryError& fault) {
       out.issues.push_back(own_fault(*one.building, fault));
       return;
     }
     for (SeriesOperation& operation : building.series.operations) operation.lod = options_.lod;
     out.buildings.push_back(std::move(building));
+  }
+
+  /// No valid solid has such, so it was none when it was read, and its levels are none.
+  static Issue doubled(const Building& building, const DoubledFacet& fault) {
+    const Vec3 p = metres_of(fault.corner());
+    return building_issue(
+        Severity::error, Code::G410, building.id,
+        fmt::format("is no series: {} at ({:.3f}, {:.3f}, {:.3f})", fault.what(), p.x, p.y, p.z));
   }
 
   const Document& document_;

@@ -31,7 +31,8 @@ struct BuildingSeries {
 /// All buildings of a record from fine to coarse.
 struct Series {
   std::vector<BuildingSeries> buildings;
-  /// Ids of all buildings that levels could be drawn of; those that `buildings` lacks have an E901.
+  /// Ids of all buildings that levels could be drawn of; those that `buildings` lacks have an
+  /// error, G410 or E901.
   std::vector<std::string> drawn;
   /// The grid on which all levels have their vertices: WriteOptions::finer_digits.
   int finer_digits = 0;

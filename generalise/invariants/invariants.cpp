@@ -175,6 +175,15 @@ std::optional<Violation> violation(const Measures& before, const Measures& after
   return std::nullopt;
 }
 
+bool may_go_on(Work* work, const Solid& solid, std::int64_t steps) {
+  if (work == nullptr) return true;
+  std::int64_t corners = 0;
+  for (const Facet& facet : solid.facets)
+    for (const Loop& loop : facet.loops) corners += std::ssize(loop);
+  work->add(steps * corners);
+  return !work->is_used_up();
+}
+
 std::vector<PartyWall> party_walls(const Building& building, const Solid& solid,
                                    std::span<const Building> buildings) {
   const Box near = grown(box_of(solid), kPartyWall_m);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "kernel/base/code.h"
+#include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/solid.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -78,6 +80,8 @@ struct SolidValidator {
   bool is_thorough = false;
   /// Features that went together before, ascending: they are tried first.
   std::vector<FeatureId> settled{};
+  /// As Invariants::work.
+  Work* work = nullptr;
 
   explicit operator bool() const { return static_cast<bool>(fitness_of); }
 };
@@ -95,7 +99,14 @@ struct Invariants {
   /// If given, what has no cut of its own goes as cells where that leaves what this calls fit
   /// (remove_cells).
   SolidValidator validator{};
+  /// If given, what is done is counted in it; once it is used up nothing more is tried, and what
+  /// was not carried out by then is refused (E502).
+  Work* work = nullptr;
 };
+
+/// Counts work on a solid, `steps` for each of its corners, in `work`, if that is given. False once
+/// it is used up.
+bool may_go_on(Work* work, const Solid& solid, std::int64_t steps);
 
 /// Facets that look down are ground if they lie no higher than this over the lowest point.
 inline constexpr double kGroundReach_m = 0.5;

@@ -39,6 +39,15 @@ constexpr std::array kOperators{
     Operator{"collapse", collapse, 2, is_never_for_groups, keeps_all},
 };
 
+/// Nothing is taken off, as there is no work left for it.
+Remainder nothing_taken_off(const Solid& solid, const std::vector<FeatureId>& features) {
+  Remainder remainder{solid, {}, {}};
+  const std::string reason = "the work budget is used up";
+  for (const FeatureId id : features) remainder.refused.push_back({id, reason, Code::E502});
+  std::ranges::sort(remainder.refused, {}, &Refusal::feature);
+  return remainder;
+}
+
 }  // namespace
 
 const Operator& operator_named(std::string_view name) {
@@ -61,6 +70,9 @@ Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan&
     else
       features.push_back(step.feature);
   }
+  // Each is cut off a copy of the solid.
+  if (!may_go_on(validator.work, solid, std::ssize(features)))
+    return nothing_taken_off(solid, features);
   Remainder remainder = remove_features(solid, segmentation, features, options);
   if (validator)
     remainder = remove_cells(solid, segmentation, std::move(remainder), validator,

@@ -4,6 +4,7 @@
 #include "kernel/base/index.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,9 @@
 namespace oriel {
 
 namespace {
+
+/// What dropping a facet and looking for short edges takes, for each corner of the solid.
+constexpr std::int64_t kStepsPerDrop = 32;
 
 class EdgeClearer {
  public:
@@ -68,6 +72,7 @@ class EdgeClearer {
 
   /// Why the facet cannot go, or nothing: then it is gone.
   std::string drop(FacetId facet) {
+    if (!may_go_on(validator_.work, solid_, kStepsPerDrop)) return "the work budget is used up";
     if (auto reason = order_.keeps_facet(solid_, solid_.facets[facet.index()]))
       return std::move(*reason);
     DroppedFacet dropped = drop_facet(solid_, facet, order_.reach_m);

@@ -22,6 +22,9 @@ Outline outline_of_loop(const std::vector<Vertex>& vertices, const Loop& loop) {
   return outline;
 }
 
+/// What filling a ring takes, for each corner of the solid.
+constexpr std::int64_t kStepsPerRing = 32;
+
 class RingFiller {
  public:
   RingFiller(const Segmentation& segmentation, const SegmentOptions& options, Solid solid)
@@ -136,6 +139,7 @@ Remainder fill_rings(const Segmentation& segmentation, Remainder remainder,
     if (segmentation.features[refusal.feature.index()].is_uncut) rings.push_back(refusal.feature);
   for (const FeatureId id : rings) {
     if (std::ranges::binary_search(remainder.removed, id)) continue;  // it went with another one
+    if (!may_go_on(validator.work, remainder.solid, kStepsPerRing)) break;
     auto made = RingFiller(segmentation, options, remainder.solid)
                     .without(segmentation.features[id.index()]);
     if (!made || !is_closed(*made) || volume_m3(*made) <= 0) continue;

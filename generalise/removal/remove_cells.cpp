@@ -36,6 +36,10 @@ constexpr std::array kCoarser{1.0, 4.0, 10.0};
 /// A footprint is the same if its area is to this share: half of what levels of detail allow.
 constexpr double kFootprint = 0.0005;
 
+/// What cutting cells off and judging what is left takes, for each corner of the solid; and what a
+/// corner of a cell takes in the complex.
+constexpr std::int64_t kStepsPerAttempt = 64, kStepsPerComplexCorner = 64;
+
 using Ids = std::vector<FeatureId>;
 
 int lumps_of(const Solid& solid) {
@@ -129,6 +133,10 @@ class CellRemover {
   [[nodiscard]] const Ids& gone() const { return gone_; }
 
  private:
+  [[nodiscard]] bool is_used_up() const {
+    return validator_.work != nullptr && validator_.work->is_used_up();
+  }
+
   [[nodiscard]] const Feature& feature(FeatureId id) const {
     return segmentation_.features[id.index()];
   }
@@ -163,6 +171,7 @@ class CellRemover {
 
   /// Keeps what comes of it if it is a closed solid.
   bool attempt(const Ids& more, Way way) {
+    if (!may_go_on(validator_.work, base_, kStepsPerAttempt)) return false;
     Ids all = gone_;
     all.insert(all.end(), more.begin(), more.end());
     std::ranges::sort(all);
@@ -282,6 +291,7 @@ class CellRemover {
   std::optional<Solid> without(const Ids& all, std::optional<Refusal>& fault) {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const auto fates = fates_of(all);
+    if (!complex_ && !may_make_complex()) return std::nullopt;
     if (!complex_) complex_ = cell_complex(segmentation_, options_.tolerances);
     auto made = solid_of(draft_of(*complex_, cells_without(fates)), gone, fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
@@ -294,13 +304,26 @@ class CellRemover {
     return made;
   }
 
+  /// In each plane all cells near it are looked at.
+  [[nodiscard]] bool may_make_complex() const {
+    if (validator_.work == nullptr) return true;
+    std::int64_t corners = 0;
+    for (const Cell& cell : segmentation_.cells)
+      for (const Facet& facet : cell.facets) corners += std::ssize(facet.loops[0]);
+    validator_.work->add(corners * (kStepsPerComplexCorner + std::ssize(segmentation_.planes) / 4));
+    return !validator_.work->is_used_up();
+  }
+
   /// A solid of these faces that does, with vertices as near to each other as that takes.
   std::optional<Solid> solid_of(const Draft& draft, const Ids& gone,
                                 std::optional<Refusal>& fault) {
+    Work uncounted(kWorkBudget);
     for (const double coarser : kCoarser) {
+      if (is_used_up()) break;
       Tolerances tolerances = options_.tolerances;
       tolerances.weld_m *= coarser;
-      auto made = solidify(draft.shell, tolerances, {Closing::planar, kSlit_m2});
+      auto made = solidify(draft.shell, tolerances, {Closing::planar, kSlit_m2},
+                           validator_.work != nullptr ? *validator_.work : uncounted);
       if (!made.value || !is_closed(*made.value) ||
           std::abs(volume_m3(*made.value) - draft.volume_m3) > tolerances.weld_m * draft.area_m2)
         continue;

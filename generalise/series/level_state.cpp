@@ -2,7 +2,6 @@
 
 #include "generalise/removal/facets.h"
 #include "kernel/base/index.h"
-#include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"
 
 #include <algorithm>
@@ -191,8 +190,9 @@ LevelState level_state(const LabelledBuilding& labelled, const Placer& place) {
     std::ranges::sort(owners[f]);
     facet.installations = std::move(owners[f]);
     facet.polygons = solid.facets[f].polygons;
+    const MicrometrePoint corner = outer[0];
     if (!state.facets.emplace(std::move(outer), std::move(facet)).second)
-      throw GeometryError("two facets have the same outer ring");
+      throw DoubledFacet(corner);
   }
   for (const auto& [name, value] : labelled.attributes)
     if (is_count(name)) state.attributes[name] = as_written(value);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/issue.h"
 #include "kernel/model/building.h"
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/scale_series.h"
@@ -12,10 +13,22 @@ namespace oriel {
 /// Where a point of the building's frame comes to lie in the file.
 using Placer = std::function<MicrometrePoint(Vec3 local_m)>;
 
+/// Two facets of a building have the same outer ring in the file: no state tells them apart. A
+/// valid solid has none such.
+class DoubledFacet : public GeometryError {
+ public:
+  explicit DoubledFacet(const MicrometrePoint& corner)
+      : GeometryError("two facets have the same outer ring"), corner_(corner) {}
+  /// Of the ring.
+  [[nodiscard]] const MicrometrePoint& corner() const { return corner_; }
+
+ private:
+  MicrometrePoint corner_;
+};
+
 /// The state of a building that has a geometry of its own, with vertices where the file has them.
 /// Vertices that become one are one; facets of which less than a triangle is left vanish. Of the
-/// attributes only counts (`oriel_removed_…`) belong to it. Throws GeometryError if two facets have
-/// the same outer ring.
+/// attributes only counts (`oriel_removed_…`) belong to it. Throws DoubledFacet.
 LevelState level_state(const LabelledBuilding& labelled, const Placer& place);
 
 /// The building of a state, to be written: facets in the order of the state. Facets with the same

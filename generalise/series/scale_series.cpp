@@ -225,7 +225,10 @@ class LevelOperations {
   [[nodiscard]] std::optional<LevelState> state_of(const std::vector<Step>& steps,
                                                    const SeriesStep& one) const {
     std::vector<Issue> issues;
-    const auto level = level_of(input_, after_.scale, steps, {}, issues);
+    if (input_.is_used_up()) return std::nullopt;
+    Invariants none;
+    none.work = input_.work;
+    const auto level = level_of(input_, after_.scale, steps, none, issues);
     if (!level || level->steps.size() != steps.size()) return std::nullopt;
     const auto& removed = level->generalised.removed;
     if (!std::ranges::includes(removed, one.gone)) return std::nullopt;

@@ -104,6 +104,7 @@ class Levels {
   [[nodiscard]] Invariants invariants_after(const SeriesLevel& before, double scale) const {
     Invariants invariants = input_.invariants_at ? input_.invariants_at(scale) : Invariants{};
     invariants.settled = before.generalised.removed;
+    invariants.work = input_.work;
     return invariants;
   }
 
@@ -111,7 +112,7 @@ class Levels {
                                   std::vector<Issue>& issues) {
     const StepOfFeature old = by_feature(before.steps);
     StepOfFeature steps = wanted(before, scale);
-    if (asks_nothing_new(before, steps)) {
+    if (input_.is_used_up() || asks_nothing_new(before, steps)) {
       SeriesLevel same = before;
       same.scale = scale;
       return same;
@@ -119,6 +120,7 @@ class Levels {
     while (true) {
       std::vector<Issue> found;
       auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
+      if (level && input_.is_used_up()) return cut_short(before, std::move(*level));
       if (!level || !restore_refused(*level, old, steps)) {
         if (level && is_setback(before, *level)) return on_top(before, steps, scale, issues);
         if (auto fault = level ? fault_of(*level) : std::nullopt)
@@ -148,6 +150,12 @@ class Levels {
   [[nodiscard]] std::optional<Issue> fault_of(const SeriesLevel& level) const {
     if (!input_.fault_of) return std::nullopt;
     return input_.fault_of(*level.redrawn.labelled.geometry);
+  }
+
+  /// What was carried out when the work was used up, if nothing that was gone is back.
+  [[nodiscard]] SeriesLevel cut_short(const SeriesLevel& before, SeriesLevel level) const {
+    if (!is_setback(before, level) && !fault_of(level)) return level;
+    return unchanged(before, std::move(level));
   }
 
   static SeriesLevel given_up(const SeriesLevel& before, SeriesLevel after, Issue fault,
@@ -207,7 +215,7 @@ class Levels {
 
   void add_tasks(const SeriesLevel& before, std::span<const std::vector<Step>> tasks,
                  SeriesLevel& best, std::vector<Issue>& issues) {
-    if (tasks.empty()) return;
+    if (tasks.empty() || input_.is_used_up()) return;
     StepOfFeature more = by_feature(best.steps);
     for (const std::vector<Step>& task : tasks)
       for (const Step& step : task) more.insert_or_assign(step.feature, step);

@@ -24,6 +24,10 @@ struct SeriesInput {
   std::function<void(LabelledBuilding&)> finish{};
   /// Why a solid must not be written, if it must not; not given: any may.
   std::function<std::optional<Issue>(const Solid&)> fault_of{};
+  /// As Invariants::work: once it is used up levels stay as the one before.
+  Work* work = nullptr;
+
+  [[nodiscard]] bool is_used_up() const { return work != nullptr && work->is_used_up(); }
 };
 
 /// What is asked for at 1 : scale.

@@ -123,19 +123,19 @@ std::vector<std::deque<detail::ClosedSurface>> surfaces_of(
 }
 
 /// True if `body` has no point outside one of the cavities of `host`.
-bool is_in_cavity(const std::deque<detail::ClosedSurface>& host,
-                  const detail::ClosedSurface& body) {
+bool is_in_cavity(const std::deque<detail::ClosedSurface>& host, const detail::ClosedSurface& body,
+                  Work& work) {
   for (std::size_t i = 1; i < host.size(); ++i)
-    if (relate(host[i], body).is_second_inside) return true;
+    if (relate(host[i], body, work).is_second_inside) return true;
   return false;
 }
 
 bool do_solids_overlap(const std::deque<detail::ClosedSurface>& p,
-                       const std::deque<detail::ClosedSurface>& q) {
+                       const std::deque<detail::ClosedSurface>& q, Work& work) {
   if (!overlap(p[0].box(), q[0].box())) return false;
-  const detail::SurfaceRelation relation = relate(p[0], q[0]);
-  return (relation.do_overlap || relation.are_alike) && !is_in_cavity(p, q[0]) &&
-         !is_in_cavity(q, p[0]);
+  const detail::SurfaceRelation relation = relate(p[0], q[0], work);
+  return (relation.do_overlap || relation.are_alike) && !is_in_cavity(p, q[0], work) &&
+         !is_in_cavity(q, p[0], work);
 }
 
 Finding not_all_judged(std::int64_t budget) {
@@ -191,7 +191,7 @@ std::vector<PartOverlap> overlapping_parts(std::span<const Building* const> part
   const JoinedParts all = joined(parts);
   const auto snapped = detail::snapped(all.building, options.snap_m);
   if (!snapped) return {};
-  FindingList unheard(*snapped), findings(*snapped);
+  FindingList unheard(*snapped, options.budget), findings(*snapped, options.budget);
   const JudgedShells shells = judge_polygons(*snapped, options, unheard);
   const JudgedSolids judged = judge_shells(*snapped, shells, unheard);
   const auto surfaces = surfaces_of(*snapped, judged.solids);
@@ -204,7 +204,7 @@ std::vector<PartOverlap> overlapping_parts(std::span<const Building* const> part
     for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
       const std::pair pair(part_of(i), part_of(j));
       if (pair.first == pair.second || told.contains(pair) ||
-          !do_solids_overlap(surfaces[i], surfaces[j]))
+          !do_solids_overlap(surfaces[i], surfaces[j], findings.work()))
         continue;
       told.insert(pair);
       findings.add(detail::Defect::parts_overlap, {},

@@ -8,6 +8,7 @@
 #include "kernel/validate/weld_written.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,9 @@ OutputCheck check_output(const Document& document, const Building& building, con
 }
 
 namespace {
+
+/// What judging a solid as it is written takes, for each of its corners.
+constexpr std::int64_t kStepsPerJudging = 128;
 
 /// Facets are welded and parted so often; what is wrong then is judged as it is.
 constexpr int kPartings = 4;
@@ -98,6 +102,18 @@ void part_written(const Document& document, const Building& building, LabelledBu
     if (!parted) return;
     put_parted(std::move(*parted), labelled);
   }
+}
+
+SolidValidator counted(SolidValidator validator, Work& work) {
+  validator.fitness_of = [inner = std::move(validator.fitness_of), &work](const Solid& solid) {
+    return may_go_on(&work, solid, kStepsPerJudging) ? inner(solid) : Fitness::unfit;
+  };
+  return validator;
+}
+
+Issue not_all_drawn(const Building& building, const Work& work) {
+  return used_up(building.id, work.budget(), "generalising",
+                 "what was not carried out by then stays as it is");
 }
 
 SolidValidator judge_as_written(const Document& document, const Building& building,

@@ -41,4 +41,10 @@ void part_written(const Document& document, const Building& building, LabelledBu
 SolidValidator judge_as_written(const Document& document, const Building& building,
                                 const Solid& own, bool is_thorough);
 
+/// The same, its work counted: once that is used up all is unfit.
+SolidValidator counted(SolidValidator validator, Work& work);
+
+/// E502 of a building that is generalised.
+Issue not_all_drawn(const Building& building, const Work& work);
+
 }  // namespace oriel

@@ -157,18 +157,18 @@ bool has_all_in_one(const Building& building, const Solid& solid) {
 /// The solid of a building united with what stands on it, or if they make none that of the building
 /// alone.
 Solidified solid_with_installations(const Building& building, const Tolerances& tolerances,
-                                    const RepairOptions& repair, std::int64_t budget) {
-  Solidified whole = solidify(building, tolerances, repair, budget);
+                                    const RepairOptions& repair, Work& work) {
+  Solidified whole = solidify(building, tolerances, repair, work);
   if (building.installations.empty()) return whole;
   if (whole.value && has_all_in_one(building, *whole.value)) return whole;
   // Closed bodies that touch it or stand in it are lumps beside it unless they are cut.
   RepairOptions cutting = repair;
   cutting.crossings = Crossings::cut_closed;
-  Solidified united = solidify(building, tolerances, cutting, budget);
+  Solidified united = solidify(building, tolerances, cutting, work);
   if (united.value && (!whole.value || count_lumps(*united.value) < count_lumps(*whole.value)))
     return united;
   if (whole.value) return whole;
-  Solidified alone = solidify(without_installations(building), tolerances, repair, budget);
+  Solidified alone = solidify(without_installations(building), tolerances, repair, work);
   if (!alone.value) return whole;
   alone.issues.push_back(left_out_note(building));
   return alone;
@@ -217,13 +217,13 @@ Issue own_fault(const Building& building, const std::exception& fault) {
 }
 
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
-                            const RepairOptions& repair, std::int64_t budget,
+                            const RepairOptions& repair, Work& work,
                             const StageObserver& observer) {
   PipelineResult out;
   try {
     auto solid = measured(
         observer, Stage::solidify, "solidified", building,
-        [&] { return solid_with_installations(building, tolerances, repair, budget); },
+        [&] { return solid_with_installations(building, tolerances, repair, work); },
         [](const auto& made) {
           return fmt::format("facets={} issues={}", made.value ? made.value->facets.size() : 0,
                              made.issues.size());
@@ -262,9 +262,10 @@ PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
                             const LabelOptions& options) {
   const Tolerances& given = options.tolerances;
   const Tolerances fitted = options.fits_noise ? fitted_to_noise(given, noise_of(building)) : given;
-  PipelineResult result = run_from_solid(
-      run_to_solid(building, fitted, options.repair, options.budget, options.observer), building,
-      rules, fitted, options);
+  Work work(options.budget);
+  PipelineResult result =
+      run_from_solid(run_to_solid(building, fitted, options.repair, work, options.observer),
+                     building, rules, fitted, options);
   if (fitted.plane_offset_m != given.plane_offset_m)
     result.issues.push_back(noise_note(building, fitted));
   return result;

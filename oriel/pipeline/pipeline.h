@@ -2,6 +2,7 @@
 
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/log.h"
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
@@ -32,9 +33,9 @@ auto measured(const StageObserver& observer, Stage stage, const char* done,
       done, building, [&] { return measure(observer, stage, work); }, counts);
 }
 
-/// solid_of() with the tolerances given.
+/// solid_of() with the tolerances given, and what is left of some work.
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
-                            const RepairOptions& repair, std::int64_t budget,
+                            const RepairOptions& repair, oriel::Work& work,
                             const StageObserver& observer);
 
 /// The rest of the pipeline, for a building that has come to its solid, or to none: its features,

@@ -4,6 +4,7 @@
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -38,17 +39,16 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
 /// from the boundary of the inside.
 std::optional<PipelineResult> cut_solid(const Document& document, const Building& building,
                                         const Tolerances& tolerances,
-                                        const PipelineOptions& options) {
+                                        const PipelineOptions& options, Work& work) {
   RepairOptions cutting = options.repair;
   cutting.crossings = Crossings::cut;
-  PipelineResult cut =
-      run_to_solid(building, tolerances, cutting, options.budget, options.observer);
-  if (!cut.solid) return std::nullopt;
+  PipelineResult cut = run_to_solid(building, tolerances, cutting, work, options.observer);
+  if (!cut.solid || work.is_used_up()) return std::nullopt;
   cut.tolerances = tolerances;
   if (!check_output(document, building, *cut.solid).fault) return cut;
   mend_written(document, building, *cut.solid);
   if (!check_output(document, building, *cut.solid).fault) return cut;
-  return repaired_solid(document, building, tolerances, options);
+  return repaired_solid(document, building, tolerances, options, work);
 }
 
 Issue mended_first(const Building& building, const RepairReport& report) {
@@ -66,14 +66,15 @@ Issue mended_first(const Building& building, const RepairReport& report) {
 
 std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
                                              const Tolerances& tolerances,
-                                             const PipelineOptions& options) {
+                                             const PipelineOptions& options, Work& work) {
   RepairOptions repair = options.repair;
   repair.crossings = Crossings::cut_closed;
   for (const Times& times : kTimes) {
     Tolerances tried = tolerances;
     tried.plane_offset_m *= times.plane_offset;
     tried.weld_m *= times.weld;
-    PipelineResult made = run_to_solid(building, tried, repair, options.budget, options.observer);
+    PipelineResult made = run_to_solid(building, tried, repair, work, options.observer);
+    if (work.is_used_up()) return std::nullopt;
     made.tolerances = tried;
     if (!made.solid) continue;
     mend_written(document, building, *made.solid);
@@ -84,8 +85,10 @@ std::optional<PipelineResult> repaired_solid(const Document& document, const Bui
 
 std::optional<PipelineResult> repair_and_retry(const Document& document, const Building& building,
                                                const PipelineResult& result, const RuleBase& rules,
-                                               const LabelOptions& options) {
-  auto repaired = repaired_solid(document, building, result.tolerances, options);
+                                               const LabelOptions& options, Work& work) {
+  if (std::ranges::find(result.issues, Code::E502, &Issue::code) != result.issues.end())
+    return std::nullopt;
+  auto repaired = repaired_solid(document, building, result.tolerances, options, work);
   if (!repaired) return std::nullopt;
   const Tolerances tolerances = repaired->tolerances;
   PipelineResult again =
@@ -97,8 +100,8 @@ std::optional<PipelineResult> repair_and_retry(const Document& document, const B
 
 std::optional<PipelineResult> repair_open(const Document& document, const Building& building,
                                           const PipelineResult& result, const RuleBase& rules,
-                                          const LabelOptions& options) {
-  auto solid = cut_solid(document, building, result.tolerances, options);
+                                          const LabelOptions& options, Work& work) {
+  auto solid = cut_solid(document, building, result.tolerances, options, work);
   if (!solid) return std::nullopt;
   const Tolerances tolerances = solid->tolerances;
   PipelineResult again = run_from_solid(std::move(*solid), building, &rules, tolerances, options);

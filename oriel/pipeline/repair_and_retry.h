@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/io/document.h"
 #include "oriel/label.h"
 #include "oriel/result.h"
@@ -12,24 +13,25 @@ namespace oriel {
 /// through itself, say. It becomes the boundary of its inside (Crossings::cut_closed), what the
 /// file makes one point is welded (weld_written), and facets that are folded there are parted
 /// (part_folded), with the tolerances given, or finer or up to five times coarser ones if they do
-/// not help. Nothing if none makes it valid; else the result as far as the solid, with the
-/// tolerances that it was made with.
+/// not help. Nothing if none makes it valid, or once `work` is used up; else the result as far as
+/// the solid, with the tolerances that it was made with.
 std::optional<PipelineResult> repaired_solid(const Document& document, const Building& building,
                                              const Tolerances& tolerances,
-                                             const PipelineOptions& options);
+                                             const PipelineOptions& options, Work& work);
 
 /// The building once more in the whole pipeline, from its repaired_solid(), and a warning G417 that
-/// says so, the last of its issues. `result` is what came of it the first time.
+/// says so, the last of its issues. `result` is what came of it the first time. Nothing if one of
+/// its stages used up its budget that time, or the solid what is left of `work`.
 std::optional<PipelineResult> repair_and_retry(const Document& document, const Building& building,
                                                const PipelineResult& result, const RuleBase& rules,
-                                               const LabelOptions& options);
+                                               const LabelOptions& options, Work& work);
 
 /// An open building once more in the whole pipeline, from the solid that repair() makes of it with
 /// the same options, and a warning G420 that says so, the last of its issues. `result`, is_open, is
 /// what came of it the first time. Nothing if there is no solid that is valid as it is written.
 std::optional<PipelineResult> repair_open(const Document& document, const Building& building,
                                           const PipelineResult& result, const RuleBase& rules,
-                                          const LabelOptions& options);
+                                          const LabelOptions& options, Work& work);
 
 /// The error G404: an open building that repair_open() cannot help either.
 Issue stays_open(const Building& building);

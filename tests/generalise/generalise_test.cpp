@@ -237,4 +237,27 @@ TEST_SUITE("generalise") {
     CHECK(out.issues[0].place.building == "house");
     CHECK(out.issues[0].sentence.find("1:500") != std::string::npos);
   }
+
+  TEST_CASE("what there is no work left for stays and says so") {
+    const Line line = line_of_sample("house");
+    const Plan asked =
+        plan(residential(), line.table(), line.description.graph, line.interpretation, 2500);
+    REQUIRE(!asked.steps.empty());
+    for (const std::int64_t budget : {1, 10'000, 100'000, 1'000'000, 40'000'000}) {
+      CAPTURE(budget);
+      Work work(budget);
+      Invariants invariants;
+      invariants.work = &work;
+      const CarriedOut done = carry_out(line.solid, line.segmentation, asked, {}, invariants);
+      CHECK(is_closed(done.solid));
+      const auto stays = std::ranges::count(done.refused, Code::E502, &CarriedOut::Refused::code);
+      CHECK((stays == 0 || work.is_used_up()));
+      if (budget == 1) {
+        CHECK(stays == std::ssize(asked.steps));
+        CHECK(done.removed.empty());
+        CHECK(done.solid.facets.size() == line.solid.facets.size());
+      }
+      if (budget == 40'000'000) CHECK(!work.is_used_up());
+    }
+  }
 }

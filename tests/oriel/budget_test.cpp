@@ -2,11 +2,14 @@
 #include "tests/support/changed.h"
 #include "tests/support/flush.h"
 #include "tests/support/houses.h"
+#include "tests/support/shared.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -59,6 +62,25 @@ bool says(const PipelineResult& result, const std::string& stage) {
   return std::ranges::find(stages, stage) != stages.end();
 }
 
+/// What building and its levels come to, drawn at 1:2500 within a budget.
+GeneralisedBuilding drawn_within(const Document& document, std::int64_t budget) {
+  GeneraliseOptions options;
+  const Building& building = document.buildings.at(0);
+  const PipelineResult result = label(building, residential_rules(), options);
+  options.budget = budget;
+  return generalise(document, building, result, residential_rules(), at_scale(2500), options);
+}
+
+bool has_code(const std::vector<Issue>& issues, Code code) {
+  return std::ranges::find(issues, code, &Issue::code) != issues.end();
+}
+
+Document document_of(Building building) {
+  Document document;
+  document.buildings.push_back(std::move(building));
+  return document;
+}
+
 bool has_fault_of_its_own(const PipelineResult& result) {
   return std::ranges::find(result.issues, Code::E901, &Issue::code) != result.issues.end();
 }
@@ -98,6 +120,56 @@ TEST_SUITE("oriel") {
   TEST_CASE("enough of a budget is used up by no stage") {
     for (const Building& building : bodies_of_all_kinds())
       CHECK(stages_used_up(labelled_within(building, kWorkBudget)).empty());
+  }
+
+  TEST_CASE("a building is drawn as far as the budget goes and stays closed") {
+    const Document document = document_of(test::full_house());
+    for (const std::int64_t budget : {1, 10'000, 300'000, 3'000'000}) {
+      CAPTURE(budget);
+      const GeneralisedBuilding drawn = drawn_within(document, budget);
+      REQUIRE(drawn.levels.size() == 1);
+      if (drawn.levels[0].labelled.geometry) CHECK(is_closed(*drawn.levels[0].labelled.geometry));
+      if (budget == 1) {
+        CHECK(has_code(drawn.issues, Code::E502));
+        CHECK(drawn.levels[0].removed.empty());
+      }
+    }
+    const GeneralisedBuilding whole = drawn_within(document, kWorkBudget);
+    CHECK(!has_code(whole.issues, Code::E502));
+    CHECK(!whole.levels.at(0).removed.empty());
+  }
+
+  TEST_CASE("the slow inputs of the shared data use up their budget and end") {
+    ORIEL_NEEDS_SHARED(shared);
+    const std::filesystem::path faults = shared / "data" / "faults";
+    // What each stage counts bounds it, so a tenth of the budget is a tenth of the time.
+    constexpr std::int64_t kTenth = kWorkBudget / 10;
+    for (const char* file : {"slow-repair.obj", "slow-generalise.city.jsonl"}) {
+      CAPTURE(file);
+      for (const Document& document : read((faults / file).string()).value.value()) {
+        if (document.buildings.empty()) continue;
+        LabelOptions options;
+        options.budget = kTenth;
+        const Building& building = document.buildings.at(0);
+        PipelineOptions repairing = repair_defaults();
+        repairing.budget = kTenth;
+        const Repaired repaired = repair(document, building, repairing);
+        CHECK((repaired.solid || has_code(repaired.issues, Code::E502)));
+        const PipelineResult result = label(building, residential_rules(), options);
+        REQUIRE(result.is_done());
+        GeneraliseOptions drawing;
+        drawing.budget = kTenth;
+        const auto drawn =
+            generalise(document, building, result, residential_rules(), at_scale(2500), drawing);
+        CHECK(drawn.levels.size() == 1);
+        CHECK(has_code(drawn.issues, Code::E502));
+        SeriesOptions in_series;
+        in_series.budget = kTenth;
+        const Series made =
+            series(document, {result}, residential_rules(), {500, 2500, 10000}, in_series);
+        CHECK(!has_code(made.issues, Code::E901));
+      }
+    }
   }
 
   TEST_CASE("what a stage found before its budget was used up is labelled") {

@@ -12,6 +12,8 @@
 #include "tests/support/shared.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -234,5 +236,32 @@ TEST_SUITE("generalise") {
     const auto none = read_level("{}", "level", {"a"});
     CHECK_FALSE(none.value);
     CHECK(none.issues.at(0).code == Code::E120);
+  }
+
+  TEST_CASE("a body that is there twice has no state") {
+    const Line line = line_of_sample("block");
+    LabelledBuilding twice =
+        series_levels(input_of(line), {500}, plan_of(line)).value->at(0).redrawn.labelled;
+    const auto place = [](Vec3 p) {
+      return MicrometrePoint{std::llround(1e6 * p.x), std::llround(1e6 * p.y),
+                             std::llround(1e6 * p.z)};
+    };
+    const LevelState state = level_state(twice, place);
+    CHECK(state.facets.size() == twice.geometry->facets.size());
+    twice.geometry->facets.push_back(twice.geometry->facets[0]);
+    twice.surface_of_polygon.push_back(twice.surface_of_polygon[0]);
+    CHECK_THROWS_AS(level_state(twice, place), DoubledFacet);
+  }
+
+  TEST_CASE("with any work the levels of a series go one way and its operations lead to them") {
+    for (const std::int64_t budget : {1, 10'000, 100'000, 1'000'000, 3'000'000, 10'000'000}) {
+      CAPTURE(budget);
+      const Line line = line_of_sample("house");
+      Work work(budget);
+      SeriesInput input = input_of(line);
+      input.work = &work;
+      check_both_ways(line, series_of(line, input));
+      if (budget == 1) CHECK(series_of(line, input).operations.empty());
+    }
   }
 }
