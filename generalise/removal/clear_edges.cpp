@@ -72,9 +72,9 @@ class EdgeClearer {
 
   /// Why the facet cannot go, or nothing: then it is gone.
   std::string drop(FacetId facet) {
-    if (!may_go_on(validator_.work, solid_, kStepsPerDrop)) return "the work budget is used up";
     if (auto reason = order_.keeps_facet(solid_, solid_.facets[facet.index()]))
       return std::move(*reason);
+    if (!may_go_on(validator_.work, solid_, kStepsPerDrop)) return "the work budget is used up";
     DroppedFacet dropped = drop_facet(solid_, facet, order_.reach_m);
     if (!dropped.solid) return std::move(dropped.reason);
     auto left = order_.short_edges_of(*dropped.solid);

@@ -36,9 +36,8 @@ constexpr std::array kCoarser{1.0, 4.0, 10.0};
 /// A footprint is the same if its area is to this share: half of what levels of detail allow.
 constexpr double kFootprint = 0.0005;
 
-/// What cutting cells off and judging what is left takes, for each corner of the solid; and what a
-/// corner of a cell takes in the complex.
-constexpr std::int64_t kStepsPerAttempt = 64, kStepsPerComplexCorner = 64;
+/// What cutting cells off and judging what is left takes, for each corner of the solid.
+constexpr std::int64_t kStepsPerAttempt = 64;
 
 using Ids = std::vector<FeatureId>;
 
@@ -291,8 +290,11 @@ class CellRemover {
   std::optional<Solid> without(const Ids& all, std::optional<Refusal>& fault) {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const auto fates = fates_of(all);
-    if (!complex_ && !may_make_complex()) return std::nullopt;
-    if (!complex_) complex_ = cell_complex(segmentation_, options_.tolerances);
+    Work uncounted;
+    if (!complex_)
+      complex_ = cell_complex(segmentation_, options_.tolerances,
+                              validator_.work != nullptr ? *validator_.work : uncounted);
+    if (!complex_) return std::nullopt;
     auto made = solid_of(draft_of(*complex_, cells_without(fates)), gone, fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
     // building in a few of them.
@@ -302,16 +304,6 @@ class CellRemover {
                    {CellId{0}}),
           gone, fault);
     return made;
-  }
-
-  /// In each plane all cells near it are looked at.
-  [[nodiscard]] bool may_make_complex() const {
-    if (validator_.work == nullptr) return true;
-    std::int64_t corners = 0;
-    for (const Cell& cell : segmentation_.cells)
-      for (const Facet& facet : cell.facets) corners += std::ssize(facet.loops[0]);
-    validator_.work->add(corners * (kStepsPerComplexCorner + std::ssize(segmentation_.planes) / 4));
-    return !validator_.work->is_used_up();
   }
 
   /// A solid of these faces that does, with vertices as near to each other as that takes.

@@ -23,6 +23,9 @@ using detail::Chord;
 /// Points nearer than this part of weld_m are one.
 constexpr double kReach = 0.25;
 
+/// What cutting a chord where others meet it takes, and again what an edge of a face takes.
+constexpr std::int64_t kStepsPerChord = 64;
+
 /// How far the box reaches to either side of the plane.
 bool box_passes(const Box& box, const Plane& plane) {
   const Vec3 middle = 0.5 * (box.min + box.max), half = 0.5 * (box.max - box.min);
@@ -52,17 +55,19 @@ class ComplexBuilder {
     for (int c = 0; c < std::ssize(segmentation.cells); ++c) add_cell({c});
   }
 
-  CellComplex build() {
+  std::optional<CellComplex> build(Work& work) {
     std::vector<Face> faces;
-    for (const auto& [plane, facets] : facets_in_)
-      for (Face& face : faces_in(plane, facets)) faces.push_back(std::move(face));
+    for (const auto& [plane, facets] : facets_in_) {
+      for (Face& face : faces_in(plane, facets, work)) faces.push_back(std::move(face));
+      if (work.is_used_up()) return std::nullopt;
+    }
     detail::conform(faces, pool_.vertices(), pool_.reach_m() / 2);
     for (Face& face : faces) {
       const Vec3 normal = segmentation_.planes[face.plane.index()].normal;
       for (const Loop& loop : face.loops)
         face.area_m2 += signed_area_m2(pool_.vertices(), loop, normal);
     }
-    return {pool_.take(), std::move(faces), segmentation_.cells.size()};
+    return CellComplex(pool_.take(), std::move(faces), segmentation_.cells.size());
   }
 
  private:
@@ -91,7 +96,7 @@ class ComplexBuilder {
         for (const int v : loop) is_on_[static_cast<std::size_t>(v)] = is_on;
   }
 
-  std::vector<Face> faces_in(PlaneId plane, const std::vector<CellFacet>& facets) {
+  std::vector<Face> faces_in(PlaneId plane, const std::vector<CellFacet>& facets, Work& work) {
     mark(facets, 1);
     Box box;
     for (const CellFacet at : facets)
@@ -104,6 +109,7 @@ class ComplexBuilder {
       const auto i = static_cast<std::size_t>(c);
       if (!overlap(box_of_cell_[i], box, pool_.reach_m())) continue;
       if (!box_passes(box_of_cell_[i], segmentation_.planes[plane.index()])) continue;
+      work.add(std::ssize(vertices_of_cell_[i]));
       passes[i] = slicer.passes(vertices_of_cell_[i]) ? 1 : 0;
       if (passes[i] != 0) slicer.add_sections({c}, facets_of_[i], chords);
     }
@@ -111,7 +117,12 @@ class ComplexBuilder {
       if (passes[at.cell.index()] == 0) slicer.add_facet(at.cell, facet(at), chords);
     mark(facets, 0);
     const Vec3 normal = segmentation_.planes[plane.index()].normal;
-    return faces_of_sheet(plane, normal, std::move(chords), owners_, pool_);
+    work.add(std::ssize(segmentation_.cells) + kStepsPerChord * std::ssize(chords));
+    if (work.is_used_up()) return {};
+    std::vector<Face> faces = faces_of_sheet(plane, normal, std::move(chords), owners_, pool_);
+    for (const Face& face : faces)
+      for (const Loop& loop : face.loops) work.add(kStepsPerChord * std::ssize(loop));
+    return faces;
   }
 
   const Segmentation& segmentation_;
@@ -128,7 +139,13 @@ class ComplexBuilder {
 }  // namespace
 
 CellComplex cell_complex(const Segmentation& segmentation, const Tolerances& tolerances) {
-  return ComplexBuilder(segmentation, tolerances).build();
+  Work uncounted;
+  return *ComplexBuilder(segmentation, tolerances).build(uncounted);
+}
+
+std::optional<CellComplex> cell_complex(const Segmentation& segmentation,
+                                        const Tolerances& tolerances, Work& work) {
+  return ComplexBuilder(segmentation, tolerances).build(work);
 }
 
 }  // namespace oriel

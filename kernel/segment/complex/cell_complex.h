@@ -1,8 +1,11 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/cell_complex.h"
 #include "kernel/model/segmentation.h"
 #include "kernel/model/tolerances.h"
+
+#include <optional>
 
 namespace oriel {
 
@@ -14,5 +17,9 @@ namespace oriel {
 /// of weld_m are one. Source: Thiemann & Sester 2004, section 4 ("cell
 /// complex"); docs/segmentation.md#the-cell-complex.
 CellComplex cell_complex(const Segmentation& segmentation, const Tolerances& tolerances = {});
+
+/// The same, its work counted: nothing once that is used up.
+std::optional<CellComplex> cell_complex(const Segmentation& segmentation,
+                                        const Tolerances& tolerances, Work& work);
 
 }  // namespace oriel

@@ -22,6 +22,9 @@ constexpr double kSameWay_rad = 2 * std::numbers::pi / 180;
 /// Cutting a loop into plane pieces takes the cube of its points.
 constexpr std::size_t kLongestBentLoop = 64;
 
+/// What a look at an edge takes while a loop is followed.
+constexpr std::int64_t kStepsPerWalk = 8;
+
 struct OpenHalfEdge {
   int from, to, polygon;
 };
@@ -95,7 +98,7 @@ class CapFinder {
     std::vector<int> ring{from};
     WalkedHalfEdge marked{from, to};  // the last one whose number is a power of two
     for (int before = from, v = to; v != from;) {
-      work_.add(std::ssize(neighbours_[at(v)]));
+      work_.add(kStepsPerWalk * std::ssize(neighbours_[at(v)]));
       if (work_.is_used_up()) return;
       const int next = leftmost(before, v, normal, is_near);
       if (next < 0) return;

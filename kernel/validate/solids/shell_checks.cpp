@@ -341,7 +341,6 @@ class RoughPlane {
 
   /// All of the box is on one side, and no corner on the plane: for certain, whatever rounding did.
   [[nodiscard]] bool is_beside(const Box& box) const {
-    constexpr double kError = 1e-14;  // tolerance of doubles: some 50 ulp, the sums have 10 terms
     const std::array low{box.min.x, box.min.y, box.min.z}, high{box.max.x, box.max.y, box.max.z};
     double height = 0, reach = 0, error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -353,7 +352,25 @@ class RoughPlane {
     return std::abs(height) > reach + kError * error;
   }
 
+  /// The same of a triangle.
+  [[nodiscard]] bool is_beside(const MicrometreTriangle& triangle) const {
+    int before = 0, behind = 0;
+    for (const MicrometrePoint& p : triangle) {
+      double height = 0, error = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double off = static_cast<double>(p[i]) - point_[i];
+        height += normal_[i] * off;
+        error += size_[i] * std::abs(off);
+      }
+      before += height > kError * error ? 1 : 0;
+      behind += height < -kError * error ? 1 : 0;
+    }
+    return before == 3 || behind == 3;
+  }
+
  private:
+  static constexpr double kError = 1e-14;  // tolerance of doubles: some 50 ulp for 10 terms
+
   std::array<double, 3> point_{}, normal_{}, size_{};
 };
 
@@ -364,9 +381,11 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
                                                           const JudgedShell& shell, Work& work) {
   std::vector<ShellTriangle> triangles;
   std::vector<Box> boxes;
+  std::vector<RoughPlane> planes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
     for (const TriangleCorners& corners : shell.polygons[p].triangles) {
       triangles.push_back({corners, p});
+      planes.emplace_back(points_of(building, corners));
       boxes.push_back(box_of(points_of(building, corners)));
     }
   const BoxTree tree(boxes);
@@ -375,12 +394,14 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     later.clear();
     const std::size_t p = triangles[i].polygon;
-    const RoughPlane plane(points_of(building, triangles[i].corners));
+    const RoughPlane& plane = planes[i];
+    const MicrometreTriangle mine = points_of(building, triangles[i].corners);
     tree.search([&](const Box& box) { return overlap(box, boxes[i]) && !plane.is_beside(box); },
                 [&](int number) {
                   work.add(1);
                   const std::size_t j = at(number);
-                  if (j > i && triangles[j].polygon != p) later.push_back(j);
+                  if (j > i && triangles[j].polygon != p && !planes[j].is_beside(mine))
+                    later.push_back(j);
                 });
     if (work.is_used_up()) return {};
     std::ranges::sort(later);
