@@ -113,10 +113,13 @@ class HalfEdgeBuilder {
   /// What OpenMesh asks of a face, which it would complain of on stderr.
   [[nodiscard]] bool fits(const std::vector<VertexHandle>& corners) const {
     const PolyMesh& mesh = out_.mesh;
+    std::vector<int> sorted;
+    for (const VertexHandle corner : corners) sorted.push_back(corner.idx());
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) return false;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const VertexHandle from = corners[i];
       if (!mesh.is_boundary(from)) return false;
-      if (std::ranges::count(corners, from) > 1) return false;
       const auto half_edge = mesh.find_halfedge(from, corners[(i + 1) % corners.size()]);
       if (half_edge.is_valid() && !mesh.is_boundary(half_edge)) return false;
     }

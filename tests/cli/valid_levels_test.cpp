@@ -313,6 +313,21 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("a solid that is there twice makes no series and is no fault of ours") {
+    auto city = cubes({"twice", "once"});
+    auto& geometry = city["CityObjects"]["twice"]["geometry"][0];
+    geometry["type"] = "CompositeSolid";
+    const auto shells = geometry["boundaries"];
+    geometry["boundaries"] = {shells, shells};
+    const Folder folder;
+    const Outcome made = run({"generalise", folder.write("cubes.city.json", city.dump()),
+                              "--series", "1:500,1:2500", "-o", folder / "s"});
+    CHECK(made.exit == 3);
+    CHECK(made.says("G410 is no series: two facets have the same outer ring"));
+    CHECK(!made.says("E901"));
+    CHECK(made.says("1 of 2 buildings drawn at 2 scales"));
+  }
+
   TEST_CASE("slow: levels of a series are valid where the file folds facets and makes corners one" *
             doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
     ORIEL_NEEDS_SHARED(shared);

@@ -144,9 +144,10 @@ TEST_SUITE("oriel") {
     const std::filesystem::path faults = shared / "data" / "faults";
     // What each stage counts bounds it, so a tenth of the budget is a tenth of the time.
     constexpr std::int64_t kTenth = kWorkBudget / 10;
-    for (const char* file : {"slow-repair.obj", "slow-generalise.city.jsonl"}) {
+    for (const std::string file : {"slow-repair.obj", "slow-generalise.city.jsonl"}) {
       CAPTURE(file);
-      for (const Document& document : read((faults / file).string()).value.value()) {
+      const std::vector<Document> records = read((faults / file).string()).value.value();
+      for (const Document& document : records) {
         if (document.buildings.empty()) continue;
         LabelOptions options;
         options.budget = kTenth;
@@ -162,7 +163,7 @@ TEST_SUITE("oriel") {
         const auto drawn =
             generalise(document, building, result, residential_rules(), at_scale(2500), drawing);
         CHECK(drawn.levels.size() == 1);
-        CHECK(has_code(drawn.issues, Code::E502));
+        CHECK((has_code(result.issues, Code::E502) || has_code(drawn.issues, Code::E502)));
         SeriesOptions in_series;
         in_series.budget = kTenth;
         const Series made =

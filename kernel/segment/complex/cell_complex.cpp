@@ -24,7 +24,7 @@ using detail::Chord;
 constexpr double kReach = 0.25;
 
 /// What cutting a chord where others meet it takes, and again what an edge of a face takes.
-constexpr std::int64_t kStepsPerChord = 64;
+constexpr std::int64_t kStepsPerChord = 192;
 
 /// How far the box reaches to either side of the plane.
 bool box_passes(const Box& box, const Plane& plane) {

@@ -1,5 +1,7 @@
 #include "kernel/segment/complex/outlines.h"
 
+#include "kernel/geometry/box_tree.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -129,8 +132,11 @@ std::vector<std::vector<Facet>> whole_outlines(std::vector<std::vector<Facet>> b
 
 namespace {
 
-/// The vertices in use, along a direction that no wall or roof is perpendicular to: few are within
-/// the reach of an edge.
+/// Up to so many vertices within the reach of an edge are looked at one by one.
+constexpr std::ptrdiff_t kFewAlong = 64;
+
+/// The vertices in use, along a direction that no wall or roof is perpendicular to, so that few are
+/// within the reach of a short edge; for a long one in a tree.
 class Vertices {
  public:
   Vertices(const std::vector<Face>& faces, std::span<const Vertex> vertices) : vertices_(vertices) {
@@ -139,6 +145,10 @@ class Vertices {
         for (const int v : loop) order_.emplace_back(place_of(at(v)), v);
     std::ranges::sort(order_);
     order_.erase(std::unique(order_.begin(), order_.end()), order_.end());
+    if (std::ssize(order_) <= kFewAlong) return;
+    std::vector<Box> boxes(order_.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].grow(at(order_[i].second));
+    tree_ = BoxTree(std::move(boxes));
   }
 
   /// The vertices on an edge, from a to b.
@@ -148,14 +158,18 @@ class Vertices {
     const double p = place_of(from), q = place_of(at(b));
     const double low = std::min(p, q) - near_m, high = std::max(p, q) + near_m;
     std::vector<std::pair<double, int>> found;
-    for (auto i = std::ranges::lower_bound(order_, std::pair{low, -1});
-         i != order_.end() && i->first <= high; ++i) {
-      const int v = i->second;
+    const auto look_at = [&](int v) {
       const Vec3 to = at(v) - from;
       const double position = dot(to, along) / size;
-      if (v == a || v == b || position <= 0 || position >= size) continue;
+      if (v == a || v == b || position <= 0 || position >= size) return;
       if (length(to - (position / size) * along) <= near_m) found.emplace_back(position, v);
-    }
+    };
+    const auto first = std::ranges::lower_bound(order_, std::pair{low, -1});
+    if (order_.end() - first <= kFewAlong || first[kFewAlong].first > high)
+      for (auto i = first; i != order_.end() && i->first <= high; ++i) look_at(i->second);
+    else
+      tree_.search([&](const Box& box) { return comes_near(box, from, at(b), 2 * near_m); },
+                   [&](int i) { look_at(order_[static_cast<std::size_t>(i)].second); });
     std::ranges::sort(found);
     std::vector<int> on;
     on.reserve(found.size());
@@ -169,6 +183,7 @@ class Vertices {
 
   std::span<const Vertex> vertices_;
   std::vector<std::pair<double, int>> order_;
+  BoxTree tree_{std::vector<Box>{}};  ///< by place in order_
 };
 
 }  // namespace

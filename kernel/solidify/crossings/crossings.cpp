@@ -20,10 +20,13 @@ namespace oriel::detail {
 
 namespace {
 
+/// A look at a polygon that an edge comes near, and at a corner of it.
+constexpr std::int64_t kStepsPerContact = 4;
+
 class ContactCutter {
  public:
-  ContactCutter(const Soup& soup, std::span<const PolygonShape> shapes, double reach)
-      : soup_(soup), shapes_(shapes), reach_(reach) {}
+  ContactCutter(const Soup& soup, std::span<const PolygonShape> shapes, double reach, Work& work)
+      : soup_(soup), shapes_(shapes), reach_(reach), work_(work) {}
 
   SoupWithContacts run() {
     find_contacts();
@@ -49,13 +52,14 @@ class ContactCutter {
     const BoxTree tree(std::move(boxes));
     const ShellMesh mesh = linked_rings(soup_);
     EdgeGroups(soup_, mesh).for_each([&](EdgeGroup group) {
-      if (group.size() != 1) return;
+      if (group.size() != 1 || work_.is_used_up()) return;
       const int own = mesh.polygon_of[at(group[0])];
       const PointPair edge =
           std::minmax({soup_.corners[at(group[0])], soup_.corners[at(mesh.next[at(group[0])])]});
       const Vec3 from = place(edge.first), to = place(edge.second);
       tree.search([&](const Box& box) { return comes_near(box, from, to, reach_); },
                   [&](int p) {
+                    work_.add(kStepsPerContact);
                     const bool is_same_body =
                         soup_.polygons[at(p)].body == soup_.polygons[at(own)].body;
                     if (p != own && is_same_body && lies_on(from, to, p))
@@ -68,12 +72,14 @@ class ContactCutter {
     const Vec3 normal = shapes_[at(p)].unit, base = place(soup_.corners_of(p).front());
     if (std::abs(dot(normal, from - base)) > reach_ || std::abs(dot(normal, to - base)) > reach_)
       return false;
+    work_.add(kStepsPerContact * std::ssize(soup_.corners_of(p)));
     return contains_clearly(outlines_of(soup_, p), normal, 0.5 * (from + to), reach_);
   }
 
   const Soup& soup_;
   std::span<const PolygonShape> shapes_;
   double reach_;
+  Work& work_;
   std::map<int, std::vector<PointPair>> contacts_;  ///< by polygon
   int cut_ = 0;
 };
@@ -81,9 +87,9 @@ class ContactCutter {
 }  // namespace
 
 SoupWithContacts cut_at_contacts(const Soup& soup, std::span<const PolygonShape> shapes,
-                                 double reach) {
+                                 double reach, Work& work) {
   ORIEL_ASSERT(shapes.size() == soup.polygons.size());
-  return ContactCutter(soup, shapes, reach).run();
+  return ContactCutter(soup, shapes, reach, work).run();
 }
 
 namespace {

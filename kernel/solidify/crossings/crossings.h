@@ -18,9 +18,9 @@ struct SoupWithContacts {
 /// Cuts polygons where an edge of one other polygon only lies on them, within `reach` (grid units)
 /// and not along their rim: two boxes that touch with parts of their faces. Edges must not run past
 /// each other's ends (t_vertices.h). Edges that lead into a polygon and part nothing of it are left
-/// out.
+/// out. Once `work` is used up no more are looked for.
 SoupWithContacts cut_at_contacts(const Soup& soup, std::span<const PolygonShape> shapes,
-                                 double reach);
+                                 double reach, Work& work);
 
 /// A soup whose polygons meet in common points and edges only.
 struct SoupWithoutCrossings {

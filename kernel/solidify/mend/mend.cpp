@@ -322,7 +322,7 @@ Mended mend(const Soup& soup, bool is_solid, const Tolerances& tolerances,
     return mended;
   }
   auto [whole, cut] =
-      cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m);
+      cut_at_contacts(joined, shapes_of(joined), tolerances.plane_offset_m / soup.grid_m, work);
   report.cut = cut;
   std::vector<OpenEdge> open = open_edges_of(whole);
   MendStage stage = close(std::move(whole), tolerances, options, report, work);
