@@ -65,8 +65,9 @@ class BuildingDrawer {
   /// either it stays unchanged, levels of detail are rejected (G410).
   void keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
-  /// Draws a building that is not valid, or was given up, from its repair_and_retry(), which
-  /// becomes drawn.repaired; nothing is done if there is none, or if what was given up is so again.
+  /// Draws a building that is not valid, or was given up, from its repair_and_retry(), with as much
+  /// work again, which becomes drawn.repaired; nothing is done if there is none, or if what was
+  /// given up is so again.
   void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
   [[nodiscard]] std::optional<PipelineResult> repaired_open(const PipelineResult& result) const {
@@ -78,7 +79,13 @@ class BuildingDrawer {
     GeneralisedBuilding drawn;
     drawn.building = building_.id;
     drawn.issues.push_back(stays_open(building_));
+    flag_unfinished(drawn);
     return drawn;
+  }
+
+  /// Says so if the work is used up: not all was tried.
+  void flag_unfinished(GeneralisedBuilding& drawn) const {
+    if (work_.is_used_up()) drawn.issues.push_back(not_all_drawn(building_, work_));
   }
 
  private:
@@ -113,7 +120,7 @@ class BuildingDrawer {
   const RuleBase& rules_;
   const Targets& targets_;
   const GeneraliseOptions& options_;
-  Work& work_;  ///< of all targets and all ways that are tried
+  Work& work_;  ///< of all targets and all ways that are tried with one solid
 };
 
 GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging judging) const {
@@ -149,18 +156,20 @@ void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuildin
 }
 
 void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
-  if (work_.is_used_up()) return;
-  auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work_);
+  Work work(options_.budget);
+  auto repaired = repair_and_retry(document_, building_, result, rules_, options_, work);
   if (!repaired) return;
+  const BuildingDrawer anew(document_, building_, rules_, targets_, options_, work);
   const bool is_intricate = repaired->solid->facets.size() > kIntricateFacets;
   GeneralisedBuilding again = measure(options_.observer, Stage::generalise, [&] {
-    return draw(*repaired, is_intricate ? Judging::none : Judging::refused);
+    return anew.draw(*repaired, is_intricate ? Judging::none : Judging::refused);
   });
   measure(options_.observer, Stage::write, [&] {
     for (Redrawn& redrawn : again.levels) part_written(document_, building_, redrawn.labelled);
-    if (!is_intricate) return keep_valid(*repaired, again);
+    if (!is_intricate) return anew.keep_valid(*repaired, again);
     if (auto fault = check(*repaired, again)) give_up(*repaired, std::move(*fault), again);
   });
+  anew.flag_unfinished(again);
   if (is_invalid(drawn) && is_invalid(again)) return;
   drawn = std::move(again);
   drawn.issues.insert(drawn.issues.begin(), repaired->issues.back());
@@ -325,6 +334,7 @@ GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineRe
   GeneralisedBuilding drawn =
       measure(observer, Stage::generalise, [&] { return drawer.draw(result); });
   measure(observer, Stage::write, [&] { drawer.keep_valid(result, drawn); });
+  drawer.flag_unfinished(drawn);
   if (is_invalid(drawn)) drawer.repair(result, drawn);
   return drawn;
 }
@@ -379,10 +389,8 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   return logged(
       "generalised", building,
       [&] {
-        GeneralisedBuilding made = result.is_open ? open_drawing(drawer, result, options.observer)
-                                                  : valid_drawing(drawer, result, options.observer);
-        if (work.is_used_up()) made.issues.push_back(not_all_drawn(building, work));
-        return made;
+        return result.is_open ? open_drawing(drawer, result, options.observer)
+                              : valid_drawing(drawer, result, options.observer);
       },
       [](const GeneralisedBuilding& made) {
         return fmt::format("targets={} issues={} repaired={}", made.levels.size(),

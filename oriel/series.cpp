@@ -93,7 +93,7 @@ class SeriesDrawer {
     const auto work = std::make_shared<Work>(options_.budget);
     LeveledBuilding one = with_levels(building, result, work);
     if (has_errors(one.issues) && !work->is_used_up()) judge(one);
-    if (!one.is_valid() && !work->is_used_up()) repair(one);
+    if (!one.is_valid()) repair(one);
     return one;
   }
 
@@ -133,11 +133,12 @@ class SeriesDrawer {
 
   /// Draws them from the repaired solid, if they are valid then.
   void repair(LeveledBuilding& one) const {
+    const auto work = std::make_shared<Work>(options_.budget);
     auto repaired =
-        repair_and_retry(document_, *one.building, *one.result, rules_, options_, *one.work);
+        repair_and_retry(document_, *one.building, *one.result, rules_, options_, *work);
     if (!repaired) return;
     auto result = std::make_unique<const PipelineResult>(std::move(*repaired));
-    LeveledBuilding anew = with_levels(*one.building, *result, one.work, true);
+    LeveledBuilding anew = with_levels(*one.building, *result, work, true);
     if (!anew.is_valid()) return;
     anew.issues.insert(anew.issues.begin(), result->issues.back());
     anew.repaired = std::move(result);

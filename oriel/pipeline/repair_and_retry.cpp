@@ -4,7 +4,6 @@
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -86,8 +85,6 @@ std::optional<PipelineResult> repaired_solid(const Document& document, const Bui
 std::optional<PipelineResult> repair_and_retry(const Document& document, const Building& building,
                                                const PipelineResult& result, const RuleBase& rules,
                                                const LabelOptions& options, Work& work) {
-  if (std::ranges::find(result.issues, Code::E502, &Issue::code) != result.issues.end())
-    return std::nullopt;
   auto repaired = repaired_solid(document, building, result.tolerances, options, work);
   if (!repaired) return std::nullopt;
   const Tolerances tolerances = repaired->tolerances;

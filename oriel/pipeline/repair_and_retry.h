@@ -20,8 +20,8 @@ std::optional<PipelineResult> repaired_solid(const Document& document, const Bui
                                              const PipelineOptions& options, Work& work);
 
 /// The building once more in the whole pipeline, from its repaired_solid(), and a warning G417 that
-/// says so, the last of its issues. `result` is what came of it the first time. Nothing if one of
-/// its stages used up its budget that time, or the solid what is left of `work`.
+/// says so, the last of its issues. `result` is what came of it the first time; `work` bounds the
+/// search for the solid, the stages after it have their own budgets.
 std::optional<PipelineResult> repair_and_retry(const Document& document, const Building& building,
                                                const PipelineResult& result, const RuleBase& rules,
                                                const LabelOptions& options, Work& work);
