@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +15,9 @@ namespace oriel {
 namespace {
 
 constexpr double kHalf = 0.5;
+
+/// What cutting a feature off a copy of the solid takes, for each of its corners.
+constexpr std::int64_t kStepsPerCut = 4;
 
 bool is_never_for_groups(const Step& /*step*/) { return false; }
 bool is_always_for_groups(const Step& /*step*/) { return true; }
@@ -70,8 +74,7 @@ Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan&
     else
       features.push_back(step.feature);
   }
-  // Each is cut off a copy of the solid.
-  if (!may_go_on(validator.work, solid, std::ssize(features)))
+  if (!may_go_on(validator.work, solid, kStepsPerCut * std::ssize(features)))
     return nothing_taken_off(solid, features);
   Remainder remainder = remove_features(solid, segmentation, features, options);
   if (validator)

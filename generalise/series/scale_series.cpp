@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -19,6 +20,9 @@
 namespace oriel {
 
 namespace {
+
+/// What drawing a state between two levels takes, for each corner, but for what comes off.
+constexpr std::int64_t kStepsPerState = 128;
 
 /// Two scales nearer than this are one: nothing on a map tells 1:2000 from 1:2020.
 constexpr double kSameScale = 1.01;
@@ -225,7 +229,7 @@ class LevelOperations {
   [[nodiscard]] std::optional<LevelState> state_of(const std::vector<Step>& steps,
                                                    const SeriesStep& one) const {
     std::vector<Issue> issues;
-    if (input_.is_used_up()) return std::nullopt;
+    if (!may_go_on(input_.work, input_.solid, kStepsPerState)) return std::nullopt;
     Invariants none;
     none.work = input_.work;
     const auto level = level_of(input_, after_.scale, steps, none, issues);

@@ -321,9 +321,9 @@ bool intersect(const SnappedBuilding& building, TriangleCorners a, TriangleCorne
 }
 
 /// The plane of a triangle in doubles, to tell which boxes lie beside it.
-class RoughPlane {
+class TrianglePlane {
  public:
-  explicit RoughPlane(const MicrometreTriangle& triangle) {
+  explicit TrianglePlane(const MicrometreTriangle& triangle) {
     const auto vec = [](const MicrometrePoint& p) {
       return std::array{static_cast<double>(p[0]), static_cast<double>(p[1]),
                         static_cast<double>(p[2])};
@@ -381,7 +381,7 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
                                                           const JudgedShell& shell, Work& work) {
   std::vector<ShellTriangle> triangles;
   std::vector<Box> boxes;
-  std::vector<RoughPlane> planes;
+  std::vector<TrianglePlane> planes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
     for (const TriangleCorners& corners : shell.polygons[p].triangles) {
       triangles.push_back({corners, p});
@@ -394,7 +394,7 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     later.clear();
     const std::size_t p = triangles[i].polygon;
-    const RoughPlane& plane = planes[i];
+    const TrianglePlane& plane = planes[i];
     const MicrometreTriangle mine = points_of(building, triangles[i].corners);
     tree.search([&](const Box& box) { return overlap(box, boxes[i]) && !plane.is_beside(box); },
                 [&](int number) {
