@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -374,6 +375,9 @@ class TrianglePlane {
   std::array<double, 3> point_{}, normal_{}, size_{};
 };
 
+/// Of more triangles it is asked first, in doubles, whether they lie beside each other's planes.
+constexpr std::size_t kFewTriangles = 4096;
+
 /// For each polygon of a shell one that it meets elsewhere than in common vertices and edges, if
 /// there is any: the first in the order of pairs of triangles, so that it is named whatever tree
 /// finds it.
@@ -381,33 +385,42 @@ std::vector<std::optional<std::size_t>> crossing_partners(const SnappedBuilding&
                                                           const JudgedShell& shell, Work& work) {
   std::vector<ShellTriangle> triangles;
   std::vector<Box> boxes;
-  std::vector<TrianglePlane> planes;
   for (std::size_t p = 0; p < shell.polygons.size(); ++p)
     for (const TriangleCorners& corners : shell.polygons[p].triangles) {
       triangles.push_back({corners, p});
-      planes.emplace_back(points_of(building, corners));
       boxes.push_back(box_of(points_of(building, corners)));
     }
   const BoxTree tree(boxes);
   std::vector<std::optional<std::size_t>> crossed_by(shell.polygons.size());
   std::vector<std::size_t> later;  // whose boxes overlap that of triangle i
+  std::vector<TrianglePlane> planes;
+  const bool are_many = triangles.size() > kFewTriangles;
+  for (std::size_t i = 0; are_many && i < triangles.size(); ++i)
+    planes.emplace_back(points_of(building, triangles[i].corners));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     later.clear();
+    std::int64_t looked_at = 0;
     const std::size_t p = triangles[i].polygon;
-    const TrianglePlane& plane = planes[i];
     const MicrometreTriangle mine = points_of(building, triangles[i].corners);
-    tree.search([&](const Box& box) { return overlap(box, boxes[i]) && !plane.is_beside(box); },
-                [&](int number) {
-                  work.add(1);
-                  const std::size_t j = at(number);
-                  if (j > i && triangles[j].polygon != p && !planes[j].is_beside(mine))
-                    later.push_back(j);
-                });
+    if (are_many)
+      tree.search(
+          [&](const Box& box) { return overlap(box, boxes[i]) && !planes[i].is_beside(box); },
+          [&](int number) {
+            looked_at += 1;
+            const std::size_t j = at(number);
+            if (j > i && triangles[j].polygon != p && !planes[j].is_beside(mine))
+              later.push_back(j);
+          });
+    else
+      tree.for_each_overlap(boxes[i], [&](int number) {
+        if (const std::size_t j = at(number); j > i) later.push_back(j);
+      });
+    work.add(looked_at + std::ssize(later));
     if (work.is_used_up()) return {};
     std::ranges::sort(later);
     for (const std::size_t j : later) {
       const std::size_t q = triangles[j].polygon;
-      if (crossed_by[p] && crossed_by[q]) continue;
+      if (p == q || (crossed_by[p] && crossed_by[q])) continue;
       if (!intersect(building, triangles[i].corners, triangles[j].corners)) continue;
       if (!crossed_by[p]) crossed_by[p] = q;
       if (!crossed_by[q]) crossed_by[q] = p;
