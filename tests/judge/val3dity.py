@@ -14,6 +14,8 @@ from city_files import by_transform, city_json, city_json_seq, geometries
 COMMANDS = {"repair": ["repair"], "repair-any": ["repair", "--close", "any"]}
 for scale in (500, 1000, 2500, 5000, 10000):
     COMMANDS[f"generalise-{scale}"] = ["generalise", "--scale", f"1:{scale}"]
+for level in ("1.0", "1.2", "2.0"):
+    COMMANDS[f"to-lod-{level}"] = ["generalise", "--to-lod", level]
 
 
 def data_sets(data):
@@ -57,13 +59,14 @@ class Judge:
     def outputs(self, command, inputs):
         """By building what was written."""
         found = {}
+        level = command[2] if "--to-lod" in command else None  # the others stay in the file
         with tempfile.TemporaryDirectory(dir=self.work) as folder:
             done = subprocess.run([self.oriel, *command, *inputs, "-o", folder + "/", "--progress", "none"],
                                   capture_output=True, text=True, check=False)
             if done.returncode not in (0, 3):
                 sys.exit(f"{command}: exit code {done.returncode}: {done.stderr[-400:]}")
             for path in inputs:
-                found |= geometries(f"{folder}/{os.path.basename(path)}", None)
+                found |= geometries(f"{folder}/{os.path.basename(path)}", level)
         return found
 
     def alone(self, buildings):
@@ -83,7 +86,8 @@ def judge_set(judge, name, command, before):
     faults = [f"{n}: {' '.join(codes)}" for n, codes in judge.refused(written).items()]
     ways = {"in a stream": judge.outputs(command, streams), "alone": judge.outputs(command, judge.alone(before))}
     for way, other in ways.items():
-        faults += [f"{n}: another one {way}" for n, one in after.items() if other[n].numbers() != one.numbers()]
+        faults += [f"{n}: another one {way}" for n in sorted(after.keys() | other.keys())
+                   if n not in after or n not in other or other[n].numbers() != after[n].numbers()]
     print(f"{name}: {len(before)} buildings, {len(written)} written, {len(faults)} faults", flush=True)
     for fault in faults:
         print("  " + fault, flush=True)
