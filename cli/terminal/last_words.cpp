@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <gmp.h>
 #include <new>
 #include <string_view>
 #include <unistd.h>
@@ -61,6 +62,21 @@ void throw_without_memory() { throw std::bad_alloc(); }
   ::_exit(static_cast<int>(ExitCode::internal));
 }
 
+/// For CGAL's numbers: GMP, written in C, would abort, and no exception may pass it.
+void* allocate(std::size_t bytes) {
+  void* const memory = std::malloc(bytes);
+  if (memory == nullptr) end_without_memory();
+  return memory;
+}
+
+void* reallocate(void* old, std::size_t /*old_bytes*/, std::size_t bytes) {
+  void* const memory = std::realloc(old, bytes);
+  if (memory == nullptr) end_without_memory();
+  return memory;
+}
+
+void release(void* memory, std::size_t /*bytes*/) { std::free(memory); }
+
 void begin_process() { std::set_new_handler(end_before_main); }
 
 #ifdef __ELF__
@@ -74,6 +90,7 @@ void begin_to_throw_without_memory() {
   main_process = ::getpid();
   std::set_terminate(end_uncaught);
   std::set_new_handler(throw_without_memory);
+  mp_set_memory_functions(allocate, reallocate, release);
 }
 
 void end_without_memory() noexcept {
