@@ -114,6 +114,7 @@ class InvariantEnforcer {
         undone_(plan) {
     validator_.settled = invariants.settled;
     validator_.work = invariants.work;
+    if (!validator_.complex) validator_.complex = std::make_shared<std::optional<CellComplex>>();
     validator_.violation_of = [this](const Solid& left) { return violation_by(left); };
   }
 

@@ -4,11 +4,13 @@
 #include "kernel/base/work.h"
 #include "kernel/geometry/planar.h"
 #include "kernel/model/building.h"
+#include "kernel/model/cell_complex.h"
 #include "kernel/model/plan.h"
 #include "kernel/model/solid.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -82,6 +84,9 @@ struct SolidValidator {
   std::vector<FeatureId> settled{};
   /// As Invariants::work.
   Work* work = nullptr;
+  /// Keeps the cell complex of the segmentation from the first time that it is asked for, for all
+  /// that is tried with it; null: nothing is kept.
+  std::shared_ptr<std::optional<CellComplex>> complex{};
 
   explicit operator bool() const { return static_cast<bool>(fitness_of); }
 };

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -99,6 +100,8 @@ class CellRemover {
         validator_(validator),
         unseen_m_(unseen_m),
         options_(options),
+        complex_(validator.complex ? validator.complex
+                                   : std::make_shared<std::optional<CellComplex>>()),
         footprint_m2_(measures_of(remainder.solid).footprint_m2),
         polygons_around_(solid, options.tolerances.weld_m) {
     for (const FeatureId id : remainder.removed)
@@ -291,11 +294,12 @@ class CellRemover {
     const Ids gone = with_what_sits_on(segmentation_, all);
     const auto fates = fates_of(all);
     Work uncounted;
-    if (!complex_)
-      complex_ = cell_complex(segmentation_, options_.tolerances,
-                              validator_.work != nullptr ? *validator_.work : uncounted);
-    if (!complex_) return std::nullopt;
-    auto made = solid_of(draft_of(*complex_, cells_without(fates)), gone, fault);
+    std::optional<CellComplex>& complex = *complex_;
+    if (!complex)
+      complex = cell_complex(segmentation_, options_.tolerances,
+                             validator_.work != nullptr ? *validator_.work : uncounted);
+    if (!complex) return std::nullopt;
+    auto made = solid_of(draft_of(*complex, cells_without(fates)), gone, fault);
     // Cells that others cut through meet where all planes of the building do; what goes meets the
     // building in a few of them.
     if (!made)
@@ -405,7 +409,7 @@ class CellRemover {
   const SolidValidator& validator_;
   double unseen_m_;
   const SegmentOptions& options_;
-  std::optional<CellComplex> complex_;  ///< once asked for
+  std::shared_ptr<std::optional<CellComplex>> complex_;  ///< once asked for
   double footprint_m2_;
   PolygonsAround polygons_around_;
   std::map<FeatureId, Refusal> faults_;
