@@ -384,7 +384,7 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   GeneralisedBuilding drawn;
   drawn.building = building.id;
   if (!result.is_done()) return drawn;
-  Work work(options.budget);
+  Work work = drawing_work(options.budget);
   const BuildingDrawer drawer(document, building, rules, targets, options, work);
   return logged(
       "generalised", building,

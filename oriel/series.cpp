@@ -90,7 +90,7 @@ class SeriesDrawer {
 
   [[nodiscard]] LeveledBuilding valid_levels(const Building& building,
                                              const PipelineResult& result) const {
-    const auto work = std::make_shared<Work>(options_.budget);
+    const auto work = std::make_shared<Work>(drawing_work(options_.budget));
     LeveledBuilding one = with_levels(building, result, work);
     if (has_errors(one.issues) && !work->is_used_up()) judge(one);
     if (!one.is_valid()) repair(one);
@@ -100,7 +100,7 @@ class SeriesDrawer {
   /// Of an open building, from what repair_open() makes of it.
   [[nodiscard]] LeveledBuilding open_levels(const Building& building,
                                             const PipelineResult& result) const {
-    const auto work = std::make_shared<Work>(options_.budget);
+    const auto work = std::make_shared<Work>(drawing_work(options_.budget));
     auto repaired = repair_open(document_, building, result, rules_, options_, *work);
     if (!repaired) {
       LeveledBuilding none{&building, &result, {}};

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kHalf = 0.5;
 
-/// What cutting a feature off a copy of the solid takes, for each of its corners.
-constexpr std::int64_t kStepsPerCut = 4;
+/// As many features are cut off a copy of the solid in a step for each of its corners.
+constexpr std::int64_t kCutsPerStep = 4;
 
 bool is_never_for_groups(const Step& /*step*/) { return false; }
 bool is_always_for_groups(const Step& /*step*/) { return true; }
@@ -74,7 +74,7 @@ Remainder omit(const Solid& solid, const Segmentation& segmentation, const Plan&
     else
       features.push_back(step.feature);
   }
-  if (!may_go_on(validator.work, solid, kStepsPerCut * std::ssize(features)))
+  if (!may_go_on(validator.work, solid, 1 + std::ssize(features) / kCutsPerStep))
     return nothing_taken_off(solid, features);
   Remainder remainder = remove_features(solid, segmentation, features, options);
   if (validator)

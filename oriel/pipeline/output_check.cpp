@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,6 +110,11 @@ SolidValidator counted(SolidValidator validator, Work& work) {
     return may_go_on(&work, solid, kStepsPerJudging) ? inner(solid) : Fitness::unfit;
   };
   return validator;
+}
+
+Work drawing_work(std::int64_t budget) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
+  return Work(2 * std::min(budget, most));
 }
 
 Issue not_all_drawn(const Building& building, const Work& work) {

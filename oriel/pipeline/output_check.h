@@ -6,6 +6,7 @@
 #include "kernel/model/labelled_building.h"
 #include "kernel/model/solid.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace oriel {
@@ -43,6 +44,10 @@ SolidValidator judge_as_written(const Document& document, const Building& buildi
 
 /// The same, its work counted: once that is used up all is unfit.
 SolidValidator counted(SolidValidator validator, Work& work);
+
+/// What drawing a building for its targets may take: twice the budget of a stage, as steps are
+/// taken back one by one and all is cut anew each time.
+Work drawing_work(std::int64_t budget);
 
 /// E502 of a building that is generalised.
 Issue not_all_drawn(const Building& building, const Work& work);
