@@ -62,7 +62,7 @@ class UnjudgedObjects {
     for (const UnreadObject& object : objects) {
       Kind& kind = kinds_[object.type];
       ++kind.count;
-      if (kind.ids.size() < kShown) kind.ids.push_back(object.id);
+      if (kind.ids.size() < kShown && !object.id.empty()) kind.ids.push_back(object.id);
     }
   }
   /// Without what belongs to a building.
@@ -80,10 +80,11 @@ class UnjudgedObjects {
       issue.severity = is_of_building(type) ? Severity::note : Severity::warning;
       issue.code = Code::E214;
       issue.sentence = fmt::format(
-          "{} object{} of type {} with geometry {} not judged, only buildings and their parts are: "
-          "{}{}",
+          "{} object{} of type {} with geometry {} not judged, only buildings and their parts are"
+          "{}{}{}",
           kind.count, kind.count == 1 ? "" : "s", type, kind.count == 1 ? "is" : "are",
-          fmt::join(kind.ids, ", "), std::cmp_less(kind.ids.size(), kind.count) ? ", ..." : "");
+          kind.ids.empty() ? "" : ": ", fmt::join(kind.ids, ", "),
+          std::cmp_less(kind.ids.size(), kind.count) && !kind.ids.empty() ? ", ..." : "");
       issue.place.file = input;
       issues.push_back(std::move(issue));
     }
@@ -221,10 +222,13 @@ class Validation {
   }
 
   void read(const std::string& input, const ReadOptions& options, UnjudgedObjects& unjudged) {
+    ReadOptions noting = options;
+    noting.notes_unread = true;
     try {
-      Reader reader(input, options);
+      Reader reader(input, noting);
       for (bool is_first = true;; is_first = false) {
         auto record = reader.next();
+        unjudged.add(reader.take_unread());
         has_ended_ |= !record;
         if (!record) return;
         if (record->value) {

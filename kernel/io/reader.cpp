@@ -40,7 +40,8 @@ struct Reader::State {
         name{path == "-" ? "stdin" : path, 0},
         input(std::move(path)),
         cityjson(options.lod, options.joins_installations),
-        citygml(input, name, std::move(options.lod), options.joins_installations) {
+        citygml(input, name, std::move(options.lod), options.joins_installations,
+                options.notes_unread) {
     if (options.wants_sha256) input.hash();
   }
 
@@ -73,6 +74,8 @@ std::uint64_t Reader::bytes_read() const { return state_->input.bytes_read(); }
 std::string Reader::sha256() const { return state_->input.digest(); }
 
 const std::string& Reader::refused_line() const { return state_->cityjson.refused(); }
+
+std::vector<UnreadObject> Reader::take_unread() { return state_->citygml.take_unread(); }
 
 std::optional<Checked<Document>> Reader::next() {
   if (state_->is_done) return std::nullopt;

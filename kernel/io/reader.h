@@ -3,11 +3,13 @@
 #include "kernel/base/issue.h"
 #include "kernel/io/document.h"
 #include "kernel/io/files/format.h"
+#include "kernel/io/unread_object.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace oriel {
 
@@ -25,6 +27,8 @@ struct ReadOptions {
   bool joins_installations = true;
   /// What is read is hashed, too.
   bool wants_sha256 = false;
+  /// Of CityGML it is noted what is passed over: Reader::take_unread().
+  bool notes_unread = false;
 };
 
 /// Reads a file record by record, in bounded memory for CityJSONSeq and CityGML.
@@ -65,6 +69,10 @@ class Reader {
   [[nodiscard]] std::string sha256() const;
   /// The last line of a CityJSONSeq that came without a value, as it was read.
   [[nodiscard]] const std::string& refused_line() const;
+  /// With ReadOptions::notes_unread, of CityGML: the objects with geometry that were passed over
+  /// since it was last asked, those besides the buildings up to some place behind the last record,
+  /// at the end of all of the file. Of other formats nothing: survey() has it of each record.
+  std::vector<UnreadObject> take_unread();
 
  private:
   struct State;

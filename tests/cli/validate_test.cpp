@@ -2,6 +2,7 @@
 #include "examples/generator/output/cityjson.h"
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
+#include "tests/support/citygml_samples.h"
 #include "tests/support/error_files.h"
 
 #include <filesystem>
@@ -122,6 +123,56 @@ TEST_SUITE("cli") {
       CHECK(one.exit == 3);
       CHECK(one.out == "a: valid\n");
       CHECK(one.says("E214 1 object of type " + type));
+    }
+  }
+
+  TEST_CASE("objects of CityGML that are not judged are named and the end is not clean") {
+    const Folder folder;
+    const auto member = [](const std::string& name, const std::string& content,
+                           const std::string& attributes = "") {
+      return element("c:cityObjectMember", element(name, content, attributes));
+    };
+    const std::string generic =
+        member("gen:GenericCityObject", element("gen:lod1Geometry", box_solid("g")),
+               "gml:id=\"g\"") +
+        member("gen:GenericCityObject", element("gen:lod1Geometry", box_solid("h")));
+    // An address is a point, and says nothing of geometry.
+    const std::string bare =
+        member("gen:GenericCityObject", element("gen:address",
+                                                "<gml:Point><gml:pos>1 2 3</gml:pos>"
+                                                "</gml:Point>"));
+    for (const std::string version : {"1.0", "2.0", "3.0"}) {
+      CAPTURE(version);
+      const std::string lod = version == "3.0" ? "c:lod2Solid" : "bldg:lod2Solid";
+      const std::string house = building("house", element(lod, box_solid("p")));
+      const auto judge = [&](const std::string& members, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "validate", folder.write("city.gml", CityGmlFile{version, members}.text())};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+      };
+      for (const std::string& members : {generic + house, house + generic}) {
+        const Outcome some = judge(members, {});
+        CHECK(some.exit == 3);
+        CHECK(some.out == "house: valid\n");
+        CHECK(some.says("E214 2 objects of type GenericCityObject"));
+        CHECK(some.says("are: g, ..."));
+        CHECK(some.says("1 of 1 building is valid; 2 other objects were not judged"));
+        CHECK(judge(members, {"--lod", "all"}).says("2 other objects were not judged"));
+        CHECK(judge(members, {"--id", "house"}).exit == 0);
+      }
+      const Outcome none = judge(generic, {});
+      CHECK(none.exit == 3);
+      CHECK(none.says("E214"));
+      CHECK(none.says("E134"));
+      CHECK(judge(house + bare, {}).exit == 0);
+      const Outcome templates = judge(
+          house + building("copy", element(lod.substr(0, lod.size() - 5) + "ImplicitRepresentation",
+                                           element("c:ImplicitGeometry", ""))),
+          {});
+      CHECK(templates.exit == 3);
+      CHECK(templates.says("E214 1 object of type ImplicitGeometry"));
+      CHECK(templates.says("are: copy"));
     }
   }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <unordered_set>
 #include <utility>
 
@@ -43,13 +44,23 @@ std::optional<Fault> find_degrees(const GmlVertices& vertices, Vec3 origin) {
                "expected metres"};
 }
 
+/// True if it or a part of it has a geometry of its own at some level of detail.
+bool has_geometry(const CityGmlBuilding& building) {
+  return std::ranges::any_of(building.objects, [](const CityGmlObject& object) {
+    return (object.type == "Building" || object.type == "BuildingPart") &&
+           !object.geometries.empty();
+  });
+}
+
 }  // namespace
 
 struct CityGmlReader::State {
-  State(Input& input, TextName called, std::optional<std::string> lod, bool joins_installations)
+  State(Input& input, TextName called, std::optional<std::string> lod, bool joins_installations,
+        bool notes)
       : name(std::move(called)),
-        stream(input, name),
-        cityjson(std::move(lod), joins_installations) {}
+        stream(input, name, notes),
+        cityjson(std::move(lod), joins_installations),
+        notes_unread(notes) {}
 
   Checked<Document> read_header();
   Checked<Document> read_member(const XmlNode& member);
@@ -61,6 +72,9 @@ struct CityGmlReader::State {
   TextName name;
   CityGmlStream stream;
   CityJsonReader cityjson;
+  bool notes_unread;
+  /// Buildings that have nothing but implicit geometry.
+  std::vector<UnreadObject> instances;
   std::optional<SequenceHeader> header;
   /// The building that was read to make the header.
   std::optional<XmlNode> first;
@@ -71,9 +85,9 @@ struct CityGmlReader::State {
 };
 
 CityGmlReader::CityGmlReader(Input& input, TextName name, std::optional<std::string> lod,
-                             bool joins_installations)
-    : state_(std::make_unique<State>(input, std::move(name), std::move(lod), joins_installations)) {
-}
+                             bool joins_installations, bool notes_unread)
+    : state_(std::make_unique<State>(input, std::move(name), std::move(lod), joins_installations,
+                                     notes_unread)) {}
 
 CityGmlReader::~CityGmlReader() = default;
 
@@ -87,6 +101,12 @@ std::optional<Checked<Document>> CityGmlReader::next() {
   state_->is_done = true;
   if (!state_->stream.issue()) return std::nullopt;
   return Checked<Document>{std::nullopt, {*state_->stream.issue()}};
+}
+
+std::vector<UnreadObject> CityGmlReader::take_unread() {
+  std::vector<UnreadObject> unread = state_->stream.take_unread();
+  std::ranges::move(std::exchange(state_->instances, {}), std::back_inserter(unread));
+  return unread;
 }
 
 Checked<Document> CityGmlReader::State::read_header() {
@@ -167,6 +187,8 @@ Checked<Document> CityGmlReader::State::read_member(const XmlNode& member) {
   result =
       cityjson.read(citygml_feature_text(*building, vertices), {name.file, member.line}, header);
   if (result.value) result.value->format = Format::citygml;
+  if (notes_unread && building->implicit != nullptr && !has_geometry(*building))
+    instances.push_back({id, "ImplicitGeometry"});
   const auto tell = [&](const XmlNode* node, Severity severity, Fault what) {
     if (node != nullptr) result.issues.push_back(issue_at(*node, severity, id, std::move(what)));
   };

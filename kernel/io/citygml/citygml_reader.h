@@ -4,10 +4,12 @@
 #include "kernel/io/document.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/text.h"
+#include "kernel/io/unread_object.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -16,9 +18,10 @@ namespace oriel::detail {
 /// there.
 class CityGmlReader {
  public:
-  /// `input` must outlive the reader; `lod` and `joins_installations` as in ReadOptions.
+  /// `input` must outlive the reader; `lod`, `joins_installations` and `notes_unread` as in
+  /// ReadOptions.
   CityGmlReader(Input& input, TextName name, std::optional<std::string> lod,
-                bool joins_installations);
+                bool joins_installations, bool notes_unread);
   ~CityGmlReader();
   CityGmlReader(const CityGmlReader&) = delete;
   CityGmlReader& operator=(const CityGmlReader&) = delete;
@@ -27,6 +30,9 @@ class CityGmlReader {
   /// no building if that has a fault. A document without a value where the file cannot be read on;
   /// nothing after that, or at the end.
   std::optional<Checked<Document>> next();
+
+  /// As Reader::take_unread().
+  std::vector<UnreadObject> take_unread();
 
  private:
   struct State;

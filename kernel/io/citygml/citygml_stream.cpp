@@ -61,10 +61,20 @@ std::string_view kept_key(const QualifiedName& name) {
   return {};
 }
 
+/// True for the elements that surfaces and lines are made of, and for a link to a template. Points
+/// are none: addresses have some.
+bool is_geometry(const QualifiedName& name) {
+  constexpr std::array<std::string_view, 6> kNames{
+      "Polygon", "PolygonPatch", "Triangle", "Rectangle", "LineString", "LineStringSegment"};
+  const Vocabulary vocabulary = vocabulary_of(name.space);
+  if (vocabulary == Vocabulary::gml) return std::ranges::find(kNames, name.local) != kNames.end();
+  return vocabulary == Vocabulary::core && name.local == "ImplicitGeometry";
+}
+
 }  // namespace
 
 struct CityGmlStream::State {
-  State(Input& from, const TextName& called);
+  State(Input& from, const TextName& called, bool notes);
 
   static void on_start(void* data, const XML_Char* name, const XML_Char** attributes);
   static void on_end(void* data, const XML_Char* name);
@@ -74,6 +84,7 @@ struct CityGmlStream::State {
   static int on_encoding(void* data, const XML_Char* name, XML_Encoding* encoding);
 
   void start(const QualifiedName& name, const XML_Char** attributes);
+  void pass_over(const QualifiedName& element, const XML_Char** attributes);
   void end();
   void check_root(const QualifiedName& name);
   void note_envelope(const XmlNode& bounds);
@@ -101,10 +112,18 @@ struct CityGmlStream::State {
   bool is_done = false;
   std::optional<Issue> issue;
   std::string srs_name;
+  bool notes_unread = false;
+  /// The object of the CityModel that is open and no building, and whether it has geometry.
+  UnreadObject passed;
+  bool has_geometry = false;
+  std::vector<UnreadObject> unread;
 };
 
-CityGmlStream::State::State(Input& from, const TextName& called)
-    : input(from), name(called), parser(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree) {
+CityGmlStream::State::State(Input& from, const TextName& called, bool notes)
+    : input(from),
+      name(called),
+      parser(XML_ParserCreateNS(nullptr, kSeparator), &XML_ParserFree),
+      notes_unread(notes) {
   XML_SetUserData(parser.get(), this);
   XML_SetElementHandler(parser.get(), &on_start, &on_end);
   XML_SetCharacterDataHandler(parser.get(), &on_text);
@@ -162,7 +181,7 @@ void CityGmlStream::State::start(const QualifiedName& element, const XML_Char** 
         depth == 2 && element.local == "boundedBy" && vocabulary == Vocabulary::gml;
     const bool is_building =
         depth == 3 && element.local == "Building" && vocabulary == Vocabulary::building;
-    if (!is_bounds && !is_building) return;
+    if (!is_bounds && !is_building) return pass_over(element, attributes);
     root = {};
     root_start = XML_GetCurrentByteIndex(parser.get());
     node = &root;
@@ -177,10 +196,27 @@ void CityGmlStream::State::start(const QualifiedName& element, const XML_Char** 
   open.push_back(node);
 }
 
+/// What is not read: of objects of the CityModel it is noted that they are there.
+void CityGmlStream::State::pass_over(const QualifiedName& element, const XML_Char** attributes) {
+  if (!notes_unread || depth < 3) return;
+  if (depth > 3) {
+    has_geometry |= is_geometry(element);
+    return;
+  }
+  passed = {"", std::string(element.local)};
+  has_geometry = false;
+  for (; *attributes != nullptr; attributes += 2)
+    if (kept_key(split(*attributes)) == "id") passed.id = attributes[1];
+}
+
 void CityGmlStream::State::end() {
   if (issue) return;
   --depth;
-  if (open.empty()) return;
+  if (open.empty()) {
+    if (depth == 2 && has_geometry) unread.push_back(std::move(passed));
+    if (depth == 2) has_geometry = false;
+    return;
+  }
   open.pop_back();
   if (!open.empty()) return;
   if (root.name == "boundedBy")
@@ -275,13 +311,14 @@ void CityGmlStream::State::refuse(Fault fault) {
   XML_StopParser(parser.get(), XML_FALSE);
 }
 
-CityGmlStream::CityGmlStream(Input& input, const TextName& name)
-    : state_(std::make_unique<State>(input, name)) {}
+CityGmlStream::CityGmlStream(Input& input, const TextName& name, bool notes_unread)
+    : state_(std::make_unique<State>(input, name, notes_unread)) {}
 
 CityGmlStream::~CityGmlStream() = default;
 
 const std::optional<Issue>& CityGmlStream::issue() const { return state_->issue; }
 const std::string& CityGmlStream::srs_name() const { return state_->srs_name; }
+std::vector<UnreadObject> CityGmlStream::take_unread() { return std::exchange(state_->unread, {}); }
 
 std::optional<XmlNode> CityGmlStream::next() {
   while (state_->ready.empty() && !state_->is_done) state_->feed();

@@ -4,10 +4,12 @@
 #include "kernel/io/citygml/xml_node.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/text.h"
+#include "kernel/io/unread_object.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace oriel::detail {
 
@@ -18,8 +20,8 @@ namespace oriel::detail {
 /// before its entities are looked at, so that none is ever expanded.
 class CityGmlStream {
  public:
-  /// `input` and `name` must outlive the stream.
-  CityGmlStream(Input& input, const TextName& name);
+  /// `input` and `name` must outlive the stream. `notes_unread` as in ReadOptions.
+  CityGmlStream(Input& input, const TextName& name, bool notes_unread = false);
   ~CityGmlStream();
   CityGmlStream(const CityGmlStream&) = delete;
   CityGmlStream& operator=(const CityGmlStream&) = delete;
@@ -32,6 +34,8 @@ class CityGmlStream {
   [[nodiscard]] const std::optional<Issue>& issue() const;
   /// The srsName of the CityModel's envelope; empty where it is absent or was not yet met.
   [[nodiscard]] const std::string& srs_name() const;
+  /// As Reader::take_unread().
+  std::vector<UnreadObject> take_unread();
 
  private:
   struct State;

@@ -52,8 +52,8 @@ void add_families(const std::vector<detail::ObjectEntry>& entries, const Documen
 ObjectSurvey survey(const Document& document) {
   ObjectSurvey out;
   out.families.resize(document.buildings.size());
-  if (document.format == Format::citygml) return out;
-  std::iota(out.families.begin(), out.families.end(), std::size_t{0});
+  const bool is_gml = document.format == Format::citygml;
+  if (!is_gml) std::iota(out.families.begin(), out.families.end(), std::size_t{0});
   if (!document.source) return out;
   dom::parser parser;
   dom::object root;
@@ -64,11 +64,12 @@ ObjectSurvey survey(const Document& document) {
   // Whether a number may stand for a level of detail was judged when the document was read.
   const auto entries = detail::list_objects(*objects, true);
   for (const detail::ObjectEntry& entry : entries) {
+    if (is_gml) break;
     for (const detail::GeometryEntry& geometry : entry.geometries) out.lods.insert(geometry.lod);
     if (entry.has_instances && entry.geometries.empty())
       out.unread.push_back({std::string(entry.id), "GeometryInstance"});
   }
-  add_families(entries, document, out);
+  if (!is_gml) add_families(entries, document, out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernel/io/document.h"
+#include "kernel/io/unread_object.h"
 
 #include <cstddef>
 #include <set>
@@ -8,14 +9,6 @@
 #include <vector>
 
 namespace oriel {
-
-/// Something with geometry that is not among the buildings of a document.
-struct UnreadObject {
-  std::string id;
-  /// The type of its CityObject, or "GeometryInstance" for a building that has template geometry
-  /// only.
-  std::string type;
-};
 
 /// What stands in a record besides the buildings that were read of it.
 struct ObjectSurvey {
@@ -29,8 +22,9 @@ struct ObjectSurvey {
   std::vector<std::size_t> families;
 };
 
-/// Looks through the text of a document. Of CityGML only the families are known: a record is one;
-/// of meshes each building is its own.
+/// Looks through the text of a document. Of CityGML a record is one family and has no list of
+/// levels, and what stands in no building has no record (Reader::take_unread()); of meshes each
+/// building is its own family.
 ObjectSurvey survey(const Document& document);
 
 }  // namespace oriel
