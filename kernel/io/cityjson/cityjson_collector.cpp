@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -18,6 +19,8 @@ namespace {
 using detail::RawNode;
 
 constexpr double kCoarsest_m = 0.001;
+/// A coordinate in whole numbers that no building has, and that 64 bits hold.
+constexpr double kFarthest = 9e18;
 
 template <class Number>
 std::array<Number, 3> three_numbers(std::string_view array) {
@@ -32,6 +35,7 @@ std::array<Number, 3> three_numbers(std::string_view array) {
       return;
     }
     std::from_chars(number.data(), number.data() + number.size(), value);
+    if (std::is_integral_v<Number>) value = std::clamp(value, -kFarthest, kFarthest);
     numbers[count++] = static_cast<Number>(value);
   });
   return numbers;
@@ -39,15 +43,16 @@ std::array<Number, 3> three_numbers(std::string_view array) {
 
 /// How many powers of ten all numbers have, up to where the scale is kCoarsest_m.
 int common_digits(const std::vector<std::array<std::int64_t, 3>>& vertices, double scale) {
+  constexpr int kMost = 18;  // of 64 bits
   int digits = 0;
   std::int64_t factor = 10;
   const auto is_whole = [&](const auto& vertex) {
     return std::ranges::all_of(vertex, [&](std::int64_t x) { return x % factor == 0; });
   };
   // The factor allows for scales such as 1.0000001e-4.
-  for (; scale < 0.5 * kCoarsest_m && std::ranges::all_of(vertices, is_whole); ++digits) {
+  while (digits < kMost && scale < 0.5 * kCoarsest_m && std::ranges::all_of(vertices, is_whole)) {
     scale *= 10;
-    factor *= 10;
+    if (++digits < kMost) factor *= 10;
   }
   return digits;
 }
@@ -55,6 +60,13 @@ int common_digits(const std::vector<std::array<std::int64_t, 3>>& vertices, doub
 /// The text that a list of "appearance" has under `number`; empty if it has none.
 std::string_view element_at(const std::vector<std::string_view>& list, std::size_t number) {
   return number < list.size() ? list[number] : std::string_view();
+}
+
+/// `number` of a list of `count`, as it is where that list begins at `first`; what is not there is
+/// not there then either.
+std::int64_t moved(std::size_t number, std::size_t count, std::size_t first) {
+  return number < count ? static_cast<std::int64_t>(first + number)
+                        : std::numeric_limits<std::int64_t>::max();
 }
 
 /// The elements of the list `key` of an "appearance", which may be absent.
@@ -93,18 +105,19 @@ void CityJsonCollector::begin(std::string_view header) {
     places_.emplace_back(text);
 }
 
-std::string CityJsonCollector::object_text(std::string_view object, std::int64_t first_vertex,
+std::string CityJsonCollector::object_text(std::string_view object, std::size_t vertex_count,
                                            std::string_view appearance) {
+  const std::size_t first_vertex = vertices_.size();
   std::string text = detail::with_vertex_numbers(
-      object, [&](std::size_t number) { return first_vertex + static_cast<std::int64_t>(number); });
+      object, [&](std::size_t number) { return moved(number, vertex_count, first_vertex); });
   if (appearance.empty()) return text;
   const auto materials = list_of(appearance, "materials"),
              textures = list_of(appearance, "textures");
-  const auto first_place = static_cast<std::int64_t>(places_.size());
+  const std::size_t place_count = list_of(appearance, "vertices-texture").size();
   return detail::with_appearance_numbers(
       text, {[&](std::size_t n) { return materials_.add(element_at(materials, n)); },
              [&](std::size_t n) { return textures_.add(element_at(textures, n)); },
-             [&](std::size_t n) { return first_place + static_cast<std::int64_t>(n); }});
+             [&](std::size_t n) { return moved(n, place_count, places_.size()); }});
 }
 
 std::optional<std::string> CityJsonCollector::add(std::string_view line) {
@@ -183,18 +196,19 @@ std::optional<std::string> CityJsonCollector::add_objects(std::string_view line,
   const RawNode objects(feature.value_of("CityObjects"));
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < objects.size(); ++i) ids.push_back(objects.key(i));
-  const auto first = static_cast<std::int64_t>(vertices_.size());
+  std::vector<Triple> vertices;
+  detail::for_each_element(feature.value_of("vertices"), [&](std::string_view vertex) {
+    vertices.push_back(placed(three_numbers<std::int64_t>(vertex)));
+  });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects_.empty()) objects_ += ',';
     detail::append_json(objects_, std::string_view(ids[i]));
-    objects_ += ':' + object_text(objects.value(i), first, appearance);
+    objects_ += ':' + object_text(objects.value(i), vertices.size(), appearance);
   }
   ids_.insert(ids.begin(), ids.end());
   for (const std::string_view place : list_of(appearance, "vertices-texture"))
     places_.emplace_back(place);
-  detail::for_each_element(feature.value_of("vertices"), [&](std::string_view vertex) {
-    vertices_.push_back(placed(three_numbers<std::int64_t>(vertex)));
-  });
+  vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
   return std::nullopt;
 }
 

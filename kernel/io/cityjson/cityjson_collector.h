@@ -19,7 +19,8 @@ namespace oriel {
 class CityJsonCollector {
  public:
   /// The header line comes first, then features. They are lines that Reader has read, or that
-  /// write_cityjson gave. An empty line is passed over. Returns the id of a CityObject that an
+  /// write_cityjson gave; a building that names a vertex which is not there names none in the file
+  /// either. An empty line is passed over. Returns the id of a CityObject that an
   /// earlier line had: then nothing is added.
   std::optional<std::string> add(std::string_view line);
 
@@ -60,7 +61,7 @@ class CityJsonCollector {
   void drop_extent();
   void go_to_micrometres();
   [[nodiscard]] Triple placed(const Triple& vertex) const;
-  [[nodiscard]] std::string object_text(std::string_view object, std::int64_t first_vertex,
+  [[nodiscard]] std::string object_text(std::string_view object, std::size_t vertex_count,
                                         std::string_view appearance);
   [[nodiscard]] std::string appearance_text(std::string_view header) const;
 
