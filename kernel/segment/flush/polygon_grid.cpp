@@ -50,8 +50,11 @@ PolygonGrid::PolygonGrid(const Building& building, double grid_m) {
   }
   if (!std::ranges::is_sorted(polygons_, {}, &PlacedPolygon::source))
     std::ranges::sort(polygons_, {}, &PlacedPolygon::source);
-  for (int i = 0; i < std::ssize(polygons_); ++i)
-    cells_[place_of(polygons_[static_cast<std::size_t>(i)].middle())].push_back(i);
+  for (int i = 0; i < std::ssize(polygons_); ++i) {
+    const PlacedPolygon& polygon = polygons_[static_cast<std::size_t>(i)];
+    // What has no corner has no middle.
+    if (!polygon.box.is_empty()) cells_[place_of(polygon.middle())].push_back(i);
+  }
 }
 
 const PlacedPolygon& PolygonGrid::of(int source) const {
