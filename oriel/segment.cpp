@@ -22,16 +22,23 @@ CellComplex cell_complex(const PipelineResult& result) {
   return cell_complex(*result.segmentation, result.tolerances);
 }
 
-TreeComparison compare_trees(const PipelineResult& result) {
+std::optional<CellComplex> cell_complex(const PipelineResult& result, std::int64_t budget) {
+  Work work(budget);
+  return cell_complex(*result.segmentation, result.tolerances, work);
+}
+
+TreeComparison compare_trees(const PipelineResult& result, std::int64_t budget) {
   const Segmentation& segmentation = *result.segmentation;
   TreeComparison found;
+  Work work(budget);
   found.cut = figures_of(segmentation);
   found.tree = balance(segmentation);
   found.balanced = figures_of(found.tree, segmentation);
-  found.balanced_proof = prove(found.tree, segmentation);
+  found.balanced_proof = prove(found.tree, segmentation, work);
   merge_touching(found.tree, segmentation);
   found.merged = figures_of(found.tree, segmentation);
-  found.merged_proof = prove(found.tree, segmentation);
+  found.merged_proof = prove(found.tree, segmentation, work);
+  found.is_used_up = work.is_used_up();
   return found;
 }
 

@@ -1,10 +1,14 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/building.h"
 #include "kernel/model/cell_complex.h"
 #include "kernel/segment/tree/balance.h"
 #include "oriel/options.h"
 #include "oriel/result.h"
+
+#include <cstdint>
+#include <optional>
 
 namespace oriel {
 
@@ -29,6 +33,9 @@ PipelineResult segment(const Building& building, const PipelineOptions& options 
 /// segment() or label() said of it, is_done().
 CellComplex cell_complex(const PipelineResult& result);
 
+/// The same within `budget` steps (PipelineOptions::budget); nothing if they are used up.
+std::optional<CellComplex> cell_complex(const PipelineResult& result, std::int64_t budget);
+
 /// The CSG tree of a building as it was cut, and arranged anew (paper, section 6).
 struct TreeComparison {
   TreeFigures cut, balanced, merged;
@@ -36,11 +43,15 @@ struct TreeComparison {
   /// Balanced, with touching parts merged.
   BalancedTree tree;
 
+  /// The proofs asked fewer points than there are: their work was used up.
+  bool is_used_up = false;
+
   /// All are the same body; false is a fault of oriel's own.
   [[nodiscard]] bool is_same_body() const { return balanced_proof.holds() && merged_proof.holds(); }
 };
 
-/// `result` is what segment() or label() said of a building, is_done() and not open.
-TreeComparison compare_trees(const PipelineResult& result);
+/// `result` is what segment() or label() said of a building, is_done() and not open. The proofs
+/// take no more than `budget` steps.
+TreeComparison compare_trees(const PipelineResult& result, std::int64_t budget = kWorkBudget);
 
 }  // namespace oriel

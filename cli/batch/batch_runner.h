@@ -41,6 +41,8 @@ class BatchRunner {
 
   /// A building was set aside by the command itself.
   void set_aside(const Issue& why);
+  /// A warning of the command itself.
+  void warn(const Issue& issue) { report({issue}); }
 
   /// Of the present run.
   [[nodiscard]] Timings& timings() { return timings_.back(); }

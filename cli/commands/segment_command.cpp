@@ -157,7 +157,11 @@ class Segmenter final : public VisitingCommand {
   void add(const Building& building, const PipelineResult& line) {
     const FeatureTable& table = line.description.table;
     std::optional<CellComplex> complex;
-    if (arguments_.has_faces) complex = cell_complex(line);
+    if (arguments_.has_faces) {
+      complex = cell_complex(line, arguments_.budget);
+      if (!complex)
+        warn_of_budget(building, "finding faces", "its faces and contacts are left out");
+    }
     const std::string text =
         arguments_.has_tree ? tree_text(building, line)
         : arguments_.is_json
@@ -171,10 +175,23 @@ class Segmenter final : public VisitingCommand {
     features_->append(is_safe ? with_safe_cells(records) : records);
   }
 
+  void warn_of_budget(const Building& building, const std::string& stage,
+                      const std::string& outcome) const {
+    runner_.warn(used_up(building.id, arguments_.budget, stage, outcome));
+  }
+
   /// Of an open building nothing: it has no tree.
   [[nodiscard]] std::string tree_text(const Building& building, const PipelineResult& line) const {
-    if (line.is_open) return {};
-    const TreeComparison trees = compare_trees(line);
+    if (line.is_open) {
+      runner_.set_aside(building_issue(
+          Severity::error, Code::E302, building.id,
+          "has no tree: its polygons are no closed solid (--close any, or oriel repair, may make "
+          "one)"));
+      return {};
+    }
+    const TreeComparison trees = compare_trees(line, arguments_.budget);
+    if (trees.is_used_up)
+      warn_of_budget(building, "proving the tree", "only some of the points were compared");
     if (trees.is_same_body()) return tree_report(building.id, trees, arguments_.is_json);
     runner_.set_aside(building_issue(Severity::error, Code::E901, building.id,
                                      "a fault of oriel's own: its balanced tree is another body"));

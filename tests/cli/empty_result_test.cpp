@@ -55,6 +55,25 @@ TEST_SUITE("cli") {
     CHECK(run({"explain", none, "f"}).exit == 3);
   }
 
+  TEST_CASE("segment --tree says of an open building that it has no tree") {
+    const Folder folder;
+    auto city = cubes({"a", "b"});
+    city["CityObjects"]["a"]["geometry"][0]["boundaries"][0].erase(1);  // its roof
+    const std::string in = folder.write("open.city.json", city.dump());
+    CHECK(run({"segment", in}).exit == 0);
+    for (const Words& more : std::vector<Words>{{}, {"--json"}}) {
+      Words arguments{"segment", in, "--tree"};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Outcome outcome = run(arguments);
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit == 3);
+      CHECK(outcome.says("error: a: E302 has no tree"));
+      CHECK(outcome.says("1 rejected (E302 1)"));
+      CHECK(outcome.out.find("b") != std::string::npos);
+    }
+    CHECK(run({"segment", in, "--tree", "--close", "any"}).exit == 0);
+  }
+
   TEST_CASE("every command says that an id or a place selects nothing") {
     const Folder folder;
     const std::string in = folder.write("in.city.json", cubes({"a", "b"}).dump());

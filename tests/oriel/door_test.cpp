@@ -199,6 +199,18 @@ TEST_SUITE("oriel") {
     CHECK(trees.merged.leaves <= trees.balanced.leaves);
   }
 
+  TEST_CASE("cells are joined and trees compared as far as the budget goes") {
+    const auto records = records_of("house");
+    const PipelineResult result = segment(records[0].buildings.at(0));
+    CHECK(!cell_complex(result, 1));
+    CHECK(cell_complex(result, kWorkBudget)->faces().size() == cell_complex(result).faces().size());
+    const TreeComparison whole = compare_trees(result), part = compare_trees(result, 1);
+    CHECK(!whole.is_used_up);
+    CHECK(part.is_used_up);
+    CHECK(part.is_same_body());
+    CHECK(part.balanced_proof.points < whole.balanced_proof.points);
+  }
+
   TEST_CASE("stored features get the labels that the building gets") {
     const auto records = records_of("house");
     const Building& building = records[0].buildings.at(0);

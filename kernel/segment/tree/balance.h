@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/base/work.h"
 #include "kernel/model/segmentation.h"
 
 #include <cstddef>
@@ -70,5 +71,8 @@ struct BalanceProof {
   }
 };
 BalanceProof prove(const BalancedTree& tree, const Segmentation& segmentation);
+
+/// The same, its work counted: once that is used up no more points are asked.
+BalanceProof prove(const BalancedTree& tree, const Segmentation& segmentation, Work& work);
 
 }  // namespace oriel

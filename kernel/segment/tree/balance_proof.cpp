@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -112,9 +113,11 @@ struct CellPane {
   const Plane* plane = nullptr;
 };
 
+/// At one point after the other.
 class Evaluation {
  public:
-  explicit Evaluation(const Segmentation& segmentation) : segmentation_(segmentation) {
+  Evaluation(const Segmentation& segmentation, Work& work)
+      : segmentation_(segmentation), work_(work), is_in_cell_(segmentation.cells.size()) {
     for (const Cell& cell : segmentation.cells) {
       auto& panes = panes_.emplace_back();
       Box& box = boxes_.emplace_back();
@@ -125,6 +128,12 @@ class Evaluation {
         panes.push_back(std::move(pane));
       }
     }
+  }
+
+  /// Where trees are evaluated from now on.
+  void go_to(Vec3 p) {
+    point_ = p;
+    std::ranges::fill(is_in_cell_, std::nullopt);
   }
 
   /// Beside every facet, on both sides; none within kTooNear_m of a facet's plane.
@@ -139,14 +148,14 @@ class Evaluation {
     return points;
   }
 
-  [[nodiscard]] bool is_in(const TreeView& view, NodeId id, Vec3 p) const {
+  [[nodiscard]] bool is_in(const TreeView& view, NodeId id) {
     const CsgNode& node = view.nodes[id.index()];
-    const auto has = [&](NodeId child) { return is_in(view, child, p); };
+    const auto has = [&](NodeId child) { return is_in(view, child); };
     switch (node.kind) {
       case CsgNode::Kind::leaf:
         if (const auto merge = view.merged.find(node.cell); merge != view.merged.end())
-          return is_behind_all(merge->second->planes, p);
-        return is_in_cell(node.cell, p);
+          return is_behind_all(merge->second->planes);
+        return is_in_cell(node.cell);
       case CsgNode::Kind::unite:
         return std::ranges::any_of(node.rest, has) || std::ranges::any_of(node.parts, has);
       case CsgNode::Kind::subtract:
@@ -172,24 +181,35 @@ class Evaluation {
     return false;
   }
 
-  [[nodiscard]] bool is_in_cell(CellId id, Vec3 p) const {
-    if (!is_in_box(boxes_[id.index()], p, 0)) return false;
+  /// Each cell is asked once: both trees have it.
+  [[nodiscard]] bool is_in_cell(CellId id) {
+    std::optional<bool>& is_in = is_in_cell_[id.index()];
+    if (!is_in) is_in = is_in_box(boxes_[id.index()], point_, 0) && winds_round(id);
+    return *is_in;
+  }
+
+  [[nodiscard]] bool winds_round(CellId id) {
     constexpr double kHalf = 0.5;  // the winding number is 0 or 1
     double winding = 0;
-    for (const CellPane& pane : panes_[id.index()])
-      winding += detail::winding_part(pane.outlines, p);
+    for (const CellPane& pane : panes_[id.index()]) {
+      for (const detail::Outline& outline : pane.outlines) work_.add(std::ssize(outline));
+      winding += detail::winding_part(pane.outlines, point_);
+    }
     return winding > kHalf;
   }
 
-  [[nodiscard]] bool is_behind_all(const std::vector<PlaneId>& planes, Vec3 p) const {
+  [[nodiscard]] bool is_behind_all(const std::vector<PlaneId>& planes) const {
     return std::ranges::all_of(planes, [&](PlaneId id) {
       const Plane& plane = segmentation_.planes[id.index()];
-      return dot(plane.normal, p) <= plane.offset_m;
+      return dot(plane.normal, point_) <= plane.offset_m;
     });
   }
 
   const Segmentation& segmentation_;
-  std::vector<std::vector<CellPane>> panes_;  ///< by cell
+  Work& work_;
+  Vec3 point_{};
+  std::vector<std::optional<bool>> is_in_cell_;  ///< at the point, where it was asked
+  std::vector<std::vector<CellPane>> panes_;     ///< by cell
   std::vector<Box> boxes_;
 };
 
@@ -204,6 +224,11 @@ TreeFigures figures_of(const BalancedTree& tree, const Segmentation& segmentatio
 }
 
 BalanceProof prove(const BalancedTree& tree, const Segmentation& segmentation) {
+  Work work;
+  return prove(tree, segmentation, work);
+}
+
+BalanceProof prove(const BalancedTree& tree, const Segmentation& segmentation, Work& work) {
   const TreeView before = view_of(segmentation), after = view_of(tree);
   BalanceProof proof;
   const std::vector<int> signs = signs_of(after, segmentation.cells.size());
@@ -214,10 +239,12 @@ BalanceProof prove(const BalancedTree& tree, const Segmentation& segmentation) {
     proof.before_m3 += cell.sign * cell.volume_m3;
     proof.after_m3 += signs[i] * cell.volume_m3;
   }
-  const Evaluation evaluation(segmentation);
+  Evaluation evaluation(segmentation, work);
   for (const Vec3 p : evaluation.points()) {
+    if (work.is_used_up()) break;
     ++proof.points;
-    if (evaluation.is_in(before, before.root, p) != evaluation.is_in(after, after.root, p))
+    evaluation.go_to(p);
+    if (evaluation.is_in(before, before.root) != evaluation.is_in(after, after.root))
       ++proof.differing;
   }
   return proof;
