@@ -6,7 +6,6 @@
 #include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
 
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -60,10 +59,9 @@ ExitCode check(const RulesCheckArguments& arguments) {
       print_out(counts_of(path, *pack.value));
   }
   if (arguments.is_json)
-    std::fputs(
-        (findings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n")
-            .c_str(),
-        stdout);
+    print_out(
+        findings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n",
+        true);
   return code;
 }
 
@@ -179,7 +177,7 @@ ExitCode format(const RulesPrintArguments& arguments) {
       run_log().write(LogLevel::error, printable(pack) + " is not in canonical form");
       code = graver(code, ExitCode::rules);
     } else if (!arguments.is_write) {
-      std::fputs(formatted.value->c_str(), stdout);
+      print_out(*formatted.value, true);
     } else if (*formatted.value != text_of(pack)) {
       write_file(pack, *formatted.value);
     }
@@ -193,7 +191,7 @@ ExitCode show(const RulesPrintArguments& arguments) {
   const auto merged = merge_pack_file(pack);
   report.add(merged.issues);
   if (!merged.value) return ExitCode::rules;
-  std::fputs((arguments.is_merged ? *merged.value : text_of(pack)).c_str(), stdout);
+  print_out(arguments.is_merged ? *merged.value : text_of(pack), true);
   return ExitCode::clean;
 }
 
@@ -226,7 +224,7 @@ void add_schema(CLI::App& rules, Action& action) {
   command->footer("Example:\n  oriel rules schema > oriel-1.schema.json");
   command->callback([&action] {
     action = [] {
-      std::fputs(pack_schema().c_str(), stdout);
+      print_out(pack_schema(), true);
       return ExitCode::clean;
     };
   });

@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <unistd.h>
 
 namespace oriel::cli {
 
@@ -14,7 +15,8 @@ int first_failure = 0;
 }  // namespace
 
 void print_out(const std::string& text, bool is_for_programs) {
-  const std::string& lines = is_for_programs ? text : printable_lines(text);
+  const bool is_exact = is_for_programs && ::isatty(STDOUT_FILENO) == 0;
+  const std::string& lines = is_exact ? text : printable_lines(text);
   errno = 0;
   if (std::fwrite(lines.data(), 1, lines.size(), stdout) != lines.size() && first_failure == 0)
     first_failure = errno;

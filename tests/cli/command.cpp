@@ -95,6 +95,10 @@ void send_signal_to_worker(pid_t child, int signal) {
     const rlimit limit{around.file_limit, around.file_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (around.cpu_limit_s > 0) {
+    const rlimit limit{around.cpu_limit_s, around.cpu_limit_s};
+    ::setrlimit(RLIMIT_CPU, &limit);
+  }
   std::vector<std::string> environment = around.environment;
   for (std::string& variable : environment) ::putenv(variable.data());
   ::execv(command.c_str(), argv.data());
@@ -107,13 +111,14 @@ Outcome run(const std::vector<std::string>& arguments, const Surroundings& aroun
   const int in = scratch(around.in), err = scratch();
   const int out = stdout_of(around);
   int terminal = -1, terminal_end = -1;
-  if (around.has_terminal && ::openpty(&terminal, &terminal_end, nullptr, nullptr, nullptr) != 0)
+  const bool has_terminal = around.has_terminal || around.has_terminal_out;
+  if (has_terminal && ::openpty(&terminal, &terminal_end, nullptr, nullptr, nullptr) != 0)
     throw std::runtime_error("no terminal");
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("no process");
   if (child == 0) {
     ::dup2(in, STDIN_FILENO);
-    ::dup2(out, STDOUT_FILENO);
+    ::dup2(around.has_terminal_out ? terminal_end : out, STDOUT_FILENO);
     ::dup2(around.has_terminal ? terminal_end : err, STDERR_FILENO);
     become_oriel(arguments, around);
   }
@@ -125,9 +130,9 @@ Outcome run(const std::vector<std::string>& arguments, const Surroundings& aroun
   outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (around.stdout_file.empty() && !around.has_broken_pipe) outcome.out = content(out);
   outcome.err = content(err);
-  if (around.has_terminal) {
+  if (has_terminal) {
     ::close(terminal_end);
-    outcome.err = content(terminal);
+    (around.has_terminal_out ? outcome.out : outcome.err) = content(terminal);
     ::close(terminal);
   }
   for (const int descriptor : {in, out, err}) ::close(descriptor);

@@ -26,10 +26,14 @@ struct Surroundings {
   bool has_broken_pipe = false;
   /// The largest file it may write, in bytes; 0: any.
   unsigned file_limit = 0;
+  /// The seconds of CPU that it may take, then SIGXCPU ends it; 0: any.
+  unsigned cpu_limit_s = 0;
   /// NAME=value, added to the environment.
   std::vector<std::string> environment{};
   /// stderr is a terminal.
   bool has_terminal = false;
+  /// stdout is a terminal, which holds some 4 kB.
+  bool has_terminal_out = false;
   /// It is sent this signal as soon as a file with `watched_name` in its name appears in `watched`.
   int signal = 0;
   std::filesystem::path watched{};

@@ -32,6 +32,24 @@ void check_shown(const Outcome& outcome) {
   check_shown(outcome.err);
 }
 
+/// The sample "hip" under each of the ids.
+nlohmann::ordered_json hips(const Names& ids) {
+  const auto hip = nlohmann::ordered_json::parse(bytes_of(sample("hip")));
+  auto city = hip;
+  city["CityObjects"].clear();
+  for (const std::string& id : ids) city["CityObjects"][id] = hip["CityObjects"]["hip"];
+  return city;
+}
+
+/// A truth file of one object of a class.
+std::string truth_of(const std::string& building, const std::string& label) {
+  auto truth = nlohmann::json::parse(
+      R"({"objects": [{"id": "x", "class": "", "aabb": [0, 0, 0, 1, 1, 1], "faces": [0]}]})");
+  truth["building"] = building;
+  truth["objects"][0]["class"] = label;
+  return truth.dump();
+}
+
 /// Ids that would lead elsewhere, or nowhere, as names of files.
 const std::vector<std::string> kPaths{"../up",
                                       "/tmp/oriel-hostile-id",
@@ -110,6 +128,34 @@ TEST_SUITE("cli") {
       CHECK(outcome.exit == 4);
       check_shown(outcome);
     }
+  }
+
+  TEST_CASE("a pack on a terminal is shown as escapes and in a pipe to the letter") {
+    const Folder folder;
+    // In a text, and in a comment, which no parser looks at.
+    const std::string text =
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\n"
+        "params: {tall: {value: 1 m, why: \"\u202Ex\xC2\x9B"
+        "2J\"}}\nclasses: {window: {}}\n"
+        "rules: [{id: w, label: window, require: height > $tall}]   # \u202Eforged\xC2\x9B"
+        "2J\n";
+    const std::string pack = folder.write("p.yaml", text);
+    Surroundings terminal;
+    terminal.has_terminal_out = true;
+    for (const Names& arguments : std::vector<Names>{{"rules", "show", pack},
+                                                     {"rules", "show", pack, "--merged"},
+                                                     {"rules", "fmt", pack}}) {
+      CAPTURE(arguments[1]);
+      const Outcome piped = run(arguments);
+      REQUIRE(piped.exit == 0);
+      CHECK(piped.out.find("\u202E") != std::string::npos);
+      const Outcome shown = run(arguments, terminal);
+      CHECK(shown.exit == 0);
+      CHECK(shown.out.find("\\u202e") != std::string::npos);
+      CHECK(shown.out.find("\u202E") == std::string::npos);
+      CHECK(shown.out.find("\xC2\x9B") == std::string::npos);
+    }
+    CHECK(run({"rules", "show", pack}).out == text);
   }
 
   TEST_CASE("outputs for programs keep an id to the letter") {
@@ -194,24 +240,57 @@ TEST_SUITE("cli") {
 
   TEST_CASE("cells that a spreadsheet would run are written with --safe-cells as text") {
     const Folder folder;
-    const auto hip = nlohmann::ordered_json::parse(bytes_of(sample("hip")));
-    auto city = hip;
-    city["CityObjects"].clear();
-    for (const char* id : {"=1+1", "+1", "-a", "@x", "-1.5", "plain", "=a\"b,c", "a;=1"})
-      city["CityObjects"][id] = hip["CityObjects"]["hip"];
-    const std::string input = folder.write("in.city.json", city.dump());
-    const std::string as_is = folder / "as_is.csv", safe = folder / "safe.csv";
-    REQUIRE(run({"segment", input, "--features", as_is}).exit == 0);
-    REQUIRE(run({"segment", input, "--features", safe, "--safe-cells"}).exit == 0);
-    const auto begins = [](const std::string& file, const std::string& cell) {
-      return std::ranges::any_of(lines_of(bytes_of(file)), [&](const std::string& line) {
-        return line.starts_with(cell + ",");
-      });
-    };
-    for (const char* cell : {"=1+1", "+1", "-a", "@x", "-1.5", "plain", "\"=a\"\"b,c\"", "a;=1"})
-      CHECK(begins(as_is, cell));
-    for (const char* cell : {"\"'=1+1\"", "\"'+1\"", "\"'-a\"", "\"'@x\"", "-1.5", "plain",
-                             "\"'=a\"\"b,c\"", "\"a;=1\""})
-      CHECK(begins(safe, cell));
+    const Names ids{"=1+1", "+1", "-a", "@x", "-1.5", "plain", "=a\"b,c", "a;=1"};
+    const std::string input = folder.write("in.city.json", hips(ids).dump());
+    const std::string records = folder / "records.csv";
+    REQUIRE(run({"label", input, "--features", records}).exit == 0);
+    std::string truth;
+    for (const std::string& id : ids) truth += truth_of(id, "window") + "\n";
+    const std::string truths = folder.write("t.truth.jsonl", truth);
+    const std::string model = folder / "out.city.json";
+    for (const Names& command :
+         std::vector<Names>{{"segment", input, "--features"},
+                            {"label", input, "--features"},
+                            {"generalise", input, "--scale", "1:1000", "-o", model, "--features"},
+                            {"interpret", records, "-o"},
+                            {"score", records, "--truth", truths, "--per-building"}}) {
+      CAPTURE(command[0]);
+      const auto written = [&](const Names& more) {
+        Names arguments = command;
+        arguments.push_back(folder / "out.csv");
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run(arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.exit == 0);
+        return lines_of(bytes_of(folder / "out.csv"));
+      };
+      const auto begins = [](const Names& lines, const std::string& cell) {
+        return std::ranges::any_of(
+            lines, [&](const std::string& line) { return line.starts_with(cell + ","); });
+      };
+      const Names as_is = written({}), safe = written({"--safe-cells"});
+      CHECK(as_is.size() == safe.size());
+      for (const char* cell : {"=1+1", "+1", "-a", "@x", "-1.5", "plain", "\"=a\"\"b,c\"", "a;=1"})
+        CHECK(begins(as_is, cell));
+      for (const char* cell : {"\"'=1+1\"", "\"'+1\"", "\"'-a\"", "\"'@x\"", "-1.5", "plain",
+                               "\"'=a\"\"b,c\"", "\"a;=1\""})
+        CHECK(begins(safe, cell));
+    }
+  }
+
+  TEST_CASE("classes of the truth that a spreadsheet would run are text in a curve") {
+    const Folder folder;
+    const std::string records = folder / "records.csv";
+    REQUIRE(run({"label", sample("hip"), "--features", records}).exit == 0);
+    const std::string truth = folder.write("t.truth.json", truth_of("hip", "=1+1"));
+    for (const bool is_safe : {false, true}) {
+      Names arguments{"score", records, "--truth", truth, "--curve", folder / "curve.csv"};
+      if (is_safe) arguments.emplace_back("--safe-cells");
+      const Outcome outcome = run(arguments);
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit <= 3);
+      for (const std::string& line : lines_of(bytes_of(folder / "curve.csv")))
+        CHECK((!is_safe || !line.starts_with("=")));
+    }
   }
 }
