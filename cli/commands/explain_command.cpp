@@ -1,6 +1,7 @@
 #include "cli/batch/batch_runner.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
+#include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "oriel/explain.h"
 
@@ -23,6 +24,14 @@ struct ExplainArguments : RunOptions {
   std::vector<double> at;
   bool is_json = false;
 };
+
+/// There is nothing to explain: wrong usage, unless something graver has happened that explains
+/// it.
+ExitCode end_with_nothing(ExitCode code, const std::string& option, const std::string& why) {
+  if (code == ExitCode::clean) throw CLI::ValidationError(option, why);
+  if (code != ExitCode::input) run_log().write(LogLevel::error, option + ": " + why);
+  return code;
+}
 
 /// What lies at a place: the feature there, or the surface where there is none.
 ExitCode explain_place(const ExplainArguments& arguments) {
@@ -50,8 +59,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
     }
   });
   const ExitCode code = runner.run(visitor);
-  if (text.empty() && code != ExitCode::input)
-    throw CLI::ValidationError("--at", "no polygon lies there");
+  if (text.empty()) return end_with_nothing(code, "--at", "no polygon lies there");
   print_out(text, arguments.is_json);
   return code;
 }
@@ -73,9 +81,9 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
     }
   });
   const ExitCode code = runner.run(visitor);
-  if (text.empty() && code != ExitCode::input)
-    throw CLI::ValidationError("--surface",
-                               fmt::format("there is no polygon {}", arguments.surface));
+  if (text.empty())
+    return end_with_nothing(code, "--surface",
+                            fmt::format("there is no polygon {}", arguments.surface));
   print_out(text);
   return code;
 }
