@@ -19,15 +19,18 @@ namespace {
 using Corner = std::array<int, 2>;  // millimetres
 using Names = std::vector<std::string>;
 
-/// A block of 10 x 8 x 6 m at `x`, in millimetres, with a chimney whose corners are cut out of its
-/// top as they are, though they may lie beyond its edge.
-json block_with_chimney(int x, const std::array<Corner, 4>& chimney) {
+/// A block of 10 x 8 m at `x`, in millimetres, 6 m high in the middle of its top, which rises by
+/// `slope` mm for each, with a chimney whose corners are cut out of the top as they are, though
+/// they may lie beyond its edge.
+json block_with_chimney(int x, int slope, const std::array<Corner, 4>& chimney) {
+  const std::array<Corner, 4> block{
+      {Corner{0, 0}, Corner{10000, 0}, Corner{10000, 8000}, Corner{0, 8000}}};
+  const auto top = [&](const Corner& p) { return 6000 + slope * (p[1] - 4000); };
   json vertices = json::array();
-  for (const int z : {0, 6000})
-    for (const Corner& p : {Corner{0, 0}, Corner{10000, 0}, Corner{10000, 8000}, Corner{0, 8000}})
-      vertices.push_back({p[0] + x, p[1], z});
-  for (const int z : {6000, 8000})
-    for (const Corner& p : chimney) vertices.push_back({p[0] + x, p[1], z});
+  for (const Corner& p : block) vertices.push_back({p[0] + x, p[1], 0});
+  for (const Corner& p : block) vertices.push_back({p[0] + x, p[1], top(p)});
+  for (const int rise : {0, 2000})
+    for (const Corner& p : chimney) vertices.push_back({p[0] + x, p[1], top(p) + rise});
   return vertices;
 }
 
@@ -47,13 +50,15 @@ json building_at(int first) {
 
 using Blocks = std::map<std::string, json>;  // vertices by id
 
-/// The chimney of "sharp" sticks out by a millimetre, with an edge that is less than one wide where
-/// it does; that of "askew" crosses the edge between whole millimetres.
+/// The chimney of "askew" crosses the edge between whole millimetres. That of "sharp" sticks out by
+/// a millimetre where its edges are more than one apart, and yet lie at the same whole millimetres:
+/// written as it is it would need a finer grid.
 Blocks blocks() {
-  return {{"askew", block_with_chimney(
-                        20000, {Corner{8000, 3000}, {13001, 4003}, {12007, 6001}, {7003, 5007}})},
-          {"sharp",
-           block_with_chimney(0, {Corner{9000, 3600}, {10001, 4000}, {9000, 4400}, {8000, 4000}})}};
+  return {
+      {"askew", block_with_chimney(
+                    20000, 0, {Corner{8000, 3000}, {13001, 4003}, {12007, 6001}, {7003, 5007}})},
+      {"sharp",
+       block_with_chimney(0, 1, {Corner{9000, 3550}, {10001, 4000}, {9000, 4450}, {8000, 4000}})}};
 }
 
 json header() {
@@ -133,7 +138,7 @@ TEST_SUITE("cli") {
       CAPTURE(command[0]);
       const Folder folder;
       const auto in_file = made_by(command, folder, "all.city.json", file_of(blocks()));
-      CHECK(in_file.size() == 2);
+      CHECK((in_file.contains("askew") && in_file.contains("sharp")));
       CHECK(in_file == made_by(command, folder, "all.city.jsonl", stream_of(blocks())));
       for (const auto& [id, vertices] : blocks()) {
         CAPTURE(id);

@@ -1,8 +1,11 @@
 #include "tests/cli/command.h"
+#include "tests/support/corpus.h"
 #include "tests/support/shared.h"
 
 #include <algorithm>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -46,6 +49,26 @@ TEST_SUITE("cli") {
       CHECK(errors_in(outcome.err) == (outcome.exit == 3 ? 1 : 0));
       CHECK(outcome.says(outcome.exit == 3 ? "; 1 rejected" : "1 of 1 building labelled"));
     }
+  }
+
+  TEST_CASE("slow: most published buildings become solids and levels") {
+    ORIEL_NEEDS_SHARED(shared);
+    const Folder folder;
+    const auto done_by = [&](std::vector<std::string> arguments,
+                             const std::vector<std::string>& inputs) {
+      arguments.insert(arguments.end(), inputs.begin(), inputs.end());
+      const Outcome outcome = run(arguments);
+      const std::vector<std::string> lines = lines_of(outcome.err);
+      REQUIRE(!lines.empty());
+      CAPTURE(lines.back());
+      return std::stoi(lines.back());  // "799 of 853 buildings closed ..."
+    };
+    // Issue 29, finding 10.
+    CHECK(done_by({"repair", "-o", folder / "delfshaven.city.json"},
+                  {shared / "data/delfshaven/delfshaven.city.json"}) >= 740);
+    const auto surveyed =
+        oriel::test::files_in(shared / "data" / "ingolstadt", ".stripped.city.json");
+    CHECK(done_by({"generalise", "--scale", "1:1000", "-o", folder / "surveyed/"}, surveyed) >= 17);
   }
 
   TEST_CASE("buildings that made label run for ever or crash are labelled or set aside") {

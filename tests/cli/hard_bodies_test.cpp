@@ -1,0 +1,171 @@
+#include "tests/cli/command.h"
+#include "tests/cli/cubes.h"
+#include "tests/support/shared.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace oriel::test;
+using nlohmann::json;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
+constexpr unsigned kMostSeconds = 0;  // any: what checks itself is slower
+#else
+constexpr unsigned kMostSeconds = 10;  // twice what a building may take
+#endif
+
+/// A building with that geometry as a stream.
+std::string stream_of(const std::string& type, const std::string& boundaries,
+                      const std::string& vertices) {
+  const json header = {{"type", "CityJSON"},
+                       {"version", "2.0"},
+                       {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {0, 0, 0}}}},
+                       {"CityObjects", json::object()},
+                       {"vertices", json::array()}};
+  json geometry = {{"type", type}, {"lod", "2"}};
+  geometry["boundaries"] = json::parse(boundaries);
+  json feature = {{"type", "CityJSONFeature"}, {"id", "b"}};
+  feature["CityObjects"]["b"] = {{"type", "Building"}, {"geometry", json::array({geometry})}};
+  feature["vertices"] = json::parse(vertices);
+  return header.dump() + "\n" + feature.dump() + "\n";
+}
+
+const std::string kCube =
+    "[[0,0,0],[4000,0,0],[0,4000,0],[4000,4000,0],"
+    "[0,0,4000],[4000,0,4000],[0,4000,4000],[4000,4000,4000]]";
+const std::string kShell =
+    "[[[0,2,3,1]],[[4,5,7,6]],[[0,1,5,4]],[[1,3,7,5]],[[3,2,6,7]],[[2,0,4,6]]]";
+
+/// Bodies of the kinds that once crashed a command, made it run for ever, or were called a fault of
+/// oriel's own, by what is wrong with them.
+const std::map<std::string, std::string>& hard_bodies() {
+  static const std::map<std::string, std::string> bodies{
+      {"a sheet given from both sides",
+       stream_of("MultiSurface", "[[[0,1,3,2]],[[0,2,3,1]],[[4,5,7,6]],[[0,1,5,4]]]", kCube)},
+      {"polygons upon each other",
+       stream_of("MultiSurface", "[[[0,1,5,4]],[[0,1,5,4]],[[0,1,5,4]],[[4,5,7,6]]]", kCube)},
+      {"a solid given twice",
+       stream_of("CompositeSolid", "[[" + kShell + "],[" + kShell + "]]", kCube)},
+      {"a wedge given twice, once with a corner too many",
+       stream_of("CompositeSolid",
+                 "[[[[[0,1,2,3]],[[4,5,6,7]],[[0,3,5,4]],[[3,3,2,6,5]],[[1,0,4,7]]]],"
+                 "[[[[0,1,2,3]],[[4,5,6,7]],[[0,3,5,4]],[[3,2,6,5]],[[1,0,4,7]]]]]",
+                 "[[0,0,0],[0,4000,0],[4000,4000,0],[4000,0,0],[0,0,4000],[4000,0,4000],"
+                 "[0,2000,0],[0,4000,4000]]")},
+      {"walls in one plane",
+       stream_of("Solid", "[[[[0,1,3,2]],[[2,3,5,4]],[[4,5,7,6]]]]",
+                 "[[0,0,0],[0,0,4000],[0,1000,0],[0,1000,4000],[0,2000,0],[0,2000,4000],"
+                 "[0,3000,0],[0,3000,4000]]")},
+      {"a polygon without corners",
+       stream_of("Solid", "[[[[0,2,3,1]],[[]],[[0,1,5,4]],[[1,3,7,5]],[[3,2,6,7]],[[2,0,4,6]]]]",
+                 kCube)},
+      {"a vertex beyond all numbers",
+       stream_of("MultiSurface", "[[[0,1,9223372036854775807]]]", kCube)},
+      {"nothing but points in one place",
+       stream_of("Solid", "[" + kShell + "]",
+                 "[[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0]]")}};
+  return bodies;
+}
+
+/// Every command that works on buildings.
+std::vector<Words> commands_on(const std::string& input, const Folder& folder) {
+  std::vector<Words> commands{
+      {"label"},
+      {"label", "--repaired", "-o", folder / "repaired.city.jsonl"},
+      {"label", "--existing", "audit"},
+      {"segment"},
+      {"segment", "--tree", "--json"},
+      {"segment", "--json", "--faces"},
+      {"segment", "--json", "--order", "paper"},
+      {"explain", "--surface", "0"},
+      {"view", "-o", folder / "page.html"},
+      {"generalise", "--scale", "1:2500", "-o", folder / "scale.city.jsonl"},
+      {"generalise", "--to-lod", "2.0,1.3,1.2,1.0", "-o", folder / "lods.city.jsonl"},
+      {"generalise", "--series", "1:500,1:2500,1:10000", "-o", folder / "series"},
+      {"generalise", "--profile", "cfd", "-o", folder / "cfd.city.jsonl"},
+      {"repair", "-o", folder / "solids.city.jsonl"},
+      {"repair", "--close", "any", "-o", folder / "closed.city.jsonl"},
+      {"validate"},
+      {"validate", "--lod", "all", "--json"},
+      {"score", "--surfaces"},
+      {"cat", "-o", folder / "cat.city.jsonl"},
+      {"collect", "-o", folder / "collected.city.json"}};
+  for (Words& command : commands) command.push_back(input);
+  return commands;
+}
+
+/// It comes to an end of its own, and says what it did.
+void check_end(const Words& command, const Surroundings& around) {
+  const Outcome outcome = run(command, around);
+  CAPTURE(command);
+  CAPTURE(outcome.err);
+  CHECK((outcome.exit == 0 || outcome.exit == 2 || outcome.exit == 3 ||
+         (outcome.exit == 5 && command[0] == "view")));
+  CHECK(!outcome.says("E901"));
+  CHECK((!outcome.err.empty() || !outcome.out.empty()));
+}
+
+}  // namespace
+
+TEST_SUITE("cli") {
+  TEST_CASE("no command crashes or runs on for a body that is hard") {
+    Surroundings around;
+    around.cpu_limit_s = kMostSeconds;
+    for (const auto& [name, text] : hard_bodies()) {
+      CAPTURE(name);
+      const Folder folder;
+      for (const Words& command : commands_on(folder.write("in.city.jsonl", text), folder))
+        check_end(command, around);
+    }
+  }
+
+  TEST_CASE("a body that is hard costs itself only in a stream") {
+    for (const auto& [name, text] : hard_bodies()) {
+      CAPTURE(name);
+      std::string lines = text;
+      lines += lines_of(cube_lines({"good"})).at(1) + "\n";
+      for (const Words& command : std::vector<Words>{{"label", "-"},
+                                                     {"generalise", "--scale", "1:1000", "-"},
+                                                     {"repair", "-o", "-", "-"},
+                                                     {"segment", "--json", "-"}}) {
+        CAPTURE(command);
+        Surroundings around;
+        around.in = lines;
+        around.cpu_limit_s = kMostSeconds;
+        const Outcome outcome = run(command, around);
+        CAPTURE(outcome.err);
+        CHECK((outcome.exit == 0 || outcome.exit == 3));
+        CHECK(outcome.out.find("\"good\"") != std::string::npos);
+      }
+    }
+  }
+
+  TEST_CASE("slow: no command crashes or runs on for the inputs that show faults") {
+    ORIEL_NEEDS_SHARED(shared);
+    Surroundings around;
+    around.cpu_limit_s = kMostSeconds;
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(shared / "data" / "faults")) {
+      const std::string name = entry.path().filename();
+      if (!name.ends_with(".json") && !name.ends_with(".jsonl") && !name.ends_with(".obj"))
+        continue;
+      CAPTURE(name);
+      const Folder folder;
+      const std::string lines = folder / "in.city.jsonl";
+      const int exit = run({"cat", entry.path(), "-o", lines}).exit;
+      CHECK((exit == 0 || exit == 3));
+      for (const Words& command : commands_on(lines, folder)) check_end(command, around);
+      ++files;
+    }
+    CHECK(files > 0);
+  }
+}
