@@ -29,7 +29,7 @@ class FacetSplitter {
 
   /// Splits a facet: the part inside the outline (counter-clockwise seen from outside) becomes a
   /// facet with the polygons of `inside`, what is left keeps the others. False if the outline
-  /// leaves the facet.
+  /// leaves the facet, crosses itself, or runs the other way.
   bool split(FacetId facet, const Outline& outline, const std::vector<int>& inside);
 
   [[nodiscard]] const Solid& solid() const { return solid_; }
@@ -55,6 +55,8 @@ class FacetSplitter {
   void insert_on_edge(DirectedEdge edge, int vertex);
   void insert_into(int f, DirectedEdge edge, int vertex);
   [[nodiscard]] Loop with_vertices_between(const Loop& ring, int f) const;
+  [[nodiscard]] bool crosses(int f, const Loop& ring, Vec3 normal) const;
+  [[nodiscard]] bool is_hole_in(const Loop& loop, const Loop& ring, Vec3 normal) const;
   [[nodiscard]] std::optional<std::vector<Loop>> trace(const std::vector<DirectedEdge>& edges,
                                                        Vec3 normal) const;
 
@@ -66,6 +68,20 @@ class FacetSplitter {
 };
 
 int after(const Loop& loop, std::size_t i) { return loop[(i + 1) % loop.size()]; }
+
+/// A loop that comes to a vertex again, as loops that come to none twice: they touch there.
+void add_simple_loops(const Loop& loop, std::vector<Loop>& loops) {
+  Loop way;
+  for (const int v : loop) {
+    const auto first = std::ranges::find(way, v);
+    if (first != way.end()) {
+      loops.emplace_back(first, way.end());
+      way.erase(first, way.end());
+    }
+    way.push_back(v);
+  }
+  loops.push_back(std::move(way));
+}
 
 FacetSplitter::FacetSplitter(Solid solid, double snap_m)
     : solid_(std::move(solid)), snap_m_(snap_m), shell_of_(solid_.facets.size(), -1) {
@@ -89,7 +105,8 @@ bool FacetSplitter::split(FacetId id, const Outline& outline, const std::vector<
   const int f = id.value;
   const Vec3 normal = solid_.planes[facet(f).plane.index()].normal;
   const auto ring = fitted(f, outline);
-  if (!ring) return false;
+  if (!ring || signed_area(outline_of(*ring), normal) <= 0 || crosses(f, *ring, normal))
+    return false;
   std::vector<Loop> within{*ring};
   const auto left = loops_left(f, *ring, normal, within);
   if (!left) return false;
@@ -124,6 +141,10 @@ std::optional<std::vector<Loop>> FacetSplitter::loops_left(int f, const Loop& ri
       (contains({{outline}}, normal, point(loop[0])) ? within : untouched).push_back(loop);
       continue;
     }
+    if (is_hole_in(loop, ring, normal)) {
+      within.push_back(loop);
+      continue;
+    }
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const DirectedEdge edge{loop[i], after(loop, i)};
       if (of_ring.contains({edge.second, edge.first})) return std::nullopt;
@@ -136,6 +157,36 @@ std::optional<std::vector<Loop>> FacetSplitter::loops_left(int f, const Loop& ri
   return loops;
 }
 
+/// True if an edge of the ring crosses another one, or one of the facet's, other than in a vertex.
+bool FacetSplitter::crosses(int f, const Loop& ring, Vec3 normal) const {
+  const auto side = [&](int from, int to, int v) {
+    return dot(cross(point(to) - point(from), point(v) - point(from)), normal);
+  };
+  const auto meets = [&](int a, int b, const Loop& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int c = loop[i], d = after(loop, i);
+      if (a == c || a == d || b == c || b == d) continue;
+      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const int from = ring[i], to = after(ring, i);
+    if (meets(from, to, ring)) return true;
+    for (const Loop& loop : solid_.facets[at(f)].loops)
+      if (meets(from, to, loop)) return true;
+  }
+  return false;
+}
+
+/// True of a hole inside a ring that it meets in vertices only.
+bool FacetSplitter::is_hole_in(const Loop& loop, const Loop& ring, Vec3 normal) const {
+  const Outline outline = outline_of(loop);
+  if (signed_area(outline, normal) >= 0) return false;
+  const auto inside = interior_point({{outline}}, normal);
+  return inside && contains({{outline_of(ring)}}, normal, *inside);
+}
+
 /// Outer loops, each with the holes in it. Nothing if a hole is in none.
 std::optional<std::vector<std::vector<Loop>>> FacetSplitter::parts_of(
     const std::vector<Loop>& loops, Vec3 normal) const {
@@ -144,8 +195,10 @@ std::optional<std::vector<std::vector<Loop>>> FacetSplitter::parts_of(
     if (signed_area(outline_of(loop), normal) > 0) parts.push_back({loop});
   for (const Loop& loop : loops) {
     if (signed_area(outline_of(loop), normal) > 0) continue;
+    // A corner of it may lie on the outer loop.
+    const auto inside = interior_point({{outline_of(loop)}}, normal).value_or(point(loop[0]));
     const auto home = std::ranges::find_if(parts, [&](const std::vector<Loop>& part) {
-      return parts.size() == 1 || contains({{outline_of(part[0])}}, normal, point(loop[0]));
+      return parts.size() == 1 || contains({{outline_of(part[0])}}, normal, inside);
     });
     if (home == parts.end()) return std::nullopt;
     home->push_back(loop);
@@ -257,7 +310,8 @@ Loop FacetSplitter::with_vertices_between(const Loop& ring, int f) const {
   return out;
 }
 
-/// The loops that edges make, the surface to their left; nothing if they make none.
+/// The loops that edges make, the surface to their left, none of which comes to a vertex twice;
+/// nothing if they make none.
 std::optional<std::vector<Loop>> FacetSplitter::trace(const std::vector<DirectedEdge>& edges,
                                                       Vec3 normal) const {
   std::map<int, std::vector<int>> targets;
@@ -289,10 +343,11 @@ std::optional<std::vector<Loop>> FacetSplitter::trace(const std::vector<Directed
         if (!further) return std::nullopt;
         to = *further;
       }
-      if (loop.size() < 3) return std::nullopt;
-      loops.push_back(std::move(loop));
+      add_simple_loops(loop, loops);
     }
   }
+  if (std::ranges::any_of(loops, [](const Loop& loop) { return loop.size() < 3; }))
+    return std::nullopt;
   return loops;
 }
 

@@ -6,6 +6,8 @@
 #include "tests/support/flush.h"
 #include "tests/support/segmented.h"
 
+#include <set>
+
 #include <doctest/doctest.h>
 
 namespace oriel {
@@ -117,6 +119,59 @@ TEST_SUITE("kernel/segment") {
     CHECK(area_of(solid, facet_of(solid, pane)) == doctest::Approx(2.5 * 1.5).epsilon(1e-6));
     const Facet& with_sashes = facet_of(solid, 16);
     CHECK(with_sashes.loops.size() == 3);
+  }
+
+  TEST_CASE("panes that touch in their corners leave rings that touch in points only") {
+    Building building = test::plain_block();
+    test::add_pane(building, 2, 1, 3, 2);
+    test::add_pane(building, 3, 2, 4, 3);
+    test::add_pane(building, 4, 1, 5, 2);
+    const Segmented s = with_imprint_features(std::move(building));
+    const Solid solid = drawn(s);
+    check_same_body(solid, s.solid);
+    CHECK(solid.facets.size() == 9);
+    for (const Facet& facet : solid.facets) {
+      CHECK(area_of(solid, {facet.plane, {facet.loops[0]}, {}}) > 0);
+      for (const Loop& loop : facet.loops)
+        CHECK(std::set<int>(loop.begin(), loop.end()).size() == loop.size());
+    }
+    CHECK(std::ranges::count(solid.facets, std::size_t{4},
+                             [](const Facet& facet) { return facet.loops.size(); }) == 1);
+  }
+
+  TEST_CASE("an outline that crosses itself or runs the other way is not drawn") {
+    Building building = test::plain_block();
+    const int pane = test::add_pane(building, 2, 1, 3, 2);
+    const Segmented s = with_imprint_features(std::move(building));
+    const FeatureId id = features_of(s.segmentation, Sense::imprint).at(0);
+    const auto facets_with = [&](const std::vector<Vec3>& outline) {
+      Segmentation as_if = s.segmentation;
+      Feature& imprint = as_if.features[id.index()];
+      imprint.outline.clear();
+      for (const Vec3 p : outline) {
+        imprint.outline.push_back(static_cast<int>(as_if.vertices.size()));
+        as_if.vertices.push_back({p, false});
+      }
+      const Solid solid = draw_imprints(s.solid, as_if, {id});
+      check_same_body(solid, s.solid);
+      return solid.facets.size();
+    };
+    CHECK(pane == 6);
+    CHECK(facets_with({{2, 0, 1}, {3, 0, 1}, {3, 0, 2}, {2, 0, 2}}) == 7);
+    CHECK(facets_with({{2, 0, 2}, {3, 0, 2}, {3, 0, 1}, {2, 0, 1}}) == 6);
+    CHECK(facets_with({{2, 0, 1}, {3, 0, 1}, {2, 0, 2}, {4, 0, 3}}) == 6);
+  }
+
+  TEST_CASE("an outline that runs across a recess of its facet is not drawn") {
+    Segmented s = with_imprint_features(test::block_with_sashes());
+    const FeatureId frame = features_of(s.segmentation, Sense::imprint).at(0);
+    Feature& imprint = s.segmentation.features[frame.index()];
+    imprint.outline.clear();
+    for (const Vec3 p : {Vec3{1, 0, 1.5}, {3, 0, 1.5}, {3, 0, 2}, {1, 0, 2}}) {
+      imprint.outline.push_back(static_cast<int>(s.segmentation.vertices.size()));
+      s.segmentation.vertices.push_back({p, false});
+    }
+    CHECK(drawn(s).facets.size() == s.solid.facets.size());
   }
 
   TEST_CASE("every imprint of the samples is drawn") {
