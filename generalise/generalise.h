@@ -41,6 +41,8 @@ struct Generalised {
   std::vector<UnclearedEdge> uncleared{};
   /// Of the solid that it was made from.
   std::vector<ClosingFace> closing{};
+  /// Imprints that stay but get no facet of their own, ascending.
+  std::vector<FeatureId> undrawn{};
 };
 
 /// What was to go for its size only turns out to be a part of the building: without it something
@@ -79,8 +81,8 @@ struct Redrawn {
 /// is left of a face that closed a hole, else it is named by its slope. Installations keep the
 /// facets whose polygon is theirs, and get those without polygon that close the place of something
 /// that was on or in them; those that were removed go, with their ids listed. Imprints that stay
-/// are facets of their own. The building gets flat counts `oriel_removed_LABEL` and
-/// `oriel_removed_volume_m3`.
+/// are facets of their own, unless they are `undrawn`. The building gets flat counts
+/// `oriel_removed_LABEL` and `oriel_removed_volume_m3`.
 ///
 /// If nothing is gone and the building came as a solid it stays as it is: `labelled`, which is what
 /// annotate says of it, so that generalising twice changes no byte of the geometry.

@@ -234,7 +234,8 @@ Redrawn redraw(const Building& building, const LabelledBuilding& labelled,
   std::vector<FeatureId> imprints;
   for (int i = 0; i < std::ssize(segmentation.features); ++i)
     if (segmentation.features[at(i)].sense == Sense::imprint &&
-        !std::ranges::binary_search(generalised.removed, FeatureId{i}))
+        !std::ranges::binary_search(generalised.removed, FeatureId{i}) &&
+        !std::ranges::binary_search(generalised.undrawn, FeatureId{i}))
       imprints.push_back(FeatureId{i});
   generalised.solid =
       draw_imprints(std::move(generalised.solid), segmentation, imprints, tolerances);

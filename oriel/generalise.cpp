@@ -33,7 +33,7 @@ bool keep(const std::vector<Issue>& issues, GeneralisedBuilding& out) {
 /// It could not be drawn as a valid solid of its own.
 bool is_invalid(const GeneralisedBuilding& drawn) {
   return std::ranges::any_of(drawn.issues, [](const Issue& issue) {
-    return issue.code == Code::G413 || issue.code == Code::G410;
+    return issue.place.feature.empty() && (issue.code == Code::G413 || issue.code == Code::G410);
   });
 }
 
@@ -59,10 +59,12 @@ class BuildingDrawer {
 
   /// `result` has a solid that is closed.
   [[nodiscard]] GeneralisedBuilding draw(const PipelineResult& result,
-                                         Judging judging = Judging::refused) const;
+                                         Judging judging = Judging::refused,
+                                         const std::vector<FeatureId>& undrawn = {}) const;
 
-  /// What is not valid as it is written is drawn again with each step judged; if that is not valid
-  /// either it stays unchanged, levels of detail are rejected (G410).
+  /// What is not valid as it is written is drawn again without the imprints that are in the way,
+  /// then with each step judged; if that is not valid either it stays unchanged, levels of detail
+  /// are rejected (G410).
   void keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
   /// Draws a building that is not valid, or was given up, from its repair_and_retry(), with as much
@@ -92,6 +94,7 @@ class BuildingDrawer {
   struct LabelledResult {
     const PipelineResult& result;
     const LabelledBuilding& labelled;
+    const std::vector<FeatureId>& undrawn;  ///< Generalised::undrawn
   };
 
   [[nodiscard]] std::optional<Redrawn> draw_for(const Profile* profile, const LabelledResult& of,
@@ -104,6 +107,8 @@ class BuildingDrawer {
                                                  const PipelineResult& result,
                                                  const Invariants& invariants, Plan& plan) const;
   [[nodiscard]] std::optional<Issue> check(const PipelineResult& result,
+                                           GeneralisedBuilding& drawn) const;
+  [[nodiscard]] bool draw_without_imprints(const PipelineResult& result,
                                            GeneralisedBuilding& drawn) const;
   void redraw_unchanged(const PipelineResult& result, Generalised& generalised,
                         GeneralisedBuilding& out) const;
@@ -123,14 +128,15 @@ class BuildingDrawer {
   Work& work_;  ///< of all targets and all ways that are tried with one solid
 };
 
-GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging judging) const {
+GeneralisedBuilding BuildingDrawer::draw(const PipelineResult& result, Judging judging,
+                                         const std::vector<FeatureId>& undrawn) const {
   GeneralisedBuilding drawn;
   drawn.building = building_.id;
   const LabelledBuilding labelled = annotate(building_, result, rules_, options_);
   const std::size_t count = targets_.has_lods() ? targets_.profiles.size() : 1;
   for (std::size_t i = 0; i < count; ++i) {
     const Profile* profile = i < targets_.profiles.size() ? &targets_.profiles[i] : nullptr;
-    auto redrawn = draw_for(profile, {result, labelled}, judging, drawn);
+    auto redrawn = draw_for(profile, {result, labelled, undrawn}, judging, drawn);
     if (!redrawn) {
       drawn.levels.clear();
       break;
@@ -144,6 +150,7 @@ void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuildin
   std::optional<Issue> fault = check(result, drawn);
   if (!fault) return;
   if (work_.is_used_up()) return give_up(result, std::move(*fault), drawn);
+  if (draw_without_imprints(result, drawn)) return;
   // Where not even the solid itself is valid no step can be told to spoil it.
   if (fault->code != Code::G413) {
     GeneralisedBuilding again = draw(result, Judging::thorough);
@@ -153,6 +160,29 @@ void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuildin
     }
   }
   give_up(result, std::move(*fault), drawn);
+}
+
+/// True if it is valid then.
+bool BuildingDrawer::draw_without_imprints(const PipelineResult& result,
+                                           GeneralisedBuilding& drawn) const {
+  FaultyImprints faulty;
+  std::optional<GeneralisedBuilding> again;
+  const auto add_faulty = [&](const std::vector<Redrawn>& levels) {
+    bool has_more = false;
+    for (const Redrawn& level : levels)
+      if (const auto& solid = level.labelled.geometry)
+        has_more |= faulty.add(document_, building_, *result.segmentation, *solid);
+    return has_more;
+  };
+  while (!work_.is_used_up() && add_faulty(again ? again->levels : drawn.levels)) {
+    again = draw(result, Judging::refused, faulty.ids());
+    if (again->levels.empty()) return false;
+    if (check(result, *again)) continue;
+    drawn = std::move(*again);
+    keep(faulty.issues(result.description.table), drawn);
+    return true;
+  }
+  return false;
 }
 
 void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
@@ -231,8 +261,16 @@ Redrawn BuildingDrawer::untouched(const PipelineResult& result, bool is_invalid_
   whole.closing = closing_faces(whole.solid);
   if (!is_invalid_before) redraw_unchanged(result, whole, out);
   if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
-  return redraw(building_, labelled, *result.segmentation, result.description.table,
-                result.interpretation, std::move(whole), result.tolerances);
+  FaultyImprints faulty;
+  while (true) {
+    Redrawn redrawn = redraw(building_, labelled, *result.segmentation, result.description.table,
+                             result.interpretation, whole, result.tolerances);
+    if (!faulty.add(document_, building_, *result.segmentation, *redrawn.labelled.geometry)) {
+      keep(faulty.issues(result.description.table), out);
+      return redrawn;
+    }
+    whole.undrawn = faulty.ids();
+  }
 }
 
 std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const LabelledResult& of,
@@ -242,6 +280,7 @@ std::optional<Redrawn> BuildingDrawer::draw_for(const Profile* profile, const La
   Plan plan = plan_for(profile, result, out);
   auto made = carried_out(profile, result, invariants_for(profile, result, judging), plan);
   if (!keep(made.issues, out) || !made.value) return std::nullopt;
+  made.value->undrawn = of.undrawn;
   // Levels of detail are drawn in any case, and judged as they are drawn.
   if (!targets_.has_lods()) redraw_unchanged(result, *made.value, out);
   TargetReport& report = out.reports.emplace_back();

@@ -30,12 +30,15 @@ struct LeveledBuilding {
   bool is_repaired = false;
   std::vector<SeriesLevel> levels{};
   std::unique_ptr<FiringScales> firing{};
-  std::vector<Issue> issues{};                       ///< of its levels
+  FaultyImprints undrawn{};
+  std::vector<Issue> issues{};  ///< of its levels
+  /// Of the building as it came, before anything is done for a scale.
+  std::optional<Issue> finest_fault{};
   std::unique_ptr<const PipelineResult> repaired{};  ///< what `result` is, if it was repaired
   std::shared_ptr<Work> work{};                      ///< of all its levels and operations
 
-  /// All levels are valid solids in the file.
-  [[nodiscard]] bool is_valid() const { return !has_errors(issues); }
+  /// All levels are valid solids in the file, and so is the building as it came.
+  [[nodiscard]] bool is_valid() const { return !has_errors(issues) && !finest_fault; }
 };
 
 /// Draws the levels of a record's buildings.
@@ -94,6 +97,10 @@ class SeriesDrawer {
     LeveledBuilding one = with_levels(building, result, work);
     if (has_errors(one.issues) && !work->is_used_up()) judge(one);
     if (!one.is_valid()) repair(one);
+    if (one.finest_fault) {
+      one.finest_fault->sentence += fmt::format("; its levels from 1:{} on are", scales_.front());
+      one.issues.push_back(std::move(*one.finest_fault));
+    }
     return one;
   }
 
@@ -122,7 +129,30 @@ class SeriesDrawer {
     one.is_repaired = is_repaired;
     one.work = work;
     draw_levels(one);
+    draw_without_imprints(one);
     return one;
+  }
+
+  /// Draws them again without the imprints that keep them from being valid, if they are then.
+  void draw_without_imprints(LeveledBuilding& one) const {
+    while (!one.is_valid() && !one.work->is_used_up() && add_faulty(one)) draw_levels(one);
+    if (one.undrawn.ids().empty()) return;
+    if (one.is_valid()) {
+      const auto issues = one.undrawn.issues(one.result->description.table);
+      one.issues.insert(one.issues.end(), issues.begin(), issues.end());
+    } else {
+      one.undrawn = {};
+      draw_levels(one);
+    }
+  }
+
+  /// False if there are no more than were known.
+  bool add_faulty(LeveledBuilding& one) const {
+    bool has_more = false;
+    for (const SeriesLevel& level : one.levels)
+      has_more |= one.undrawn.add(document_, *one.building, one.result->segmentation.value(),
+                                  *level.redrawn.labelled.geometry);
+    return has_more;
   }
 
   /// Draws them again with every step judged.
@@ -156,7 +186,8 @@ class SeriesDrawer {
                       [this, &one](double scale) { return invariants_at(one, scale); },
                       nullptr,
                       nullptr,
-                      one.work.get()};
+                      one.work.get(),
+                      one.undrawn.ids()};
     if (!one.is_repaired) return input;
     input.finish = [this, building = one.building](LabelledBuilding& labelled) {
       part_written(document_, *building, labelled);
@@ -190,27 +221,37 @@ class SeriesDrawer {
     };
     auto levels = series_levels(input_of(one), scales_, plan_at);
     one.issues = std::move(levels.issues);
+    one.levels.clear();
+    one.finest_fault.reset();
     if (!levels.value) return;
     one.levels = std::move(*levels.value);
     check(one);
     one.firing = std::make_unique<FiringScales>(scales_, bounds_, plan_at);
   }
 
-  /// A level that is not valid as it is written is an error.
+  /// A level that is not valid as it is written is an error; the building as it came need not be,
+  /// if its levels are.
   void check(LeveledBuilding& one) const {
+    one.finest_fault = fault_of(one, one.levels[0]);
     for (std::size_t i = 1; i < one.levels.size() && !has_errors(one.issues); ++i) {
-      SeriesLevel& level = one.levels[i];
-      const SeriesLevel& before = one.levels[i - 1];
-      LabelledBuilding& labelled = level.redrawn.labelled;
-      const bool is_same = level.generalised.removed == before.generalised.removed &&
+      const SeriesLevel& level = one.levels[i];
+      const bool is_same = level.generalised.removed == one.levels[i - 1].generalised.removed &&
                            level.generalised.changed.empty();
       if (is_same && i > 1) continue;
-      OutputCheck found =
-          check_redrawn(document_, *one.building, *one.result->solid, *labelled.geometry);
-      if (!found.fault) continue;
-      found.fault->severity = Severity::error;
-      one.issues.push_back(std::move(*found.fault));
+      std::optional<Issue> fault = is_same ? one.finest_fault : fault_of(one, level);
+      if (!fault) continue;
+      fault->severity = Severity::error;
+      one.issues.push_back(std::move(*fault));
     }
+    if (one.finest_fault) one.finest_fault->severity = Severity::warning;
+    if (has_errors(one.issues)) one.finest_fault.reset();
+  }
+
+  [[nodiscard]] std::optional<Issue> fault_of(const LeveledBuilding& one,
+                                              const SeriesLevel& level) const {
+    return check_redrawn(document_, *one.building, *one.result->solid,
+                         *level.redrawn.labelled.geometry)
+        .fault;
   }
 
   void add_operations(const LeveledBuilding& one, const WrittenGrid& grid, Series& out) const {

@@ -275,6 +275,7 @@ std::optional<SeriesLevel> level_of(const SeriesInput& input, double scale, std:
       level.refused.push_back(step);
   level.generalised = *made.value;
   made.value->is_drawn_anew = true;
+  made.value->undrawn = input.undrawn;
   level.redrawn = redraw(input.building, input.labelled, input.segmentation, input.table,
                          input.interpretation, std::move(*made.value), input.options.tolerances);
   if (input.finish) input.finish(level.redrawn.labelled);

@@ -26,6 +26,8 @@ struct SeriesInput {
   std::function<std::optional<Issue>(const Solid&)> fault_of{};
   /// As Invariants::work: once it is used up levels stay as the one before.
   Work* work = nullptr;
+  /// Generalised::undrawn of every level.
+  std::vector<FeatureId> undrawn{};
 
   [[nodiscard]] bool is_used_up() const { return work != nullptr && work->is_used_up(); }
 };

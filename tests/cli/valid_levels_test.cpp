@@ -109,6 +109,18 @@ std::string crossing_house() {
     [9, 3, 6], [11, 3, 6], [11, 5, 6], [9, 5, 6], [9, 3, 8], [11, 3, 8], [11, 5, 8], [9, 5, 8]]})";
 }
 
+/// A block with a chimney whose corners are twisted at its top; without it all is well.
+std::string twisted_chimney() {
+  return R"({"type": "CityJSON", "version": "2.0",
+  "transform": {"scale": [0.5, 0.5, 1], "translate": [0, 0, 0]},
+  "CityObjects": {"b": {"type": "Building", "geometry": [{"type": "Solid", "lod": "3", "boundaries": [[
+    [[0, 3, 2, 1]], [[0, 1, 5, 4]], [[1, 2, 6, 5]], [[2, 3, 7, 6]], [[3, 0, 4, 7]],
+    [[4, 5, 6, 7], [8, 11, 10, 9]],
+    [[8, 9, 13, 12]], [[9, 10, 14, 13]], [[10, 11, 15, 14]], [[11, 8, 12, 15]], [[12, 13, 14, 15]]]]}]}},
+  "vertices": [[0, 0, 0], [16, 0, 0], [16, 16, 0], [0, 16, 0], [0, 0, 6], [16, 0, 6], [16, 16, 6], [0, 16, 6],
+    [4, 4, 6], [5, 4, 6], [5, 5, 6], [4, 5, 6], [5, 4, 7], [4, 4, 7], [5, 5, 7], [4, 5, 7]]})";
+}
+
 /// The same with a chimney that stands askew, as a stream of whole metres.
 std::string slanting_stream() {
   return R"({"type": "CityJSON", "version": "2.0", "transform": {"scale": [1, 1, 1], "translate": [0, 0, 0]}, "CityObjects": {}, "vertices": []}
@@ -199,6 +211,18 @@ TEST_SUITE("cli") {
     const Names levels{folder / "series.1-10.city.json", folder / "series.1-2500.city.json"};
     CHECK(valid_in({levels[0]}).size() == 1);
     CHECK(valid_in({levels[1]}).size() == 1);
+  }
+
+  TEST_CASE("a series says if only the building as it came is not valid") {
+    const Folder folder;
+    const std::string file = folder.write("b.city.json", twisted_chimney());
+    const Outcome made =
+        run({"generalise", file, "--series", "1:5000,1:10000", "-o", folder / "series"});
+    CHECK(made.exit == 0);
+    CHECK(made.err.find("warning: b: G413") != std::string::npos);
+    CHECK(made.err.find("its levels from 1:5000 on are") != std::string::npos);
+    for (const char* level : {"series.1-5000.city.json", "series.1-10000.city.json"})
+      CHECK(valid_in({folder / level}).size() == 1);
   }
 
   TEST_CASE("repair makes a solid of what runs through itself unless crossings are left") {

@@ -8,6 +8,8 @@
 #include "tests/fuzz/support/scratch_file.h"
 #include "tests/fuzz/targets.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace oriel::fuzz {
@@ -46,8 +48,8 @@ void check_files(const Document& document, const Series& series) {
 
 }  // namespace
 
-/// A series: its levels replay, in memory and from files, and are valid unless it came as no valid
-/// solid (G413).
+/// A series: its levels replay, in memory and from files, and are valid; so is the building as it
+/// came, unless there is a warning that it is not (G410, G413).
 void levels(std::string_view input) {
   ByteSource bytes(input);
   const auto document = changed_document(bytes);
@@ -61,9 +63,12 @@ void levels(std::string_view input) {
   promise_no_fault(series.issues);
   if (series.buildings.empty()) return;
   check_files(*document, series);
-  for (const Issue& issue : series.issues)
-    if (issue.code == Code::G413) return;
-  for (const double scale : {1.0, kFine, kMiddle, kCoarse})
+  // The building as it came need not be valid if it says so; its levels are.
+  const bool is_finest_valid = std::ranges::none_of(series.issues, [](const Issue& issue) {
+    return issue.place.feature.empty() && (issue.code == Code::G410 || issue.code == Code::G413);
+  });
+  if (is_finest_valid) promise_valid(write(*document, at(series, 1)), "series");
+  for (const double scale : {kFine, kMiddle, kCoarse})
     promise_valid(write(*document, at(series, scale)), "series");
 }
 
