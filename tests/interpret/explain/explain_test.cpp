@@ -259,6 +259,17 @@ TEST_SUITE("interpret") {
           "nearest flip: no param (1) flips the label within its range; without a range: wide");
   }
 
+  TEST_CASE("a flip is found where a condition is a curve of the param") {
+    const auto line = [](const char* condition) {
+      return flip_line_of("share: {value: 0.5, range: 0.1 .. 1}",
+                          fmt::format("rules: [{{id: d, label: door, require: {}}}]\n", condition),
+                          {{"quality", 0.49}});
+    };
+    // At 0.7 both sides are equal.
+    CHECK(line("quality < $share * $share") == "nearest flip: share 0.50 -> 0.701: door 1.00 by d");
+    CHECK(line("quality > $share * $share") == "nearest flip: share 0.50 -> 0.701: unknown");
+  }
+
   TEST_CASE("flips are found in scores hosts relations and labels of others") {
     const Values values{
         {"sense", "hole"}, {"a", 1.3}, {"base_height", 1.0}, {"host_inclination", 70.0}};
