@@ -82,9 +82,7 @@ void send_signal_to_worker(pid_t child, int signal) {
 [[noreturn]] void become_oriel(const std::vector<std::string>& arguments,
                                const Surroundings& around) {
   std::vector<char*> argv;
-  // tests/mutants/run.py names another one.
-  const char* other = std::getenv("ORIEL_COMMAND");
-  std::string command = other != nullptr ? other : ORIEL_COMMAND;
+  std::string command = ORIEL_COMMAND;
   argv.push_back(command.data());
   std::vector<std::string> copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());
