@@ -6,6 +6,8 @@
 #include "kernel/solidify/shells/shells.h"
 #include "kernel/solidify/soup/polygon_shape.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,18 +17,30 @@ namespace oriel::detail {
 
 namespace {
 
-/// What the input says of every component: of its last facet, of the facet's first polygon.
+/// What the input says of every component, in whatever order it names its polygons. Where repair
+/// made one of several, it is of the first body, and if that joined an exterior shell and a cavity
+/// which of them it is, is not said.
 std::vector<ComponentHint> hints_of(const Building& building, const Soup& soup,
                                     const FacetDraft& draft) {
-  std::vector<const SoupPolygon*> first_of(draft.facet_count(), nullptr);
+  struct Said {
+    std::optional<int> body;
+    int least_shell = 0, most_shell = 0;
+  };
+  std::vector<Said> said(static_cast<std::size_t>(draft.components));
   for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
-    auto& first = first_of[static_cast<std::size_t>(draft.facet_of[p])];
-    if (first == nullptr || soup.polygons[p].source <= first->source) first = &soup.polygons[p];
+    const SoupPolygon& polygon = soup.polygons[p];
+    if (polygon.source == kNoSource) continue;
+    Said& of = said[static_cast<std::size_t>(
+        draft.component[static_cast<std::size_t>(draft.facet_of[p])])];
+    of.least_shell = of.body ? std::min(of.least_shell, polygon.shell) : polygon.shell;
+    of.most_shell = of.body ? std::max(of.most_shell, polygon.shell) : polygon.shell;
+    of.body = of.body ? std::min(*of.body, polygon.body) : polygon.body;
   }
-  std::vector<ComponentHint> hints(static_cast<std::size_t>(draft.components));
-  for (std::size_t f = 0; f < first_of.size(); ++f)
-    hints[static_cast<std::size_t>(draft.component[f])] = {
-        first_of[f]->body, building.is_solid ? first_of[f]->shell : -1};
+  std::vector<ComponentHint> hints;
+  for (const Said& of : said) {
+    const bool is_told = of.least_shell > 0 || of.most_shell == 0;
+    hints.push_back({of.body.value_or(0), building.is_solid && is_told ? of.least_shell : -1});
+  }
   return hints;
 }
 

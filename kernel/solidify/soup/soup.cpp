@@ -206,7 +206,7 @@ int append_polygons(const Building& building, std::span<const int> point_of, Sou
   return dropped;
 }
 
-/// The polygons by body, then rings, then source.
+/// The polygons by body, then rings, then shell, then source.
 Numbers canonical_order(const Soup& soup) {
   // By the second corner, then stably by the first: that leaves few to be compared.
   const auto first_corner = [&](int p) { return soup.first_corner[at(soup.first_ring[at(p)])]; };
@@ -229,7 +229,9 @@ Numbers canonical_order(const Soup& soup) {
     const auto compared = std::lexicographical_compare_three_way(
         rings.begin(), rings.end(), others.begin(), others.end(),
         [&](int r, int s) { return compare_rings(soup, r, s); });
-    return compared != 0 ? compared < 0 : soup.polygons[at(p)].source < soup.polygons[at(q)].source;
+    if (compared != 0) return compared < 0;
+    const SoupPolygon &a = soup.polygons[at(p)], &b = soup.polygons[at(q)];
+    return std::pair(a.shell, a.source) < std::pair(b.shell, b.source);
   };
   std::size_t start = 0;
   for (std::size_t i = 1; i <= order.size(); ++i) {

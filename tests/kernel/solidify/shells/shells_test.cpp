@@ -85,6 +85,46 @@ TEST_SUITE("kernel/solidify") {
     CHECK(test::outcome_of(building) == "E308 E310");
   }
 
+  TEST_CASE("what is joined of an exterior shell and a cavity is a solid in whatever order") {
+    // Two boxes that share a face, one of them turned inside out and called a cavity, without the
+    // face at its far end or that they share; or without the top of the first.
+    const auto is_at = [](const Building& of, const Polygon& polygon, Vec3 along, double offset) {
+      return std::ranges::all_of(polygon.rings[0], [&](int v) {
+        return dot(of.vertices[static_cast<std::size_t>(v)], along) == offset;
+      });
+    };
+    const Building other = test::BoxBody().add({2, 0, 0}, {4, 2, 2}).build();
+    RepairOptions cutting;
+    cutting.crossings = Crossings::cut;
+    for (const int missing : {0, 2, 4})
+      for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        Building building = test::BoxBody().add({0, 0, 0}, {2, 2, 2}).build();
+        building.is_solid = true;
+        if (missing == 0)
+          std::erase_if(building.polygons, [&](const Polygon& polygon) {
+            return is_at(building, polygon, {0, 0, 1}, 2);
+          });
+        const int first = static_cast<int>(building.vertices.size());
+        building.vertices.insert(building.vertices.end(), other.vertices.begin(),
+                                 other.vertices.end());
+        for (Polygon polygon : other.polygons) {
+          if (missing > 0 && is_at(other, polygon, {1, 0, 0}, missing)) continue;
+          polygon.shell = 1;
+          for (int& v : polygon.rings[0]) v += first;
+          std::ranges::reverse(polygon.rings[0]);
+          building.polygons.push_back(std::move(polygon));
+        }
+        for (std::size_t p = 0; p < building.polygons.size(); ++p)
+          building.polygons[p].source = static_cast<int>(p);
+        CAPTURE(missing);
+        CAPTURE(seed);
+        const auto made = solidify(test::shuffled(building, seed), {}, cutting);
+        REQUIRE(made.value.has_value());
+        CHECK(cavities_of(*made.value) == 0);
+        CHECK(volume_m3(*made.value) == doctest::Approx(missing == 2 ? 16 : 8).epsilon(1e-12));
+      }
+  }
+
   TEST_CASE("bodies apart are lumps and a cavity belongs to the lump around it") {
     const Solid solid = solid_of(BoxBody()
                                      .add({0, 0, 0}, {1, 1, 1})
