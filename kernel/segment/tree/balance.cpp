@@ -219,6 +219,7 @@ class LeafMerger {
     if (cell.feature.is_valid())
       hull.label = labels_.empty() ? "part" : "part " + labels_[cell.feature.index()];
     for (const Facet& facet : cell.facets) {
+      if (!lies_in_its_plane(facet)) return std::nullopt;
       hull.planes.push_back(facet.plane);
       for (const int v : facet.loops[0]) hull.points.push_back(segmentation_.vertices[at(v)].point);
     }
@@ -229,6 +230,16 @@ class LeafMerger {
   }
 
   [[nodiscard]] const Plane& plane(PlaneId id) const { return segmentation_.planes[id.index()]; }
+
+  /// What is welded lies in its planes within tolerances only: then what is behind all planes of a
+  /// cell is not the cell.
+  [[nodiscard]] bool lies_in_its_plane(const Facet& facet) const {
+    const Plane& own = plane(facet.plane);
+    return std::ranges::all_of(facet.loops[0], [&](int v) {
+      const Vec3 p = segmentation_.vertices[at(v)].point;
+      return std::abs(dot(own.normal, p) - own.offset_m) <= kBehindPlane_m;
+    });
+  }
 
   [[nodiscard]] bool are_opposite(PlaneId p, PlaneId q) const {
     const Plane &a = plane(p), &b = plane(q);

@@ -41,7 +41,8 @@ BalancedTree balance(const Segmentation& segmentation);
 /// Merges convex leaves that are parts of one node, touch, and whose union is convex, the largest
 /// ones first, if `labels`, by feature, agree; empty: all do. Leaves of the body itself merge with
 /// none of a feature. The union is convex if each lies behind all planes of the other but the one
-/// in which they touch, to 1e-6 m.
+/// in which they touch, to 1e-6 m, and all corners of both lie in the planes of their facets, to
+/// 1e-6 m: a merged leaf is what lies behind its planes.
 void merge_touching(BalancedTree& tree, const Segmentation& segmentation,
                     const std::vector<std::string>& labels = {});
 

@@ -114,6 +114,18 @@ TEST_SUITE("kernel/segment") {
     }
     CHECK(largest_m3 == doctest::Approx(3 * 3 * 1.0).epsilon(1e-9));
 
+    // A corner that was welded lies in its planes within tolerances only.
+    Segmentation welded = s;
+    for (const Facet& facet : s.cells[tree.merges[0].second.index()].facets) {
+      if (facet.plane == tree.merges[0].contact) continue;
+      Vertex& corner = welded.vertices[static_cast<std::size_t>(facet.loops[0][0])];
+      corner = {corner.point - 0.002 * s.planes[facet.plane.index()].normal, false};
+    }
+    BalancedTree of_welded = balance(welded);
+    merge_touching(of_welded, welded);
+    CHECK(of_welded.merges.size() < tree.merges.size());
+    CHECK(prove(of_welded, welded).differing == 0);
+
     BalancedTree apart = balance(s);
     std::vector<std::string> labels;
     for (std::size_t i = 0; i < s.features.size(); ++i) labels.push_back(std::to_string(i));
