@@ -62,15 +62,18 @@ class BuildingDrawer {
                                          Judging judging = Judging::refused,
                                          const std::vector<FeatureId>& undrawn = {}) const;
 
-  /// What is not valid as it is written is drawn again without the imprints that are in the way,
-  /// then with each step judged; if that is not valid either it stays unchanged, levels of detail
-  /// are rejected (G410).
+  /// What is not valid as it is written is drawn again with each step judged; if that is not valid
+  /// either it stays unchanged, levels of detail are rejected (G410).
   void keep_valid(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
   /// Draws a building that is not valid, or was given up, from its repair_and_retry(), with as much
   /// work again, which becomes drawn.repaired; nothing is done if there is none, or if what was
   /// given up is so again.
   void repair(const PipelineResult& result, GeneralisedBuilding& drawn) const;
+
+  /// Draws what was given up once more, without the imprints that are in the way of a valid solid,
+  /// if it is valid then.
+  void draw_without_imprints(const PipelineResult& result, GeneralisedBuilding& drawn) const;
 
   [[nodiscard]] std::optional<PipelineResult> repaired_open(const PipelineResult& result) const {
     return repair_open(document_, building_, result, rules_, options_, work_);
@@ -107,8 +110,6 @@ class BuildingDrawer {
                                                  const PipelineResult& result,
                                                  const Invariants& invariants, Plan& plan) const;
   [[nodiscard]] std::optional<Issue> check(const PipelineResult& result,
-                                           GeneralisedBuilding& drawn) const;
-  [[nodiscard]] bool draw_without_imprints(const PipelineResult& result,
                                            GeneralisedBuilding& drawn) const;
   void redraw_unchanged(const PipelineResult& result, Generalised& generalised,
                         GeneralisedBuilding& out) const;
@@ -150,7 +151,6 @@ void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuildin
   std::optional<Issue> fault = check(result, drawn);
   if (!fault) return;
   if (work_.is_used_up()) return give_up(result, std::move(*fault), drawn);
-  if (draw_without_imprints(result, drawn)) return;
   // Where not even the solid itself is valid no step can be told to spoil it.
   if (fault->code != Code::G413) {
     GeneralisedBuilding again = draw(result, Judging::thorough);
@@ -162,27 +162,23 @@ void BuildingDrawer::keep_valid(const PipelineResult& result, GeneralisedBuildin
   give_up(result, std::move(*fault), drawn);
 }
 
-/// True if it is valid then.
-bool BuildingDrawer::draw_without_imprints(const PipelineResult& result,
+void BuildingDrawer::draw_without_imprints(const PipelineResult& result,
                                            GeneralisedBuilding& drawn) const {
   FaultyImprints faulty;
-  std::optional<GeneralisedBuilding> again;
-  const auto add_faulty = [&](const std::vector<Redrawn>& levels) {
+  while (!work_.is_used_up()) {
+    GeneralisedBuilding again = draw(result, Judging::refused, faulty.ids());
+    if (again.levels.empty()) return;
+    if (!check(result, again)) {
+      keep(faulty.issues(result.description.table), again);
+      drawn = std::move(again);
+      return;
+    }
     bool has_more = false;
-    for (const Redrawn& level : levels)
+    for (const Redrawn& level : again.levels)
       if (const auto& solid = level.labelled.geometry)
         has_more |= faulty.add(document_, building_, *result.segmentation, *solid);
-    return has_more;
-  };
-  while (!work_.is_used_up() && add_faulty(again ? again->levels : drawn.levels)) {
-    again = draw(result, Judging::refused, faulty.ids());
-    if (again->levels.empty()) return false;
-    if (check(result, *again)) continue;
-    drawn = std::move(*again);
-    keep(faulty.issues(result.description.table), drawn);
-    return true;
+    if (!has_more) return;
   }
-  return false;
 }
 
 void BuildingDrawer::repair(const PipelineResult& result, GeneralisedBuilding& drawn) const {
@@ -368,6 +364,11 @@ std::string BuildingDrawer::target_text(const Profile* profile) const {
   return targets_.has_lods() ? "LoD " + profile->level : targets_.text();
 }
 
+bool has_imprints(const Segmentation& segmentation) {
+  return std::ranges::find(segmentation.features, Sense::imprint, &Feature::sense) !=
+         segmentation.features.end();
+}
+
 GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineResult& result,
                                   const StageObserver& observer) {
   GeneralisedBuilding drawn =
@@ -375,6 +376,8 @@ GeneralisedBuilding valid_drawing(const BuildingDrawer& drawer, const PipelineRe
   measure(observer, Stage::write, [&] { drawer.keep_valid(result, drawn); });
   drawer.flag_unfinished(drawn);
   if (is_invalid(drawn)) drawer.repair(result, drawn);
+  if (is_invalid(drawn) && has_imprints(*result.segmentation))
+    measure(observer, Stage::generalise, [&] { drawer.draw_without_imprints(result, drawn); });
   return drawn;
 }
 

@@ -97,6 +97,7 @@ class SeriesDrawer {
     LeveledBuilding one = with_levels(building, result, work);
     if (has_errors(one.issues) && !work->is_used_up()) judge(one);
     if (!one.is_valid()) repair(one);
+    if (!one.is_valid()) draw_without_imprints(one);
     if (one.finest_fault) {
       one.finest_fault->sentence += fmt::format("; its levels from 1:{} on are", scales_.front());
       one.issues.push_back(std::move(*one.finest_fault));
@@ -129,7 +130,6 @@ class SeriesDrawer {
     one.is_repaired = is_repaired;
     one.work = work;
     draw_levels(one);
-    draw_without_imprints(one);
     return one;
   }
 
