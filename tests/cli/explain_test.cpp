@@ -194,9 +194,11 @@ TEST_SUITE("cli") {
     values = json(geometry["boundaries"][0].size(), nullptr);
     geometry["semantics"]["surfaces"] = {{{"type", "RoofSurface"}, {"name", "two of them"}},
                                          {{"type", "WallSurface"}, {"oriel_why", "because"}},
-                                         {{"type", "GroundSurface"}}};
+                                         {{"type", "GroundSurface"}},
+                                         {{"type", "WallSurface"}}};
     values[0] = values[1] = 0;
     values[2] = 1;
+    values[3] = 3;
     const std::string input = folder.write("some.city.json", city.dump());
     const auto labelled = [&](const std::string& existing, const std::string& from) {
       const std::string out = folder / (existing + ".city.json");

@@ -141,7 +141,8 @@ TEST_SUITE("interpret") {
     outside.write("base.yaml", kBase);
     for (const std::string& name :
          {outside.path("base.yaml"), std::string("../base.yaml"), std::string("a/base.yaml"),
-          std::string(".hidden"), std::string("\"\"")}) {
+          std::string(".hidden"), std::string("a~b.yaml"), std::string("a|b.yaml"),
+          std::string("\"\"")}) {
       inside.write("upper.yaml", header(name));
       CHECK(inside.findings("upper.yaml").find("upper.yaml:3:") == 0);
       CHECK(inside.findings("upper.yaml").find("R246 after 'extends'") != std::string::npos);

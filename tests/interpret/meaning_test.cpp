@@ -207,6 +207,20 @@ TEST_SUITE("interpret") {
     CHECK(score(9) == 0);
   }
 
+  TEST_CASE("a ramp without width is a step") {
+    const auto score = [&](const std::string& ramp, double a) {
+      return verdict_of(
+                 load(pack_with("rules: [{id: w, label: window, require: natural, score: [a: {" +
+                                ramp + "}]}]\n")),
+                 {{"natural", 1.0}, {"a", a}})
+          .score;
+    };
+    CHECK(score("rise: 2 m .. 2 m", 1.9) == 0);
+    CHECK(score("rise: 2 m .. 2 m", 2.0) == 1);
+    CHECK(score("fall: 2 m .. 2 m", 2.0) == 1);
+    CHECK(score("fall: 2 m .. 2 m", 2.1) == 0);
+  }
+
   TEST_CASE("a score is the weighted mean of the terms that are known") {
     const RuleBase base =
         load(pack_with("rules:\n"

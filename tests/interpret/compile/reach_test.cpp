@@ -75,6 +75,13 @@ TEST_SUITE("interpret") {
     CHECK(of_condition("natural", ", unless: natural and a > 1 m").empty());
   }
 
+  TEST_CASE("a rule that can never hold is not said to come behind another one") {
+    const std::string text = of_rules({"id: a, label: door, require: a > 1 m, priority: 1",
+                                       "id: b, label: window, require: a > 3 m, unless: a > 2 m"});
+    CHECK(says(text, "R254"));
+    CHECK_FALSE(says(text, "R255"));
+  }
+
   TEST_CASE("a rule before which another one always comes is found") {
     const std::string first = "id: a, label: door, require: a > 1 m, priority: 1";
     CHECK(says(of_rules({first, "id: b, label: window, require: a > 2 m"}), "R255"));
@@ -94,12 +101,39 @@ TEST_SUITE("interpret") {
               .find("R255 the rule 'o2' adds nothing") != std::string::npos);
   }
 
+  TEST_CASE("vetoes are the same only if what they ask of others is") {
+    const auto of_vetoes = [](const std::string& first, const std::string& second) {
+      return of_rules(
+          {"id: a, label: door, priority: 1, require: a > 1 m, unless: \"" + first + "\"",
+           "id: b, label: window, require: a > 2 m, unless: \"" + second + "\""});
+    };
+    const std::string veto = "max(a of beside) > 3 m";
+    CHECK(says(of_vetoes(veto, veto), "R255"));
+    CHECK(of_vetoes(veto, "max(b of beside) > 3 m").empty());
+    CHECK(of_vetoes(veto, "min(a of beside) > 3 m").empty());
+    CHECK(of_vetoes(veto, "max(a of beside where natural) > 3 m").empty());
+    CHECK(of_vetoes(veto, "max(a of same_facade) > 3 m") == "");
+  }
+
   TEST_CASE("a rule that refines what another one decides is left alone") {
     CHECK(findings("schema: oriel/1\npack: {name: t, version: 1.0.0}\n"
                    "classes: {window: {}, french: {is: window}}\nrules:\n"
                    "  - {id: a, label: window, require: a > 1 m, priority: 1}\n"
                    "  - {id: b, label: french, require: self is window and a > 2 m}\n")
               .empty());
+  }
+
+  TEST_CASE("an entry for a group behind one for the same group is found") {
+    const auto of_groups = [](const std::string& second) {
+      return findings(pack_with(
+          "rules: [{id: w, label: window, require: natural}]\n"
+          "groups: {row: {of: window, by: same_storey}, column: {of: window, by: same_facade}}\n"
+          "generalise: [{id: a, scale: \"1:1000 ..\", for: group row, do: omit}, {id: b, scale: "
+          "\"1:2000 ..\", for: group " +
+          second + ", do: omit}]\n"));
+    };
+    CHECK(says(of_groups("row"), "R255"));
+    CHECK(of_groups("column") == "");
   }
 
   TEST_CASE("entries that never decide are found") {

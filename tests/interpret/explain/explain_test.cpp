@@ -259,6 +259,23 @@ TEST_SUITE("interpret") {
           "nearest flip: no param (1) flips the label within its range; without a range: wide");
   }
 
+  TEST_CASE("five features in the way are named and further ones counted") {
+    const auto said = [](int others) {
+      Scene scene;
+      scene.add({{"a", 1.0}});
+      for (int i = 1; i <= others; ++i) {
+        scene.add({{"a", 1.0}});
+        scene.relate("beside", FeatureId{0}, FeatureId{i});
+      }
+      return explain_first(pack_requiring({"none(beside where a > 0.5 m)"}), scene)
+          .rules[0]
+          .require[0]
+          .miss;
+    };
+    CHECK(said(5) == "in the way: f1, f2, f3, f4, f5");
+    CHECK(said(7) == "in the way: f1, f2, f3, f4, f5 and 2 more");
+  }
+
   TEST_CASE("a flip is found where a condition is a curve of the param") {
     const auto line = [](const char* condition) {
       return flip_line_of("share: {value: 0.5, range: 0.1 .. 1}",

@@ -100,6 +100,12 @@ TEST_SUITE("interpret") {
     CHECK(findings_of_test("given: front, because: {w: holds}").find("R270") != std::string::npos);
   }
 
+  TEST_CASE("tests that are no list are refused as such") {
+    std::string printed;
+    for (const Issue& issue : run("  t: {given: front}\n").issues) printed += to_string(issue);
+    CHECK(printed.find("'tests'") != std::string::npos);
+  }
+
   TEST_CASE("reasons are those that explain gives") {
     CHECK(failures("given: front, expect: {d: door}, because: {d: holds, w: fails}").empty());
     CHECK(

@@ -91,6 +91,17 @@ TEST_SUITE("kernel/describe") {
     CHECK(ids_of(described(moved).table()) == ids_of(described(building).table()));
   }
 
+  TEST_CASE("ids tell coordinates apart that have the same digits in a row") {
+    const Building building = test::six_pockets();
+    Segmentation segmentation = described(building).segmented.segmentation;
+    const auto id_at = [&](double x, double y) {
+      segmentation.features[0].box = {{x, y, 0}, {5, 5, 5}};
+      return describe(building, segmentation).table.id(FeatureId{0});
+    };
+    // In millimetres 1 and 23, 12 and 3.
+    CHECK(id_at(0.001, 0.023) != id_at(0.012, 0.003));
+  }
+
   TEST_CASE("another building or level or place has other ids") {
     const Building building = test::six_pockets();
     const auto ids = ids_of(described(building).table());

@@ -177,6 +177,20 @@ TEST_SUITE("kernel/io") {
     CHECK(object["geometry"][0]["semantics"]["surfaces"] == json{{{"type", "Window"}}});
   }
 
+  TEST_CASE("curves of a surface are passed over") {
+    const std::string curves =
+        element("gml:MultiCurve",
+                element("gml:curveMember",
+                        element("gml:LineString", element("gml:posList", "0 0 0 1 0 0"))));
+    const std::string wall = element(
+        "c:boundary", element("con:WallSurface",
+                              element("c:lod3MultiCurve", curves) +
+                                  element("c:lod3MultiSurface",
+                                          multi_surface(surface_member(polygon("", kTriangle))))));
+    const Read read = read_building(wall, "3.0");
+    CHECK(hints_of(read.buildings[0]) == std::vector<std::string>{"WallSurface"});
+  }
+
   TEST_CASE("the level of detail asked for or the highest is read and all are written") {
     const std::string content =
         element("bldg:lod0FootPrint", multi_surface(surface_member(polygon("", kTriangle)))) +

@@ -213,6 +213,8 @@ TEST_SUITE("kernel/io") {
           {whole + points + "-3 0 1 2\n", "E110", 13},
           {whole + points + "2 0 1\n", "E311", 13},
           {whole + points + "3 0 1 2 9\n", "E110", 13},
+          {head + vertex + face + "property int feature\nend_header\n" + points + "3 0 1 2 x\n",
+           "E110", 14},
           {whole + points + "3 0 1 2\n3 0 1 2\n", "E110", 14}}) {
       const auto record = read_text(c.text, "a.ply");
       CAPTURE(c.text);

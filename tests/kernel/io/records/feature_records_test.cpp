@@ -132,6 +132,9 @@ TEST_SUITE("kernel/io") {
     CHECK(csv.issues.empty());
     REQUIRE(csv.value->size() == 1);
     CHECK((*csv.value)[0].host == "b\n1");
+    const auto open = read_back("id,building,host\nw1,house,\"b,1\"", "f.csv");
+    REQUIRE(open.value);
+    CHECK(open.value->at(0).host == "b,1");
     const auto json = read_back(R"({"id":"w1","building":"h","new":{"a":1}})", "f.jsonl");
     CHECK(json.issues.empty());
     CHECK(json.value->size() == 1);
