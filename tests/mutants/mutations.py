@@ -33,7 +33,7 @@ class Mutation:
     line: int
     kind: str
     switched: str  # with NUMBER for the number of the mutation
-    shown: str  # what changes, for people
+    shown: str  # the code as it is tried, or what is left out or negated
 
     first_line: int  # of the bytes
 
@@ -136,8 +136,7 @@ def mutations_of(path, source):
         if not begin <= at <= end_at <= end:
             return
         changed = file.text(begin, at) + new + file.text(end_at, end)
-        shown = file.text(at, end_at).strip() + (" to " + new.strip() if new else " dropped")
-        add(at, begin, end, f"(ORIEL_MUTANT(NUMBER) ? ({changed}) : ({source[begin:end]}))", kind, shown)
+        add(at, begin, end, f"(ORIEL_MUTANT(NUMBER) ? ({changed}) : ({source[begin:end]}))", kind, changed)
 
     for old, news in SWAPPED.items():
         for match in re.finditer(re.escape(old[:-1]) + r"\s", code):

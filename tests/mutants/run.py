@@ -82,8 +82,8 @@ def build_all(tree, drawn, arguments):
 class Runs:
     """Runs of the test programs, with one change switched on or noting which are reached."""
 
-    def __init__(self, tree, longest):
-        self.tree, self.longest = tree, longest
+    def __init__(self, tree, longest, most):
+        self.tree, self.longest, self.most = tree, longest, most
         self.reaching = {}  # number: [(seconds, program, case)]
 
     def run(self, program, cases, environment, seconds):
@@ -141,9 +141,12 @@ class Runs:
         # Quick ones of its own room, then of others, then the slower ones.
         rounds = [[one for one in cases if one[1] == own and one[0] < QUICK], [one for one in cases if one[1] != own and one[0] < QUICK],
                   [one for one in cases if QUICK <= one[0] < SLOW], [one for one in cases if SLOW <= one[0] <= self.longest]]
+        left = self.most
         for ones in rounds:
             for program in dict.fromkeys(one[1] for one in ones):
-                chosen = [one for one in ones if one[1] == program]
+                chosen = [one for one in ones if one[1] == program and (left := left - one[0]) >= 0]
+                if not chosen:
+                    continue
                 passed = self.run(program, [one[2] for one in chosen], {"ORIEL_MUTANT": str(number)},
                                   20 + 5 * sum(one[0] for one in chosen))
                 if not passed:
@@ -178,6 +181,7 @@ def main():
     parser.add_argument("--rooms", nargs="+", default=list(ROOMS), help="folders")
     parser.add_argument("--only", nargs="+", type=int, help="judge only the changes with these numbers")
     parser.add_argument("--longest", type=float, default=60, help="seconds (60); cases that take longer are left out")
+    parser.add_argument("--most", type=float, default=300, help="seconds (300) of all cases that a change is tried with, quick ones first")
     parser.add_argument("--tree", type=Path, default=ROOT / "build/mutants/tree", help="where the copy is made (build/mutants/tree)")
     parser.add_argument("--as-copied", action="store_true", help="do not copy what has changed since the last run")
     parser.add_argument("--jobs", type=int, default=2)
@@ -187,7 +191,7 @@ def main():
     if not arguments.as_copied:
         tree.copy()
     kept = build_all(tree, draw(arguments), arguments)
-    runs = Runs(tree, arguments.longest)
+    runs = Runs(tree, arguments.longest, arguments.most)
     begin = time.monotonic()
     with ThreadPoolExecutor(arguments.jobs) as pool:
         list(pool.map(runs.note, reversed(PROGRAMS)))

@@ -126,6 +126,16 @@ TEST_SUITE("kernel/segment") {
     }
   }
 
+  TEST_CASE("a moved building has as many ring features") {
+    for (const Building& sample : test::samples().buildings) {
+      CAPTURE(sample.id);
+      const std::set<int> gone{sample.polygons[0].source};
+      const Building moved = test::mapped(sample, [](Vec3 p) { return p + Vec3{16, 32, 8}; });
+      const Segmented here = opened(sample, gone), there = opened(moved, gone);
+      CHECK(there.segmentation.features.size() == here.segmentation.features.size());
+    }
+  }
+
   TEST_CASE("where every ring has its cut no ring feature is added") {
     for (const test::NamedBody& body : test::bodies()) {
       CAPTURE(body.name);

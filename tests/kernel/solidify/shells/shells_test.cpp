@@ -165,6 +165,17 @@ TEST_SUITE("kernel/solidify") {
     check_shells(solid);
   }
 
+  TEST_CASE("boxes that share a level edge high above the ground are parted there") {
+    for (const bool is_along_x : {false, true}) {
+      const Vec3 far = is_along_x ? Vec3{1, 2, 32} : Vec3{2, 1, 32};
+      const Vec3 near = is_along_x ? Vec3{0, 1, 31} : Vec3{1, 0, 31};
+      const Solid solid = solid_of(BoxBody().add({0, 0, 0}, {1, 1, 31}).add(near, far).build());
+      CHECK(solid.shells.size() == 2);
+      CHECK(volume_m3(solid) == doctest::Approx(31 + 1).epsilon(1e-12));
+      check_shells(solid);
+    }
+  }
+
   TEST_CASE("four polygons at an edge are paired round material and not across air") {
     // A box with a notch whose inner edge lies in the top: two steps that touch in a line.
     const Solid solid = solid_of(BoxBody()
