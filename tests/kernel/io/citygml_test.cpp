@@ -177,6 +177,19 @@ TEST_SUITE("kernel/io") {
     CHECK(object["geometry"][0]["semantics"]["surfaces"] == json{{{"type", "Window"}}});
   }
 
+  TEST_CASE("a window that is given as a solid has its faces") {
+    const std::string wall = element(
+        "bldg:boundedBy",
+        element("bldg:WallSurface",
+                element("bldg:lod3MultiSurface",
+                        multi_surface(surface_member(polygon("", kTriangle)))) +
+                    element("bldg:opening",
+                            element("bldg:Window", element("bldg:lod3Solid", box_solid("p"))))));
+    std::vector<std::string> hints(7, "Window");
+    hints[0] = "WallSurface";
+    CHECK(hints_of(read_building(wall).buildings[0]) == hints);
+  }
+
   TEST_CASE("curves of a surface are passed over") {
     const std::string curves =
         element("gml:MultiCurve",
