@@ -165,6 +165,16 @@ TEST_SUITE("kernel/solidify") {
     check_shells(solid);
   }
 
+  TEST_CASE("boxes that share an edge are parted there in whatever order their vertices come") {
+    const Building body = BoxBody().add({0, 0, 1}, {1, 1, 3}).add({1, 1, 1}, {2, 2, 3}).build();
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      const Solid solid = solid_of(test::shuffled(body, seed));
+      CHECK(solid.shells.size() == 2);
+      CHECK(volume_m3(solid) == doctest::Approx(4).epsilon(1e-12));
+      check_shells(solid);
+    }
+  }
+
   TEST_CASE("boxes that share a level edge high above the ground are parted there") {
     for (const bool is_along_x : {false, true}) {
       const Vec3 far = is_along_x ? Vec3{1, 2, 32} : Vec3{2, 1, 32};
