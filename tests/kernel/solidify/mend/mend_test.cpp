@@ -191,6 +191,26 @@ TEST_SUITE("kernel/solidify") {
     CHECK(apart.report.detached_shells == 1);
   }
 
+  TEST_CASE("a box inside another is a cavity wherever it stands though a polygon faces outward") {
+    const Building fin = test::building_of({{{4, 0, 0}, {4, 0, 1}, {5, 0, 1}, {5, 0, 0}}});
+    Building inward = box({0.2, 1, 1}, {2.2, 2, 2});
+    for (Polygon& polygon : inward.polygons) {
+      const bool is_turned = std::ranges::all_of(polygon.rings[0], [&](int v) {
+        return inward.vertices[static_cast<std::size_t>(v)].x == 2.2;
+      });
+      if (!is_turned) std::ranges::reverse(polygon.rings[0]);
+    }
+    const Building body = together(together(box({0, 0, 0}, {4, 4, 4}), fin), inward);
+    for (const double shift : {0.0, 10.0, 100.0}) {
+      CAPTURE(shift);
+      const Repaired hollow = repaired(test::mapped(body, [&](Vec3 p) {
+        return p + Vec3{shift, shift, shift};
+      }));
+      CHECK(hollow.volume_m3 == doctest::Approx(64 - 2).epsilon(1e-9));
+      CHECK(hollow.report.cavities == 1);
+    }
+  }
+
   TEST_CASE("a building that stays open lists its open edges") {
     const Building open = without(box({0, 0, 0}, {3, 4, 5}), [](Vec3 p) { return p.z == 5; });
     const Solidified out = solidify(open);
