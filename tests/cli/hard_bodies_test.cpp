@@ -45,6 +45,30 @@ const std::string kCube =
 const std::string kShell =
     "[[[0,2,3,1]],[[4,5,7,6]],[[0,1,5,4]],[[1,3,7,5]],[[3,2,6,7]],[[2,0,4,6]]]";
 
+/// Two sheets in one upright plane: one polygon from behind, and before it strips that do not reach
+/// its ends. What they enclose is nothing but what rounding leaves.
+std::string flat_sheets() {
+  const std::vector<int> along{0, 137, 204, 987, 1661, 2317, 2760, 3000};
+  json vertices = json::array(), polygons = json::array();
+  for (const int sheet : {0, 1}) {
+    const int first = static_cast<int>(vertices.size());
+    for (const int y : along)
+      for (const int z : {-432, 2805})
+        vertices.push_back({15022, y - 229579 + sheet * 8322, z + sheet * 4816});
+    const auto strip = [&](int from, int to) {
+      polygons.push_back(
+          {{first + 2 * from + 1, first + 2 * from, first + 2 * to, first + 2 * to + 1}});
+    };
+    strip(5, 2);
+    strip(2, 3);
+    strip(3, 4);
+    strip(7, 0);
+    strip(4, 6);
+    strip(1, 5);
+  }
+  return stream_of("Solid", json::array({polygons}).dump(), vertices.dump());
+}
+
 /// Bodies of the kinds that once crashed a command, made it run for ever, or were called a fault of
 /// oriel's own, by what is wrong with them.
 const std::map<std::string, std::string>& hard_bodies() {
@@ -65,6 +89,7 @@ const std::map<std::string, std::string>& hard_bodies() {
        stream_of("Solid", "[[[[0,1,3,2]],[[2,3,5,4]],[[4,5,7,6]]]]",
                  "[[0,0,0],[0,0,4000],[0,1000,0],[0,1000,4000],[0,2000,0],[0,2000,4000],"
                  "[0,3000,0],[0,3000,4000]]")},
+      {"sheets that enclose what rounding leaves", flat_sheets()},
       {"a polygon without corners",
        stream_of("Solid", "[[[[0,2,3,1]],[[]],[[0,1,5,4]],[[1,3,7,5]],[[3,2,6,7]],[[2,0,4,6]]]]",
                  kCube)},

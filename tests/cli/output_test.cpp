@@ -117,6 +117,21 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("what a killed run leaves goes with the next run of the same command") {
+    const Folder in, out;
+    std::vector<std::string> ids;
+    for (int i = 0; i < 20000; ++i) ids.push_back(fmt::format("b{}", i));
+    const std::string input = in.write("many.city.jsonl", cube_lines(ids));  // for seconds
+    const std::string output = out / "out.city.jsonl";
+    for (int i = 0; i < 2; ++i)
+      CHECK(run({"label", input, "-o", output}, {.signal = SIGKILL, .watched = out.path()}).exit ==
+            128 + SIGKILL);
+    REQUIRE(!out.names().empty());
+    const std::string few = in.write("few.city.jsonl", cube_lines({"a"}));
+    CHECK(run({"label", few, "-o", output}).exit == 0);
+    CHECK(out.names() == Names{"out.city.jsonl"});
+  }
+
   TEST_CASE("a broken pipe ends the command quietly and leaves no file") {
     const Folder folder;
     const Outcome outcome =
