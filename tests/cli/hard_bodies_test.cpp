@@ -90,6 +90,9 @@ const std::map<std::string, std::string>& hard_bodies() {
                  "[[0,0,0],[0,0,4000],[0,1000,0],[0,1000,4000],[0,2000,0],[0,2000,4000],"
                  "[0,3000,0],[0,3000,4000]]")},
       {"sheets that enclose what rounding leaves", flat_sheets()},
+      {"polygons of millimetres that fold when they are welded",
+       stream_of("MultiSurface", "[[[0,1,5,4]],[[3,2,6,7]],[[0,7,3,1]],[[3,7,5,2]]]",
+                 "[[1,1,1],[4,1,1],[1,2,1],[4,2,1],[1,1,5],[4,1,5],[1,2,5],[4,2,4]]")},
       {"a polygon without corners",
        stream_of("Solid", "[[[[0,2,3,1]],[[]],[[0,1,5,4]],[[1,3,7,5]],[[3,2,6,7]],[[2,0,4,6]]]]",
                  kCube)},

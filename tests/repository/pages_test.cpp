@@ -123,6 +123,27 @@ TEST_SUITE("repository") {
     CHECK(paths > 50);
   }
 
+  TEST_CASE("every test that the page of promises names is there") {
+    std::string tests;
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+      if (entry.path().extension() == ".cpp" || entry.path().filename() == "CMakeLists.txt")
+        tests += page_text(entry.path());
+    // Names that go over several lines of source.
+    tests = std::regex_replace(tests, std::regex("\"\\s*\\n\\s*\""), "");
+    const std::string page = page_text(kRoot / "docs" / "trust.md");
+    static const std::regex row("\\n\\|[^\\n]*"), quoted("\"([^\"]+)\"");
+    int names = 0;
+    for (std::sregex_iterator line(page.begin(), page.end(), row), end; line != end; ++line) {
+      const std::string cells = line->str();
+      for (std::sregex_iterator name(cells.begin(), cells.end(), quoted); name != end; ++name) {
+        CAPTURE((*name)[1].str());
+        CHECK(tests.find((*name)[1].str()) != std::string::npos);
+        ++names;
+      }
+    }
+    CHECK(names > 0);
+  }
+
   TEST_CASE("every room has a page that says what happens in it") {
     std::vector<fs::path> rooms;
     for (const char* room : {"kernel", "interpret", "generalise", "oriel", "cli"})
