@@ -117,8 +117,7 @@ class BuildingDrawer {
                     const Generalised& changes, const Redrawn& redrawn,
                     GeneralisedBuilding& out) const;
   void give_up(const PipelineResult& result, Issue fault, GeneralisedBuilding& drawn) const;
-  [[nodiscard]] Redrawn untouched(const PipelineResult& result, bool is_invalid_before,
-                                  GeneralisedBuilding& out) const;
+  [[nodiscard]] Redrawn untouched(const PipelineResult& result, GeneralisedBuilding& out) const;
   [[nodiscard]] std::string target_text(const Profile* profile) const;
 
   const Document& document_;
@@ -219,7 +218,7 @@ void BuildingDrawer::give_up(const PipelineResult& result, Issue fault,
                              GeneralisedBuilding& drawn) const {
   drawn.levels.clear();
   std::erase_if(drawn.issues, [](const Issue& issue) { return issue.code == Code::G413; });
-  if (targets_.has_lods()) {
+  if (targets_.has_lods() || fault.code == Code::G413) {
     fault.severity = Severity::error;
     drawn.issues.push_back(fault);
     return;
@@ -227,7 +226,7 @@ void BuildingDrawer::give_up(const PipelineResult& result, Issue fault,
   fault.severity = Severity::warning;
   fault.sentence += "; it stays unchanged";
   drawn.issues.push_back(fault);
-  drawn.levels.push_back(untouched(result, fault.code == Code::G413, drawn));
+  drawn.levels.push_back(untouched(result, drawn));
 }
 
 /// What nothing was done to stays unchanged, unless it came as no valid solid and its solid is
@@ -249,13 +248,12 @@ void BuildingDrawer::redraw_unchanged(const PipelineResult& result, Generalised&
       fmt::format("was not valid in the input ({}) and is redrawn", to_string(findings[0].code))));
 }
 
-/// The building without any operation: as it was read if its own solid is not valid either.
-Redrawn BuildingDrawer::untouched(const PipelineResult& result, bool is_invalid_before,
-                                  GeneralisedBuilding& out) const {
+/// The building without any operation.
+Redrawn BuildingDrawer::untouched(const PipelineResult& result, GeneralisedBuilding& out) const {
   LabelledBuilding labelled = annotate(building_, result, rules_, options_);
   Generalised whole{*result.solid, {}};
   whole.closing = closing_faces(whole.solid);
-  if (!is_invalid_before) redraw_unchanged(result, whole, out);
+  redraw_unchanged(result, whole, out);
   if (!whole.is_drawn_anew) return {std::move(labelled), {}, {}};
   FaultyImprints faulty;
   while (true) {
@@ -431,8 +429,10 @@ GeneralisedBuilding generalise(const Document& document, const Building& buildin
   return logged(
       "generalised", building,
       [&] {
-        return result.is_open ? open_drawing(drawer, result, options.observer)
-                              : valid_drawing(drawer, result, options.observer);
+        GeneralisedBuilding made = result.is_open ? open_drawing(drawer, result, options.observer)
+                                                  : valid_drawing(drawer, result, options.observer);
+        if (has_errors(made.issues)) made.levels.clear();
+        return made;
       },
       [](const GeneralisedBuilding& made) {
         return fmt::format("targets={} issues={} repaired={}", made.levels.size(),

@@ -82,8 +82,8 @@ struct GeneralisedBuilding {
 /// The solids are valid as they are written: where one is not, the building is drawn again with
 /// each step checked, then from a repaired solid (G417), then without outlines of imprints that are
 /// in the way (G410 of the feature). What is valid at no scale stays unchanged, levels of detail
-/// are rejected (G410, or G413 if it was not valid when it was read). Throws GeometryError for a
-/// fault of oriel's own.
+/// are rejected (G410); what was not valid when it was read is rejected (G413). Throws
+/// GeometryError for a fault of oriel's own.
 GeneralisedBuilding generalise(const Document& document, const Building& building,
                                const PipelineResult& result, const RuleBase& rules,
                                const Targets& targets, const GeneraliseOptions& options = {});

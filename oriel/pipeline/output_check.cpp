@@ -78,7 +78,7 @@ bool can_be_valid(const Document& document, const Building& building, const Soli
 }  // namespace
 
 Issue invalid_before(const Building& building, const std::string& why) {
-  return building_issue(Severity::warning, Code::G413, building.id,
+  return building_issue(Severity::error, Code::G413, building.id,
                         "is not valid as it is written, as it was not when it was read: " + why);
 }
 

@@ -23,9 +23,8 @@ struct OutputCheck {
 /// validate_closely() on what as_written() makes of it: the very numbers that the file gets.
 OutputCheck check_output(const Document& document, const Building& building, const Solid& solid);
 
-/// The same of a solid that was redrawn. Its fault is a G410, an error; if the building was not
-/// valid as it was read, and its own solid, nothing done to it, would not be either, a G413, a
-/// warning.
+/// The same of a solid that was redrawn. Its fault, an error, is a G410; if the building was not
+/// valid as it was read, and its own solid, nothing done to it, would not be either, a G413.
 OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
                           const Solid& solid);
 
@@ -48,7 +47,7 @@ class FaultyImprints {
   int times_ = 0;
 };
 
-/// The warning G413.
+/// The error G413.
 Issue invalid_before(const Building& building, const std::string& why);
 
 /// Of what is to be written in the place of the polygons of `building`, welds what is one point in

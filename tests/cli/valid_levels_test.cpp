@@ -236,16 +236,16 @@ TEST_SUITE("cli") {
     CHECK(valid_in({out}).size() == 1);
   }
 
-  TEST_CASE("what cannot be valid is written as it came, with a warning") {
+  TEST_CASE("what came invalid and cannot be valid is rejected and stays as it came") {
     // Its chimney meets the edge of the top between the whole metres of the stream's grid.
     const Folder folder;
     const std::string file = folder.write("b.city.jsonl", slanting_stream());
     CHECK(valid_in({file}).empty());
     const Outcome made =
         run({"generalise", file, "--scale", "1:10", "-o", folder / "out.city.jsonl"});
-    CHECK(made.exit == 0);
-    CHECK(made.err.find("G413") != std::string::npos);
-    CHECK(made.err.find("G413") == made.err.rfind("G413"));
+    CHECK(made.exit == 3);
+    CHECK(made.err.find("error: b: G413") != std::string::npos);
+    CHECK(made.err.find("1 rejected (G413 1)") != std::string::npos);
     CHECK(made.err.find("G417") == std::string::npos);
   }
 
@@ -254,9 +254,8 @@ TEST_SUITE("cli") {
     const std::string file = folder.write("b.city.jsonl", slanting_stream_with_chimney());
     const std::string out = folder / "out.city.jsonl";
     const Outcome made = run({"generalise", file, "--scale", "1:2500", "-o", out});
-    CHECK(made.exit == 0);
-    CHECK(made.err.find("G413") != std::string::npos);
-    CHECK(made.err.find("it stays unchanged") != std::string::npos);
+    CHECK(made.exit == 3);
+    CHECK(made.err.find("error: b: G413") != std::string::npos);
     CHECK(bytes_of(out).find("[[19, 16, 20, 23]], [[20, 21, 22, 23]]]]") != std::string::npos);
     const Outcome series =
         run({"generalise", file, "--series", "1:1000,1:2500", "-o", folder / "series"});

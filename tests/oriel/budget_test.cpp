@@ -162,7 +162,7 @@ TEST_SUITE("oriel") {
         drawing.budget = kTenth;
         const auto drawn =
             generalise(document, building, result, residential_rules(), at_scale(2500), drawing);
-        CHECK(drawn.levels.size() == 1);
+        CHECK((drawn.levels.size() == 1 || has_code(drawn.issues, Code::G413)));
         CHECK((has_code(result.issues, Code::E502) || has_code(drawn.issues, Code::E502)));
         SeriesOptions in_series;
         in_series.budget = kTenth;
