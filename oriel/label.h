@@ -34,6 +34,8 @@ struct LabelOptions : PipelineOptions {
 /// means "unknown". What classes without `emit:` take from `output` is a warning R258 for each
 /// (report_unwritten). Never throws: a fault of oriel's own is an error E901 of the building. The
 /// result depends on the building, the pack and the options only: the command gives the same bytes.
+/// What write() makes of it gets the same labels again if the semantics that it has now are left
+/// aside (PipelineOptions::ignores_semantics): names of surfaces delimit imprints.
 PipelineResult label(const Building& building, const RuleBase& rules,
                      const LabelOptions& options = {});
 

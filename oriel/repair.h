@@ -29,7 +29,8 @@ struct Repaired {
 /// `building` is one of the document. The solid is checked as it is written (validate, on the grid
 /// of the document, as fine as it needs to be); where that fails and crossings may be cut, it is
 /// redrawn from the boundary of its inside. Tolerances are taken as they are given. Installations
-/// that were joined to it (ReadOptions) stay as they are.
+/// that were joined to it (ReadOptions) stay as they are. What was repaired can be repaired again,
+/// but need not stay the same: planes are fitted anew to corners that the file's grid has moved.
 Repaired repair(const Document& document, const Building& building,
                 const PipelineOptions& options = repair_defaults());
 

@@ -26,9 +26,11 @@ struct SegmentOptions {
 /// leaves.
 ///
 /// Returns the CSG tree, the cells at its leaves with their boundaries, and the features at every
-/// level. What always holds: the tree evaluates to the solid, signed cell volumes add up to its
-/// volume, parts of one node do not overlap, each node's rest and parts rebuild it. The result
-/// depends on the solid and the options only.
+/// level. The result depends on the solid and the options only. What holds of every solid that is
+/// valid (validate() finds nothing in it): the tree evaluates to the solid, signed cell volumes add
+/// up to its volume, parts of one node do not overlap, each node's rest and parts rebuild it. What
+/// runs through itself is cut, too, but its cells may run through themselves and each other, and
+/// then need not add up to it.
 ///
 /// `building` is the one the solid was made of; it says which input polygons lie in which feature.
 /// Source: Thiemann & Sester 2004, section 4; the orders and what they add are in

@@ -24,7 +24,8 @@ void check_retold(const std::vector<Finding>& findings, const Building& other, c
 
 }  // namespace
 
-/// validate: turning, moving, shuffling and mirroring change no validity, of any body.
+/// validate: turning, moving and shuffling change no validity, of any body; nor does cutting into
+/// triangles of a valid one.
 void judgements(std::string_view input) {
   ByteSource bytes(input);
   const Body body = changed_body(bytes);
@@ -33,6 +34,7 @@ void judgements(std::string_view input) {
   check_retold(findings, turned_by_right_angle(body.building), "turned");
   check_retold(findings, moved_by_metres(body.building), "moved");
   check_retold(findings, test::shuffled(body.building, 1), "shuffled");
+  if (body.is_valid) check_retold(findings, cut_into_triangles(body.building), "in triangles");
   ValidateOptions surfaces;
   surfaces.primitive = ValidateOptions::Primitive::surfaces;
   (void)validate(body.building, surfaces);

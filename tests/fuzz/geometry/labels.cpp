@@ -8,6 +8,9 @@
 #include "tests/fuzz/targets.h"
 #include "tests/support/changed.h"
 
+#include <string>
+#include <vector>
+
 namespace oriel::fuzz {
 
 namespace {
@@ -51,10 +54,24 @@ void check_retold(const PipelineResult& result, const Building& other, const cha
           std::string(how) + ": " + joined(labels_of(result)) + " / " + joined(labels_of(again)));
 }
 
+/// Of the features that cuts and rings show: triangles have no outlines of flush openings.
+std::vector<std::string> labels_but_of_imprints(const PipelineResult& result) {
+  std::vector<std::string> labels = labels_of(result);
+  std::erase_if(labels, [](const std::string& label) { return label.starts_with("imprint"); });
+  return labels;
+}
+
+void check_in_triangles(const PipelineResult& result, const Building& building) {
+  const auto labels = labels_but_of_imprints(result);
+  const auto again = labels_but_of_imprints(labelled(cut_into_triangles(building)));
+  promise(labels == again, "a valid body in triangles has the same labels",
+          joined(labels) + " / " + joined(again));
+}
+
 }  // namespace
 
-/// label, with reasons and records. Turning, moving and shuffling must change no label on bodies
-/// that are valid and exact.
+/// label, with reasons and records. Turning, moving, shuffling and cutting into triangles must
+/// change no label on bodies that are valid and exact.
 void labels(std::string_view input) {
   ByteSource bytes(input);
   const double scale_m = bytes.flag() ? kUnit_m : 0.001;
@@ -69,6 +86,7 @@ void labels(std::string_view input) {
   check_retold(exact, turned_by_right_angle(body.building), "turned");
   check_retold(exact, moved_by_metres(body.building), "moved");
   check_retold(exact, test::shuffled(body.building, 1), "shuffled");
+  check_in_triangles(exact, body.building);
 }
 
 }  // namespace oriel::fuzz

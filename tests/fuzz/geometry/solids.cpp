@@ -81,6 +81,7 @@ void solids(std::string_view input) {
   promise(solid.value.has_value(), "a valid body is a solid", joined(error_codes(solid.issues)));
   check_retold(*solid.value, turned_by_right_angle(body.building), "turned");
   check_retold(*solid.value, moved_by_metres(body.building), "moved");
+  check_retold(*solid.value, cut_into_triangles(body.building), "in triangles");
 }
 
 }  // namespace oriel::fuzz

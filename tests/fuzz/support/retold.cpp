@@ -1,5 +1,6 @@
 #include "tests/fuzz/support/retold.h"
 
+#include "kernel/mesh/triangulate.h"
 #include "tests/support/changed.h"
 
 #include <algorithm>
@@ -75,6 +76,26 @@ Building moved_by_metres(Building building) {
   const Vec3 by{690000, 5334000, 480};
   building.frame = {};
   return test::framed(test::mapped(std::move(building), [by](Vec3 p) { return p + by; }));
+}
+
+Building cut_into_triangles(const Building& building) {
+  Building out = building;
+  out.polygons.clear();
+  for (const Polygon& polygon : building.polygons) {
+    const std::vector<int>& outer = polygon.rings[0];
+    Vec3 doubled;
+    add_doubled_area(doubled, outer.size(), [&](std::size_t i) {
+      return building.vertices[static_cast<std::size_t>(outer[i])];
+    });
+    for (const auto& corners :
+         detail::triangulate(building.vertices, polygon.rings, normalised(doubled))) {
+      Polygon triangle = polygon;
+      triangle.rings = {{corners.begin(), corners.end()}};
+      triangle.source = static_cast<int>(out.polygons.size());
+      out.polygons.push_back(std::move(triangle));
+    }
+  }
+  return out;
 }
 
 std::string cityjson_of(const Building& building, double scale_m) {
