@@ -1,6 +1,7 @@
 #include "kernel/validate/validate.h"
 #include "oriel/segment.h"
 #include "tests/fuzz/support/bodies.h"
+#include "tests/fuzz/support/nef.h"
 #include "tests/fuzz/support/promises.h"
 #include "tests/fuzz/support/retold.h"
 #include "tests/fuzz/targets.h"
@@ -65,6 +66,9 @@ void trees(std::string_view input) {
   }
   if (!body.is_valid) return;
   promise(natural.is_done() && !natural.is_open, "a valid body is segmented");
+  for (const PipelineResult* result : {&natural, &paper})
+    promise(is_solid_by_nef(*result->segmentation, *result->solid).value_or(true),
+            "the tree is the solid to another judge");
   check_retold(natural, turned_by_right_angle(body.building), "turned");
   check_retold(natural, moved_by_metres(body.building), "moved");
   check_retold(natural, test::shuffled(body.building, 1), "shuffled");
