@@ -49,10 +49,11 @@ struct SeriesOptions : LabelOptions {
 };
 
 /// The series of a record for `scales` (denominators, which ascend): every level a valid solid, the
-/// building as it came too unless a warning G410 or G413 says that it is not, and the elementary operations between them (docs/generalisation.md; Thiemann and Sester, paper
-/// section 5). `results` are what label() said of the document's buildings, in their order, with
-/// the same rules and options; those that are not is_done() are passed over. Joined installations
-/// are taken as generalise() takes them.
+/// building as it came too unless a warning G410 or G413 says that it is not, and the elementary
+/// operations between them (docs/generalisation.md; Thiemann and Sester, paper section 5).
+/// `results` are what label() said of the document's buildings, in their order, with the same rules
+/// and options; those that are not is_done() are passed over. Joined installations are taken as
+/// generalise() takes them.
 ///
 /// Open buildings are repaired first (G420). A level never has what a finer one lost. First the
 /// steps of a building that would not be valid are judged one by one, then it is drawn from a
