@@ -44,9 +44,17 @@ void end_before_main() {
 /// For allocators that, written in C, would abort.
 void throw_without_memory() { throw std::bad_alloc(); }
 
+/// std::terminate without an exception that is known here: a thread that could not begin, say.
+void say_unknown() noexcept {
+  say("error: ");
+  say(to_string(Code::E901));
+  say(" the run had to end at once; most likely memory is used up\n");
+}
+
 [[noreturn]] void end_uncaught() noexcept {
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+    say_unknown();
   } catch (const std::bad_alloc&) {
     end_without_memory();
   } catch (const std::exception& fault) {
@@ -56,6 +64,7 @@ void throw_without_memory() { throw std::bad_alloc(); }
     say(fault.what());
     say("\n");
   } catch (...) {
+    say_unknown();
   }
   if (::getpid() != main_process) std::abort();  // the parent tells by the signal
   remove_temporary_files();
