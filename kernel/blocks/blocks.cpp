@@ -2,6 +2,7 @@
 
 #include "kernel/base/index.h"
 #include "kernel/blocks/plan_view.h"
+#include "kernel/geometry/disjoint_sets.h"
 #include "kernel/model/building.h"
 #include "kernel/solidify/solidify.h"
 
@@ -345,20 +346,15 @@ class BlockBuilder {
   /// Joins regions that are to have one top. In a courtyard that was closed no roof is seen: it
   /// takes the height of what is around it.
   void join(bool is_by_roof) {
-    std::vector<int> into(regions().size());
-    std::iota(into.begin(), into.end(), 0);
-    const auto find = [&](int p) {
-      while (into[at(p)] != p) p = into[at(p)] = into[at(into[at(p)])];
-      return p;
-    };
+    detail::DisjointSets joined(regions().size());
     for (std::size_t h = 0; h < plan_.half_edge_count(); ++h) {
       const std::size_t r = plan_.region(h), s = plan_.region(Arrangement::twin(h));
       if (part_of_[r] < 0 || part_of_[s] < 0) continue;
-      const int p = find(part_of_[r]), q = find(part_of_[s]);
-      if (p != q && (!is_by_roof || step_m(h) <= options_.step_m)) into[at(p)] = q;
+      const int p = joined.find(part_of_[r]), q = joined.find(part_of_[s]);
+      if (p != q && (!is_by_roof || step_m(h) <= options_.step_m)) joined.unite(p, q);
     }
     for (int& part : part_of_)
-      if (part >= 0) part = find(part);
+      if (part >= 0) part = joined.find(part);
   }
 
   /// The largest jump of the roof along an edge of the plan.
