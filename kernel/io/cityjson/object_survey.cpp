@@ -61,15 +61,15 @@ ObjectSurvey survey(const Document& document) {
   const auto objects = detail::as_object(detail::member(root, "CityObjects"));
   if (!objects) return out;
   add_unread(*objects, out);
+  if (is_gml) return out;
   // Whether a number may stand for a level of detail was judged when the document was read.
   const auto entries = detail::list_objects(*objects, true);
   for (const detail::ObjectEntry& entry : entries) {
-    if (is_gml) break;
     for (const detail::GeometryEntry& geometry : entry.geometries) out.lods.insert(geometry.lod);
     if (entry.has_instances && entry.geometries.empty())
       out.unread.push_back({std::string(entry.id), "GeometryInstance"});
   }
-  if (!is_gml) add_families(entries, document, out);
+  add_families(entries, document, out);
   return out;
 }
 
