@@ -5,6 +5,7 @@
 #include "interpret/plan/plan.h"
 #include "kernel/mesh/measures.h"
 #include "kernel/validate/validate.h"
+#include "oriel/pipeline/faulty_imprints.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 #include "oriel/pipeline/repair_and_retry.h"

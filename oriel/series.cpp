@@ -4,6 +4,7 @@
 #include "generalise/series/series_levels.h"
 #include "interpret/plan/plan.h"
 #include "kernel/io/levels/written_grid.h"
+#include "oriel/pipeline/faulty_imprints.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
 #include "oriel/pipeline/repair_and_retry.h"

@@ -8,10 +8,8 @@
 #include "kernel/validate/weld_written.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,9 +33,6 @@ constexpr std::int64_t kStepsPerJudging = 128;
 
 /// Facets are welded and parted so often; what is wrong then is judged as it is.
 constexpr int kPartings = 4;
-
-/// So often imprints are looked for in the planes of what is wrong.
-constexpr int kLooksForImprints = 2;
 
 /// Surfaces and installations are handed on to the facets that are left of theirs.
 void put_parted(PartedSolid parted, LabelledBuilding& labelled) {
@@ -92,46 +87,6 @@ OutputCheck check_redrawn(const Document& document, const Building& building, co
   check.fault->code = Code::G410;
   check.fault->sentence = "would not be valid as it is written: " + why;
   return check;
-}
-
-bool FaultyImprints::add(const Document& document, const Building& building,
-                         const Segmentation& segmentation, const Solid& solid) {
-  const auto key_of = [](const Plane& plane) {
-    return std::pair(plane.coefficients, plane.offset);
-  };
-  std::set<std::pair<std::array<std::int64_t, 3>, std::int64_t>> faulty;
-  const auto findings = validate_closely(as_written(document, building, solid));
-  if (findings.empty()) return false;
-  for (const Finding& finding : findings)
-    if (finding.polygon >= 0)
-      faulty.insert(key_of(solid.planes[solid.facets[at(finding.polygon)].plane.index()]));
-  const bool are_all = ++times_ > kLooksForImprints;
-  std::set<int> polygons;  // of what is left: those of imprints that are gone are in no facet
-  for (const Facet& facet : solid.facets)
-    polygons.insert(facet.polygons.begin(), facet.polygons.end());
-  const std::size_t known = ids_.size();
-  for (int i = 0; i < std::ssize(segmentation.features); ++i) {
-    const Feature& feature = segmentation.features[at(i)];
-    if (feature.sense != Sense::imprint) continue;
-    const bool is_there = std::ranges::any_of(
-        feature.source_polygons, [&](int polygon) { return polygons.contains(polygon); });
-    const Plane& plane = segmentation.planes[feature.planes.front().index()];
-    if (is_there && (are_all || faulty.contains(key_of(plane)))) ids_.push_back(FeatureId{i});
-  }
-  std::ranges::sort(ids_);
-  ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
-  return ids_.size() > known;
-}
-
-std::vector<Issue> FaultyImprints::issues(const FeatureTable& table) const {
-  std::vector<Issue> issues;
-  for (const FeatureId id : ids_) {
-    Issue& issue = issues.emplace_back(
-        building_issue(Severity::warning, Code::G410, table.building(),
-                       "gets no outline: the wall around it would not be valid as it is written"));
-    issue.place.feature = table.id(id);
-  }
-  return issues;
 }
 
 void mend_written(const Document& document, const Building& building, Solid& solid) {

@@ -3,14 +3,11 @@
 #include "generalise/invariants/invariants.h"
 #include "kernel/base/issue.h"
 #include "kernel/io/document.h"
-#include "kernel/model/description/feature_table.h"
 #include "kernel/model/labelled_building.h"
-#include "kernel/model/segmentation.h"
 #include "kernel/model/solid.h"
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace oriel {
 
@@ -27,25 +24,6 @@ OutputCheck check_output(const Document& document, const Building& building, con
 /// valid as it was read, and its own solid, nothing done to it, would not be either, a G413.
 OutputCheck check_redrawn(const Document& document, const Building& building, const Solid& own,
                           const Solid& solid);
-
-/// Of imprints whose outlines are in the way of a valid solid when it is written.
-class FaultyImprints {
- public:
-  /// Adds those drawn in `solid` that lie in the planes of facets that are not valid as they are
-  /// written, and from the third time on all. False if there are no more than were known.
-  bool add(const Document& document, const Building& building, const Segmentation& segmentation,
-           const Solid& solid);
-
-  /// Ascending.
-  [[nodiscard]] const std::vector<FeatureId>& ids() const { return ids_; }
-
-  /// The warnings G410 that say so.
-  [[nodiscard]] std::vector<Issue> issues(const FeatureTable& table) const;
-
- private:
-  std::vector<FeatureId> ids_;
-  int times_ = 0;
-};
 
 /// The error G413.
 Issue invalid_before(const Building& building, const std::string& why);
