@@ -114,7 +114,7 @@ class InvariantEnforcer {
         undone_(plan) {
     validator_.settled = invariants.settled;
     validator_.work = invariants.work;
-    if (!validator_.complex) validator_.complex = std::make_shared<std::optional<CellComplex>>();
+    validator_.complex = std::make_shared<std::optional<CellComplex>>();
     validator_.violation_of = [this](const Solid& left) { return violation_by(left); };
   }
 
@@ -123,21 +123,17 @@ class InvariantEnforcer {
       CarriedOut out = carry_out_first(plan_.steps.size());
       if (auto broken = violation_by(out.solid)) {
         if (undone_.has_all()) return undone_.added_to(std::move(out));
-        if (is_used_up()) return nothing_carried_out(solid_, plan_);
+        if (is_used_up(invariants_.work)) return nothing_carried_out(solid_, plan_);
         undo_violating(std::move(*broken));
       } else if (!undo_drawn_too_fine(out) && !undo_torn(out) && !undo_carrying(out)) {
         return undone_.added_to(cleared(std::move(out)));
-      } else if (is_used_up()) {
+      } else if (is_used_up(invariants_.work)) {
         return nothing_carried_out(solid_, plan_);
       }
     }
   }
 
  private:
-  [[nodiscard]] bool is_used_up() const {
-    return invariants_.work != nullptr && invariants_.work->is_used_up();
-  }
-
   [[nodiscard]] std::optional<Violation> violation_by(const Solid& left) const {
     return violation(before_, measures_of(left, invariants_), invariants_);
   }

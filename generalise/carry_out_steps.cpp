@@ -26,9 +26,10 @@ class StepRunner {
     while (true) {
       const std::size_t failures = failed_.size();
       CarriedOut out = attempt();
-      const bool is_used_up = validator_.work != nullptr && validator_.work->is_used_up();
-      if (failed_.size() > failures && is_used_up) return nothing_carried_out(solid_, plan_);
-      if (failed_.size() > failures) continue;
+      if (failed_.size() > failures) {
+        if (is_used_up(validator_.work)) return nothing_carried_out(solid_, plan_);
+        continue;
+      }
       for (const auto& [id, refused] : failed_) out.refused.push_back(refused);
       std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
       return out;
@@ -122,7 +123,7 @@ class StepRunner {
 
 CarriedOut nothing_carried_out(const Solid& solid, const Plan& plan) {
   CarriedOut out{solid, {}, {}};
-  const std::string reason = "the work budget is used up";
+  const std::string reason = kNoWorkLeft;
   for (const Step& step : plan.steps) out.refused.push_back({step.feature, Code::E502, reason});
   std::ranges::sort(out.refused, {}, &CarriedOut::Refused::feature);
   return out;

@@ -109,6 +109,12 @@ struct Invariants {
   Work* work = nullptr;
 };
 
+/// Why a feature stays for which there was no work left (E502).
+inline constexpr const char* kNoWorkLeft = "the work budget is used up";
+
+/// False also if no work is given.
+inline bool is_used_up(const Work* work) { return work != nullptr && work->is_used_up(); }
+
 /// Counts work on a solid, `steps` for each of its corners, in `work`, if that is given. False once
 /// it is used up.
 bool may_go_on(Work* work, const Solid& solid, std::int64_t steps);

@@ -46,7 +46,7 @@ constexpr std::array kOperators{
 /// Nothing is taken off, as there is no work left for it.
 Remainder nothing_taken_off(const Solid& solid, const std::vector<FeatureId>& features) {
   Remainder remainder{solid, {}, {}};
-  const std::string reason = "the work budget is used up";
+  const std::string reason = kNoWorkLeft;
   for (const FeatureId id : features) remainder.refused.push_back({id, reason, Code::E502});
   std::ranges::sort(remainder.refused, {}, &Refusal::feature);
   return remainder;

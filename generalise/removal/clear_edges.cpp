@@ -74,7 +74,7 @@ class EdgeClearer {
   std::string drop(FacetId facet) {
     if (auto reason = order_.keeps_facet(solid_, solid_.facets[facet.index()]))
       return std::move(*reason);
-    if (!may_go_on(validator_.work, solid_, kStepsPerDrop)) return "the work budget is used up";
+    if (!may_go_on(validator_.work, solid_, kStepsPerDrop)) return kNoWorkLeft;
     DroppedFacet dropped = drop_facet(solid_, facet, order_.reach_m);
     if (!dropped.solid) return std::move(dropped.reason);
     auto left = order_.short_edges_of(*dropped.solid);

@@ -135,10 +135,6 @@ class CellRemover {
   [[nodiscard]] const Ids& gone() const { return gone_; }
 
  private:
-  [[nodiscard]] bool is_used_up() const {
-    return validator_.work != nullptr && validator_.work->is_used_up();
-  }
-
   [[nodiscard]] const Feature& feature(FeatureId id) const {
     return segmentation_.features[id.index()];
   }
@@ -315,7 +311,7 @@ class CellRemover {
                                 std::optional<Refusal>& fault) {
     Work uncounted(kWorkBudget);
     for (const double coarser : kCoarser) {
-      if (is_used_up()) break;
+      if (is_used_up(validator_.work)) break;
       Tolerances tolerances = options_.tolerances;
       tolerances.weld_m *= coarser;
       auto made = solidify(draft.shell, tolerances, {Closing::planar, kSlit_m2},

@@ -112,7 +112,7 @@ class Levels {
                                   std::vector<Issue>& issues) {
     const StepOfFeature old = by_feature(before.steps);
     StepOfFeature steps = wanted(before, scale);
-    if (input_.is_used_up() || asks_nothing_new(before, steps)) {
+    if (input_.has_no_work_left() || asks_nothing_new(before, steps)) {
       SeriesLevel same = before;
       same.scale = scale;
       return same;
@@ -120,7 +120,7 @@ class Levels {
     while (true) {
       std::vector<Issue> found;
       auto level = level_of(input_, scale, listed(steps), invariants_after(before, scale), found);
-      if (level && input_.is_used_up()) return cut_short(before, std::move(*level));
+      if (level && input_.has_no_work_left()) return cut_short(before, std::move(*level));
       if (!level || !restore_refused(*level, old, steps)) {
         if (level && is_setback(before, *level)) return on_top(before, steps, scale, issues);
         if (auto fault = level ? fault_of(*level) : std::nullopt)
@@ -215,7 +215,7 @@ class Levels {
 
   void add_tasks(const SeriesLevel& before, std::span<const std::vector<Step>> tasks,
                  SeriesLevel& best, std::vector<Issue>& issues) {
-    if (tasks.empty() || input_.is_used_up()) return;
+    if (tasks.empty() || input_.has_no_work_left()) return;
     StepOfFeature more = by_feature(best.steps);
     for (const std::vector<Step>& task : tasks)
       for (const Step& step : task) more.insert_or_assign(step.feature, step);

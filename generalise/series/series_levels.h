@@ -29,7 +29,7 @@ struct SeriesInput {
   /// Generalised::undrawn of every level.
   std::vector<FeatureId> undrawn{};
 
-  [[nodiscard]] bool is_used_up() const { return work != nullptr && work->is_used_up(); }
+  [[nodiscard]] bool has_no_work_left() const { return is_used_up(work); }
 };
 
 /// What is asked for at 1 : scale.
