@@ -385,10 +385,6 @@ class ChordSubdivision {
   std::vector<Outline> outlines_;
 };
 
-}  // namespace
-
-namespace {
-
 std::int64_t edges_in(const CutPolygon& cut) {
   std::int64_t count = std::ssize(cut.edges);
   for (const auto& ring : cut.rings) count += std::ssize(ring);
