@@ -10,7 +10,7 @@ find bench cli examples generalise interpret kernel oriel tests \( -name '*.h' -
   xargs -0 clang-format --dry-run -Werror
 
 echo "== build"
-cmake --preset release -DORIEL_TESTS=ON -DORIEL_BENCH=ON -DORIEL_UNITY=ON
+cmake --preset release -DORIEL_TESTS=ON -DORIEL_SANITIZED_TESTS=ON -DORIEL_BENCH=ON -DORIEL_UNITY=ON
 cmake --build --preset release
 
 echo "== tests"

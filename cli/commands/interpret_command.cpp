@@ -16,6 +16,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <span>
@@ -133,6 +134,9 @@ class StoredFeatures {
       const auto share = all.subspan(begin, std::min(kShare, all.size() - begin));
       std::ranges::move(interpret(rules, share), run.begin() + static_cast<long>(begin));
     };
+    // More than there are cores is allowed, and TBB says nothing of it on stderr.
+    const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(jobs));
     tbb::task_arena arena(jobs);
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, (all.size() + kShare - 1) / kShare, interpret_share);

@@ -114,7 +114,7 @@ SolidValidator counted(SolidValidator validator, Work& work) {
 
 Work drawing_work(std::int64_t budget) {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
-  return Work(2 * std::min(budget, most));
+  return Work(std::min(budget, most) + std::min(budget, most) / 2);
 }
 
 Issue not_all_drawn(const Building& building, const Work& work) {

@@ -44,8 +44,8 @@ SolidValidator judge_as_written(const Document& document, const Building& buildi
 /// The same, its work counted: once that is used up all is unfit.
 SolidValidator counted(SolidValidator validator, Work& work);
 
-/// What drawing a building for its targets may take: twice the budget of a stage, as steps are
-/// taken back one by one and all is cut anew each time.
+/// What drawing a building for its targets may take: the budget of a stage and half of it, as steps
+/// are taken back one by one and all is cut anew each time.
 Work drawing_work(std::int64_t budget);
 
 /// E502 of a building that is generalised.

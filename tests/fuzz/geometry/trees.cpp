@@ -42,7 +42,7 @@ void check_rebuilt(const PipelineResult& result) {
 
 /// What must be the same however an exact body is told: how many leaves, and of each sense how many
 /// features with which volume.
-void check_retold(const PipelineResult& result, const Building& other, const char* how) {
+void check_same_tree(const PipelineResult& result, const Building& other, const char* how) {
   const PipelineResult again = segmented(other, Order::natural);
   promise(again.is_done(), "a valid body told differently is segmented", how);
   promise(again.segmentation->features.size() == result.segmentation->features.size(),
@@ -69,9 +69,9 @@ void trees(std::string_view input) {
   for (const PipelineResult* result : {&natural, &paper})
     promise(is_solid_by_nef(*result->segmentation, *result->solid).value_or(true),
             "the tree is the solid to another judge");
-  check_retold(natural, turned_by_right_angle(body.building), "turned");
-  check_retold(natural, moved_by_metres(body.building), "moved");
-  check_retold(natural, test::shuffled(body.building, 1), "shuffled");
+  check_same_tree(natural, turned_by_right_angle(body.building), "turned");
+  check_same_tree(natural, moved_by_metres(body.building), "moved");
+  check_same_tree(natural, test::shuffled(body.building, 1), "shuffled");
 }
 
 }  // namespace oriel::fuzz

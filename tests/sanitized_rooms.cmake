@@ -1,0 +1,56 @@
+# The rooms that read, mend, cut, judge and name what comes from elsewhere, compiled once more with address and undefined-behaviour
+# sanitizers and assertions, for their own tests. The preset `asan` builds all of oriel so, which takes too long for CI.
+# Left out here are the checks of each pointer (null, alignment, object size), which double the time to compile; the address
+# sanitizer sees most of what they would.
+set(ORIEL_SANITIZED_ROOMS io solidify segment validate interpret)
+set(ORIEL_SANITIZERS
+  -fsanitize=address,signed-integer-overflow,float-cast-overflow,shift,integer-divide-by-zero,bounds,enum,bool,return,unreachable
+  -fno-sanitize-recover=all -fno-omit-frame-pointer)
+
+# oriel_sanitized_test(ROOM TEST): TEST_sanitized, the objects of TEST on those of the room under sanitizers. TEST runs the slow cases.
+function(oriel_sanitized_test room test)
+  set(objects oriel_${room}_sanitized)
+  get_target_property(sources oriel_${room} SOURCES)
+  get_target_property(libraries oriel_${room} LINK_LIBRARIES)
+  add_library(${objects} OBJECT ${sources})
+  target_link_libraries(${objects} PRIVATE ${libraries} oriel_options)
+  target_compile_definitions(${objects} PRIVATE ORIEL_ASSERTIONS)
+  # Of optimisations as much as makes it fast to compile and to run together; for that, too, what is checked is a call.
+  target_compile_options(${objects} PRIVATE -O1 -g1 ${ORIEL_SANITIZERS}
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;--param=asan-instrumentation-with-call-threshold=0>)
+  target_precompile_headers(${objects} PRIVATE ${ORIEL_COMMON_HEADERS})
+  set_target_properties(${objects} PROPERTIES UNITY_BUILD ${ORIEL_UNITY} UNITY_BUILD_BATCH_SIZE 16)
+
+  # These objects come before the archives, whose own are then not taken.
+  get_target_property(libraries ${test} LINK_LIBRARIES)
+  add_executable(${test}_sanitized $<TARGET_OBJECTS:${objects}> $<TARGET_OBJECTS:${test}>)
+  target_link_libraries(${test}_sanitized PRIVATE ${libraries})
+  target_link_options(${test}_sanitized PRIVATE ${ORIEL_SANITIZERS})
+  set_target_properties(${test}_sanitized PROPERTIES LINKER_LANGUAGE CXX)
+endfunction()
+
+# oriel_of_threads: the command under the thread sanitizer, as far as it has what threads share: itself, the library, names and
+# logs (base), and rules, which all threads read. The other rooms keep nothing between two calls (tests/repository).
+function(oriel_command_of_threads)
+  set(objects "")
+  foreach(room base interpret oriel)
+    get_target_property(sources oriel_${room} SOURCES)
+    get_target_property(libraries oriel_${room} LINK_LIBRARIES)
+    add_library(oriel_${room}_of_threads OBJECT ${sources})
+    target_link_libraries(oriel_${room}_of_threads PRIVATE ${libraries} oriel_options spdlog::spdlog)
+    list(APPEND objects oriel_${room}_of_threads)
+    list(APPEND all_objects $<TARGET_OBJECTS:oriel_${room}_of_threads>)
+  endforeach()
+  get_target_property(sources oriel SOURCES)
+  get_target_property(libraries oriel LINK_LIBRARIES)
+  list(FILTER libraries EXCLUDE REGEX "mimalloc|Wl,|stdc")
+  add_executable(oriel_of_threads ${all_objects} ${sources})
+  target_link_libraries(oriel_of_threads PRIVATE ${libraries})
+  target_link_options(oriel_of_threads PRIVATE -fsanitize=thread)
+  foreach(target ${objects} oriel_of_threads)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+    target_compile_options(${target} PRIVATE -O0 -g1 -fsanitize=thread $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
+    target_precompile_headers(${target} PRIVATE ${ORIEL_COMMON_HEADERS})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${ORIEL_UNITY} UNITY_BUILD_BATCH_SIZE 24)
+  endforeach()
+endfunction()
