@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
-# Installs what building oriel takes and Debian 12 has, where it is missing, and the packages that are given besides. Asks for
-# nothing and downloads nothing else.
+# install_packages.sh [--build] [PACKAGE...]
+# Installs what Debian 12 has for building and testing oriel, where it is missing, and the packages that are given besides;
+# with --build only what building takes. Asks for nothing and downloads nothing else.
 set -euo pipefail
 
 packages=(
-  cmake g++ ninja-build clang-format
+  cmake g++ ninja-build
   libcgal-dev libopenmesh-dev libboost-dev libgmp-dev libmpfr-dev
   libyaml-cpp-dev libspdlog-dev libfmt-dev libcli11-dev libsimdjson-dev libexpat1-dev nlohmann-json3-dev libtbb-dev libmimalloc-dev nettle-dev
-  doctest-dev librapidcheck-dev libbenchmark-dev libeigen3-dev
-  "$@"
 )
+if [ "${1:-}" = --build ]; then
+  shift
+else
+  packages+=(clang-format doctest-dev librapidcheck-dev libbenchmark-dev libeigen3-dev)
+fi
+packages+=("$@")
 
 missing=()
 for package in "${packages[@]}"; do
@@ -19,9 +24,19 @@ if [ ${#missing[@]} -eq 0 ]; then exit 0; fi
 
 root=()
 if [ "$(id -u)" -ne 0 ]; then root=(sudo); fi
-echo "installing ${missing[*]}"
 export DEBIAN_FRONTEND=noninteractive
-if ! "${root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null 2>&1; then
+faults=$(mktemp)
+trap 'rm -f "$faults"' EXIT
+
+# apt's own percentages, of downloads (dlstatus) and then of installing (pmstatus), as [done/all].
+install_missing() {
+  "${root[@]}" apt-get install -y -qq --no-install-recommends -o APT::Status-Fd=1 "${missing[@]}" 2>"$faults" |
+    sed -un 's/^\(dl\|pm\)status:[^:]*:\([0-9]*\)[.0-9]*:.*/[\2\/100] \1/p' | "$(dirname "$0")/show_progress.sh"
+}
+
+echo "installing ${missing[*]}"
+if ! install_missing; then
+  echo "reading the list of Debian's packages"
   "${root[@]}" apt-get update -qq
-  "${root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+  install_missing || { cat "$faults" >&2; exit 1; }
 fi

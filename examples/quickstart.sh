@@ -4,27 +4,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/install_packages.sh
+examples/install_packages.sh --build
 mkdir -p build
 log=build/quickstart.log
 cmake --preset release -DORIEL_TESTS=OFF -DORIEL_UNITY=ON >"$log" 2>&1 || { cat "$log"; exit 1; }
 echo "building oriel (some minutes the first time)"
-# ninja's [done/all], on one line of a terminal, else a line for every tenth.
-show_progress() {
-  local line percent shown=0
-  while IFS= read -r line; do
-    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
-    percent=$((100 * BASH_REMATCH[1] / BASH_REMATCH[2]))
-    if [ -t 1 ]; then
-      printf '\r  %3d %%' "$percent"
-    elif ((percent / 10 > shown)); then
-      shown=$((percent / 10))
-      echo "  $percent %"
-    fi
-  done
-  if [ -t 1 ]; then echo; fi
-}
-cmake --build --preset release --target oriel 2>&1 | tee "$log" | show_progress || { tail -n 40 "$log"; exit 1; }
+cmake --build --preset release --target oriel 2>&1 | tee "$log" | examples/show_progress.sh || { tail -n 40 "$log"; exit 1; }
 
 oriel=build/release/cli/oriel
 house=examples/samples/house.stripped.city.json

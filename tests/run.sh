@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-examples/install_packages.sh
+examples/install_packages.sh dpkg-dev file help2man lintian
 
 echo "== format"
 find bench cli examples generalise interpret kernel oriel tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
