@@ -25,7 +25,7 @@ run() {
 # The number that STEM.status.json has for a key.
 of_status() { sed -n "s/^ *\"$2\": \([0-9]*\).*/\1/p" "$1.status.json" | head -1; }
 
-echo "oriel $("$oriel" --version), $(nproc) cores, $(date +%F), load $(cut -d' ' -f1 /proc/loadavg)"
+echo "$("$oriel" --version | head -n 1), $(nproc) cores, $(date +%F), load $(cut -d' ' -f1 /proc/loadavg)"
 printf '| figure | value |\n|---|---|\n'
 
 "$generate" -o city.city.jsonl --seed 5 --count "$houses" >/dev/null

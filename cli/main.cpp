@@ -2,10 +2,10 @@
 #include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
+#include "cli/version/version_text.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
-#include "kernel/model/version.h"
 
 #include <cerrno>
 #include <csignal>
@@ -77,7 +77,7 @@ int run(int argc, char** argv) {
       "oriel finds the parts of 3D buildings, names them by rules and redraws the building for a "
       "scale.",
       "oriel");
-  app.set_version_flag("--version", oriel::kVersion);
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   Action action;
   add_cat(app, action);

@@ -1,6 +1,8 @@
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 
+#include <cctype>
+
 #include <doctest/doctest.h>
 
 using namespace oriel::test;
@@ -113,10 +115,28 @@ TEST_SUITE("cli") {
     }
   }
 
-  TEST_CASE("the version is told") {
+  TEST_CASE("the version names the commit and the compiler and the libraries") {
     const Outcome outcome = run({"--version"});
     CHECK(outcome.exit == 0);
-    CHECK(outcome.out.find_first_not_of("0123456789.\n") == std::string::npos);
     CHECK(outcome.err.empty());
+    const std::vector<std::string> lines = lines_of(outcome.out);
+    REQUIRE(lines.size() == 4);
+    CHECK(lines[0].starts_with("oriel "));
+    CHECK(lines[0].find_first_not_of("0123456789.", 6) == std::string::npos);
+    REQUIRE(lines[1].starts_with("commit: "));
+    const std::string commit = lines[1].substr(8);
+    CHECK((commit == "unknown" ||
+           (commit.size() >= 12 &&
+            commit.find_first_not_of("0123456789abcdef") == std::string::npos)));
+    CHECK(lines[2].starts_with("compiler: "));
+    CHECK(lines[3].starts_with("libraries: "));
+    for (const char* library : {"OpenMesh", "CGAL", "Boost", "simdjson", "nlohmann-json",
+                                "yaml-cpp", "fmt", "spdlog", "CLI11", "Expat", "oneTBB"}) {
+      CAPTURE(library);
+      const std::size_t name = lines[3].find(std::string(" ") + library + " ");
+      REQUIRE(name != std::string::npos);
+      CHECK(std::isdigit(
+                static_cast<unsigned char>(lines[3][name + std::string(library).size() + 2])) != 0);
+    }
   }
 }

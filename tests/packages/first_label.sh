@@ -39,7 +39,7 @@ inside() {
 
 # timed NAME LIMIT ROOT COMMAND: shows what it prints with the second at which it does; fails beyond the limit.
 timed() {
-  local name=$1 limit=$2 start=$EPOCHSECONDS now last=$EPOCHSECONDS silence=0 after="the beginning" line status=0
+  local name=$1 limit=$2 start=$EPOCHSECONDS now last=$EPOCHSECONDS silence=0 line previous="the beginning" after="the beginning" status=0
   echo "== $name"
   while IFS= read -r line; do
     now=$EPOCHSECONDS
@@ -47,7 +47,7 @@ timed() {
     last=$now previous=${line:0:60}
     if [[ $line == "exit code "* ]]; then status=${line#exit code }; continue; fi
     printf '%4d s  %s\n' $((now - start)) "$line"
-  done < <(previous=; inside "$3" "$4" 2>&1; echo "exit code $?")
+  done < <(inside "$3" "$4" 2>&1; echo "exit code $?")
   if [ "$status" != 0 ]; then echo "$name: failed"; return 1; fi
   echo "$name: first label after $((last - start)) s (at most $limit s); nothing was shown for $silence s after: $after"
   ((last - start <= limit))
