@@ -404,6 +404,10 @@ ExprId Checker::check_comparison(const Syntax& syntax) {
     return code_.fail(Code::R232, left.span,
                       fmt::format("'{}' is yes or no already; write it alone, or 'not' in front",
                                   code_.text_of(left)));
+  // The word that an unknown text is compared with is not missed as an attribute.
+  const bool is_word = right.kind == Syntax::Kind::name && right.scope == Syntax::Scope::here;
+  if (first == kNoExpr && is_word && (expr.op == Op::equal || expr.op == Op::not_equal))
+    return kNoExpr;
   return code_.comparison(syntax, {first, check_as_number(right)});
 }
 
@@ -417,6 +421,8 @@ ExprId Checker::check_list(const Syntax& syntax) {
     return code_.fail(
         Code::R232, value.span,
         fmt::format("'{}' is yes or no; write it alone, or 'not' in front", code_.text_of(value)));
+  if (type == Type::number && !code_.at(expr.args[0]).dimension.is_plain())
+    return report_list_of_measures(syntax, code_.at(expr.args[0]).dimension);
   bool is_good = true;
   for (std::size_t i = 1; i < syntax.children.size(); ++i) {
     const Syntax& member = syntax.children[i];
@@ -427,6 +433,22 @@ ExprId Checker::check_list(const Syntax& syntax) {
     expr.args.push_back(id);
   }
   return is_good ? code_.add(std::move(expr)) : kNoExpr;
+}
+
+/// What is measured is never exactly one of a list: a range is meant.
+ExprId Checker::report_list_of_measures(const Syntax& syntax, Dimension dimension) {
+  const auto bound = [&](const Syntax& member) {
+    const std::string_view text = code_.text_of(member);
+    return is_bare_number(member) ? fmt::format("{} {}", text, unit_of(dimension))
+                                  : std::string(text);
+  };
+  const std::string_view value = code_.text_of(syntax.children[0]);
+  return code_.fail(
+      Code::R232, syntax.span,
+      fmt::format("'{}' is {}, which is never exactly one of a list; a range is written '{} in {} "
+                  ".. {}'",
+                  value, describe(dimension), value, bound(syntax.children[1]),
+                  bound(syntax.children.back())));
 }
 
 /// The right side of a text: a word, or another text by its full name.

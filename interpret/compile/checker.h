@@ -85,6 +85,7 @@ class Checker {
   std::vector<ExprId> check_conditions(const Syntax& syntax);
   ExprId check_comparison(const Syntax& syntax);
   ExprId check_list(const Syntax& syntax);
+  ExprId report_list_of_measures(const Syntax& syntax, Dimension dimension);
   ExprId check_as_number(const Syntax& syntax);
   ExprId check_as_condition(const Syntax& syntax);
   ExprId check_word(const Syntax& syntax, ExprId text);

@@ -26,12 +26,20 @@ class NameLookup {
   std::optional<int> param(const Syntax& syntax);
   /// The class, or kNoClass and R205.
   ClassId class_of(const Syntax& syntax);
+  /// The same for a name that stands alone at `where`, as after `label:`.
+  ClassId class_of(const std::string& name, SourceSpan where);
   /// The number of the relation, which counts as used; or nothing and R207.
   std::optional<int> relation(const Syntax& syntax);
   /// R204, or R208 if it is like the name of a macro.
   void report_unknown(const Syntax& syntax, const std::vector<AttributeInfo>& schema);
+  /// R207 for a relation that there is not.
+  void report_relation(const std::string& name, SourceSpan where);
 
  private:
+  void report_class(const std::string& name, SourceSpan where,
+                    const std::vector<std::string>& candidates);
+  [[nodiscard]] std::string other_meaning(const std::string& name) const;
+
   const Pack* pack_;
   Names* names_;
   Findings* findings_;

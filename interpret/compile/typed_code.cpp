@@ -2,6 +2,7 @@
 
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/quantity.h"
+#include "interpret/pack/names.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -205,6 +206,14 @@ ExprId TypedCode::range(const Syntax& syntax, std::vector<ExprId> operands) {
   if (has_wrong(operands)) return kNoExpr;
   Expr expr{
       .op = Op::in_range, .type = Type::yes_no, .args = std::move(operands), .span = syntax.span};
+  const Dimension wanted = at(expr.args[0]).dimension;
+  const bool is_unit_missing = !wanted.is_plain() && is_bare_number(syntax.children[1]) &&
+                               is_bare_number(syntax.children[2]);
+  if (is_unit_missing)
+    return fail(Code::R231, {syntax.children[1].span.begin, syntax.children[2].span.end},
+                fmt::format("'{}' is {}: write {} {} .. {} {}", text_of(syntax.children[0]),
+                            describe(wanted), text_of(syntax.children[1]), unit_of(wanted),
+                            text_of(syntax.children[2]), unit_of(wanted)));
   for (const std::size_t bound : {1UL, 2UL})
     if (!expect_same(syntax.children[0], expr.args[0], syntax.children[bound], expr.args[bound]))
       return kNoExpr;
@@ -240,6 +249,8 @@ bool TypedCode::expect_same(const Syntax& left, ExprId left_id, const Syntax& ri
   const Dimension q = at(right_id).dimension;
   if (p == q) return true;
   if (report_missing_unit(right, left, p) || report_missing_unit(left, right, q)) return false;
+  if (report_param_without_unit(right, left, p) || report_param_without_unit(left, right, q))
+    return false;
   fail(Code::R230, right.span,
        fmt::format("'{}' is {} and '{}' is {}", text_of(left), describe(p), text_of(right),
                    describe(q)));
@@ -251,6 +262,22 @@ bool TypedCode::report_missing_unit(const Syntax& number, const Syntax& other, D
   fail(Code::R231, number.span,
        fmt::format("'{}' is {}: write {} {}", text_of(other), describe(wanted), text_of(number),
                    unit_of(wanted)));
+  return true;
+}
+
+/// Of a param whose value is a bare number: the fault is there and not here. Said once.
+bool TypedCode::report_param_without_unit(const Syntax& param, const Syntax& other,
+                                          Dimension wanted) {
+  if (param.kind != Syntax::Kind::parameter || wanted.is_plain()) return false;
+  const int index = index_of(pack_->params, param.name);
+  if (index < 0) return false;
+  const SourceSpan where = pack_->params[static_cast<std::size_t>(index)].value_span;
+  const std::string value(findings_->source().text_of(where));
+  if (value.empty() || value.find_first_not_of("0123456789.+-") != std::string::npos) return false;
+  fail(Code::R231, where,
+       fmt::format("'${}' is compared with '{}', {}, and has no unit: write {} {}", param.name,
+                   text_of(other), describe(wanted), value, unit_of(wanted)));
+  findings_->silence(where);
   return true;
 }
 

@@ -60,6 +60,7 @@ class TypedCode {
  private:
   ExprId add_operator(Op op, Dimension dimension, std::vector<ExprId> operands, SourceSpan span);
   bool report_missing_unit(const Syntax& number, const Syntax& other, Dimension wanted);
+  bool report_param_without_unit(const Syntax& param, const Syntax& other, Dimension wanted);
 
   Pack* pack_;
   Findings* findings_;

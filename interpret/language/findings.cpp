@@ -25,6 +25,10 @@ void Findings::note(Code code, SourceSpan where, std::string sentence) {
 }
 
 void Findings::add(Severity severity, Code code, SourceSpan where, std::string sentence) {
+  const auto is_around = [&](SourceSpan silenced) {
+    return silenced.begin <= where.begin && where.begin <= silenced.end;
+  };
+  if (std::ranges::any_of(silenced_, is_around)) return;
   if (findings_.size() < kMostKept)
     findings_.push_back({where, severity, code, std::move(sentence)});
 }

@@ -16,6 +16,9 @@ class Findings {
   void error(Code code, SourceSpan where, std::string sentence);
   void warning(Code code, SourceSpan where, std::string sentence);
   void note(Code code, SourceSpan where, std::string sentence);
+  /// What is wrong at `where` has been said: what is found there from now on is not reported, but
+  /// counts as an error all the same.
+  void silence(SourceSpan where) { silenced_.push_back(where); }
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
@@ -36,6 +39,7 @@ class Findings {
   };
   const Source* source_;
   std::vector<Item> findings_;
+  std::vector<SourceSpan> silenced_;
   std::size_t errors_ = 0;
 };
 

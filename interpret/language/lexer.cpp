@@ -155,6 +155,14 @@ class Lexer {
     while ((static_cast<unsigned char>(peek(length)) & 0xC0U) == 0x80U) ++length;
     const std::string_view shown = text_.substr(at_, length);
     if (shown == "!") return fail(length, "'!': write 'not'");
+    if (shown == "\"" || shown == "'")
+      return fail(length,
+                  "quotes have no meaning in an expression; words stand without them: "
+                  "write 'sense = hole'");
+    if (shown == "°") return fail(length, "'°': write 'deg'");
+    if (shown == "²") return fail(length, "'²': write 'm2'");
+    if (shown == "³") return fail(length, "'³': write 'm3'");
+    if (shown == "^") return fail(length, "'^': powers are written as products: a * a");
     if (shown == "≤") return fail(length, "'≤': write '<='");
     if (shown == "≥") return fail(length, "'≥': write '>='");
     return fail(length, fmt::format("'{}' has no meaning in an expression", shown));

@@ -4,6 +4,7 @@
 #include "interpret/language/lexer.h"
 #include "interpret/language/quantity.h"
 #include "interpret/language/suggest.h"
+#include "interpret/language/synonyms.h"
 
 #include <algorithm>
 #include <exception>
@@ -79,9 +80,43 @@ void TokenStream::fail(Code code, SourceSpan where, std::string sentence) {
   throw ParseStop();
 }
 
+/// Words of other languages, and what to write here; nothing for others.
+std::string foreign_word(std::string_view word) {
+  if (word == "AND" || word == "OR" || word == "NOT" || word == "IN" || word == "IS") {
+    std::string small;
+    for (const char c : word) small += static_cast<char>(c - 'A' + 'a');
+    return "write '" + small + "'";
+  }
+  if (word == "between" || word == "BETWEEN" || word == "to")
+    return "a range is written 'in lo .. hi', as in 'a in 1 m .. 2 m'";
+  if (word == "like" || word == "LIKE") return "write '='";
+  if (word == "then" || word == "if")
+    return "conditions stand under 'require', and the label under 'label'";
+  return "";
+}
+
+bool is_comparison(Token::Kind kind) {
+  using enum Token::Kind;
+  return kind == less || kind == less_equal || kind == greater || kind == greater_equal ||
+         kind == equal || kind == not_equal;
+}
+
 void TokenStream::fail_expecting(const std::string& wanted) {
   const Token& found = peek();
+  std::string advice;
+  if (found.kind == Token::Kind::word) advice = foreign_word(found.text);
+  if (is_comparison(found.kind))
+    advice = "write the attribute again, as in 'a > 1 m and a < 2 m', or 'a in 1 m .. 2 m'";
+  if (found.kind == Token::Kind::range && wanted != "an operator or the end")
+    advice = "a range needs both ends, as in 'a in 1 m .. 2 m'";
+  else if (found.kind == Token::Kind::range)
+    advice = "a range is written with 'in', as in 'a in 1 m .. 2 m'";
+  if (wanted.starts_with("'..'")) advice.clear();  // it shows a range itself
   const bool is_end = found.kind == Token::Kind::end;
+  const auto decimals = [&] {
+    return fmt::format("; decimals are written with a point: {}.{}", tokens_[at_ - 1].text,
+                       peek(1).text);
+  };
   const bool is_decimal_comma = found.kind == Token::Kind::comma && at_ > 0 &&
                                 tokens_[at_ - 1].kind == Token::Kind::number &&
                                 peek(1).kind == Token::Kind::number;
@@ -89,7 +124,9 @@ void TokenStream::fail_expecting(const std::string& wanted) {
       Code::R220, found.span,
       fmt::format("expected {}, found {}{}", wanted,
                   is_end ? "the end" : fmt::format("'{}'", findings_->source().text_of(found.span)),
-                  is_decimal_comma ? "; decimals are written with a point: 1.5" : ""));
+                  is_decimal_comma ? decimals()
+                  : advice.empty() ? ""
+                                   : "; " + advice));
 }
 
 const std::vector<std::string>& quantifiers() {
@@ -165,6 +202,7 @@ class ExpressionParser {
   // Operands.
   Syntax operand();
   Syntax number();
+  [[noreturn]] void fail_at_unit(const Token& word);
   Syntax parameter();
   Syntax negation();
   Syntax negative();
@@ -248,6 +286,11 @@ Syntax ExpressionParser::expression(Power least) {
 
 RangeSyntax ExpressionParser::range() {
   Syntax low = expression(Power::comparison);
+  const bool has_dash = low.kind == Kind::binary && low.symbol == Token::Kind::minus &&
+                        tokens_.peek().kind != Token::Kind::range;
+  if (has_dash)
+    tokens_.fail(Code::R220, low.name_span,
+                 "'-' subtracts; a range is written with two points: 0.3 m .. 2.2 m");
   tokens_.expect(Token::Kind::range, "'..' as in 0.3 m .. 2.2 m");
   return {std::move(low), expression(Power::comparison)};
 }
@@ -345,14 +388,21 @@ Syntax ExpressionParser::number() {
   const bool is_symbol = unit.kind == Token::Kind::percent || unit.kind == Token::Kind::map_unit;
   const bool is_unit_word = unit.kind == Token::Kind::word && !is_reserved(unit.text);
   if (!is_symbol && !is_unit_word) return node;
-  if (is_unit_word && !unit_word(unit.text))
-    tokens_.fail(Code::R233, unit.span,
-                 fmt::format("unknown unit '{}'{} (units: {})", unit.text,
-                             did_you_mean(unit.text, unit_names()), join(unit_names())));
+  if (is_unit_word && !unit_word(unit.text)) fail_at_unit(unit);
   node.name = unit.text;
   node.span.end = unit.span.end;
   tokens_.take();
   return node;
+}
+
+/// What follows a number is neither a unit nor a word of the language.
+void ExpressionParser::fail_at_unit(const Token& word) {
+  const std::string meant = foreign_word(word.text);
+  if (!meant.empty())
+    tokens_.fail(Code::R220, word.span, fmt::format("'{}': {}", word.text, meant));
+  tokens_.fail(Code::R233, word.span,
+               unknown_name(NameKind::unit, "unit", word.text, unit_names(),
+                            "; the units are: " + join(unit_names())));
 }
 
 Syntax ExpressionParser::negation() {
@@ -388,9 +438,9 @@ Syntax ExpressionParser::word() {
   if (is_called && !is_reserved(token.text)) {
     auto known = callables();
     for (const FixedCall& called : kFixedCalls) known.emplace_back(called.name);
-    tokens_.fail(
-        Code::R220, token.span,
-        fmt::format("unknown function '{}'{}", token.text, did_you_mean(token.text, known)));
+    tokens_.fail(Code::R220, token.span,
+                 unknown_name(NameKind::function, "function", token.text, known,
+                              "; the functions are: " + join(known)));
   }
   if (tokens_.take_if_word("self")) return scoped(Syntax::Scope::self, token.span);
   if (tokens_.take_if_word("other")) return scoped(Syntax::Scope::other, token.span);

@@ -1,5 +1,8 @@
 #include "interpret/pack/extend.h"
 
+#include "interpret/language/suggest.h"
+#include "interpret/pack/embedded.h"
+
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -137,6 +140,19 @@ bool is_plain_name(const YamlNode& node) {
   });
 }
 
+/// What was probably meant: a pack that is built in, or the file with its extension.
+std::string suggest_pack(const std::string& name, const PackFinder& find_pack) {
+  if (find_pack(name + ".yaml")) return "; did you mean '" + name + ".yaml'?";
+  std::vector<std::string> names;
+  for (const EmbeddedPack& pack : embedded()) names.emplace_back(pack.name);
+  const std::string stem = name.ends_with(".yaml")
+                               ? name.substr(0, name.size() - std::string_view(".yaml").size())
+                               : name;
+  if (contains(names, stem)) return "; did you mean '" + stem + "'?";
+  const std::string near = did_you_mean(stem, names);
+  return near.empty() ? "; built in are: " + join(names) : near;
+}
+
 /// The text of the pack that `node` names, appended to `source`.
 std::optional<SourceSpan> append_pack(const YamlNode& node, std::set<std::string>& seen,
                                       Source& source, const PackFinder& find_pack,
@@ -151,7 +167,8 @@ std::optional<SourceSpan> append_pack(const YamlNode& node, std::set<std::string
   if (!found) {
     findings.error(Code::R200, node.span,
                    "there is no pack '" + node.text +
-                       "' here: neither built in nor a file in the folder of this pack");
+                       "' here: neither built in nor a file in the folder of this pack" +
+                       suggest_pack(node.text, find_pack));
     return std::nullopt;
   }
   if (!seen.insert(found->file).second || seen.size() > kMostBeneath + 1) {

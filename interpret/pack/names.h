@@ -4,6 +4,7 @@
 #include "interpret/language/parser.h"
 #include "interpret/pack/pack.h"
 
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -26,6 +27,10 @@ struct Names {
   std::vector<Macro> macros;
   /// Macros whose body is no expression: their uses are not reported again.
   std::vector<std::string> broken_macros;
+  /// Sections that could not be read ("classes"): what they would have named is not reported.
+  std::set<std::string, std::less<>> unread;
+  /// Classes that nothing is like and that were reported: the other places are not.
+  std::set<std::string> missing_classes;
   /// The same for params; parallel to Pack::params.
   std::vector<std::string> broken_params;
   std::vector<bool> is_param_used;

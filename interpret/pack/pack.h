@@ -28,6 +28,7 @@ struct Param {
   std::optional<std::pair<double, double>> range;
   std::string why;
   SourceSpan span;
+  SourceSpan value_span;
 };
 
 /// How many of a class there are as a rule: `typical: {per storey: 2 .. 12}`.

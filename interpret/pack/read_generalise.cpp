@@ -1,4 +1,5 @@
 #include "interpret/language/suggest.h"
+#include "interpret/language/synonyms.h"
 #include "interpret/pack/loader.h"
 #include "interpret/plan/operators.h"
 #include "interpret/yaml/section.h"
@@ -44,7 +45,11 @@ void read_scale(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   if (dots != std::string_view::npos && !trimmed(all.substr(dots + 2)).empty())
     to = denominator(all.substr(dots + 2));
   if (!from || !to || dots == std::string_view::npos) {
-    loader.findings.error(Code::R250, node.span, std::string(kScaleForm) + ", not '" + *text + "'");
+    const bool is_one_scale = from && dots == std::string_view::npos;
+    loader.findings.error(Code::R250, node.span,
+                          is_one_scale ? "a scale is a range: write \"" + *text +
+                                             " ..\" for this scale and all that are smaller"
+                                       : std::string(kScaleForm) + ", not '" + *text + "'");
     return;
   }
   if (*from > *to)
@@ -92,9 +97,9 @@ void read_operation(const YamlNode& node, GeneraliseEntry& entry, Loader& loader
   const auto& table = operator_table();
   const auto found = std::ranges::find(table, name->text, &OperatorKind::name);
   if (found == table.end())
-    loader.findings.error(
-        Code::R251, name->span,
-        "unknown operator '" + name->text + "'" + did_you_mean(name->text, names_of(table)));
+    loader.findings.error(Code::R251, name->span,
+                          unknown_name(NameKind::operation, "operator", name->text, names_of(table),
+                                       "; the operators are: " + join(names_of(table))));
   else if (node.kind == YamlNode::Kind::scalar)
     return;
   else if (!found->arguments.empty())
@@ -114,10 +119,12 @@ void read_target(const YamlNode& node, GeneraliseEntry& entry, Loader& loader) {
   }
   const std::string name(trimmed(std::string_view(*text).substr(kGroup.size())));
   entry.group = index_of(loader.pack.groups, name);
-  if (entry.group < 0)
-    loader.findings.error(
-        Code::R253, node.span,
-        "unknown group '" + name + "'" + did_you_mean(name, names_of(loader.pack.groups)));
+  if (entry.group >= 0 || loader.names.unread.contains("groups")) return;
+  const auto groups = names_of(loader.pack.groups);
+  std::string advice = did_you_mean(name, groups);
+  if (advice.empty())
+    advice = groups.empty() ? "; the pack has no 'groups'" : "; the groups are: " + join(groups);
+  loader.findings.error(Code::R253, node.span, "unknown group '" + name + "'" + advice);
 }
 
 void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::string>& ids,
@@ -134,7 +141,8 @@ void read_entry_id(const YamlNode& node, GeneraliseEntry& entry, std::set<std::s
 }
 
 void read_entry(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
-  YamlSection section(node, "an entry", {"id", "scale", "for", "when", "do"}, loader.findings);
+  YamlSection section(node, name_with_id(node, "entry", "an entry"),
+                      {"id", "scale", "for", "when", "do"}, loader.findings);
   if (!section.is_map()) return;
   GeneraliseEntry entry;
   entry.span = node.span;

@@ -1,3 +1,4 @@
+#include "interpret/compile/name_lookup.h"
 #include "interpret/language/parser.h"
 #include "interpret/language/quantity.h"
 #include "interpret/language/suggest.h"
@@ -36,14 +37,37 @@ bool is_version(std::string_view text) {
   }
 }
 
+/// The text of a number without a unit, such as `0.8`.
+bool is_bare(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789.+-eE ") == std::string_view::npos;
+}
+
+/// The range of a param. What is in another unit than its value is said once, of the one that has
+/// none.
+std::optional<FixedRange> read_range_of(Param& param, const YamlNode& value, const YamlNode& node,
+                                        Loader& loader) {
+  if (!param.dimension.is_plain() || !is_bare(value.text))
+    return read_range(node, param.dimension, loader);
+  const auto range = read_range(node, {}, loader);
+  if (!range || range->dimension.is_plain()) return range;
+  loader.findings.error(
+      Code::R231, value.span,
+      fmt::format("the range of '{}' is {} and its value has no unit: write {} {}", param.name,
+                  describe(range->dimension), value.text, unit_of(range->dimension)));
+  param.dimension = range->dimension;
+  return std::nullopt;
+}
+
 std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   if (!expect_name(entry.key, "a param", loader.findings)) return std::nullopt;
-  YamlSection section(entry.value, "a param", {"value", "range", "why"}, loader.findings);
+  YamlSection section(entry.value, "the param '" + entry.key.text + "'", {"value", "range", "why"},
+                      loader.findings);
   const YamlNode* value_node = section.require("value");
   if (value_node == nullptr) return std::nullopt;
   Param param;
   param.name = entry.key.text;
   param.span = entry.key.span;
+  param.value_span = value_node->span;
   if (const YamlNode* why = section.find("why"))
     param.why = read_text(*why, "'why'", loader.findings).value_or("");
   const auto value = read_quantity(*value_node, {}, loader);
@@ -52,7 +76,7 @@ std::optional<Param> read_param(const YamlEntry& entry, Loader& loader) {
   param.dimension = value->dimension;
   const YamlNode* range_node = section.find("range");
   if (range_node == nullptr) return param;
-  const auto range = read_range(*range_node, param.dimension, loader);
+  const auto range = read_range_of(param, *value_node, *range_node, loader);
   if (!range) return param;
   param.range = {range->low, range->high};
   if (param.value < range->low || param.value > range->high)
@@ -114,7 +138,8 @@ void read_typical(const YamlNode& node, Class& c, Loader& loader) {
 
 void read_class_body(const YamlNode& node, Class& c, Loader& loader) {
   if (node.kind == YamlNode::Kind::null) return;
-  YamlSection section(node, "a class", {"is", "abstract", "typical"}, loader.findings);
+  YamlSection section(node, "the class '" + c.name + "'", {"is", "abstract", "typical"},
+                      loader.findings);
   if (const YamlNode* parent = section.find("is"))
     c.parent = read_class(*parent, "the class after 'is'", loader);
   if (const YamlNode* flag = section.find("abstract"))
@@ -187,7 +212,8 @@ void read_relation(const YamlEntry& entry, const YamlNode& all, Loader& loader) 
   RelationDefinition relation;
   relation.name = name;
   relation.span = entry.key.span;
-  YamlSection section(entry.value, "a relation", {"within", "where"}, loader.findings);
+  YamlSection section(entry.value, "the relation '" + name + "'", {"within", "where"},
+                      loader.findings);
   const YamlNode* within = section.require("within");
   if (within != nullptr && !leads_below(*within, all, entry, loader))
     relation.within = read_relation(*within, "'within'", loader);
@@ -215,7 +241,8 @@ void read_group(const YamlEntry& entry, Loader& loader) {
   GroupKind kind;
   kind.name = entry.key.text;
   kind.span = entry.key.span;
-  YamlSection section(entry.value, "a group", {"of", "by", "at_least"}, loader.findings);
+  YamlSection section(entry.value, "the group '" + kind.name + "'", {"of", "by", "at_least"},
+                      loader.findings);
   if (const YamlNode* of = section.require("of"))
     kind.of = read_class(*of, "the class after 'of'", loader);
   if (const YamlNode* by = section.require("by")) {
@@ -224,6 +251,13 @@ void read_group(const YamlEntry& entry, Loader& loader) {
   }
   if (const YamlNode* size = section.find("at_least")) kind.at_least = read_size(*size, loader);
   loader.pack.groups.push_back(std::move(kind));
+}
+
+/// True if the section is a map. If not, what it would have named is not missed elsewhere.
+bool expect_named(const YamlNode& node, const std::string& section, Loader& loader) {
+  if (expect_map(node, "'" + section + "'", loader.findings)) return true;
+  loader.names.unread.insert(section);
+  return false;
 }
 
 }  // namespace
@@ -257,7 +291,7 @@ void read_header(const YamlNode& node, Loader& loader) {
 }
 
 void read_params(const YamlNode& node, Loader& loader) {
-  if (!expect_map(node, "'params'", loader.findings)) return;
+  if (!expect_named(node, "params", loader)) return;
   std::vector<Param> params;
   for (const YamlEntry& entry : node.entries) {
     if (auto param = read_param(entry, loader))
@@ -270,7 +304,7 @@ void read_params(const YamlNode& node, Loader& loader) {
 }
 
 void read_classes(const YamlNode& node, Loader& loader) {
-  if (!expect_map(node, "'classes'", loader.findings)) return;
+  if (!expect_named(node, "classes", loader)) return;
   auto& classes = loader.pack.classes;
   for (const YamlEntry& entry : node.entries) {
     // A badly named class is kept, so that what refers to it is not reported besides.
@@ -286,7 +320,7 @@ void read_classes(const YamlNode& node, Loader& loader) {
 }
 
 void read_macros(const YamlNode& node, Loader& loader) {
-  if (!expect_map(node, "'macros'", loader.findings)) return;
+  if (!expect_named(node, "macros", loader)) return;
   for (const YamlEntry& entry : node.entries) {
     const bool is_named = expect_name(entry.key, "a macro", loader.findings);
     if (is_named && find_attribute(entry.key.text))
@@ -311,23 +345,19 @@ int read_relation(const YamlNode& node, const std::string& what, Loader& loader)
   std::string name = *text;
   std::ranges::replace(name, ' ', '_');
   const int number = relation_number(loader.pack, name);
-  const bool is_broken =
-      std::ranges::find(loader.names.broken_relations, name) != loader.names.broken_relations.end();
-  if (number >= 0 || is_broken) return number;
-  loader.findings.error(Code::R207, node.span,
-                        fmt::format("unknown relation '{}'{}", *text,
-                                    did_you_mean(name, relation_names(loader.pack))));
-  return -1;
+  if (number < 0)
+    NameLookup(loader.pack, loader.names, loader.findings).report_relation(name, node.span);
+  return number;
 }
 
 /// A relation narrows one that is built in or stands above it, so that there are no circles.
 void read_relations(const YamlNode& node, Loader& loader) {
-  if (!expect_map(node, "'relations'", loader.findings)) return;
+  if (!expect_named(node, "relations", loader)) return;
   for (const YamlEntry& entry : node.entries) read_relation(entry, node, loader);
 }
 
 void read_groups(const YamlNode& node, Loader& loader) {
-  if (!expect_map(node, "'groups'", loader.findings)) return;
+  if (!expect_named(node, "groups", loader)) return;
   for (const YamlEntry& entry : node.entries) read_group(entry, loader);
 }
 

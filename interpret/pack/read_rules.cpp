@@ -117,8 +117,8 @@ void read_rule_id(const YamlNode& node, Rule& rule, std::set<std::string>& ids, 
 }
 
 void read_rule(const YamlNode& node, std::set<std::string>& ids, Loader& loader) {
-  YamlSection section(node, "a rule", {"id", "label", "priority", "require", "unless", "score"},
-                      loader.findings);
+  YamlSection section(node, name_with_id(node, "rule", "a rule"),
+                      {"id", "label", "priority", "require", "unless", "score"}, loader.findings);
   if (!section.is_map()) return;
   Rule rule;
   rule.span = node.span;

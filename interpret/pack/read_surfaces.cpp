@@ -53,7 +53,8 @@ class SurfaceReader {
 };
 
 void SurfaceReader::read(const YamlNode& entry) {
-  YamlSection section(entry, "an entry of 'surfaces'", {"id", "type", "when"}, findings_);
+  YamlSection section(entry, name_with_id(entry, "entry", "an entry of 'surfaces'"),
+                      {"id", "type", "when"}, findings_);
   if (!section.is_map()) return;
   SurfaceRule rule;
   rule.span = entry.span;

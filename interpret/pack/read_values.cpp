@@ -1,10 +1,15 @@
+#include "interpret/compile/name_lookup.h"
+#include "interpret/compile/typed_code.h"
 #include "interpret/evaluate/arithmetic.h"
 #include "interpret/language/parser.h"
-#include "interpret/language/suggest.h"
+#include "interpret/language/quantity.h"
 #include "interpret/pack/loader.h"
 #include "interpret/yaml/section.h"
 
 #include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
 
 namespace oriel::rules {
 
@@ -16,6 +21,28 @@ std::optional<double> fold_here(ExprId id, SourceSpan where, Loader& loader) {
   if (!value || std::isfinite(*value)) return value;
   loader.findings.error(Code::R212, where, "this has no value");
   return std::nullopt;
+}
+
+/// True, and an error R231, if a bound is a bare number where a unit is needed: both get it in one
+/// message. `dimension` as of read_range.
+bool is_unit_missing(const RangeSyntax& range, std::optional<Dimension> dimension, Loader& loader) {
+  const bool is_low_bare = is_bare_number(range.low);
+  const bool is_high_bare = is_bare_number(range.high);
+  if (!is_low_bare && !is_high_bare) return false;
+  if (!dimension && is_low_bare != is_high_bare) {
+    const ExprId other = loader.checker.constant(is_low_bare ? range.high : range.low, {});
+    if (other != kNoExpr) dimension = loader.pack.code[static_cast<std::size_t>(other)].dimension;
+  }
+  if (!dimension || dimension->is_plain()) return false;
+  const auto with_unit = [&](const Syntax& bound, bool is_bare) {
+    const std::string_view text = loader.findings.source().text_of(bound.span);
+    return is_bare ? fmt::format("{} {}", text, unit_of(*dimension)) : std::string(text);
+  };
+  loader.findings.error(
+      Code::R231, {range.low.span.begin, range.high.span.end},
+      fmt::format("{} is needed here: write {} .. {}", describe(*dimension),
+                  with_unit(range.low, is_low_bare), with_unit(range.high, is_high_bare)));
+  return true;
 }
 
 }  // namespace
@@ -35,7 +62,7 @@ std::optional<FixedRange> read_range(const YamlNode& node, std::optional<Dimensi
                                      Loader& loader) {
   const auto where = expression_span(node, loader.findings);
   const auto syntax = where ? parse_range(*where, loader.findings) : std::nullopt;
-  if (!syntax) return std::nullopt;
+  if (!syntax || is_unit_missing(*syntax, dimension, loader)) return std::nullopt;
   FixedRange range;
   range.low_expr = loader.checker.constant(syntax->low, dimension);
   if (range.low_expr != kNoExpr && !dimension)
@@ -67,12 +94,7 @@ ExprId read_condition(const YamlNode& node, Loader& loader) {
 ClassId read_class(const YamlNode& node, const std::string& what, Loader& loader) {
   const auto name = read_text(node, what, loader.findings);
   if (!name) return kNoClass;
-  const ClassId id = index_of(loader.pack.classes, *name);
-  if (id < 0)
-    loader.findings.error(
-        Code::R205, node.span,
-        "unknown class '" + *name + "'" + did_you_mean(*name, names_of(loader.pack.classes)));
-  return id;
+  return NameLookup(loader.pack, loader.names, loader.findings).class_of(*name, node.span);
 }
 
 }  // namespace oriel::rules

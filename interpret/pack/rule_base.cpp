@@ -269,11 +269,19 @@ Checked<RuleBase> load(std::string text, std::string file, const rules::PackFind
   return checked;
 }
 
+/// The pack that is built in and was probably meant by `path`, or all of them.
+std::string suggest_embedded(const std::string& path) {
+  const auto names = embedded_packs();
+  const std::string stem = std::filesystem::path(path).stem().string();
+  if (rules::contains(names, stem)) return "; did you mean '" + stem + "', which is built in?";
+  const std::string near = rules::did_you_mean(stem, names);
+  return near.empty() ? "; the packs built in are: " + rules::join(names) : near;
+}
+
 /// `found` is what find_pack has at `path`.
 Checked<RuleBase> load(const std::optional<rules::FoundPack>& found, const std::string& path) {
   if (found) return load(found->text, found->file, finder_for(path));
-  return refuse(path, "there is no pack here that can be read; the packs built in are: " +
-                          rules::join(embedded_packs()));
+  return refuse(path, "there is no pack here that can be read" + suggest_embedded(path));
 }
 
 /// Prints a pack that can be loaded; `printed` gives a tree and its text, of which it is certain

@@ -19,7 +19,7 @@ std::string describe(const YamlNode& node) {
     case YamlNode::Kind::null:
       return "nothing";
     case YamlNode::Kind::scalar:
-      return "a text";
+      return "the text '" + node.text + "'";
     case YamlNode::Kind::sequence:
       return "a list";
     case YamlNode::Kind::map:
@@ -28,10 +28,68 @@ std::string describe(const YamlNode& node) {
   return "";
 }
 
+bool is_all_plain(const std::vector<YamlNode>& items) {
+  return !items.empty() && std::ranges::all_of(items, [](const YamlNode& item) {
+    return item.kind == YamlNode::Kind::scalar && item.text.find('\n') == std::string::npos;
+  });
+}
+
+/// How a map is written in place of `node`; `first_key` is the key that a lone value stands for.
+std::string write_as_map(const YamlNode& node, const std::string& first_key) {
+  if (node.kind == YamlNode::Kind::scalar && !node.of_key.empty() && !first_key.empty())
+    return fmt::format("; write '{}: {{{}: {}}}'", node.of_key, first_key, node.text);
+  if (node.kind != YamlNode::Kind::sequence) return "";
+  if (is_all_plain(node.items) && !node.of_key.empty()) {
+    std::string entries;
+    for (const YamlNode& item : node.items)
+      entries += (entries.empty() ? "" : ", ") + item.text + ": {}";
+    return fmt::format("; write '{}: {{{}}}'", node.of_key, entries);
+  }
+  if (!node.items.empty() && !node.items[0].entries.empty()) {
+    const YamlEntry& first = node.items[0].entries[0];
+    const bool is_named = first.value.kind == YamlNode::Kind::scalar;
+    const std::string& name = is_named ? first.value.text : first.key.text;
+    return fmt::format("; an entry begins with its name and has no '-': write '{}:'", name);
+  }
+  return "";
+}
+
+/// How a list is written in place of `node`.
+std::string write_as_list(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::scalar)
+    return fmt::format("; write '{}: [{}]'", node.of_key, node.text);
+  if (node.entries.empty()) return "";
+  const YamlEntry& first = node.entries[0];
+  if (first.value.kind == YamlNode::Kind::map)
+    return fmt::format("; an entry of it begins with '- ': write '- id: {}'", first.key.text);
+  return fmt::format("; an entry of it begins with '- ': write '- {}: {}'", first.key.text,
+                     first.value.text);
+}
+
+/// How one value is written in place of `node`.
+std::string write_as_scalar(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::null && !node.of_key.empty())
+    return fmt::format("; write it after '{}:', or take the key out", node.of_key);
+  if (node.kind != YamlNode::Kind::sequence || !is_all_plain(node.items)) return "";
+  const bool is_range =
+      node.items.size() == 2 && std::ranges::all_of(node.items, [](const auto& i) {
+        return i.text[0] >= '0' && i.text[0] <= '9';
+      });
+  if (is_range && !node.of_key.empty())
+    return fmt::format("; a range is written '{}: {} .. {}'", node.of_key, node.items[0].text,
+                       node.items[1].text);
+  return fmt::format("; write one value, as in '{}: {}'", node.of_key, node.items[0].text);
+}
+
 bool expect(const YamlNode& node, YamlNode::Kind kind, const std::string& what,
-            const std::string& wanted, Findings& findings) {
+            const std::string& wanted, Findings& findings, const std::string& first_key = "") {
   if (node.kind == kind) return true;
-  findings.error(Code::R211, node.span, what + " is " + wanted + "; here stands " + describe(node));
+  std::string remedy;
+  if (kind == YamlNode::Kind::map) remedy = write_as_map(node, first_key);
+  if (kind == YamlNode::Kind::sequence) remedy = write_as_list(node);
+  if (kind == YamlNode::Kind::scalar) remedy = write_as_scalar(node);
+  findings.error(Code::R211, node.span,
+                 fmt::format("{} is {}, but here is {}{}", what, wanted, describe(node), remedy));
   return false;
 }
 
@@ -72,57 +130,218 @@ std::optional<long> base_60(std::string_view text) {
   return parts > 1 ? std::optional(value) : std::nullopt;
 }
 
-void check_scalar(const YamlNode& node, Findings& findings) {
-  if (is_switch_word(node)) {
-    findings.error(Code::R214, node.span,
-                   "bare '" + node.text +
-                       "' is a yes or no to some YAML readers and a text to others; write true, "
-                       "false or \"" +
-                       node.text + "\"");
-    return;
-  }
-  if (const auto number = node.is_plain ? base_60(node.text) : std::nullopt)
-    findings.error(Code::R214, node.span,
-                   "bare '" + node.text + "' is the number " + std::to_string(*number) +
-                       " in base 60 to some YAML readers; write \"" + node.text + "\"");
+/// Reports it; nothing else is said of the scalar.
+void report_trap(const YamlNode& node, std::string sentence, Findings& findings) {
+  findings.error(Code::R214, node.span, std::move(sentence));
+  findings.silence(node.span);
 }
 
-void report_unknown_key(const YamlEntry& entry, const std::string& what,
-                        const std::vector<std::string>& keys, Findings& findings) {
+void check_scalar(const YamlNode& node, Findings& findings) {
+  if (is_switch_word(node))
+    return report_trap(node,
+                       "bare '" + node.text +
+                           "' is a yes or no to some YAML readers and a text to others; write "
+                           "true, false or \"" +
+                           node.text + "\"",
+                       findings);
+  if (node.is_plain && node.text.ends_with(',') && node.text.size() > 1)
+    return report_trap(node,
+                       fmt::format("a comma ends no line outside {{ }} and [ ]; write '{}{}'",
+                                   node.of_key.empty() ? "" : node.of_key + ": ",
+                                   node.text.substr(0, node.text.size() - 1)),
+                       findings);
+  if (const auto number = node.is_plain ? base_60(node.text) : std::nullopt)
+    report_trap(node,
+                "bare '" + node.text + "' is the number " + std::to_string(*number) +
+                    " in base 60 to some YAML readers; write \"" + node.text + "\"",
+                findings);
+}
+
+/// Keys that people write who know other systems, or guess; the first that a map has is meant.
+struct KeySynonym {
+  std::string_view theirs;
+  std::string_view ours;
+};
+constexpr KeySynonym kKeySynonyms[] = {{"class", "label"},
+                                       {"label", "type"},
+                                       {"then", "label"},
+                                       {"assign", "label"},
+                                       {"result", "label"},
+                                       {"name", "id"},
+                                       {"rule", "id"},
+                                       {"if", "require"},
+                                       {"when", "require"},
+                                       {"if", "when"},
+                                       {"where", "require"},
+                                       {"condition", "require"},
+                                       {"conditions", "require"},
+                                       {"condition", "when"},
+                                       {"conditions", "when"},
+                                       {"require", "when"},
+                                       {"condition", "where"},
+                                       {"conditions", "where"},
+                                       {"requires", "require"},
+                                       {"must", "require"},
+                                       {"except", "unless"},
+                                       {"exclude", "unless"},
+                                       {"not", "unless"},
+                                       {"forbid", "unless"},
+                                       {"default", "value"},
+                                       {"min", "range"},
+                                       {"max", "range"},
+                                       {"limits", "range"},
+                                       {"reason", "why"},
+                                       {"comment", "why"},
+                                       {"description", "why"},
+                                       {"source", "why"},
+                                       {"parent", "is"},
+                                       {"extends", "is"},
+                                       {"subclass_of", "is"},
+                                       {"superclass", "is"},
+                                       {"is_a", "is"},
+                                       {"isa", "is"},
+                                       {"kind_of", "is"},
+                                       {"class", "of"},
+                                       {"relation", "by"},
+                                       {"relation", "within"},
+                                       {"of", "within"},
+                                       {"min_size", "at_least"},
+                                       {"scales", "scale"},
+                                       {"class", "for"},
+                                       {"target", "for"},
+                                       {"of", "for"},
+                                       {"action", "do"},
+                                       {"operator", "do"},
+                                       {"operation", "do"},
+                                       {"then", "do"},
+                                       {"parameters", "params"},
+                                       {"constants", "params"},
+                                       {"variables", "params"},
+                                       {"labels", "classes"},
+                                       {"types", "classes"},
+                                       {"generalize", "generalise"},
+                                       {"generalization", "generalise"},
+                                       {"generalisation", "generalise"},
+                                       {"functions", "macros"},
+                                       {"definitions", "macros"},
+                                       {"include", "extends"},
+                                       {"import", "extends"},
+                                       {"inherits", "extends"},
+                                       {"base", "extends"},
+                                       {"output", "emit"},
+                                       {"inherit", "extends"},
+                                       {"increasing", "rise"},
+                                       {"decreasing", "fall"}};
+
+/// The one of `keys` that `key` is probably meant for, or nothing.
+std::string meant_key(std::string_view key, const std::vector<std::string>& keys) {
+  for (const KeySynonym& synonym : kKeySynonyms)
+    if (synonym.theirs == key && contains(keys, synonym.ours)) return std::string(synonym.ours);
+  return nearest(key, keys);
+}
+
+std::size_t column_of(SourceSpan span, const Findings& findings) {
+  return static_cast<std::size_t>(findings.source().place(span.begin).column);
+}
+
+/// What an entry without a value is, if it is no key: the rest of the value before it, whose comma
+/// has ended it; a key without its colon; a value that is not indented. Nothing if it is none.
+std::string explain_lone_text(const YamlEntry* before, const YamlEntry& entry,
+                              const std::vector<std::string>& keys, Findings& findings) {
   const std::string& key = entry.key.text;
-  // `{why: one thing, and another}` is a key `and another` without a value.
-  const bool is_rest_of_text =
-      entry.value.kind == YamlNode::Kind::null && key.find(' ') != std::string::npos;
-  const std::string advice =
-      is_rest_of_text ? "; inside { } a text with a comma must be quoted" : did_you_mean(key, keys);
-  findings.error(Code::R209, entry.key.span,
-                 fmt::format("unknown key '{}' in {}{} (keys: {})", key, what, advice, join(keys)));
+  const std::string word = key.substr(0, key.find(' '));
+  if (contains(keys, word))
+    return fmt::format("a colon is missing after '{}'; write '{}:{}'", word, word,
+                       key.substr(word.size()));
+  if (before == nullptr) return "";
+  const Place at = findings.source().place(entry.key.span.begin);
+  const Place above = findings.source().place(before->key.span.begin);
+  if (before->value.kind == YamlNode::Kind::null && above.line < at.line)
+    return fmt::format("'{}' is what '{}' asks for, and begins in the same column; write '{}{}'",
+                       key, before->key.text,
+                       std::string(static_cast<std::size_t>(at.column) + 1, ' '), key);
+  if (before->value.kind != YamlNode::Kind::scalar || above.column == at.column) return "";
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::string& value = before->value.text;
+  findings.silence(before->value.span);
+  if (!value.empty() && is_digit(value.back()) && is_digit(key.front()))
+    return fmt::format("decimals have a point; write '{}: {}.{}'", before->key.text, value, key);
+  return fmt::format(
+      "inside {{ }} a comma ends a text; a text with a comma needs quotes: write '{}: \"{}, {}\"'",
+      before->key.text, value, key);
 }
 
 }  // namespace
 
+void YamlSection::check_keys(const std::vector<std::string>& keys) {
+  const YamlEntry* before = nullptr;
+  for (const YamlEntry& entry : node_->entries) {
+    const std::string& key = entry.key.text;
+    if (entry.key.kind == YamlNode::Kind::scalar && !contains(keys, key))
+      report_unknown_key(before, entry, keys);
+    before = &entry;
+  }
+}
+
+void YamlSection::report_unknown_key(const YamlEntry* before, const YamlEntry& entry,
+                                     const std::vector<std::string>& keys) {
+  const std::string& key = entry.key.text;
+  const bool is_alone = entry.value.kind == YamlNode::Kind::null;
+  const bool has_blank = key.find(' ') != std::string::npos;
+  if (const std::string lone =
+          is_alone && has_blank ? explain_lone_text(before, entry, keys, *findings_) : "";
+      !lone.empty()) {
+    findings_->error(Code::R209, entry.key.span, lone);
+    if (before != nullptr && before->value.kind == YamlNode::Kind::null)
+      findings_->silence(before->value.span);
+    meant_.emplace_back(key.substr(0, key.find(' ')), nullptr);
+    return;
+  }
+  const bool is_below =
+      before != nullptr && before->value.kind == YamlNode::Kind::null && node_->of_key.empty() &&
+      column_of(before->key.span, *findings_) == column_of(entry.key.span, *findings_);
+  const std::string meant = meant_key(key, keys);
+  if (is_below && meant.empty()) {
+    findings_->error(
+        Code::R209, entry.key.span,
+        fmt::format("unknown key '{}' in {}; if it belongs to '{}' above it, indent it: "
+                    "write '  {}:'",
+                    key, what_, before->key.text, key));
+    return;
+  }
+  const std::string advice = meant.empty() ? fmt::format(" (keys: {})", join(keys))
+                                           : fmt::format("; did you mean '{}'?", meant);
+  findings_->error(Code::R209, entry.key.span,
+                   fmt::format("unknown key '{}' in {}{}", key, what_, advice));
+  if (!meant.empty()) meant_.emplace_back(meant, &entry.value);
+}
+
 YamlSection::YamlSection(const YamlNode& node, std::string what,
                          const std::vector<std::string>& keys, Findings& findings)
     : node_(&node), what_(std::move(what)), findings_(&findings) {
-  if (!expect(node, YamlNode::Kind::map, what_, "a map", findings)) return;
-  for (const YamlEntry& entry : node.entries) {
-    const std::string& key = entry.key.text;
-    if (entry.key.kind == YamlNode::Kind::scalar && !contains(keys, key))
-      report_unknown_key(entry, what_, keys, findings);
-  }
+  if (expect(node, YamlNode::Kind::map, what_, "a map", findings, keys.empty() ? "" : keys[0]))
+    check_keys(keys);
 }
 
 const YamlNode* YamlSection::find(std::string_view key) const {
   for (const YamlEntry& entry : node_->entries)
     if (entry.key.text == key) return &entry.value;
-  return nullptr;
+  const auto meant = std::ranges::find(meant_, key, &Meant::first);
+  return meant == meant_.end() ? nullptr : meant->second;
 }
 
 const YamlNode* YamlSection::require(std::string_view key) {
   const YamlNode* value = find(key);
-  if (value == nullptr && is_map())
+  if (value == nullptr && is_map() && std::ranges::find(meant_, key, &Meant::first) == meant_.end())
     findings_->error(Code::R210, node_->span, what_ + " needs the key '" + std::string(key) + "'");
   return value;
+}
+
+std::string name_with_id(const YamlNode& node, std::string_view kind, std::string_view without_id) {
+  for (const YamlEntry& entry : node.entries)
+    if (entry.key.text == "id" && entry.value.kind == YamlNode::Kind::scalar)
+      return fmt::format("the {} '{}'", kind, entry.value.text);
+  return std::string(without_id);
 }
 
 bool expect_map(const YamlNode& node, const std::string& what, Findings& findings) {
@@ -164,12 +383,24 @@ std::optional<bool> read_flag(const YamlNode& node, const std::string& what, Fin
 }
 
 std::optional<SourceSpan> expression_span(const YamlNode& node, Findings& findings) {
-  if (!expect(node, YamlNode::Kind::scalar, "an expression", "a text", findings))
-    return std::nullopt;
+  const std::string what = node.of_key.empty() ? "an expression" : "'" + node.of_key + "'";
+  if (!expect(node, YamlNode::Kind::scalar, what, "an expression", findings)) return std::nullopt;
   if (node.is_verbatim) return node.span;
+  const bool is_glued = node.is_plain && node.text.size() > 1 && node.text[0] == '-' &&
+                        node.text.find(" -") != std::string::npos;
+  if (is_glued) {
+    findings.error(
+        Code::R221, node.span,
+        fmt::format("a space is missing after '-', which begins a list item; write '- {}'",
+                    node.text.substr(1, node.text.find(" -") - 1)));
+    return std::nullopt;
+  }
+  const bool goes_on = node.is_plain;
   findings.error(Code::R221, node.span,
-                 "an expression stands on one line without escapes, so that messages can point "
-                 "into it");
+                 goes_on ? "this goes on on the next line: an expression stands on one line, and "
+                           "several conditions are a list, each on a line after '- '"
+                         : "an expression stands on one line without escapes, so that messages can "
+                           "point into it");
   return std::nullopt;
 }
 

@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace oriel::rules {
 
 /// A map of a pack whose keys are fixed. Making one reports every key that is not among `keys`
-/// (R209), and a node that is no map (R211); `what` names it in messages ("a rule").
+/// (R209), and a node that is no map (R211); `what` names it in messages ("a rule"). A key that is
+/// probably meant for one of `keys` is read as that one.
 class YamlSection {
  public:
   YamlSection(const YamlNode& node, std::string what, const std::vector<std::string>& keys,
@@ -25,10 +27,21 @@ class YamlSection {
   [[nodiscard]] bool is_map() const { return node_->kind == YamlNode::Kind::map; }
 
  private:
+  void check_keys(const std::vector<std::string>& keys);
+  void report_unknown_key(const YamlEntry* before, const YamlEntry& entry,
+                          const std::vector<std::string>& keys);
+
+  /// A key that was written otherwise, and its value; null if it has none that can be read.
+  using Meant = std::pair<std::string, const YamlNode*>;
+
   const YamlNode* node_;
   std::string what_;
+  std::vector<Meant> meant_;
   Findings* findings_;
 };
+
+/// "the rule 'door.ground'" for kind "rule", or "a rule" (`without_id`) if the map has no id.
+std::string name_with_id(const YamlNode& node, std::string_view kind, std::string_view without_id);
 
 /// True if `node` is a map or empty; else an error R211 that calls it `what`.
 bool expect_map(const YamlNode& node, const std::string& what, Findings& findings);

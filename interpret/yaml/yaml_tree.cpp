@@ -1,5 +1,7 @@
 #include "interpret/yaml/yaml_tree.h"
 
+#include "interpret/yaml/yaml_fault.h"
+
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -18,6 +20,8 @@
 namespace oriel::rules {
 
 namespace {
+
+bool report_fault(SourceSpan where, std::size_t stop, Findings& findings);
 
 /// Ends the parse; what was wrong is among the findings.
 struct Stop : std::exception {};
@@ -133,8 +137,11 @@ YamlNode TreeBuilder::make_scalar(const YAML::Mark& mark, const std::string& tag
   std::size_t& begin = node.span.begin;
   const bool is_quoted = begin < text.size() && (text[begin] == '"' || text[begin] == '\'');
   if (!node.is_plain && is_quoted) {
-    if (find_closing_quote(text, begin) == std::string_view::npos)
-      stop(Code::R201, mark, "the quote that opens here is never closed");
+    if (find_closing_quote(text, begin) == std::string_view::npos) {
+      if (!report_fault(where_, where_.end, *findings_))
+        stop(Code::R201, mark, "the quote that opens here is never closed");
+      throw Stop();
+    }
     ++begin;
   }
   node.is_verbatim =
@@ -169,12 +176,18 @@ void TreeBuilder::add(YamlNode node) {
   } else if (!parent.key) {
     add_key(parent, std::move(node));
   } else {
+    node.of_key = parent.key->text;
+    for (YamlNode& item : node.items) item.of_key = node.of_key;
+    if (node.kind == YamlNode::Kind::null) node.span = {parent.key->span.end, parent.key->span.end};
     parent.node.entries.push_back({std::move(*parent.key), std::move(node)});
     parent.key.reset();
   }
 }
 
 void TreeBuilder::add_key(Open& map, YamlNode key) {
+  // `sill {value: 1 m}` is a key `sill {value` to YAML.
+  const bool has_brace = key.is_plain && key.text.find(" {") != std::string::npos;
+  if (has_brace && report_fault(where_, key.span.begin, *findings_)) throw Stop();
   if (key.kind != YamlNode::Kind::scalar) {
     findings_->error(Code::R211, key.span, "a key is a text");
   } else if (!map.keys.insert(key.text).second) {
@@ -183,13 +196,13 @@ void TreeBuilder::add_key(Open& map, YamlNode key) {
   map.key = std::move(key);
 }
 
-/// What yaml-cpp says, with the advice that this dialect of YAML needs most.
-std::string explain_syntax(const Source& source, SourceSpan at, const YAML::Exception& problem) {
-  std::string sentence = "not YAML: " + problem.msg;
-  const std::string line = source.excerpt(at);
-  if (line.find(" in [") != std::string::npos && problem.msg.find("flow") != std::string::npos)
-    sentence += "; a condition with [ ] or , inside a list in [ ] must be quoted";
-  return sentence;
+/// R201 where it is known what is wrong up to `stop`; else nothing is reported.
+bool report_fault(SourceSpan where, std::size_t stop, Findings& findings) {
+  const auto fault = find_yaml_fault(findings.source().text_of(where), stop - where.begin);
+  if (!fault) return false;
+  const SourceSpan span{where.begin + fault->where.begin, where.begin + fault->where.end};
+  findings.error(Code::R201, span, fault->sentence);
+  return true;
 }
 
 void report(SourceSpan where, Findings& findings, const YAML::Exception& problem) {
@@ -198,9 +211,9 @@ void report(SourceSpan where, Findings& findings, const YAML::Exception& problem
   const std::size_t offset = std::min(where.begin + mark, where.end);
   if (offset < where.end && text[offset] == '*')
     findings.error(Code::R203, {offset, offset}, "a pack has no aliases (*name)");
-  else
+  else if (!report_fault(where, offset, findings))
     findings.error(Code::R201, {offset, offset},
-                   explain_syntax(findings.source(), {offset, offset}, problem));
+                   "not YAML: " + problem.msg + "; the fault is here or on the lines before");
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ struct YamlNode {
   bool is_verbatim = false;
   /// Of a scalar without its quotes; of a sequence or map only where it begins.
   SourceSpan span;
+  /// The key whose value this is, or one of the items of its value; empty at the top.
+  std::string of_key;
   std::vector<YamlNode> items;
   std::vector<YamlEntry> entries;
 };

@@ -25,26 +25,30 @@ TEST_SUITE("interpret") {
 
   TEST_CASE("broken YAML is refused at its place") {
     CHECK(findings("schema: oriel/1\npack: {name: t\nrules: []\n") ==
-          "t.yaml:3:6: R201 not YAML: end of map flow not found\n"
-          "rules: []\n"
-          "     ^\n");
+          "t.yaml:2:7: R201 the '{' that opens here is never closed; write 'pack: {name: t}'\n"
+          "pack: {name: t\n"
+          "      ^\n");
     CHECK(findings("schema: oriel/1\n\tpack: 1\n") ==
-          "t.yaml:2:1: R201 not YAML: illegal tab when looking for indentation\n"
+          "t.yaml:2:1: R201 there is a tab before this line; YAML is indented by spaces; write "
+          "'pack: "
+          "1'\n"
           "\tpack: 1\n"
           "^\n");
   }
 
   TEST_CASE("a quote that is never closed is refused where it opens") {
     CHECK(findings("schema: oriel/1\npack: \"t\n") ==
-          "t.yaml:2:7: R201 the quote that opens here is never closed\n"
+          "t.yaml:2:7: R201 the quote that opens here is not closed on its line; write 'pack: "
+          "\"t\"'\n"
           "pack: \"t\n"
           "      ^\n");
   }
 
   TEST_CASE("an unquoted list of words inside a list in brackets gets advice") {
     CHECK(findings(pack_with("rules: [{id: w, label: window, require: [sense in [hole]]}]\n")) ==
-          "t.yaml:4:51: R201 not YAML: end of sequence flow not found; a condition with [ ] or , "
-          "inside a list in [ ] must be quoted\n"
+          "t.yaml:4:51: R201 '[' in a text without quotes; in [ ] a text with brackets or commas "
+          "needs quotes; write 'rules: [{id: w, label: window, require: [\"sense in "
+          "[hole]\"]}]'\n"
           "rules: [{id: w, label: window, require: [sense in [hole]]}]\n"
           "                                                  ^\n");
   }

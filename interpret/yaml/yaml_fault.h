@@ -1,0 +1,27 @@
+#pragma once
+
+#include "interpret/language/source.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace oriel::rules {
+
+/// Why a text is not YAML, in words: what is there, what was expected, and the mended line.
+struct YamlFault {
+  SourceSpan where;
+  std::string sentence;
+};
+
+/// The first fault in `text` on a line up to that of `stop`, where a parser gave up: a tab or a
+/// wrong number of spaces before a line, a quote or bracket that is not closed, a colon, comma or
+/// space that is missing, a text that needs quotes. Nothing if it is none of these.
+std::optional<YamlFault> find_yaml_fault(std::string_view text, std::size_t stop);
+
+/// The keys with a fixed name that packs, profiles and tests have, sorted.
+std::span<const std::string_view> known_yaml_keys();
+
+}  // namespace oriel::rules
