@@ -2,6 +2,7 @@
 #include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
+#include "cli/terminal/usage_advice.h"
 #include "cli/version/version_text.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/printable.h"
@@ -103,13 +104,12 @@ int run(int argc, char** argv) {
     const ExitCode code = action();
     finish_stdout();
     return exit_with(code);
-  } catch (const CLI::RequiredError& error) {
-    if (const auto rest = app.remaining(); app.get_subcommands().empty() && !rest.empty())
-      run_log().write(oriel::LogLevel::error,
-                      "'" + oriel::printable(rest[0]) + "' is no command of oriel");
-    explain_usage(app, error);
-    return exit_with(ExitCode::usage);
   } catch (const CLI::ParseError& error) {
+    const std::string advice = error.get_exit_code() == 0 ? "" : usage_advice(app);
+    if (!advice.empty()) {
+      std::cerr << advice << "\nRun with --help for more information.\n";
+      return exit_with(ExitCode::usage);
+    }
     const bool is_help = explain_usage(app, error) == 0;
     finish_stdout();
     return exit_with(is_help ? ExitCode::clean : ExitCode::usage);

@@ -88,6 +88,24 @@ TEST_SUITE("cli") {
     CHECK(folder.names().empty());
   }
 
+  TEST_CASE("a pack whose name is misspelt is suggested") {
+    const Folder folder;
+    const auto check_suggested = [&](const std::string& name, const std::string& sentence) {
+      for (const std::vector<std::string>& call :
+           {std::vector<std::string>{"label", sample("hip"), "--rules", name},
+            {"rules", "check", name}}) {
+        const Outcome outcome = run(call);
+        CHECK(outcome.exit == 4);
+        CHECK(outcome.err ==
+              "error: " + name + ": R200 there is no pack here that can be read" + sentence + "\n");
+      }
+    };
+    check_suggested("residental", "; did you mean 'residential'?");
+    check_suggested("Residential.yaml", "; did you mean 'residential'?");
+    check_suggested(folder / "residential.yaml",
+                    "; did you mean 'residential', which is built in?");
+  }
+
   TEST_CASE("a broken pack is told before a broken input") {
     const Folder folder;
     const Outcome outcome = run({"label", folder / "no.city.json", "--rules", "nothing"});

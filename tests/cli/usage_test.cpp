@@ -35,6 +35,37 @@ TEST_SUITE("cli") {
     check_usage({"label", sample("hip"), "--codelist", "none"}, "the pack has codes for");
   }
 
+  TEST_CASE("what was probably meant by an unknown command is said") {
+    check_usage({"lable"}, "'lable' is no command of oriel; did you mean 'label'?\n");
+    check_usage({"classify", "x"}, "'classify' is no command of oriel; did you mean 'label'?\n");
+    check_usage({"lint"}, "'lint' is no command of oriel; did you mean 'rules check'?\n");
+    check_usage({"help"}, "'help' is no command of oriel; did you mean '--help'?\n");
+    check_usage({"rules", "chek", "p"},
+                "'chek' is no command of oriel rules; did you mean 'check'?\n");
+    check_usage({"rules", "lint", "p"},
+                "'lint' is no command of oriel rules; did you mean 'check'?\n");
+    check_usage({"frobnicate"}, "'frobnicate' is no command of oriel\n");
+  }
+
+  TEST_CASE("what was probably meant by an unknown option is said") {
+    check_usage({"label", sample("hip"), "--ruls", "x"},
+                "'oriel label' has no option '--ruls'; did you mean '--rules'?\n");
+    check_usage({"label", sample("hip"), "--threads=3"},
+                "'oriel label' has no option '--threads'; did you mean '--jobs'?\n");
+    check_usage({"generalise", sample("hip"), "--sclae", "1:2000"},
+                "'oriel generalise' has no option '--sclae'; did you mean '--scale'?\n");
+    check_usage({"rules", "check", "x", "--jsno"},
+                "'oriel rules check' has no option '--jsno'; did you mean '--json'?\n");
+    check_usage({"label", sample("hip"), "--frobnicate"},
+                "'oriel label' has no option '--frobnicate'\n");
+  }
+
+  TEST_CASE("an unknown word of the arguments cannot command the terminal") {
+    const Outcome outcome = run({"lab\x1b[2Jle"});
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.err.find('\x1b') == std::string::npos);
+  }
+
   TEST_CASE("missing arguments are named") {
     check_usage({"label"}, "input is required");
     check_usage({"generalise", sample("hip"), "-o", "-"},

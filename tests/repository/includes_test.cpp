@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 /// What the command includes besides its own files and the headers of oriel/, and why. Stages are
 /// none of it: work on buildings is done by the front door.
 const std::map<std::string, std::string> kAllowed{
+    {"interpret/language/suggest.h", "commands and options that are misspelt"},
     {"kernel/base/issue.h", "what is reported, with its code"},
     {"kernel/base/log.h", "the loggers that command and library share"},
     {"kernel/base/printable.h", "words of files cannot command a terminal"},
