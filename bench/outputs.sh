@@ -85,6 +85,8 @@ run house-label-audit label samples/house.labelled.city.json --existing audit
 run house-repaired label samples/house-noisy.stripped.city.json --repaired -o @/house.city.json
 run house-isolate label samples/*.stripped.city.json --isolate -j 2 --features @/parts.csv
 run house-explain explain "$house" f2hgk
+run house-explain-full explain "$house" f2hgk --full
+run house-explain-building explain "$house"
 run house-explain-json explain "$house" f11yv --json
 run house-explain-surface explain "$house" --surface 3
 run house-explain-at explain "$house" --at 0.1,2.2,5

@@ -3,11 +3,15 @@
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
+#include "cli/terminal/table.h"
+#include "kernel/base/printable.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -20,9 +24,36 @@ namespace {
 struct ExplainArguments : RunOptions {
   std::string feature;
   std::string rules = "residential";
+  /// Of it only; empty: of the winner and what came near it.
+  std::string rule;
   int surface = -1;
   std::vector<double> at;
   bool is_json = false;
+  bool is_full = false;
+};
+
+/// What is printed of a feature, as the options say.
+class ExplanationPrinter {
+ public:
+  ExplanationPrinter(const ExplainArguments& arguments, const RuleBase& rules)
+      : arguments_(arguments) {
+    if (arguments.rule.empty()) return;
+    rules_ = find_rules(rules, arguments.rule);
+    if (rules_.empty())
+      throw CLI::ValidationError(
+          "--rule", fmt::format("the pack has no rule and no label '{}'{}", arguments.rule,
+                                similar_rule(rules, arguments.rule)));
+  }
+
+  [[nodiscard]] std::string text(const Explanation& explanation) const {
+    if (arguments_.is_json) return to_json(explanation) + "\n";
+    if (arguments_.is_full) return to_text(explanation);
+    return rules_.empty() ? summary_text(explanation) : rules_text(explanation, rules_);
+  }
+
+ private:
+  const ExplainArguments& arguments_;
+  std::vector<std::size_t> rules_;
 };
 
 /// There is nothing to explain: wrong usage, unless something graver has happened that explains
@@ -38,6 +69,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
+  const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
   const Vec3 point{arguments.at[0], arguments.at[1], arguments.at[2]};
   std::optional<double> nearest_m;
@@ -54,8 +86,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
         text = explain_surface(building, lines[i], *rules, found->polygon);
         continue;
       }
-      const auto explanation = explain(lines[i], *rules, feature);
-      text = arguments.is_json ? to_json(explanation) + "\n" : to_text(explanation);
+      text = printer.text(explain(lines[i], *rules, feature));
     }
   });
   const ExitCode code = runner.run(visitor);
@@ -88,6 +119,56 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
   return code;
 }
 
+/// "house: 24 of 53 features have a label: 1 balcony, 1 canopy", a line for each that has one, and
+/// how many have none; with --full also a line for each of these.
+std::string table_of(const Building& building, const PipelineResult& line, bool has_all) {
+  std::map<std::string, int> counts = count_labels(line.interpretation);
+  const int unknown = std::exchange(counts[""], 0);
+  counts.erase("");
+  std::string labels;
+  for (const auto& [label, count] : counts)
+    labels += fmt::format("{}{} {}", labels.empty() ? ": " : ", ", count, label);
+  const std::size_t rows = line.description.table.rows();
+  std::string text = fmt::format("{}: {} of {} {} a label{}\n", printable(building.id),
+                                 rows - static_cast<std::size_t>(unknown), rows,
+                                 rows == 1 ? "feature has" : "features have", printable(labels));
+  std::vector<std::vector<std::string>> cells = {{"feature", "label", "score", "rule"}};
+  for (const Verdict& verdict : line.interpretation.verdicts) {
+    if (verdict.label.empty() && !has_all) continue;
+    const bool has_label = !verdict.label.empty();
+    cells.push_back({line.description.table.id(verdict.feature),
+                     has_label ? verdict.label.text() : "unknown",
+                     has_label ? fmt::format("{:.2f}", verdict.score) : "", verdict.rule.text()});
+  }
+  if (cells.size() > 1) text += table(std::move(cells));
+  if (unknown > 0 && !has_all)
+    text += fmt::format("{} without a label: --full lists {}.\n", unknown,
+                        unknown == 1 ? "it" : "them");
+  return text;
+}
+
+/// Every building that was asked for, with a line for each feature.
+ExitCode explain_buildings(const ExplainArguments& arguments) {
+  if (!arguments.rule.empty()) throw CLI::ValidationError("--rule", "needs a feature");
+  Report report(arguments.is_verbose);
+  const auto rules = load_rules(arguments.rules, report);
+  if (!rules) return ExitCode::rules;
+  BatchRunner runner(arguments, &*rules, report);
+  std::string text;
+  const auto list = [&](const Document& document, std::vector<PipelineResult>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!lines[i].is_done()) continue;
+      const Building& building = document.buildings[i];
+      text += arguments.is_json ? to_json(building.id, explain_features(lines[i], *rules)) + "\n"
+                                : table_of(building, lines[i], arguments.is_full);
+    }
+  };
+  RecordVisitor visitor(list, [&] { text.clear(); });
+  const ExitCode code = runner.run(visitor);
+  print_out(text, arguments.is_json);
+  return code;
+}
+
 /// That not one feature is meant, but none or several of `ids`. `matches`: those that are meant.
 [[noreturn]] void refuse(const std::string& meant, const std::vector<std::string>& ids,
                          const std::vector<std::string>& matches) {
@@ -106,10 +187,11 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
 ExitCode work(const ExplainArguments& arguments) {
   if (arguments.surface >= 0) return explain_surfaces(arguments);
   if (!arguments.at.empty()) return explain_place(arguments);
-  if (arguments.feature.empty()) throw CLI::RequiredError("feature");
+  if (arguments.feature.empty()) return explain_buildings(arguments);
   Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
+  const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
   std::optional<Explanation> first;
   std::vector<std::string> ids, matches;
@@ -135,8 +217,7 @@ ExitCode work(const ExplainArguments& arguments) {
   const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
   if (matches.size() > 1 || (matches.empty() && !has_said_why))
     refuse(arguments.feature, ids, matches);
-  if (first)
-    print_out(arguments.is_json ? to_json(*first) + "\n" : to_text(*first), arguments.is_json);
+  if (first) print_out(printer.text(*first), arguments.is_json);
   return code;
 }
 
@@ -166,10 +247,23 @@ void add_explain(CLI::App& app, Action& action) {
       ->excludes(feature)
       ->excludes(surface);
   add_rules_argument(*command, arguments->rules);
-  command->add_flag("--json", arguments->is_json, "As JSON");
+  command
+      ->add_option("--id", arguments->selection.ids,
+                   "Only the building with this id; the others are not worked on")
+      ->expected(1)
+      ->type_name("BUILDING");
+  auto* full = command->add_flag("--full", arguments->is_full,
+                                 "All rules with all their conditions; of a building also its "
+                                 "features without a label");
+  command
+      ->add_option("--rule", arguments->rule,
+                   "Only this rule with all its conditions, or all rules for this label")
+      ->excludes(full)
+      ->excludes(surface);
+  command->add_flag("--json", arguments->is_json, "All of it as JSON");
   command->footer(
-      "Example:\n  oriel label house.city.json            # lists the ids\n  oriel explain "
-      "house.city.json f3k9");
+      "Example:\n  oriel explain house.city.json           # lists the features\n  oriel explain "
+      "house.city.json f3k9      # says why that one has its label");
   arguments->joins_installations = true;
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }

@@ -3,9 +3,11 @@
 #include "interpret/explain/proof.h"
 #include "interpret/explain/what_if.h"
 #include "interpret/labelling/labelling.h"
+#include "interpret/language/suggest.h"
 #include "interpret/pack/names.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace oriel {
@@ -120,6 +122,25 @@ std::optional<std::size_t> find_best(const std::vector<RuleReport>& reports) {
   return best;
 }
 
+/// Of the rules for labels of which none holds; the first of equals.
+std::optional<NearestMiss> find_nearest_miss(const Pack& pack, const Explanation& explanation,
+                                             Prover& prover) {
+  std::set<std::string> held;
+  for (const RuleReport& rule : explanation.rules)
+    if (rule.outcome == Outcome::holds) held.insert(rule.label);
+  std::optional<NearestMiss> nearest;
+  for (std::size_t i = 0; i < explanation.rules.size(); ++i) {
+    const RuleReport& rule = explanation.rules[i];
+    if (rule.is_predicate || held.contains(rule.label) ||
+        rule.label == explanation.verdict.label.text())
+      continue;
+    const double gap = prover.gap(pack.rules[i]);
+    if (!nearest || gap < nearest->gap) nearest = NearestMiss{i, gap, {}};
+  }
+  if (nearest) nearest->misses = prover.misses(pack.rules[nearest->rule]);
+  return nearest;
+}
+
 }  // namespace
 
 struct Explainer::State {
@@ -135,7 +156,7 @@ struct Explainer::State {
     labelling.run();
   }
 
-  Explanation explain(Prover prover, FeatureId feature);
+  Explanation explain(Prover& prover, FeatureId feature);
 
   const RuleBase* base;
   const FeatureTable* table;
@@ -154,19 +175,20 @@ Explainer::Explainer(Explainer&&) noexcept = default;
 Explainer& Explainer::operator=(Explainer&&) noexcept = default;
 
 Explanation Explainer::explain(FeatureId feature) const {
-  return state_->explain(
-      Prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value), feature);
+  Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
+  return state_->explain(prover, feature);
 }
 
 Explanation Explainer::explain_fully(FeatureId feature) const {
   Prover prover(state_->base->pack(), *state_->table, state_->evaluator, feature.value);
   prover.look_for_nearest(state_->context);
   Explanation explanation = state_->explain(prover, feature);
+  explanation.nearest_miss = find_nearest_miss(state_->base->pack(), explanation, prover);
   explanation.flip = find_flip(feature);
   return explanation;
 }
 
-Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
+Explanation Explainer::State::explain(Prover& prover, FeatureId feature) {
   const Pack& pack = base->pack();
   Explanation explanation;
   explanation.building = table->building();
@@ -185,6 +207,27 @@ Explanation Explainer::State::explain(Prover prover, FeatureId feature) {
 
 FlipSearch Explainer::find_flip(FeatureId feature) const {
   return rules::find_flip(state_->base->pack(), *state_->table, *state_->graph, feature);
+}
+
+std::vector<std::size_t> find_rules(const RuleBase& base, std::string_view name) {
+  const Pack& pack = base.pack();
+  std::vector<std::size_t> of_class;
+  for (std::size_t i = 0; i < pack.rules.size(); ++i) {
+    const Rule& rule = pack.rules[i];
+    if (rule.id == name) return {i};
+    if (pack.classes[static_cast<std::size_t>(rule.label)].name == name) of_class.push_back(i);
+  }
+  return of_class;
+}
+
+std::string similar_rule(const RuleBase& base, std::string_view name) {
+  const Pack& pack = base.pack();
+  std::vector<std::string> names;
+  for (const Rule& rule : pack.rules) {
+    names.push_back(rule.id);
+    names.push_back(pack.classes[static_cast<std::size_t>(rule.label)].name);
+  }
+  return rules::did_you_mean(name, names);
 }
 
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,

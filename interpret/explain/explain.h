@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oriel {
@@ -138,6 +139,25 @@ struct FlipSearch {
   double reach = 1;
 };
 
+/// What keeps a rule from holding.
+struct MissReport {
+  /// Where the rule asks for a class that the feature is not: the rule of that class that misses
+  /// least, which this condition is of; else empty.
+  std::string rule;
+  /// It is of `unless` and holds, or may hold.
+  bool is_veto = false;
+  ConditionReport condition;
+};
+
+/// The rule that comes nearest to holding, for another label of which no rule holds.
+struct NearestMiss {
+  /// An index into Explanation::rules.
+  std::size_t rule = 0;
+  /// The sum of its misses, each as a share of the numbers compared; what cannot be measured is 1.
+  double gap = 0;
+  std::vector<MissReport> misses;
+};
+
 /// Why a feature has its label, or none: the whole proof, in the order of the pack.
 struct Explanation {
   std::string building;
@@ -151,7 +171,8 @@ struct Explanation {
   std::vector<RoundReport> rounds;
   /// What the rules alone say, if evidence made another label of it.
   std::optional<RoundReport> without_evidence;
-  /// Only if it was searched for.
+  /// Only if they were searched for. Of rules with the same gap the first.
+  std::optional<NearestMiss> nearest_miss;
   std::optional<FlipSearch> flip;
 };
 
@@ -169,7 +190,7 @@ class Explainer {
   /// `feature` must be a row of the table. Without nearest misses and without a flip.
   [[nodiscard]] Explanation explain(FeatureId feature) const;
 
-  /// The same with both.
+  /// The same with all of them.
   [[nodiscard]] Explanation explain_fully(FeatureId feature) const;
 
   /// Moves every param that has a range to where something turns that a rule or a relation asks
@@ -190,6 +211,13 @@ class Explainer {
 Explanation explain(const RuleBase& base, const FeatureTable& table, const FeatureGraph& graph,
                     const Interpretation& interpretation, FeatureId feature);
 
+/// The rules that somebody means by `name`, as indices into Explanation::rules: the one with that
+/// id, else those for the class of that name, in the order of the pack.
+std::vector<std::size_t> find_rules(const RuleBase& base, std::string_view name);
+
+/// The id or the label that `name` was probably meant to be, "; did you mean 'door'?", or nothing.
+std::string similar_rule(const RuleBase& base, std::string_view name);
+
 /// One line of the proof: mark ("holds", of a rule its id), what was found, what was asked for and
 /// by how much it was missed; and where that stands in the pack.
 struct ExplanationRow {
@@ -204,6 +232,18 @@ std::string headline(const Explanation& explanation);
 /// A rule: its own row, then its conditions and, if it holds, the terms of its score.
 std::vector<ExplanationRow> rows_of(const RuleReport& rule);
 
+/// What a rule misses, as a row.
+ExplanationRow row_of(const MissReport& miss);
+
+/// "no veto: lod is 2, must be 3"; of what holds without the mark.
+std::string one_line(const ExplanationRow& row);
+
+/// Rows below each other, in columns, with their places; a line end after each.
+std::string table_of(const std::vector<ExplanationRow>& rows);
+
+/// "0.29", with as many decimals, up to 6, as show it apart from `other`.
+std::string score_text(double score, double other);
+
 /// "nearest flip: sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground", or that there is none.
 std::string flip_line(const FlipSearch& search);
 
@@ -214,11 +254,27 @@ std::string place_text(const Place& place);
 /// found; of a feature without one the best candidate, or that no rule for a label holds.
 std::string reason(const Explanation& explanation);
 
-/// For a terminal: the verdict, then every rule with its conditions and, if it holds, the terms of
-/// its score, a line each, with file:line:column.
+/// "f1 is labelled window by window.in_wall with score 0.93; no rule for another label holds.", "f2
+/// has no label: no rule for a label holds; bay.by_shape comes nearest."
+std::string sentence(const Explanation& explanation);
+
+/// For a terminal, in at most kMostSummaryLines lines: the sentence, what the winner found (of a
+/// feature without a label its best candidate), the runner-up, the nearest miss with what it misses
+/// and the nearest flip, with file:line:column. What is left out is counted.
+inline constexpr std::size_t kMostSummaryLines = 20;
+std::string summary_text(const Explanation& explanation);
+
+/// The sentence, then the rows of `rules`, which are indices into Explanation::rules.
+std::string rules_text(const Explanation& explanation, const std::vector<std::size_t>& rules);
+
+/// For a terminal, all of it: the verdict, then every rule with its conditions and, if it holds,
+/// the terms of its score, a line each, with file:line:column.
 std::string to_text(const Explanation& explanation);
 
 /// The same as one JSON object on one line (docs/rules.md).
 std::string to_json(const Explanation& explanation);
+
+/// Those of the features of a building as one JSON object on one line.
+std::string to_json(const std::string& building, const std::vector<Explanation>& features);
 
 }  // namespace oriel

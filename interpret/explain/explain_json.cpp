@@ -120,6 +120,21 @@ std::string round_json(const RoundReport& round) {
   return fmt::format("{{{}}}", text);
 }
 
+std::string rule_miss_json(const MissReport& miss) {
+  std::string text = member("rule", json_string(miss.rule));
+  text += next("veto", miss.is_veto ? "true" : "false");
+  text += next("condition", condition_json(miss.condition));
+  return fmt::format("{{{}}}", text);
+}
+
+std::string nearest_miss_json(const Explanation& explanation) {
+  const NearestMiss& nearest = *explanation.nearest_miss;
+  std::string text = member("rule", json_string(explanation.rules[nearest.rule].id));
+  text += next("gap", json_number(nearest.gap));
+  text += next("misses", list(nearest.misses, rule_miss_json));
+  return fmt::format("{{{}}}", text);
+}
+
 std::string flip_json(const Flip& flip) {
   std::string text = member("param", json_string(flip.param));
   text += next("place", place_json(flip.place));
@@ -148,6 +163,7 @@ std::string to_json(const Explanation& explanation) {
   const Verdict& verdict = explanation.verdict;
   std::string text = member("building", json_string(explanation.building));
   text += next("feature", json_string(explanation.feature));
+  text += next("sentence", json_string(sentence(explanation)));
   text += next("label", json_string(verdict.label));
   text += next("score", json_number(verdict.score));
   text += next("margin", json_number(verdict.margin));
@@ -160,8 +176,15 @@ std::string to_json(const Explanation& explanation) {
   if (explanation.without_evidence)
     text += next("without_evidence", round_json(*explanation.without_evidence));
   text += next("rules", list(explanation.rules, rule_json));
+  if (explanation.nearest_miss) text += next("nearest_miss", nearest_miss_json(explanation));
   if (explanation.flip) text += next("flip", search_json(*explanation.flip));
   return fmt::format("{{{}}}", text);
+}
+
+std::string to_json(const std::string& building, const std::vector<Explanation>& features) {
+  const auto write = [](const Explanation& explanation) { return to_json(explanation); };
+  return fmt::format("{{{}{}}}", member("building", json_string(building)),
+                     next("features", list(features, write)));
 }
 
 }  // namespace oriel

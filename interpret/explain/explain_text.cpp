@@ -69,14 +69,6 @@ std::string to_string(const RoundReport& round) {
                      round.margin);
 }
 
-/// "no veto: lod is 2, must be 3"; of what holds without the mark.
-std::string one_line(const ExplanationRow& row) {
-  std::string found;
-  for (std::size_t cell = 1; cell < row.cells.size(); ++cell) add(found, row.cells[cell]);
-  if (row.cells[0] == mark_of(Outcome::holds)) return found;
-  return found.empty() ? row.cells[0] : row.cells[0] + ": " + found;
-}
-
 /// "+0.04"; nothing is added without a sign.
 std::string signed_text(double shift) {
   return std::abs(shift) < 0.005 ? "0.00" : fmt::format("{:+.2f}", shift);
@@ -133,6 +125,32 @@ std::string place_text(const Place& place) {
   return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
+std::string score_text(double score, double other) {
+  constexpr int kFewest = 2, kMost = 6;
+  const auto text = [](double value, int decimals) {
+    return fmt::format("{:.{}f}", value, decimals);
+  };
+  int decimals = kFewest;
+  while (decimals < kMost && score != other && text(score, decimals) == text(other, decimals))
+    ++decimals;
+  return text(score, decimals);
+}
+
+std::string one_line(const ExplanationRow& row) {
+  std::string found;
+  for (std::size_t cell = 1; cell < row.cells.size(); ++cell) add(found, row.cells[cell]);
+  if (row.cells[0] == mark_of(Outcome::holds)) return found;
+  return found.empty() ? row.cells[0] : row.cells[0] + ": " + found;
+}
+
+ExplanationRow row_of(const MissReport& miss) {
+  const ConditionReport& report = miss.condition;
+  std::vector<ExplanationRow> rows;
+  add_condition(report, miss.is_veto ? veto_mark_of(report.outcome) : mark_of(report.outcome), 0,
+                rows);
+  return rows.front();
+}
+
 std::string headline(const Explanation& explanation) {
   const Verdict& verdict = explanation.verdict;
   if (verdict.label.empty()) {
@@ -140,8 +158,9 @@ std::string headline(const Explanation& explanation) {
     if (!explanation.best) return text + "   no rule for a label holds";
     const RuleReport& best = explanation.rules[*explanation.best];
     return text +
-           fmt::format("   best candidate: {} {:.2f} (< min_score {:.2f})", best.label,
-                       best.total(), explanation.min_score) +
+           fmt::format("   best candidate: {} {} (< min_score {})", best.label,
+                       score_text(best.total(), explanation.min_score),
+                       score_text(explanation.min_score, best.total())) +
            without_evidence(explanation);
   }
   std::string text = fmt::format("{} -> {} {:.2f} by {}, margin {:.2f}", explanation.feature,
@@ -211,10 +230,7 @@ std::string flip_line(const FlipSearch& search) {
   return text;
 }
 
-std::string to_text(const Explanation& explanation) {
-  std::vector<ExplanationRow> lines;
-  for (const RuleReport& rule : explanation.rules)
-    for (ExplanationRow& row : rows_of(rule)) lines.push_back(std::move(row));
+std::string table_of(const std::vector<ExplanationRow>& lines) {
   std::array<std::size_t, 3> columns{};
   std::size_t start = 0;
   for (std::size_t cell = 0; cell < columns.size(); ++cell) {
@@ -225,9 +241,7 @@ std::string to_text(const Explanation& explanation) {
     start += width + 2;
     columns[cell] = start;
   }
-  std::string text = printable(headline(explanation)) + "\n";
-  for (std::size_t i = 0; i < explanation.rounds.size(); ++i)
-    text += fmt::format("  round {}: {}\n", i + 1, printable(to_string(explanation.rounds[i])));
+  std::string text;
   for (const ExplanationRow& line : lines) {
     std::string row(line.indent, ' ');
     for (std::size_t cell = 0; cell < columns.size(); ++cell) {
@@ -236,6 +250,17 @@ std::string to_text(const Explanation& explanation) {
     }
     text += printable(row + place_text(line.place)) + "\n";
   }
+  return text;
+}
+
+std::string to_text(const Explanation& explanation) {
+  std::vector<ExplanationRow> lines;
+  for (const RuleReport& rule : explanation.rules)
+    for (ExplanationRow& row : rows_of(rule)) lines.push_back(std::move(row));
+  std::string text = printable(headline(explanation)) + "\n";
+  for (std::size_t i = 0; i < explanation.rounds.size(); ++i)
+    text += fmt::format("  round {}: {}\n", i + 1, printable(to_string(explanation.rounds[i])));
+  text += table_of(lines);
   if (explanation.flip) text += "  " + printable(flip_line(*explanation.flip)) + "\n";
   return text;
 }

@@ -48,11 +48,11 @@ const char* yes_or_no(Truth truth) {
   return truth == Truth::yes ? "yes" : "no";
 }
 
-/// Nothing for what is rounding only.
 std::string misses_by(double distance, Dimension dimension) {
-  constexpr double kRounding = 1e-6;
-  return distance < kRounding ? "" : "misses by " + write(distance, dimension, 0);
+  return distance > 0 ? "misses by " + write_distance(distance, dimension) : "";
 }
+
+bool excludes_equal(Op op) { return op == Op::less || op == Op::greater; }
 
 }  // namespace
 
@@ -194,12 +194,20 @@ void Prover::compare(const Expr& expr, ConditionReport& report) {
   const Op op = is_turned ? mirrored(expr.op) : expr.op;
   const double value = number(left);
   const double bound = number(right);
+  const double distance = std::abs(value - bound);
+  const Dimension dimension = at(left).dimension;
   report.value = show_named(left, bound);
   report.bound = words_of(op) + show(right, value);
   if (at(right).op != Op::constant) report.bound += " (" + text_of(right) + ")";
-  const double distance = std::abs(value - bound);
-  if (at(left).type == Type::number && distance > 0)
-    report.miss = misses_by(distance, at(left).dimension);
+  if (at(left).type != Type::number || !excludes_equal(op)) {
+    if (at(left).type == Type::number) report.miss = misses_by(distance, dimension);
+    return;
+  }
+  // Two numbers that are written alike would seem to contradict what is said of them.
+  const bool is_whole = dimension.is_plain() && value == std::round(value);
+  report.miss = distance > 0 || is_whole ? misses_by(distance, dimension) : "equal is not enough";
+  if (report.outcome == Outcome::holds && looks_equal(value, bound))
+    report.bound += " by " + write_distance(distance, dimension);
 }
 
 void Prover::range(ExprId value, double low, double high, ConditionReport& report) {
@@ -225,9 +233,13 @@ void Prover::similarity(const Expr& expr, ConditionReport& report) {
   const double right = number(expr.args[1]);
   const double tolerance = number(expr.args[2]);
   report.value = show_named(expr.args[0], right);
-  report.bound = fmt::format("within {:.3g} % of {}", tolerance * 100, show(expr.args[1], left));
   const double larger = std::max(std::abs(left), std::abs(right));
-  report.miss = fmt::format("differs by {:.3g} %", std::abs(left - right) / larger * 100);
+  const double share = std::abs(left - right) / larger;
+  report.bound =
+      fmt::format("within {} of {}", write_percent(tolerance, tolerance), show(expr.args[1], left));
+  const bool is_hair = write_percent(share, tolerance) == write_percent(tolerance, share);
+  report.miss =
+      fmt::format("differs by {}{}", is_hair ? "just over " : "", write_percent(share, tolerance));
 }
 
 void Prover::facet(const Expr& expr, ConditionReport& report) {

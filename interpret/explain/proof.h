@@ -4,6 +4,7 @@
 #include "interpret/explain/explain.h"
 #include "interpret/pack/pack.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ class Prover {
   ConditionReport bare_condition(ExprId id);
   TermReport term(const ScoreTerm& term);
 
+  /// How far a rule is from holding, in shares of the numbers compared: 0 where it holds. A class
+  /// that is asked for is as far as the rule of it that misses least.
+  double gap(const Rule& rule);
+  /// What keeps it from holding; of a class that is asked for what that rule misses.
+  std::vector<MissReport> misses(const Rule& rule);
+
  private:
   void compare(const Expr& expr, ConditionReport& report);
   void range(ExprId value, double low, double high, ConditionReport& report);
@@ -32,6 +39,12 @@ class Prover {
   void similarity(const Expr& expr, ConditionReport& report);
   void facet(const Expr& expr, ConditionReport& report);
   void negation(const Expr& expr, ConditionReport& report);
+
+  // Of rules (nearest_rule.cpp).
+  double rule_gap(ExprId id);
+  [[nodiscard]] const Rule* nearest_rule_of(const Expr& is_class);
+  void add_misses(const Rule& rule, const std::string& name, std::vector<MissReport>& misses);
+  void add_misses(ExprId id, const std::string& rule, std::vector<MissReport>& misses);
 
   // Of others (nearest_miss.cpp).
   /// How far it is from holding, in shares of the numbers compared: 0 where it holds.
@@ -74,6 +87,10 @@ class Prover {
   Evaluator* evaluator_;
   /// Null: nearest misses are not looked for.
   const EvaluationContext* context_ = nullptr;
+  /// Of rules whose gap is known; of those at work what they are until then.
+  std::map<const Rule*, double> gaps_;
+  /// From the rule that is asked about to the one at hand.
+  std::vector<const Rule*> looked_into_;
   /// The feature, and for conditions of a pair the other one.
   FeatureRows rows_;
 };

@@ -19,11 +19,34 @@ constexpr std::array<UnitWord, 7> kUnits = {{{"m", {1, 0}, 1},
                                              {"%", {0, 0}, 0.01}}};
 
 constexpr int kLeastDecimals = 2;
+/// A tenth of a millimetre: what is smaller is below what coordinates say.
+constexpr int kFinestDecimals = 4;
+/// Of numbers that are small themselves.
 constexpr int kMostDecimals = 6;
+/// A number is not shown further off than this share of it.
+constexpr double kShownWithin = 0.05;
+
+std::string decimal_text(double value, int decimals) {
+  return fmt::format("{:.{}f}", value, decimals);
+}
 
 std::string with_unit(const std::string& number, Dimension dimension) {
   const std::string unit = unit_of(dimension);
   return unit.empty() ? number : number + " " + unit;
+}
+
+bool looks_equal(double value, double other, int decimals) {
+  return decimal_text(value, decimals) == decimal_text(other, decimals);
+}
+
+/// The least of 2 to 6 decimals that show `value` nearly; 2 if none does.
+int decimals_for(double value) {
+  for (int decimals = kLeastDecimals; decimals <= kMostDecimals; ++decimals) {
+    const double unit = std::pow(10, decimals);
+    if (std::abs(std::round(value * unit) / unit - value) <= kShownWithin * std::abs(value))
+      return decimals;
+  }
+  return kLeastDecimals;
 }
 
 bool is_small_whole(double value) { return value == std::round(value) && std::abs(value) < 1e15; }
@@ -82,14 +105,35 @@ std::string write(double value, Dimension dimension) { return write(value, dimen
 
 std::string write(double value, Dimension dimension, double other) {
   if (dimension.is_plain() && is_small_whole(value) && is_small_whole(other))
-    return fmt::format("{:.0f}", value);
-  int decimals = kLeastDecimals;
-  const auto looks_equal = [&] {
-    return fmt::format("{:.{}f}", value, decimals) == fmt::format("{:.{}f}", other, decimals);
+    return decimal_text(value, 0);
+  const int enough = decimals_for(value);
+  int decimals = enough;
+  while (value != other && decimals < kFinestDecimals && looks_equal(value, other, decimals))
+    ++decimals;
+  if (looks_equal(value, other, decimals)) decimals = enough;
+  return with_unit(decimal_text(value, decimals), dimension);
+}
+
+bool looks_equal(double value, double other) {
+  return looks_equal(value, other, std::max(kFinestDecimals, decimals_for(value)));
+}
+
+std::string write_distance(double distance, Dimension dimension) {
+  if (distance > 0 && looks_equal(distance, 0, kFinestDecimals))
+    return "less than " +
+           with_unit(decimal_text(std::pow(10, -kFinestDecimals), kFinestDecimals), dimension);
+  return write(distance, dimension, 0);
+}
+
+std::string write_percent(double share, double other) {
+  constexpr int kLeastDigits = 3, kMostDigits = 6;
+  const auto text = [](double value, int count) {
+    return fmt::format("{:.{}g}", value * 100, count);
   };
-  while (value != other && decimals < kMostDecimals && looks_equal()) ++decimals;
-  if (looks_equal()) decimals = kLeastDecimals;  // they differ by rounding only
-  return with_unit(fmt::format("{:.{}f}", value, decimals), dimension);
+  int count = kLeastDigits;
+  while (count < kMostDigits && share != other && text(share, count) == text(other, count)) ++count;
+  if (text(share, count) == text(other, count)) count = kLeastDigits;
+  return text(share, count) + " %";
 }
 
 }  // namespace oriel::rules

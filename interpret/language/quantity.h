@@ -44,9 +44,16 @@ std::string unit_of(Dimension dimension);
 /// "a length", "an area", "a plain number", …
 std::string describe(Dimension dimension);
 
-/// "0.61 m": the least of 2 to 6 decimals that shows `value` apart from `other` where they differ;
-/// whole numbers of no dimension without decimals.
+/// "0.61 m": the least of 2 to 4 decimals that shows `value` apart from `other` where they differ
+/// by as much as that shows; more of a number that is small itself ("0.005 m"); whole numbers of no
+/// dimension without decimals.
 std::string write(double value, Dimension dimension);
 std::string write(double value, Dimension dimension, double other);
+/// Both are written alike, though they may differ by rounding.
+bool looks_equal(double value, double other);
+/// "0.01 m"; "less than 0.0001 m" of what four decimals do not show.
+std::string write_distance(double distance, Dimension dimension);
+/// "10 %", "33.3 %"; with more digits where it differs from `other` and three would not show it.
+std::string write_percent(double share, double other);
 
 }  // namespace oriel::rules

@@ -39,10 +39,89 @@ TEST_SUITE("cli") {
     REQUIRE(chimneys.size() == 1);
     const Outcome outcome = run({"explain", sample("house"), chimneys[0]});
     CHECK(outcome.exit == 0);
-    CHECK(outcome.out.starts_with(chimneys[0] + " -> chimney 1.00 by chimney.tall"));
-    CHECK(outcome.out.find("dormer.with_window") != std::string::npos);
+    CHECK(outcome.out.starts_with(chimneys[0] +
+                                  " is labelled chimney by chimney.tall with score 1.00; no rule "
+                                  "for another label holds.\nwinner "));
+    CHECK(outcome.out.find("\nnearest miss  ") != std::string::npos);
+    CHECK(outcome.out.find("\nsmallest flip  ") != std::string::npos);
     CHECK(outcome.out.find("residential.yaml:") != std::string::npos);
+    CHECK(lines_of(outcome.out).size() <= 20);
     CHECK(outcome.err.empty());
+    const Outcome full = run({"explain", sample("house"), chimneys[0], "--full"});
+    CHECK(full.out.starts_with(chimneys[0] + " -> chimney 1.00 by chimney.tall"));
+    CHECK(full.out.find("dormer.with_window") != std::string::npos);
+  }
+
+  TEST_CASE("no feature of the samples is explained in more than twenty lines") {
+    for (const std::string name : {"house", "block"})
+      for (const std::string label : {"door", "window", "balcony", "", "loggia"})
+        for (const std::string& id : ids_of(name, label)) {
+          const Outcome outcome = run({"explain", sample(name), id});
+          CAPTURE(outcome.out);
+          CHECK(outcome.exit == 0);
+          CHECK(lines_of(outcome.out).size() <= 20);
+          break;
+        }
+  }
+
+  TEST_CASE("explain --rule shows one rule or all rules for a label") {
+    const std::string id = ids_of("house", "chimney").at(0);
+    const auto rules_in = [](const std::string& text) {
+      std::vector<std::string> rules;
+      for (const std::string& line : lines_of(text))
+        if (line.starts_with("  ") && line[2] != ' ')
+          rules.push_back(line.substr(2, line.find(' ', 2) - 2));
+      return rules;
+    };
+    CHECK(rules_in(run({"explain", sample("house"), id, "--rule", "vent.pipe"}).out) ==
+          std::vector<std::string>{"vent.pipe"});
+    CHECK(rules_in(run({"explain", sample("house"), id, "--rule", "dormer"}).out) ==
+          std::vector<std::string>{"dormer.with_window", "dormer.by_shape"});
+    const Outcome wrong = run({"explain", sample("house"), id, "--rule", "dormr"});
+    CHECK(wrong.exit == 2);
+    CHECK(wrong.says("the pack has no rule and no label 'dormr'; did you mean 'dormer'?"));
+    CHECK(run({"explain", sample("house"), id, "--rule", "vent.pipe", "--full"}).exit == 2);
+    CHECK(run({"explain", sample("house"), "--rule", "vent.pipe"}).says("--rule: needs a feature"));
+  }
+
+  TEST_CASE("explain without a feature lists the building") {
+    const Outcome outcome = run({"explain", sample("house")});
+    CHECK(outcome.exit == 0);
+    const auto lines = lines_of(outcome.out);
+    REQUIRE(lines.size() == 27);
+    CHECK(lines[0] ==
+          "house: 24 of 53 features have a label: 1 balcony, 1 canopy, 1 chimney, 2 door, 2 "
+          "dormer, 1 stairs, 16 window");
+    CHECK(lines.back() == "29 without a label: --full lists them.");
+    CHECK(lines_of(run({"explain", sample("house"), "--full"}).out).size() == 55);
+    const json building = json::parse(run({"explain", sample("house"), "--json"}).out);
+    CHECK(building["building"] == "house");
+    CHECK(building["features"].size() == 53);
+    CHECK(building["features"][0]["rules"].size() > 10);
+  }
+
+  TEST_CASE("explain --id works on one building of a file and of a stream") {
+    const Folder folder;
+    const std::string stream = folder / "town.city.jsonl", file = folder / "town.city.json";
+    REQUIRE(run({"collect", sample("house"), sample("row"), sample("hip"), "-o", file}).exit == 0);
+    std::ofstream(stream, std::ios::binary) << run({"cat", file}).out;
+    const Outcome alone = run({"explain", sample("house")});
+    const std::string chimney = ids_of("house", "chimney").at(0);
+    for (const std::string& town : {stream, file}) {
+      CAPTURE(town);
+      CHECK(run({"explain", town, "--id", "house"}).out == alone.out);
+      const Outcome one = run({"explain", town, chimney, "--id", "house"});
+      CHECK(one.out == run({"explain", sample("house"), chimney}).out);
+      CHECK(run({"explain", town, chimney, "--id", "row"}).exit == 2);
+      // Nothing is done with the others.
+      const Outcome timed = run({"explain", town, "--id", "house", "--log-level", "debug"});
+      CHECK(timed.says("house"));
+      CHECK(!timed.says("row"));
+      const Outcome none = run({"explain", town, "--id", "hous"});
+      CHECK(none.exit == 3);
+      CHECK(none.says("hous: E130"));
+    }
+    CHECK(lines_of(run({"explain", file}).out).size() > lines_of(alone.out).size());
   }
 
   TEST_CASE("the beginning of an id is enough") {
@@ -239,7 +318,7 @@ TEST_SUITE("cli") {
     for (const std::size_t number : {0, 20, 40}) {
       const json& feature = building["features"][number];
       const std::string id = feature["id"];
-      const Outcome explained = run({"explain", sample("house"), id});
+      const Outcome explained = run({"explain", sample("house"), id, "--full"});
       CHECK(explained.out.starts_with(feature["head"].get<std::string>() + "\n"));
       std::istringstream rest(explained.out);
       std::string line;

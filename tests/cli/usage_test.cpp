@@ -72,7 +72,6 @@ TEST_SUITE("cli") {
                 "[--scale,--to-lod,--series,--at] is required");
     check_usage({"generalise", sample("hip"), "--scale", "1:100"}, "--output is required");
     check_usage({"score", "parts.csv"}, "--truth is required");
-    check_usage({"explain", sample("hip")}, "feature is required");
     check_usage({"rules"}, "A subcommand is required");
   }
 

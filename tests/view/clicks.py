@@ -50,7 +50,7 @@ def check_feature(browser, record):
     check(text_of(browser, "#chosen") == "", "Escape forgets it")
     click_middle(browser)
     check(text_of(browser, "#chosen") == label, f"a click on the {label} shows it")
-    explained = oriel("explain", SAMPLE, identity)
+    explained = oriel("explain", SAMPLE, identity, "--full")
     check(text_of(browser, "#head") == explained.splitlines()[0], "with the verdict that explain gives")
     said = json.loads(oriel("explain", SAMPLE, identity, "--json"))
     rules = rules_of(browser, "#why") + rules_of(browser, "#whynot")

@@ -182,6 +182,177 @@ TEST_SUITE("interpret") {
     CHECK(report.miss == "misses by 0.0004 m");
   }
 
+  TEST_CASE("what numbers that look alike are said to be is true") {
+    const double below = std::nextafter(0.7, 0);
+    const ConditionReport rounding = judged("b in 0.7 m .. 6 m", {{"b", below}});
+    CHECK(rounding.value == "b is 0.70 m");
+    CHECK(rounding.bound == "must be within 0.70 m .. 6.00 m");
+    CHECK(rounding.miss == "misses by less than 0.0001 m");
+
+    const ConditionReport micrometre = judged("b >= 0.7 m", {{"b", 0.699999}});
+    CHECK(micrometre.value == "b is 0.70 m");
+    CHECK(micrometre.miss == "misses by less than 0.0001 m");
+
+    const ConditionReport held = judged("b > 0.7 m", {{"b", std::nextafter(0.7, 1)}});
+    CHECK(held.outcome == Outcome::holds);
+    CHECK(held.bound == "above 0.70 m by less than 0.0001 m");
+
+    const ConditionReport equal = judged("b > 0.7 m", {{"b", 0.7}});
+    CHECK(equal.bound == "must be above 0.70 m");
+    CHECK(equal.miss == "equal is not enough");
+
+    const ConditionReport count = judged("split_order < 3", {{"split_order", 3.0}});
+    CHECK(count.value == "split_order is 3");
+    CHECK(count.bound == "must be below 3");
+    CHECK(count.miss.empty());
+
+    const ConditionReport share = judged("a ~ b by 10 %", {{"a", 0.8999}, {"b", 1.0}});
+    CHECK(share.bound == "must be within 10 % of 1.00 m");
+    CHECK(share.miss == "differs by 10.01 %");
+  }
+
+  TEST_CASE("small numbers keep their digits") {
+    const ConditionReport report = judged("a <= 0.005 m", {{"a", 3.0}});
+    CHECK(report.bound == "must be at most 0.005 m");
+    CHECK(judged("a > 1 m", {{"a", 0.0123}}).value == "a is 0.012 m");
+    CHECK(judged("a > 1 m", {{"a", 2.004}}).value == "a is 2.00 m");
+  }
+
+  TEST_CASE("a score just below the least is shown apart from it") {
+    Scene scene;
+    scene.add({{"sense", "hole"}, {"a", 1.3496}});
+    const std::string head = headline(explain_first(
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
+        "rules: [{id: w, label: window, require: sense = hole, score: [a: {rise: 1 m .. 2 m}]}]\n"
+        "decide: {min_score: 0.35}\n",
+        scene));
+    CHECK(head == "f0 -> unknown   best candidate: window 0.3496 (< min_score 0.3500)");
+  }
+
+  TEST_CASE("the summary says why in one sentence and what came near") {
+    CHECK(
+        summary_text(explain_first(kPack, window_with_a_low_sill())) ==
+        R"(f0 has no label: window comes first with 0.29 by window.regular, below the least score, 0.35.
+best           window.regular for window, score 0.29                                         t.yaml:14:5
+                 self is opening: yes                                                        t.yaml:16:15
+                 base_height is 0.61 m, above 0.60 m ($sill_max)                             t.yaml:16:35
+                 no veto: quality > 0.9 and not natural                                      t.yaml:17:14
+                 score 0.87 x1: a is 2.10 m, rises 0.40 m .. 0.90 m, falls 2.00 m .. 2.80 m  t.yaml:19:9
+                 score 0.00 x2: count(alike where is opening) is 0 of 0, rises 0 .. 3, nearest miss f1: a is 2.10 m, must be within 10 % of 1.40 m, differs by 33.3 %  t.yaml:20:9
+nearest miss   door.ground for door                                                          t.yaml:9:5
+                 base_height is 0.61 m, must be at most 0.60 m ($sill_max), misses by 0.01 m  t.yaml:13:9
+smallest flip  sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground                           t.yaml:3:10
+--full shows all 3 rules, --rule NAME one of them.
+)");
+  }
+
+  TEST_CASE("the summary in the reference is what is printed") {
+    std::ifstream docs(std::string(ORIEL_SOURCE_DIR) + "/docs/rules.md");
+    const std::string text{std::istreambuf_iterator<char>(docs), {}};
+    CHECK(text.find(summary_text(explain_first(kPack, window_with_a_low_sill()))) !=
+          std::string::npos);
+  }
+
+  TEST_CASE("the sentence names what came second and why it did") {
+    const auto said = [](const std::string& second) {
+      Scene scene;
+      scene.add({{"sense", "hole"}, {"a", 1.8}});
+      return sentence(explain_first(
+          "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}, door: {}}\n"
+          "rules:\n  - {id: w, label: window, priority: 1, require: sense = hole, score: [a: "
+          "{rise: 1 m .. 2 m}]}\n  - {id: d, label: door, " +
+              second + "}\ndecide: {min_score: 0.35}\n",
+          scene));
+    };
+    CHECK(said("priority: 1, require: sense = hole, score: [a: {rise: 1 m .. 3 m}]") ==
+          "f0 is labelled window by w with score 0.80, ahead of door by 0.40.");
+    CHECK(said("require: sense = hole") ==
+          "f0 is labelled window by w with score 0.80, ahead of door, whose priority 0 is below "
+          "1.");
+    CHECK(said("priority: 2, require: sense = hole, score: [a: {rise: 1.5 m .. 3 m}]") ==
+          "f0 is labelled window by w with score 0.80, ahead of door, whose score 0.20 is below "
+          "the least, 0.35.");
+    CHECK(said("require: sense = cavity") ==
+          "f0 is labelled window by w with score 0.80; no rule for another label holds.");
+  }
+
+  TEST_CASE("the nearest miss looks into the classes that are asked for") {
+    Scene scene;
+    scene.add({{"sense", "hole"}, {"depth", 0.66}, {"base_height", 0.5}, {"a", 9.0}});
+    const Explanation explanation = explain_first(
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\n"
+        "classes: {opening: {abstract: true}, window: {}, door: {}}\nrules:\n"
+        "  - {id: opening.far, label: opening, require: depth <= 0.1 m}\n"
+        "  - {id: opening.near, label: opening, require: [depth <= 0.6 m, sense = hole]}\n"
+        "  - {id: w, label: window, require: a <= 3 m}\n"
+        "  - {id: d, label: door, require: self is opening}\n",
+        scene);
+    REQUIRE(explanation.nearest_miss);
+    const NearestMiss& nearest = *explanation.nearest_miss;
+    CHECK(explanation.rules[nearest.rule].id == "d");
+    CHECK(nearest.gap == doctest::Approx(0.06 / 0.66).epsilon(1e-9));
+    REQUIRE(nearest.misses.size() == 1);
+    CHECK(nearest.misses[0].rule == "opening.near");
+    CHECK(nearest.misses[0].condition.miss == "misses by 0.06 m");
+    CHECK(sentence(explanation) == "f0 has no label: no rule for a label holds; d comes nearest.");
+  }
+
+  TEST_CASE("classes that need each other are no endless way to the nearest miss") {
+    Scene scene;
+    scene.add({{"sense", "hole"}, {"a", 1.0}});
+    const Explanation explanation = explain_first(
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\n"
+        "classes: {p: {abstract: true}, q: {abstract: true}, window: {}}\nrules:\n"
+        "  - {id: p.one, label: p, require: [self is q, a > 2 m]}\n"
+        "  - {id: q.one, label: q, require: self is p}\n"
+        "  - {id: w, label: window, require: self is p}\n",
+        scene);
+    REQUIRE(explanation.nearest_miss);
+    CHECK(!explanation.nearest_miss->misses.empty());
+    CHECK(std::isfinite(explanation.nearest_miss->gap));
+  }
+
+  TEST_CASE("a summary has at most twenty lines and counts what it leaves out") {
+    std::string conditions, terms;
+    for (int i = 0; i < 30; ++i) {
+      conditions += fmt::format("{}a > {} m", i == 0 ? "" : ", ", i + 10);
+      terms += fmt::format("{}a: {{rise: {} m .. 50 m}}", i == 0 ? "" : ", ", i);
+    }
+    Scene scene;
+    scene.add({{"sense", "hole"}, {"a", 1.0}});
+    const std::string text = summary_text(explain_first(
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}, door: {}, vent: "
+        "{}}\niterate: {rounds: 3}\nrules:\n  - {id: w, label: window, require: sense = hole, "
+        "score: [" +
+            terms + "]}\n  - {id: v, label: vent, priority: -1, require: sense = hole}\n" +
+            "  - {id: d, label: door, require: [" + conditions + "]}\n",
+        scene));
+    CAPTURE(text);
+    CHECK(std::ranges::count(text, '\n') <= static_cast<int>(kMostSummaryLines));
+    CHECK(std::ranges::count(text, '\n') > 14);
+    CHECK(text.find("  and 25 more: --rule w\n") != std::string::npos);
+    CHECK(text.find("  and 27 more: --rule d\n") != std::string::npos);
+  }
+
+  TEST_CASE("a rule is found by its id and all rules for a label by the label") {
+    const RuleBase base = load(kPack);
+    CHECK(find_rules(base, "door.ground") == std::vector<std::size_t>{1});
+    CHECK(find_rules(base, "window") == std::vector<std::size_t>{2});
+    CHECK(find_rules(base, "windw").empty());
+    CHECK(similar_rule(base, "windw") == "; did you mean 'window'?");
+    const Explanation explanation = explain_first(kPack, window_with_a_low_sill());
+    const std::string text = rules_text(explanation, {1});
+    CHECK(text.starts_with(sentence(explanation) + "\n  door.ground  fails "));
+    CHECK(text.find("window.regular  holds") == std::string::npos);
+  }
+
+  TEST_CASE("the nearest miss stands in the JSON with what it misses") {
+    const std::string json = to_json(explain_first(kPack, window_with_a_low_sill()));
+    CHECK(json.find(R"("nearest_miss":{"rule":"door.ground","gap":0.01639)") != std::string::npos);
+    CHECK(json.find(R"("misses":[{"rule":"","veto":false,"condition":{"text":"base_height <= )"
+                    R"($sill_max")") != std::string::npos);
+  }
+
   TEST_CASE("what is missing is named") {
     const ConditionReport report = judged("a + b > 1 m and natural or sense = hole", {{"b", 1.0}});
     CHECK(report.outcome == Outcome::unknown);
@@ -388,7 +559,8 @@ TEST_SUITE("interpret") {
     const Interpretation verdicts = interpret(base, scene.table(), scene.graph());
     CHECK(
         to_json(explain(base, scene.table(), scene.graph(), verdicts, FeatureId{0})) ==
-        R"({"building":"house","feature":"f0","label":"window","score":0.5,"margin":0.5,"rule":"w",)"
+        R"({"building":"house","feature":"f0","sentence":"f0 is labelled window by w with score 0.50; )"
+        R"(no rule for another label holds.","label":"window","score":0.5,"margin":0.5,"rule":"w",)"
         R"("runner_up":"","min_score":0,"best":"w","rules":[{"id":"w","label":"window",)"
         R"("priority":0,"predicate":false,"place":{"file":"t.yaml","line":5,"column":5},)"
         R"("outcome":"holds","score":0.5,"require":[{"text":"a > 1 m",)"
