@@ -1,5 +1,6 @@
 # Writes the commit of the sources into a source file: cmake -DSOURCE=FOLDER -DFILE=FILE.cpp [-DCOMMIT=X] -P commit.cmake
 # X if it is given; "unknown" without git, and where the sources are no git tree of their own.
+cmake_policy(VERSION 3.22)
 set(commit unknown)
 find_program(GIT git)
 if(COMMIT)

@@ -43,7 +43,8 @@ holds oriel /usr/bin/oriel /usr/bin/oriel-generate /usr/share/icons/hicolor/scal
 for word in $("$root/usr/bin/oriel" --help | awk '/^Subcommands:/ {on = 1; next} /^[^ ]/ {on = 0} on && /^  [a-z]/ {print $1}'); do
   holds oriel "/usr/share/man/man1/oriel-$word.1.gz"
 done
-holds oriel /usr/share/man/man1/oriel-rules-check.1.gz
+holds oriel /usr/share/man/man1/oriel-rules-check.1.gz /usr/share/bash-completion/completions/oriel \
+  /usr/share/zsh/vendor-completions/_oriel /usr/share/fish/vendor_completions.d/oriel.fish
 holds liboriel-dev /usr/include/oriel/oriel/oriel.h /usr/share/doc/liboriel-dev/examples/main.cpp
 grep -q '/liboriel[.]a$' "$work/liboriel-dev.list" || fail "liboriel-dev has no library"
 grep -q '/cmake/oriel/oriel-config.cmake$' "$work/liboriel-dev.list" || fail "liboriel-dev has no file for find_package"
@@ -60,6 +61,8 @@ needs=$(dpkg-deb --field "$work"/oriel_*.deb Depends)
 for library in libc6 libyaml-cpp libsimdjson libopenmesh libtbb; do
   [[ $needs == *$library* ]] || fail "oriel does not depend on $library: $needs"
 done
+
+"$root/usr/bin/oriel" completion bash | cmp - "$root/usr/share/bash-completion/completions/oriel"
 
 house=$root/usr/share/oriel/samples/house.stripped.city.json
 "$root/usr/bin/oriel" label "$house" --rules "$root/usr/share/oriel/samples/first_pack.yaml" >"$work/labels" 2>"$work/log"
