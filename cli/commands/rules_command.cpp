@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/commands/rules_reference.h"
 #include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
@@ -240,6 +241,9 @@ void add_rules(CLI::App& app, Action& action) {
   add_schema(*rules, action);
   add_format(*rules, action);
   add_show(*rules, action);
+  add_rules_doc(*rules, action);
+  add_rules_words(*rules, action);
+  add_rules_explain(*rules, action);
 }
 
 }  // namespace oriel::cli

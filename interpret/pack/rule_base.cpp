@@ -12,6 +12,7 @@
 #include "interpret/pack/extend.h"
 #include "interpret/pack/loader.h"
 #include "interpret/pack/pack.h"
+#include "interpret/pack/pack_page.h"
 #include "interpret/yaml/section.h"
 #include "interpret/yaml/yaml_text.h"
 #include "interpret/yaml/yaml_tree.h"
@@ -360,6 +361,19 @@ Checked<std::string> merge_pack_file(const std::string& path) {
     const auto tree = rules::read_tree(source, finder_for(path), findings);
     return std::pair(tree, rules::to_yaml(tree.value()));
   });
+}
+
+Checked<std::string> describe_pack_file(const std::string& path) {
+  auto found = find_pack(path);
+  auto loaded = load(found, path);
+  Checked<std::string> result{std::nullopt, std::move(loaded.issues)};
+  if (!loaded.value) return result;
+  rules::drop_byte_order_mark(found->text);
+  rules::Source source(std::move(found->file), std::move(found->text));
+  rules::Findings findings(source);
+  const auto tree = rules::read_tree(source, finder_for(path), findings);
+  result.value = rules::pack_page(tree.value(), loaded.value->pack(), findings);
+  return result;
 }
 
 std::optional<std::string_view> embedded_pack(std::string_view name) {

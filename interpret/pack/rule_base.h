@@ -72,6 +72,10 @@ Checked<std::string> format_pack_file(const std::string& path);
 /// overriding and removing.
 Checked<std::string> merge_pack_file(const std::string& path);
 
+/// A page in Markdown that says what that pack says: classes, params with their reasons, rules in
+/// plain words, what becomes of features at which scale.
+Checked<std::string> describe_pack_file(const std::string& path);
+
 /// The text of a pack that was built into the library ("residential"), or nothing.
 std::optional<std::string_view> embedded_pack(std::string_view name);
 

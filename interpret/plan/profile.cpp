@@ -252,8 +252,10 @@ Checked<Profile> load_profile_file(const std::string& name_and_level) {
   if (auto text = text_of_file(name)) return load_profile(std::move(*text), name, level);
   Issue issue;
   issue.code = Code::R200;
-  issue.sentence = "there is no profile here that can be read; the profiles built in are: " +
-                   rules::join(embedded_profiles());
+  const std::string near = rules::did_you_mean(name, embedded_profiles());
+  issue.sentence =
+      "there is no profile here that can be read" +
+      (near.empty() ? "; the profiles built in are: " + rules::join(embedded_profiles()) : near);
   issue.place.file = name;
   return {std::nullopt, {std::move(issue)}};
 }
