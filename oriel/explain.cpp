@@ -3,11 +3,13 @@
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/printable.h"
 #include "kernel/geometry/planar.h"
+#include "kernel/model/description/feature_names.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/vec3.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,18 +38,28 @@ std::vector<detail::Outline> outlines_of(const Building& building, const Polygon
 
 }  // namespace
 
-std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view id) {
+std::vector<std::string> names_of_features(const PipelineResult& result) {
+  if (!result.is_done()) return {};
+  return feature_names(*result.segmentation, result.description.table, &result.interpretation);
+}
+
+std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view text) {
   const FeatureTable& table = result.description.table;
-  if (const FeatureId exact = table.find(id); exact.is_valid()) return {exact};
+  if (const FeatureId exact = table.find(text); exact.is_valid()) return {exact};
   std::vector<FeatureId> found;
   for (int i = 0; i < static_cast<int>(table.rows()); ++i)
-    if (table.id(FeatureId{i}).starts_with(id)) found.push_back(FeatureId{i});
+    if (table.id(FeatureId{i}).starts_with(text)) found.push_back(FeatureId{i});
+  if (!found.empty()) return found;
+  for (const std::size_t row : find_names(names_of_features(result), text))
+    found.push_back(FeatureId{static_cast<int>(row)});
   return found;
 }
 
 Explanation explain(const PipelineResult& result, const RuleBase& rules, FeatureId feature) {
   const auto& [table, graph, issues] = result.description;
-  return explain(rules, table, graph, result.interpretation, feature);
+  Explanation explanation = explain(rules, table, graph, result.interpretation, feature);
+  explanation.name = names_of_features(result).at(feature.index());
+  return explanation;
 }
 
 std::vector<Explanation> explain_features(const PipelineResult& result, const RuleBase& rules) {
@@ -55,8 +67,11 @@ std::vector<Explanation> explain_features(const PipelineResult& result, const Ru
   if (!result.is_done()) return all;
   const auto& [table, graph, issues] = result.description;
   const Explainer explainer(rules, table, graph, result.interpretation);
-  for (int i = 0; i < static_cast<int>(table.rows()); ++i)
+  std::vector<std::string> names = names_of_features(result);
+  for (int i = 0; i < static_cast<int>(table.rows()); ++i) {
     all.push_back(explainer.explain(FeatureId{i}));
+    all.back().name = std::move(names[static_cast<std::size_t>(i)]);
+  }
   return all;
 }
 

@@ -18,8 +18,13 @@ namespace oriel {
 /// or, for surfaces, has_surfaces() (with LabelOptions::measures_surfaces). to_text() and to_json()
 /// in interpret/explain/explain.h write an Explanation.
 
-/// The feature with the id `id`, else those whose id begins with it, in their order.
-std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view id);
+/// By feature: a name that a person would use, "window 3 of facade south, storey 2"
+/// (kernel/model/description/feature_names.h). Labels are those of `result`.
+std::vector<std::string> names_of_features(const PipelineResult& result);
+
+/// The feature with the id `text`, else those whose id begins with it; if there is none, that with
+/// this name or those whose names begin with it. In their order.
+std::vector<FeatureId> find_features(const PipelineResult& result, std::string_view text);
 
 /// Why a feature has its label, or none: every rule with its conditions, what was found and what
 /// was asked for, and which number of the pack would change it (docs/rules.md).

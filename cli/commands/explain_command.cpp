@@ -5,17 +5,20 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/printable.h"
+#include "kernel/model/description/feature_names.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -119,6 +122,15 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
   return code;
 }
 
+/// Names in the order of a walk around the building: the place, the label, the number.
+std::tuple<std::string, std::string, std::size_t, std::string> by_place(const std::string& name) {
+  const std::size_t end = name.find(" of ");
+  const std::string counted = name.substr(0, end);
+  const std::size_t space = std::min(counted.rfind(' '), counted.size());
+  return {end == std::string::npos ? "" : name.substr(end), counted.substr(0, space),
+          counted.size(), counted};
+}
+
 /// "house: 24 of 53 features have a label: 1 balcony, 1 canopy", a line for each that has one, and
 /// how many have none; with --full also a line for each of these.
 std::string table_of(const Building& building, const PipelineResult& line, bool has_all) {
@@ -132,13 +144,17 @@ std::string table_of(const Building& building, const PipelineResult& line, bool 
   std::string text = fmt::format("{}: {} of {} {} a label{}\n", printable(building.id),
                                  rows - static_cast<std::size_t>(unknown), rows,
                                  rows == 1 ? "feature has" : "features have", printable(labels));
-  std::vector<std::vector<std::string>> cells = {{"feature", "label", "score", "rule"}};
-  for (const Verdict& verdict : line.interpretation.verdicts) {
+  std::vector<std::vector<std::string>> cells = {{"name", "label", "score", "rule", "feature"}};
+  const std::vector<std::string> names = names_of_features(line);
+  std::vector<Verdict> verdicts = line.interpretation.verdicts;
+  std::ranges::sort(verdicts, {},
+                    [&](const Verdict& v) { return by_place(names[v.feature.index()]); });
+  for (const Verdict& verdict : verdicts) {
     if (verdict.label.empty() && !has_all) continue;
     const bool has_label = !verdict.label.empty();
-    cells.push_back({line.description.table.id(verdict.feature),
-                     has_label ? verdict.label.text() : "unknown",
-                     has_label ? fmt::format("{:.2f}", verdict.score) : "", verdict.rule.text()});
+    cells.push_back({names[verdict.feature.index()], has_label ? verdict.label.text() : "unknown",
+                     has_label ? fmt::format("{:.2f}", verdict.score) : "", verdict.rule.text(),
+                     line.description.table.id(verdict.feature)});
   }
   if (cells.size() > 1) text += table(std::move(cells));
   if (unknown > 0 && !has_all)
@@ -169,19 +185,45 @@ ExitCode explain_buildings(const ExplainArguments& arguments) {
   return code;
 }
 
-/// That not one feature is meant, but none or several of `ids`. `matches`: those that are meant.
-[[noreturn]] void refuse(const std::string& meant, const std::vector<std::string>& ids,
-                         const std::vector<std::string>& matches) {
-  constexpr std::size_t kMostShown = 8;
-  const std::vector<std::string>& shown = matches.empty() ? ids : matches;
-  std::string which = matches.empty() ? "there are" : "it may be";
-  if (ids.empty()) which += " none";
-  for (std::size_t i = 0; i < std::min(kMostShown, shown.size()); ++i) which += " " + shown[i];
-  if (shown.size() > kMostShown) which += " ...";
+/// A feature that was looked at, or that may be meant.
+struct FoundFeature {
+  std::string building;
+  std::string id;
+  std::string name;
+};
+
+/// "f11yv1hbtweapa (chimney 1 of roof slope north)", a few of them.
+std::string some_of(const std::vector<FoundFeature>& features) {
+  constexpr std::size_t kMostShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostShown, features.size()); ++i)
+    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", features[i].id, features[i].name);
+  return features.size() > kMostShown ? text + " ..." : text;
+}
+
+/// No feature is meant: those with the nearest names, or if an id seems to be meant the first ones.
+[[noreturn]] void refuse_unknown(const std::string& meant, const std::vector<FoundFeature>& all) {
+  constexpr std::size_t kMostNear = 3;
+  std::string which = "there are none";
+  const bool is_name = meant.find(' ') != std::string::npos;
+  if (!all.empty() && !is_name) which = "there are " + some_of(all);
+  if (!all.empty() && is_name) {
+    std::vector<std::string> names;
+    for (const FoundFeature& feature : all) names.push_back(feature.name);
+    which =
+        fmt::format("there are '{}'", fmt::join(nearest_names(names, meant, kMostNear), "', '"));
+  }
+  throw CLI::ValidationError("feature",
+                             fmt::format("no feature starts with '{}'; {}", meant, which));
+}
+
+[[noreturn]] void refuse_several(const std::string& meant, const std::vector<FoundFeature>& found) {
+  const bool is_one_building = std::ranges::all_of(found, [&](const FoundFeature& feature) {
+    return feature.building == found.front().building;
+  });
   throw CLI::ValidationError(
-      "feature", matches.empty() ? fmt::format("no feature starts with '{}'; {}", meant, which)
-                                 : fmt::format("{} features start with '{}'; {}", matches.size(),
-                                               meant, which));
+      "feature", fmt::format("{} features start with '{}'; it may be {}{}", found.size(), meant,
+                             some_of(found), is_one_building ? "" : "; --id names one building"));
 }
 
 ExitCode work(const ExplainArguments& arguments) {
@@ -194,29 +236,33 @@ ExitCode work(const ExplainArguments& arguments) {
   const ExplanationPrinter printer(arguments, *rules);
   BatchRunner runner(arguments, &*rules, report);
   std::optional<Explanation> first;
-  std::vector<std::string> ids, matches;
+  std::vector<FoundFeature> all, matches;
   const auto clear = [&] {
     first.reset();
-    ids.clear();
+    all.clear();
     matches.clear();
   };
   const auto look_up = [&](const Document&, std::vector<PipelineResult>& lines) {
     for (const PipelineResult& line : lines) {
       if (!line.is_done()) continue;
       const FeatureTable& table = line.description.table;
+      const std::vector<std::string> names = names_of_features(line);
+      const auto entry = [&](FeatureId id) {
+        return FoundFeature{table.building(), table.id(id), names[id.index()]};
+      };
       for (std::size_t i = 0; i < table.rows(); ++i)
-        ids.push_back(table.id(FeatureId{static_cast<int>(i)}));
+        all.push_back(entry(FeatureId{static_cast<int>(i)}));
       for (const FeatureId id : find_features(line, arguments.feature)) {
-        matches.push_back(table.id(id));
+        matches.push_back(entry(id));
         if (!first) first = explain(line, *rules, id);
       }
     }
   };
   RecordVisitor visitor(look_up, clear);
   const ExitCode code = runner.run(visitor);
-  const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && ids.empty());
-  if (matches.size() > 1 || (matches.empty() && !has_said_why))
-    refuse(arguments.feature, ids, matches);
+  const bool has_said_why = code == ExitCode::input || (code == ExitCode::set_aside && all.empty());
+  if (matches.size() > 1) refuse_several(arguments.feature, matches);
+  if (matches.empty() && !has_said_why) refuse_unknown(arguments.feature, all);
   if (first) print_out(printer.text(*first), arguments.is_json);
   return code;
 }
@@ -229,7 +275,8 @@ void add_explain(CLI::App& app, Action& action) {
       "explain", "Say why a feature has its label: every condition with its value and its bound");
   add_line_arguments(*command, *arguments, false);
   auto* feature = command->add_option("feature", arguments->feature,
-                                      "Id of a feature, or the beginning of one");
+                                      "Id or name of a feature, or the beginning of one (default: "
+                                      "a line for each feature of the building)");
   auto* surface =
       command
           ->add_option(
@@ -250,7 +297,7 @@ void add_explain(CLI::App& app, Action& action) {
   command
       ->add_option("--id", arguments->selection.ids,
                    "Only the building with this id; the others are not worked on")
-      ->expected(1)
+      ->allow_extra_args(false)
       ->type_name("BUILDING");
   auto* full = command->add_flag("--full", arguments->is_full,
                                  "All rules with all their conditions; of a building also its "
@@ -263,9 +310,15 @@ void add_explain(CLI::App& app, Action& action) {
   command->add_flag("--json", arguments->is_json, "All of it as JSON");
   command->footer(
       "Example:\n  oriel explain house.city.json           # lists the features\n  oriel explain "
-      "house.city.json f3k9      # says why that one has its label");
+      "house.city.json f3k9      # says why that one has its label\n  oriel explain "
+      "house.city.json 'window 3 of facade south, storey 1'");
   arguments->joins_installations = true;
-  command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
+  command->callback([arguments, &action] {
+    // Measuring all of every surface takes longer than all else, and of features nothing is said
+    // that needs it.
+    arguments->only_names_surfaces = arguments->surface < 0 && arguments->at.empty();
+    action = [arguments] { return work(*arguments); };
+  });
 }
 
 }  // namespace oriel::cli

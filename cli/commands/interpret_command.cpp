@@ -151,12 +151,21 @@ class StoredFeatures {
     FeatureRecordWriter writer(path);
     RecordLabeller labeller(buildings_, run);
     for (const std::string& file : files_) {
-      const auto issues = visit_feature_records(file, [&](FeatureRecord record) {
-        if (!labeller.label(record)) return;
-        const std::string text = FeatureRecordWriter::text(format, {std::move(record)});
+      // Of one building: labels of others are parts of a feature's name.
+      std::vector<FeatureRecord> records;
+      const auto write_building = [&] {
+        set_names(records);
+        const std::string text = FeatureRecordWriter::text(format, records);
         const bool is_safe = has_safe_cells && format == RecordFormat::csv;
         writer.append(is_safe ? with_safe_cells(text) : text);
+        records.clear();
+      };
+      const auto issues = visit_feature_records(file, [&](FeatureRecord record) {
+        if (!labeller.label(record)) return;
+        if (!records.empty() && records.back().building != record.building) write_building();
+        records.push_back(std::move(record));
       });
+      write_building();
       // Boxes and polygons, without which the tables could be read, are not reported yet.
       if (has_errors(issues) && code_ == ExitCode::clean) {
         report_.add(issues);

@@ -6,6 +6,7 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/printable.h"
+#include "oriel/explain.h"
 #include "oriel/repair.h"
 #include "oriel/score.h"
 
@@ -33,7 +34,8 @@ struct LabelArguments : LabellingArguments {
 std::string listing(const Building& building, const PipelineResult& line) {
   const FeatureTable& of = line.description.table;
   std::vector<std::vector<std::string>> rows{
-      {"feature", "label", "score", "margin", "rule", "a m", "b m", "base height m"}};
+      {"feature", "label", "score", "margin", "rule", "a m", "b m", "base height m", "name"}};
+  const std::vector<std::string> names = names_of_features(line);
   const auto number = [&](FeatureId id, Attribute attribute) {
     const auto value = of.number(id, attribute);
     return value ? fmt::format("{:.2f}", *value) : std::string("-");
@@ -43,7 +45,8 @@ std::string listing(const Building& building, const PipelineResult& line) {
     rows.push_back({of.id(verdict.feature), verdict.label, fmt::format("{:.2f}", verdict.score),
                     fmt::format("{:.2f}", verdict.margin), verdict.rule,
                     number(verdict.feature, Attribute::a), number(verdict.feature, Attribute::b),
-                    number(verdict.feature, Attribute::base_height)});
+                    number(verdict.feature, Attribute::base_height),
+                    names[verdict.feature.index()]});
   }
   return fmt::format("{}: {} of {} features have a label\n{}\n", printable(building.id),
                      rows.size() - 1, line.interpretation.verdicts.size(), table(rows));

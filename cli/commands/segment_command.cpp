@@ -6,6 +6,7 @@
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
+#include "oriel/explain.h"
 #include "oriel/segment.h"
 #include "oriel/write.h"
 
@@ -33,8 +34,9 @@ struct SegmentArguments : RunOptions {
 std::string segment_listing(const Building& building, const PipelineResult& line) {
   const Segmentation& segmentation = *line.segmentation;
   const FeatureTable& table_of = line.description.table;
-  std::vector<std::vector<std::string>> rows{
-      {"feature", "sense", "planes", "value", "volume m3", "a m", "b m", "c m", "base height m"}};
+  std::vector<std::vector<std::string>> rows{{"feature", "sense", "planes", "value", "volume m3",
+                                              "a m", "b m", "c m", "base height m", "name"}};
+  const std::vector<std::string> names = names_of_features(line);
   const auto number = [&](FeatureId id, Attribute attribute) {
     const auto value = table_of.number(id, attribute);
     return value ? fmt::format("{:.3f}", *value) : std::string("-");
@@ -42,10 +44,11 @@ std::string segment_listing(const Building& building, const PipelineResult& line
   for (int i = 0; i < std::ssize(segmentation.features); ++i) {
     const FeatureId id{i};
     const Feature& feature = segmentation.features[id.index()];
-    rows.push_back(
-        {table_of.id(id), to_string(feature.sense), fmt::format("{}", feature.planes.size()),
-         number(id, Attribute::value), number(id, Attribute::volume), number(id, Attribute::a),
-         number(id, Attribute::b), number(id, Attribute::c), number(id, Attribute::base_height)});
+    rows.push_back({table_of.id(id), to_string(feature.sense),
+                    fmt::format("{}", feature.planes.size()), number(id, Attribute::value),
+                    number(id, Attribute::volume), number(id, Attribute::a),
+                    number(id, Attribute::b), number(id, Attribute::c),
+                    number(id, Attribute::base_height), names[id.index()]});
   }
   const SegmentationStats& stats = segmentation.stats;
   return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n",

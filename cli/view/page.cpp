@@ -147,9 +147,10 @@ ordered_json PageData::State::feature(const Explanation& explanation) {
     rounds.push_back(strings.number_of(round.label.empty() ? "unknown" : round.label));
   const Verdict& verdict = explanation.verdict;
   if (!verdict.label.empty()) labels.insert(verdict.label);
-  return {{"id", explanation.feature}, {"label", verdict.label},
-          {"rule", verdict.rule},      {"head", headline(explanation)},
-          {"rounds", rounds},          {"rules", std::move(rules_of_it)}};
+  return {{"id", explanation.feature},      {"name", explanation.name},
+          {"label", verdict.label},         {"rule", verdict.rule},
+          {"head", headline(explanation)},  {"rounds", rounds},
+          {"rules", std::move(rules_of_it)}};
 }
 
 ordered_json PageData::State::features(const PipelineResult& line) {
@@ -193,6 +194,7 @@ ordered_json PageData::State::features(const std::string& building, const Carrie
     labels.insert(said.label);
     list.push_back(
         {{"id", said.id},
+         {"name", said.name},
          {"label", said.label},
          {"rule", said.rule},
          {"head", fmt::format("{} -> {} {:.2f} by {}, as the file says", said.id, said.label,

@@ -205,6 +205,7 @@ function showFeature(building, feature) {
   const list = (id, some) => el('div', {id}, ...some.map(rows => ruleElement(rows, isDeciding(rows))));
   return [
     el('h2', {id: 'chosen'}, feature.label || 'unknown'),
+    el('div', {id: 'name'}, feature.name),
     el('div', {}, 'feature ', el('code', {}, feature.id), ' of ', el('code', {}, building.id)),
     el('p', {id: 'head'}, feature.head),
     ...feature.rounds.map((round, i) => el('div', {}, `round ${i + 1}: ${text(round)}`)),
@@ -262,12 +263,13 @@ function pick(event) {
   select({building, polygon, feature: shownFeature(building, polygon)});
 }
 
-// The first feature or building whose id begins so.
+// The first feature or building whose id or name begins so.
 function find(id) {
   if (!id) return undefined;
-  for (const isMatch of [other => other === id, other => other.startsWith(id)])
+  const name = id.toLowerCase();
+  for (const isMatch of [other => other === id, other => other.startsWith(id), other => other.toLowerCase().startsWith(name)])
     for (const building of shown.model.buildings) {
-      const feature = building.features.findIndex(f => isMatch(f.id));
+      const feature = building.features.findIndex(f => isMatch(f.id) || isMatch(f.name));
       if (feature >= 0) return {building, feature};
       if (isMatch(building.id)) return {building};
     }
@@ -278,7 +280,7 @@ function search(id) {
   const found = find(id);
   select(found);
   if (found) fly(found);
-  else $('panel').replaceChildren(el('p', {id: 'chosen'}, `no id begins with '${id}'`));
+  else $('panel').replaceChildren(el('p', {id: 'chosen'}, `no id and no name begins with '${id}'`));
 }
 
 function showLegend(model) {

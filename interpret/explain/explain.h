@@ -162,6 +162,8 @@ struct NearestMiss {
 struct Explanation {
   std::string building;
   std::string feature;
+  /// For people (feature_names()); empty if it is not known, as it is to an Explainer.
+  std::string name;
   Verdict verdict;
   double min_score = 0;
   /// The rule that would be first if `min_score` were 0: an index into `rules`.
@@ -254,8 +256,8 @@ std::string place_text(const Place& place);
 /// found; of a feature without one the best candidate, or that no rule for a label holds.
 std::string reason(const Explanation& explanation);
 
-/// "f1 is labelled window by window.in_wall with score 0.93; no rule for another label holds.", "f2
-/// has no label: no rule for a label holds; bay.by_shape comes nearest."
+/// "window 3 of facade south (f1) is labelled window by window.in_wall with score 0.93; no rule for
+/// another label holds.", "f2 has no label: no rule for a label holds; bay.by_shape comes nearest."
 std::string sentence(const Explanation& explanation);
 
 /// For a terminal, in at most kMostSummaryLines lines: the sentence, what the winner found (of a

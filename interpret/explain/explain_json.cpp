@@ -163,6 +163,7 @@ std::string to_json(const Explanation& explanation) {
   const Verdict& verdict = explanation.verdict;
   std::string text = member("building", json_string(explanation.building));
   text += next("feature", json_string(explanation.feature));
+  if (!explanation.name.empty()) text += next("name", json_string(explanation.name));
   text += next("sentence", json_string(sentence(explanation)));
   text += next("label", json_string(verdict.label));
   text += next("score", json_number(verdict.score));

@@ -64,10 +64,17 @@ std::string without_evidence_clause(const Explanation& explanation) {
                                              without.label, without.score);
 }
 
+/// "chimney 1 of roof slope north (f11yv1hbtweapa)".
+std::string subject_text(const Explanation& explanation) {
+  return explanation.name.empty() ? explanation.feature
+                                  : fmt::format("{} ({})", explanation.name, explanation.feature);
+}
+
 std::string sentence_of_label(const Explanation& explanation) {
   const Verdict& verdict = explanation.verdict;
-  std::string text = fmt::format("{} is labelled {} by {} with score {:.2f}", explanation.feature,
-                                 verdict.label.text(), verdict.rule.text(), verdict.score);
+  std::string text =
+      fmt::format("{} is labelled {} by {} with score {:.2f}", subject_text(explanation),
+                  verdict.label.text(), verdict.rule.text(), verdict.score);
   const RuleReport* second = runner_up_of(explanation);
   if (second != nullptr)
     text += fmt::format(", ahead of {}{}", second->label, why_second(explanation, *second));
@@ -196,7 +203,7 @@ std::string aligned(const std::vector<SummaryLine>& lines) {
 
 std::string sentence(const Explanation& explanation) {
   if (!explanation.verdict.label.empty()) return sentence_of_label(explanation);
-  std::string text = explanation.feature + " has no label: ";
+  std::string text = subject_text(explanation) + " has no label: ";
   if (explanation.best) {
     const RuleReport& best = explanation.rules[*explanation.best];
     text += fmt::format("{} comes first with {} by {}, below the least score, {}", best.label,

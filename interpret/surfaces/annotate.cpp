@@ -6,6 +6,7 @@
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/index.h"
+#include "kernel/model/description/feature_names.h"
 #include "kernel/model/version.h"
 
 #include <algorithm>
@@ -88,6 +89,8 @@ class Annotator {
   std::vector<Kind> kinds_;
   /// By feature, the ids of its groups, and those of its parts.
   std::vector<std::vector<std::string>> groups_, parts_;
+  /// By feature: feature_names().
+  std::vector<std::string> names_;
   /// By source; null for numbers that no polygon has.
   std::vector<const Polygon*> polygons_;
   PolygonOwners own_owners_;
@@ -124,6 +127,7 @@ void Annotator::find_roles() {
     kinds_[verdict.feature.index()] = role.is_opening() ? Kind::opening : Kind::installation;
   }
   groups_ = groups_by_feature(interpretation_);
+  names_ = feature_names(segmentation_, table_, &interpretation_);
   find_parts();
 }
 
@@ -238,7 +242,9 @@ void Annotator::add_parents() {
 Members Annotator::members_of(int feature) const {
   const Verdict& verdict = interpretation_.verdicts[oriel::at(feature)];
   const Role& role = roles_[oriel::at(feature)];
-  Members members = {{"oriel_id", table_.id(verdict.feature)}, {"oriel_label", role.label}};
+  Members members = {{"oriel_id", table_.id(verdict.feature)},
+                     {"oriel_name", names_[oriel::at(feature)]},
+                     {"oriel_label", role.label}};
   if (!role.subclass.empty()) members.emplace_back("oriel_subclass", role.subclass);
   members.emplace_back("oriel_score", rounded(verdict.score));
   members.emplace_back("oriel_rule", verdict.rule);

@@ -2,6 +2,8 @@
 #include "tests/cli/cubes.h"
 
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -39,8 +41,8 @@ TEST_SUITE("cli") {
     REQUIRE(chimneys.size() == 1);
     const Outcome outcome = run({"explain", sample("house"), chimneys[0]});
     CHECK(outcome.exit == 0);
-    CHECK(outcome.out.starts_with(chimneys[0] +
-                                  " is labelled chimney by chimney.tall with score 1.00; no rule "
+    CHECK(outcome.out.starts_with("chimney 1 of roof slope north (" + chimneys[0] +
+                                  ") is labelled chimney by chimney.tall with score 1.00; no rule "
                                   "for another label holds.\nwinner "));
     CHECK(outcome.out.find("\nnearest miss  ") != std::string::npos);
     CHECK(outcome.out.find("\nsmallest flip  ") != std::string::npos);
@@ -100,6 +102,81 @@ TEST_SUITE("cli") {
     CHECK(building["features"][0]["rules"].size() > 10);
   }
 
+  TEST_CASE("a feature is explained by its name in any case and by the beginning of it") {
+    const std::string id = ids_of("house", "chimney").at(0);
+    const std::string by_id = run({"explain", sample("house"), id}).out;
+    for (const std::string name :
+         {"chimney 1 of roof slope north", "Chimney 1 of  ROOF slope north", "chimney"})
+      CHECK(run({"explain", sample("house"), name}).out == by_id);
+    const Outcome second =
+        run({"explain", sample("house"), "window 2 of facade south storey 1", "--json"});
+    CHECK(json::parse(second.out)["name"] == "window 2 of facade south, storey 1");
+
+    const Outcome several = run({"explain", sample("house"), "window 1 of facade south"});
+    CHECK(several.exit == 2);
+    CHECK(several.says("2 features start with 'window 1 of facade south'; it may be f"));
+    CHECK(several.says("(window 1 of facade south, storey 2)"));
+    CHECK(!several.says("--id names one building"));
+
+    const Outcome none = run({"explain", sample("house"), "chimney 2 of roof slope north"});
+    CHECK(none.exit == 2);
+    CHECK(
+        none.says("no feature starts with 'chimney 2 of roof slope north'; there are 'chimney 1 "
+                  "of roof slope north', '"));
+
+    const Folder folder;
+    const std::string town = folder / "town.city.json";
+    REQUIRE(run({"collect", sample("house"), sample("l-house"), "-o", town}).exit == 0);
+    CHECK(run({"explain", town, "door 1 of facade south, storey 1"}).says("--id names one"));
+    CHECK(run({"explain", town, "door 1 of facade south, storey 1", "--id", "l-house"}).exit == 0);
+  }
+
+  TEST_CASE("names are the same in records and files and on pages whatever the threads") {
+    const Folder folder;
+    const std::string records = folder / "parts.json", again = folder / "again.json",
+                      labelled = folder / "labelled.city.json", page = folder / "page.html";
+    REQUIRE(run({"label", sample("house"), "--features", records, "-o", labelled}).exit == 0);
+    REQUIRE(run({"view", sample("house"), "-o", page}).exit == 0);
+    std::map<std::string, std::string> names;
+    for (const json& record : json::parse(bytes_of(records))) names[record["id"]] = record["name"];
+    REQUIRE(names.size() == 53);
+    std::set<std::string> once;
+    for (const auto& [id, name] : names) CHECK(once.insert(name).second);
+    const json shown = page_data(page);
+    for (const json& feature : shown["models"][0]["buildings"][0]["features"])
+      CHECK(feature["name"] == names[feature["id"]]);
+    std::size_t written = 0;
+    const json city = json::parse(bytes_of(labelled));
+    for (const json& object : city["CityObjects"]) {
+      if (object["type"] == "BuildingInstallation") {
+        CHECK(object["attributes"]["oriel_name"] == names[object["attributes"]["oriel_id"]]);
+        ++written;
+      }
+      for (const json& geometry : object["geometry"])
+        for (const json& surface : geometry["semantics"]["surfaces"]) {
+          if (!surface.contains("oriel_id")) continue;
+          CHECK(surface["oriel_name"] == names[surface["oriel_id"]]);
+          ++written;
+        }
+    }
+    CHECK(written >= 24);
+    // Records that are named anew have the names of the new labels, here the same.
+    REQUIRE(run({"interpret", records, "-o", again}).exit == 0);
+    CHECK(bytes_of(again) == bytes_of(records));
+
+    const std::string town = folder / "town.city.jsonl";
+    REQUIRE(run({"collect", sample("house"), sample("row"), sample("hip"), "-o",
+                 folder / "town.city.json"})
+                .exit == 0);
+    std::ofstream(town, std::ios::binary) << run({"cat", folder / "town.city.json"}).out;
+    std::vector<std::string> tables;
+    for (const std::string jobs : {"1", "4"}) {
+      REQUIRE(run({"label", town, "--features", folder / "town.csv", "-j", jobs}).exit == 0);
+      tables.push_back(bytes_of(folder / "town.csv"));
+    }
+    CHECK(tables[0] == tables[1]);
+  }
+
   TEST_CASE("explain --id works on one building of a file and of a stream") {
     const Folder folder;
     const std::string stream = folder / "town.city.jsonl", file = folder / "town.city.json";
@@ -112,6 +189,7 @@ TEST_SUITE("cli") {
       CHECK(run({"explain", town, "--id", "house"}).out == alone.out);
       const Outcome one = run({"explain", town, chimney, "--id", "house"});
       CHECK(one.out == run({"explain", sample("house"), chimney}).out);
+      CHECK(run({"explain", town, "--id", "house", chimney}).out == one.out);
       CHECK(run({"explain", town, chimney, "--id", "row"}).exit == 2);
       // Nothing is done with the others.
       const Outcome timed = run({"explain", town, "--id", "house", "--log-level", "debug"});

@@ -65,7 +65,7 @@ Said said_of(unsigned seed, const std::string& jobs) {
     const json record = json::parse(line);
     std::string text;
     for (const char* member :
-         {"building", "id", "label", "score", "margin", "rule", "runner_up", "groups"})
+         {"building", "id", "name", "label", "score", "margin", "rule", "runner_up", "groups"})
       text += record.value(member, json()).dump() + " ";
     said.labels.push_back(text);
   }

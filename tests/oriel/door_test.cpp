@@ -172,6 +172,22 @@ TEST_SUITE("oriel") {
     CHECK(explain_surface(building, result, residential(), 0).starts_with(building.id));
   }
 
+  TEST_CASE("a feature is found by its name and all names are different") {
+    const auto records = records_of("house");
+    const PipelineResult result = label(records[0].buildings.at(0), residential());
+    const std::vector<std::string> names = names_of_features(result);
+    REQUIRE(names.size() == result.description.table.rows());
+    for (std::size_t row = 0; row < names.size(); ++row) {
+      const auto found = find_features(result, names[row]);
+      REQUIRE(found.size() == 1);
+      CHECK(found[0].index() == row);
+      CHECK(explain(result, residential(), found[0]).name == names[row]);
+    }
+    CHECK(find_features(result, "window 1 of facade south").size() == 2);
+    CHECK(find_features(result, "window 1 of the moon").empty());
+    CHECK(names_of_features({}).empty());
+  }
+
   TEST_CASE("all features and surfaces are explained as one by one") {
     const auto records = records_of("house");
     const Building& building = records[0].buildings.at(0);

@@ -95,7 +95,7 @@ def main():
         browser.click_on("#owners button:nth-child(2)")
         check(text_of(browser, "#chosen") == "dormer", "and that it lies in a dormer")
         find(browser, "nothing")
-        check(text_of(browser, "#chosen") == "no id begins with 'nothing'", "an id that is not there is told")
+        check(text_of(browser, "#chosen") == "no id and no name begins with 'nothing'", "an id that is not there is told")
         before = text_of(browser, "#legend")
         browser.click_on("#models button:last-child")
         check(text_of(browser, "#legend") not in ("", before), f"after: {text_of(browser, '#legend')}")

@@ -36,6 +36,7 @@ std::optional<CarriedFeature> feature_of(const RawNode& members) {
   feature.label = text_of(members, "oriel_subclass");
   if (feature.label.empty()) feature.label = text_of(members, "oriel_label");
   feature.score = number_of(members, "oriel_score");
+  feature.name = text_of(members, "oriel_name");
   feature.rule = text_of(members, "oriel_rule");
   feature.why = text_of(members, "oriel_why");
   return feature;

@@ -12,6 +12,8 @@ namespace oriel {
 /// A feature as a file says it: a semantic surface or a BuildingInstallation with `oriel_id`.
 struct CarriedFeature {
   std::string id;
+  /// `oriel_name`, if it is there.
+  std::string name;
   /// `oriel_subclass`, else `oriel_label`.
   std::string label;
   double score = 0;

@@ -4,9 +4,11 @@
 #include "kernel/io/json/json_text.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/records/record_text.h"
+#include "kernel/model/description/feature_names.h"
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,10 +95,23 @@ std::optional<std::string> add_attribute(FeatureRecord& record, const AttributeI
   return std::nullopt;
 }
 
+void set_verdicts(std::vector<FeatureRecord>& records, const Segmentation& segmentation,
+                  const FeatureTable& table, const Interpretation& interpretation) {
+  auto groups = groups_by_feature(interpretation);
+  std::vector<FeatureId> hosts;
+  for (const Feature& feature : segmentation.features) hosts.push_back(feature.host);
+  const std::vector<FeatureId> wholes = wholes_by_feature(interpretation, hosts);
+  for (const Verdict& verdict : interpretation.verdicts) {
+    const std::size_t row = verdict.feature.index();
+    set_verdict(records.at(row), verdict, std::move(groups.at(row)), id_of(table, wholes.at(row)));
+  }
+}
+
 std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells& cells) {
   namespace field = detail::record_field;
   record.building = cells[field::building];
   record.id = cells[field::id];
+  record.name = cells[field::name];
   record.label = cells[field::label];
   record.rule = cells[field::rule];
   record.runner_up = cells[field::runner_up];
@@ -120,9 +135,9 @@ std::optional<std::string> fill(FeatureRecord& record, const detail::RecordCells
 
 const std::vector<std::string>& record_fields() {
   static const std::vector<std::string> fields = [] {
-    std::vector<std::string> names{"building", "id",     "label",          "score",
-                                   "margin",   "rule",   "runner_up",      "parent",
-                                   "host",     "aabb_m", "source_polygons"};
+    std::vector<std::string> names{"building", "id",     "name",   "label",
+                                   "score",    "margin", "rule",   "runner_up",
+                                   "parent",   "host",   "aabb_m", "source_polygons"};
     for (const AttributeInfo& attribute : feature_schema()) names.push_back(record_name(attribute));
     for (const RelationKind& relation : detail::recorded_relations())
       names.push_back("rel_" + relation.name);
@@ -157,18 +172,31 @@ std::vector<FeatureRecord> feature_records(const Building& building,
     }
     records.push_back(std::move(record));
   }
-  if (interpretation == nullptr) return records;
-  auto groups = groups_by_feature(*interpretation);
-  std::vector<FeatureId> hosts;
-  for (const Feature& feature : segmentation.features) hosts.push_back(feature.host);
-  const std::vector<FeatureId> wholes = wholes_by_feature(*interpretation, hosts);
-  for (const Verdict& verdict : interpretation->verdicts) {
-    const std::size_t row = verdict.feature.index();
-    set_verdict(records.at(row), verdict, std::move(groups.at(row)), id_of(table, wholes.at(row)));
-  }
+  if (interpretation != nullptr) set_verdicts(records, segmentation, table, *interpretation);
+  set_names(records);
   return records;
 }
 
+void set_names(std::span<FeatureRecord> records) {
+  std::unordered_map<std::string_view, int> rows;
+  for (std::size_t i = 0; i < records.size(); ++i) rows.emplace(records[i].id, static_cast<int>(i));
+  std::vector<NameParts> features;
+  for (const FeatureRecord& record : records) {
+    const auto number = [&](Attribute attribute) -> std::optional<double> {
+      const double* value = std::get_if<double>(&record.attributes.at(column_of(attribute)));
+      return value != nullptr ? std::optional(*value) : std::nullopt;
+    };
+    const auto host = rows.find(record.host);
+    const auto& box = record.aabb_m;
+    features.push_back({record.id, record.label,
+                        host == rows.end() ? FeatureId{} : FeatureId{host->second},
+                        number(Attribute::host_inclination), number(Attribute::azimuth),
+                        number(Attribute::storey).has_value(),
+                        Box{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}}});
+  }
+  std::vector<std::string> names = feature_names(features);
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].name = std::move(names[i]);
+}
 void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups,
                  std::string part_of) {
   record.label = verdict.label;

@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -26,6 +27,8 @@ using RecordValue = std::variant<std::monostate, double, std::string>;
 struct FeatureRecord {
   std::string building;
   std::string id;
+  /// For people: feature_names().
+  std::string name;
   /// The verdict; texts empty and numbers missing where there was no interpretation.
   std::string label;
   std::optional<double> score;
@@ -49,9 +52,9 @@ struct FeatureRecord {
   std::string part_of;
 };
 
-/// The names of a record's fields: building, id, label, score, margin, rule, runner_up, parent,
-/// host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME,
-/// then groups and part_of.
+/// The names of a record's fields: building, id, name, label, score, margin, rule, runner_up,
+/// parent, host, aabb_m, source_polygons, record_name() of every attribute, rel_NAME, then groups
+/// and part_of.
 const std::vector<std::string>& record_fields();
 
 /// The records of one building, in feature order. `table` and `graph` are those of `segmentation`;
@@ -65,6 +68,9 @@ std::vector<FeatureRecord> feature_records(const Building& building,
 /// it says.
 void set_verdict(FeatureRecord& record, const Verdict& verdict, std::vector<std::string> groups,
                  std::string part_of);
+
+/// Names the features of a building anew, as its records say their labels and places.
+void set_names(std::span<FeatureRecord> records);
 
 /// The formats of records, by extension: .csv, .json (an array), .jsonl (an object a line).
 enum class RecordFormat { csv, json, jsonl };

@@ -169,6 +169,7 @@ std::optional<std::string> take_line(const std::vector<std::size_t>& fields,
 void append_csv_record(std::string& out, const FeatureRecord& record) {
   std::vector<std::string> cells{record.building,
                                  record.id,
+                                 record.name,
                                  record.label,
                                  cell_of(record.score),
                                  cell_of(record.margin),

@@ -83,6 +83,7 @@ void append_json_record(std::string& out, const FeatureRecord& record) {
   out += '{';
   text(record.building);
   text(record.id);
+  text(record.name);
   text(record.label);
   number(record.score);
   number(record.margin);

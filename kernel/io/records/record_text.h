@@ -18,9 +18,9 @@ void append_json_record(std::string& out, const FeatureRecord& record);
 /// Positions of fields in record_fields(): attributes follow these, then relations, then groups
 /// and part_of.
 namespace record_field {
-inline constexpr std::size_t building = 0, id = 1, label = 2, score = 3, margin = 4, rule = 5,
-                             runner_up = 6, parent = 7, host = 8, aabb_m = 9, source_polygons = 10,
-                             first_attribute = 11;
+inline constexpr std::size_t building = 0, id = 1, name = 2, label = 3, score = 4, margin = 5,
+                             rule = 6, runner_up = 7, parent = 8, host = 9, aabb_m = 10,
+                             source_polygons = 11, first_attribute = 12;
 }
 
 /// The values of a record in their CSV form, by position in record_fields(); empty where missing.

@@ -1,6 +1,7 @@
 #include "kernel/io/records/stage_json.h"
 
 #include "kernel/io/json/json_text.h"
+#include "kernel/model/description/feature_names.h"
 
 #include <algorithm>
 #include <array>
@@ -180,13 +181,14 @@ std::vector<std::string> flags_of(const Segmentation& segmentation, const Featur
 }
 
 void append_feature(std::string& out, const Building& building, const Segmentation& segmentation,
-                    const FeatureTable& table, const Feature& feature) {
+                    const FeatureTable& table, const Feature& feature, const std::string& name) {
   const FeatureId id{static_cast<int>(&feature - segmentation.features.data())};
   const bool has_cut =
       (feature.sense == Sense::protrusion || feature.sense == Sense::hole) && !feature.is_uncut;
   const Box box = feature.box.moved(building.frame.origin_m);
   out += '{';
   append_id(out, "id", table, id);
+  append_field(out, "name", std::string_view(name));
   append_id(out, "parent", table, feature.parent);
   append_id(out, "host", table, feature.host);
   append_field(out, "sense", std::string_view(to_string(feature.sense)));
@@ -249,8 +251,10 @@ std::string segmentation_json(const Building& building, const Segmentation& segm
     TreeWriter(out, segmentation).write();
   else
     out += "null";
+  const std::vector<std::string> names = feature_names(segmentation, table, nullptr);
   append_list(out, "features", segmentation.features, [&](const Feature& feature) {
-    append_feature(out, building, segmentation, table, feature);
+    const auto row = static_cast<std::size_t>(&feature - segmentation.features.data());
+    append_feature(out, building, segmentation, table, feature, names.at(row));
   });
   append_stats(out, segmentation.stats);
   append_list(out, "issues", segmentation.issues,

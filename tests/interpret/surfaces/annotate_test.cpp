@@ -178,6 +178,7 @@ TEST_SUITE("interpret") {
     CHECK(pane.type == "Window");
     CHECK(pane.parent == labelled.surface_of_polygon[3]);
     CHECK(text_of(pane.members, "oriel_id") == "f0");
+    CHECK(text_of(pane.members, "oriel_name") == "window 1 of the walls and roofs");
     CHECK(text_of(pane.members, "oriel_label") == "window");
     CHECK(text_of(pane.members, "oriel_rule") == "some.rule");
     CHECK(text_of(pane.members, "oriel_subclass").empty());

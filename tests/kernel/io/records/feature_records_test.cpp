@@ -72,10 +72,10 @@ TEST_SUITE("kernel/io") {
   TEST_CASE("fields are those of the schema in its order") {
     const auto& fields = record_fields();
     CHECK(fields[0] == "building");
-    CHECK(fields[10] == "source_polygons");
-    CHECK(fields[11] == record_name(feature_schema()[0]));
+    CHECK(fields[11] == "source_polygons");
+    CHECK(fields[12] == record_name(feature_schema()[0]));
     CHECK(field_index("volume_m3") < fields.size());
-    CHECK(field_index("rel_contains") == 11 + feature_schema().size());
+    CHECK(field_index("rel_contains") == 12 + feature_schema().size());
     CHECK(field_index("rel_host") == fields.size());
   }
 
@@ -85,9 +85,11 @@ TEST_SUITE("kernel/io") {
     std::string header, first;
     std::getline(lines, header);
     std::getline(lines, first);
-    CHECK(header.starts_with("building,id,label,score,margin,rule,runner_up,parent,host,aabb_m,"));
-    CHECK(first.starts_with(R"(house,b1,"bay, ""big""",0.9,0.3,bay-rule,balcony,,,)"
-                            "678114;5403766;414;678115;5403768;417,1;2;5,"));
+    CHECK(header.starts_with(
+        "building,id,name,label,score,margin,rule,runner_up,parent,host,aabb_m,"));
+    CHECK(first.starts_with(
+        R"(house,b1,"bay, ""big"" 1 of the inside","bay, ""big""",0.9,0.3,bay-rule,balcony,,,)"
+        "678114;5403766;414;678115;5403768;417,1;2;5,"));
     CHECK(std::ranges::count(header, ',') + 1 == std::ssize(record_fields()));
   }
 
@@ -103,9 +105,9 @@ TEST_SUITE("kernel/io") {
         for (std::size_t i = 0; i < records.size(); ++i) {
           const FeatureRecord& a = records[i];
           const FeatureRecord& b = (*again.value)[i];
-          CHECK(std::tie(a.building, a.id, a.label, a.score, a.margin, a.rule, a.runner_up,
+          CHECK(std::tie(a.building, a.id, a.name, a.label, a.score, a.margin, a.rule, a.runner_up,
                          a.parent, a.host, a.aabb_m, a.source_polygons) ==
-                std::tie(b.building, b.id, b.label, b.score, b.margin, b.rule, b.runner_up,
+                std::tie(b.building, b.id, b.name, b.label, b.score, b.margin, b.rule, b.runner_up,
                          b.parent, b.host, b.aabb_m, b.source_polygons));
           CHECK(a.attributes == b.attributes);
           CHECK(a.relations == b.relations);

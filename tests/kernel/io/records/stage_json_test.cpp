@@ -43,7 +43,9 @@ TEST_SUITE("kernel/io") {
         json::parse(segmentation_json(small.building, small.segmentation, small.table));
     CHECK(root["features"][0]["parent"].is_null());
     CHECK(root["features"][0]["quality"].is_null());
-    CHECK(root["features"][1] == json::parse(R"({"id":"w1","parent":"b1","host":"b1","sense":"hole",
+    CHECK(root["features"][1] ==
+          json::parse(
+              R"({"id":"w1","name":"part 1 of the inside","parent":"b1","host":"b1","sense":"hole",
         "value":null,"quality":null,"new_area_m2":0,"old_area_m2":0,"planes":[1],"split_order":1,
         "volume_m3":0.1,"aabb_m":[678114.25,5403766.5,415.0,678114.75,5403766.625,416.0],
         "source_polygons":[5],"flags":["natural","own"]})"));
