@@ -82,6 +82,16 @@ FeatureSet features(const std::vector<std::string>& names) {
   return set;
 }
 
+std::vector<Addition> additions(const std::vector<std::string>& texts) {
+  std::vector<Addition> all;
+  try {
+    for (const std::string& text : texts) all.push_back(read_addition(text));
+  } catch (const AdditionError& error) {
+    throw CLI::ValidationError("--add", error.what());
+  }
+  return all;
+}
+
 std::optional<RoofKind> roof(const std::string& name) {
   for (const RoofKind kind : {RoofKind::flat, RoofKind::gable, RoofKind::hip, RoofKind::shed})
     if (name == name_of(kind)) return kind;
@@ -99,7 +109,7 @@ std::optional<ChimneyPlace> chimney(const std::string& name) {
 struct Typed {
   std::string style = "continental";
   std::string roof = "mixed", chimney = "mixed", storeys, width, depth, origin;
-  std::vector<std::string> features{"all"};
+  std::vector<std::string> features{"all"}, additions;
   double jitter_m = 0, noise_mm = 0;
 };
 
@@ -136,6 +146,11 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
                  "what every house has where there is room, by commas; all: each draws its own")
       ->delimiter(',')
       ->capture_default_str();
+  app.add_option("--add", typed.additions,
+                 "a thing that every house gets, in metres, such as\n\"solar_panel panel on roof "
+                 "size 1.7x1x0.06\" or\n\"window hole on front at 2,1 size 1.2x1.4\"; may be "
+                 "repeated")
+      ->allow_extra_args(false);
   app.add_option("--chimney", typed.chimney, "where chimneys stand: slope, ridge, apex or mixed")
       ->check(CLI::IsMember({"slope", "ridge", "apex", "mixed"}))
       ->capture_default_str();
@@ -164,8 +179,8 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
 
 /// English houses refuse what describes a single continental one.
 void refuse_unused(const CLI::App& app) {
-  for (const char* option :
-       {"--roof", "--storeys", "--width", "--depth", "--features", "--chimney", "--windows"})
+  for (const char* option : {"--roof", "--storeys", "--width", "--depth", "--features", "--chimney",
+                             "--windows", "--add"})
     if (app.count(option) > 0)
       throw CLI::ValidationError(option, "is for --style continental; english houses draw it");
 }
@@ -184,6 +199,7 @@ void understand(const Typed& typed, Arguments& arguments) {
   if (!typed.depth.empty()) options.depth = lengths(typed.depth, "--depth");
   if (typed.features != std::vector<std::string>{"all"})
     options.features = features(typed.features);
+  options.additions = additions(typed.additions);
   if (!typed.origin.empty()) options.origin = origin(typed.origin);
   options.jitter = micrometres(typed.jitter_m) / 1000 * 1000;
   options.noise = micrometres(typed.noise_mm / 1000);

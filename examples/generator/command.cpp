@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <ostream>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,11 +24,17 @@ struct Sample {
   Building labelled, stripped;
 };
 
-Sample make_sample(const Arguments& arguments, int index) {
+/// By addition: how many houses have no room for it.
+using HousesWithoutRoom = std::vector<int>;
+
+Sample make_sample(const Arguments& arguments, int index, HousesWithoutRoom& without_room) {
   const Options& options = arguments.options;
   const std::string id =
       arguments.count == 1 ? arguments.name : fmt::format("{}-{:06}", arguments.name, index + 1);
   Sample sample{{id, generate(options, index), options.origin}, {id, {}, options.origin}};
+  without_room.resize(options.additions.size());
+  for (const int addition : sample.labelled.body.without_room)
+    ++without_room[static_cast<std::size_t>(addition)];
   Random random(options.seed ^ 0x5eed, static_cast<std::uint64_t>(index));
   sample.stripped.body = shuffled(sample.labelled.body, random);
   return sample;
@@ -49,11 +56,11 @@ CityGml version_of(const Arguments& arguments) {
   return arguments.format == "citygml3" ? CityGml::v3 : CityGml::v2;
 }
 
-void write_folder(const Arguments& arguments) {
+void write_folder(const Arguments& arguments, HousesWithoutRoom& without_room) {
   const fs::path folder = arguments.output;
   make_folder(folder);
   for (int i = 0; i < arguments.count; ++i) {
-    const Sample sample = make_sample(arguments, i);
+    const Sample sample = make_sample(arguments, i, without_room);
     const std::string& id = sample.labelled.id;
     if (arguments.format == "cityjson") {
       write_file(folder / (id + ".labelled.city.json"),
@@ -97,14 +104,15 @@ class TruthSink {
   std::optional<OutputFile> lines_;
 };
 
-void write_stream(const Arguments& arguments, const std::function<void(std::string_view)>& write) {
+void write_stream(const Arguments& arguments, const std::function<void(std::string_view)>& write,
+                  HousesWithoutRoom& without_room) {
   TruthSink truths(arguments.truth);
   const bool is_gml = arguments.is_gml_file();
   const CityGml version = version_of(arguments);
   const Content content = arguments.is_labelled ? Content::labelled : Content::stripped;
   write(is_gml ? citygml_head(version) : cityjson_header(arguments.options.origin));
   for (int i = 0; i < arguments.count; ++i) {
-    const Sample sample = make_sample(arguments, i);
+    const Sample sample = make_sample(arguments, i, without_room);
     const Building& written = arguments.is_labelled ? sample.labelled : sample.stripped;
     write(is_gml ? citygml_member(written, content, version) : cityjson_feature(written, content));
     truths.write(written);
@@ -113,20 +121,37 @@ void write_stream(const Arguments& arguments, const std::function<void(std::stri
   truths.finish();
 }
 
-void write_output(const Arguments& arguments, std::ostream& out) {
+void write_output(const Arguments& arguments, std::ostream& out, HousesWithoutRoom& without_room) {
   if (arguments.output == "-") {
-    write_stream(arguments, [&](std::string_view text) {
+    const auto write = [&](std::string_view text) {
       if (!out.write(text.data(), static_cast<std::streamsize>(text.size())))
         throw OutputError("cannot write to the standard output");
-    });
+    };
+    write_stream(arguments, write, without_room);
     if (!out.flush()) throw OutputError("cannot write to the standard output");
   } else if (arguments.output.ends_with(".city.jsonl") || arguments.is_gml_file()) {
     OutputFile file(arguments.output);
-    write_stream(arguments, [&](std::string_view text) { file.write(text); });
+    write_stream(
+        arguments, [&](std::string_view text) { file.write(text); }, without_room);
     file.finish();
   } else {
-    write_folder(arguments);
+    write_folder(arguments, without_room);
   }
+}
+
+/// Says what was left out; 3 if something was that no house has room for.
+int report_room(const Arguments& arguments, const HousesWithoutRoom& without_room,
+                std::ostream& err) {
+  int code = 0;
+  for (std::size_t i = 0; i < without_room.size(); ++i) {
+    if (without_room[i] == 0) continue;
+    err << fmt::format("oriel-generate: warning: E141 {} of {} {} no room for '{}'\n",
+                       without_room[i], arguments.count,
+                       arguments.count == 1 ? "house has" : "houses have",
+                       arguments.options.additions[i].text);
+    if (without_room[i] == arguments.count) code = 3;
+  }
+  return code;
 }
 
 }  // namespace
@@ -135,7 +160,12 @@ int run_command(int argc, const char* const* argv, std::ostream& out, std::ostre
   Arguments arguments;
   if (const std::optional<int> code = read_arguments(argc, argv, arguments, out, err)) return *code;
   try {
-    write_output(arguments, out);
+    HousesWithoutRoom without_room;
+    write_output(arguments, out, without_room);
+    return report_room(arguments, without_room, err);
+  } catch (const AdditionError& error) {
+    err << "oriel-generate: --add: " << error.what() << '\n';
+    return 2;
   } catch (const OutputError& error) {
     err << "oriel-generate: " << error.what() << '\n';
     return 6;
@@ -143,7 +173,6 @@ int run_command(int argc, const char* const* argv, std::ostream& out, std::ostre
     err << "oriel-generate: internal error: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }
 
 }  // namespace oriel::generator

@@ -3,6 +3,7 @@
 #include "examples/generator/english/english_house.h"
 #include "examples/generator/facade/facade_layout.h"
 #include "examples/generator/geometry/triangulate.h"
+#include "examples/generator/house/additions.h"
 #include "examples/generator/house/plan.h"
 #include "examples/generator/house/roof_layout.h"
 #include "examples/generator/output/check.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace oriel::generator {
 namespace {
@@ -34,11 +36,15 @@ Body build(const Options& options, int index) {
   const Plan plan = draw_plan(options, random);
   Draft draft;
   House house = build_house(draft, plan.massing);
+  Random places(options.seed ^ 0xadd, static_cast<std::uint64_t>(index));
+  std::vector<int> without_room =
+      place_additions(draft, house, options.additions, plan.massing.wall_height, places);
   lay_out_roof(draft, house, plan, random);
   lay_out_facades(draft, house, plan, random);
   Body body = draft.close();
   body.roof = name_of(plan.massing.roof);
   body.storeys = plan.storeys;
+  body.without_room = std::move(without_room);
   return body;
 }
 

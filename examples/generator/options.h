@@ -1,5 +1,6 @@
 #pragma once
 
+#include "examples/generator/addition.h"
 #include "examples/generator/house/house.h"
 
 #include <bitset>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace oriel::generator {
 
@@ -92,6 +94,8 @@ struct Options {
   double flush = 0;
   /// How far windows may be moved, and each of their sides again.
   Um jitter = 0;
+  /// What every house gets besides, at its place or where there is room.
+  std::vector<Addition> additions;
   /// About so many windows; 0 = as they come. Sets width, depth and, unless `has_storeys`, storeys;
   /// unless `features` says otherwise there are but windows, a door and a chimney.
   int windows = 0;

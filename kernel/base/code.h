@@ -47,6 +47,8 @@
   X(E132, 0, "A file of a series was changed") \
   X(E133, 0, "A log of a series without checks") \
   X(E134, 0, "Nothing to work on") \
+  X(E140, 0, "Nothing that can be added") \
+  X(E141, 0, "No room for what is added") \
   X(E201, 0, "A member is missing") \
   X(E202, 0, "A member has the wrong type") \
   X(E203, 0, "A vertex that is not there") \
@@ -108,6 +110,7 @@
   X(E507, 0, "Memory is used up") \
   X(E601, 0, "The output cannot be written") \
   X(E602, 0, "A file is named twice") \
+  X(E604, 0, "A file is there already") \
   X(E901, 0, "A fault of oriel's own") \
   X(G401, 0, "A feature is not omitted") \
   X(G402, 0, "Nothing closed would be left") \

@@ -42,9 +42,10 @@ void place_gable_window(Draft& draft, Panel& gable, const Plan& plan, Random& ra
   const Um v0 = room.v0 + 300_mm, height = std::min(plan.window.height, room.v1 - v0);
   const Um recess = random.chance(plan.flush) ? 0 : plan.window.recess;
   if (width < 500_mm || height < 500_mm) return;
-  const Um u0 = room.middle() - width / 2;
-  add_opening(draft, gable,
-              {Class::window, "gableWindow", {u0, u0 + width, v0, v0 + height}, recess});
+  const Um u0 = room.middle() - width / 2, distance = 100_mm;
+  const Rect rect{u0, u0 + width, v0, v0 + height};
+  if (gable.is_free(rect, distance))
+    add_opening(draft, gable, {Class::window, "gableWindow", rect, recess});
 }
 
 }  // namespace

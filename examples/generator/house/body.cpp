@@ -13,6 +13,14 @@ constexpr std::array<std::string_view, kClasses> kNames{
 
 std::string_view name_of(Class kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
+std::optional<Class> class_named(std::string_view name) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Class::wall); ++i)
+    if (kNames[i] == name) return static_cast<Class>(i);
+  return std::nullopt;
+}
+
+std::string_view Object::label() const { return given_class.empty() ? name_of(kind) : given_class; }
+
 Extent extent_of(const std::vector<Point>& points) {
   Extent extent;
   for (const Point& p : points) extent.grow(p);

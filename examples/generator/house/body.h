@@ -32,6 +32,8 @@ inline constexpr int kClasses = 14;
 
 /// The class's name in a truth file ("window"; "other" for ground).
 std::string_view name_of(Class kind);
+/// The class of the vocabulary that may be added under that name: none of the bare house's.
+std::optional<Class> class_named(std::string_view name);
 /// True for a window or a door.
 constexpr bool is_opening(Class kind) { return kind == Class::window || kind == Class::door; }
 /// True for the surfaces of the bare house: wall, roof, ground.
@@ -52,6 +54,11 @@ struct Object {
   std::optional<Um> recess;
   /// Name that is unique in its building, such as "window_3".
   std::string name;
+  /// A class that the vocabulary does not have (`--add`), in place of `kind`; else empty.
+  std::string given_class = {};
+
+  /// The class's name in a truth file.
+  [[nodiscard]] std::string_view label() const;
 };
 
 /// Whose face a polygon is. A niche is the rim between an opening's pane and the wall around it.
@@ -75,6 +82,8 @@ struct Body {
   /// "flat", "gable", "hip" or "shed".
   std::string roof;
   int storeys = 0;
+  /// The positions in Options::additions of what found no room.
+  std::vector<int> without_room = {};
 };
 
 /// An axis-parallel box; the default is empty and grows to the points it is given.

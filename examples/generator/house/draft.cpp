@@ -50,7 +50,7 @@ Loop renumbered(const std::vector<Point>& points, const std::vector<bool>& is_id
 int Draft::add_object(Object object) {
   const std::string stem(object.kind == Class::other || object.kind == Class::ground
                              ? std::string_view(object.subclass)
-                             : name_of(object.kind));
+                             : object.label());
   object.name = stem + "_" + std::to_string(++ordinals_[stem]);
   objects_.push_back(std::move(object));
   return static_cast<int>(objects_.size()) - 1;

@@ -148,7 +148,7 @@ class Writer {
   void append_labels(std::size_t s) {
     const Object& object = body_.objects[at(surfaces_.surfaces[s].object)];
     append_generic("oriel_id", building_.id + "_" + object.name);
-    append_generic("oriel_label", name_of(object.kind));
+    append_generic("oriel_label", object.label());
     append_generic("oriel_subclass", object.subclass);
   }
 
@@ -174,7 +174,7 @@ class Writer {
       if (is_surface(object.kind) || is_opening(object.kind)) continue;
       append_format(xml_, "<{}><bldg:BuildingInstallation gml:id=\"{}_{}\">\n", property,
                     building_.id, object.name);
-      append_generic("oriel_label", name_of(object.kind));
+      append_generic("oriel_label", object.label());
       append_generic("oriel_subclass", object.subclass);
       if (is_v3_) append_links(polygons[i], "lod3MultiSurface");
       append_format(xml_, "<bldg:class>1000</bldg:class>\n<bldg:function>{}</bldg:function>\n",

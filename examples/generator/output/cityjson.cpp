@@ -42,7 +42,7 @@ void append_installation(Json& json, const Building& building, int number,
                 function_code(object.kind));
   append_format(json,
                 "\"oriel_codelist\":\"sig3d\",\"oriel_label\":\"{}\",\"oriel_subclass\":\"{}\",",
-                name_of(object.kind), object.subclass);
+                object.label(), object.subclass);
   append_text(json, "\"oriel_geometry\":\"shared\"},");
   append_geometry(json, building, polygons, Content::labelled, false);
   json.push_back('}');

@@ -81,7 +81,7 @@ void append_surface(Json& json, const Building& building, const Surfaces& all, s
   const SemanticSurface& surface = all.surfaces[i];
   const Object& object = building.body.objects[at(surface.object)];
   append_format(json, "{{\"type\":\"{}\",\"oriel_id\":\"{}_{}\",\"oriel_label\":\"{}\"",
-                surface.type, building.id, object.name, name_of(object.kind));
+                surface.type, building.id, object.name, object.label());
   append_format(json, ",\"oriel_subclass\":\"{}\"", object.subclass);
   if (surface.parent >= 0) append_format(json, ",\"parent\":{}", surface.parent);
   if (!surface.children.empty()) {

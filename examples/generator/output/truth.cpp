@@ -46,7 +46,7 @@ void append_faces(Json& json, std::string_view key, const std::vector<int>& face
 
 void append_object(Json& json, const Building& building, const Object& object, const Share& share) {
   append_format(json, "{{\"id\":\"{}_{}\",\"class\":\"{}\",\"subclass\":\"{}\"", building.id,
-                object.name, name_of(object.kind), object.subclass);
+                object.name, object.label(), object.subclass);
   append_name(json, building, "parent", object.parent);
   append_name(json, building, "host", object.host);
   append_text(json, ",\"aabb\":");
