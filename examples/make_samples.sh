@@ -37,6 +37,15 @@ make l-house --seed 1 --roof gable --storeys 2 --width 13..15 --depth 8..9 \
 make row --seed 2 --roof gable --storeys 2 --width 24 --depth 8 \
   --features window,door,bay,chimney,plinth,vent,canopy,sill
 
+# The house of `oriel rules new`, without truth and labels.
+starter=$samples/../../rules/starter/my_class.city.json
+made=$(mktemp -d)
+trap 'rm -rf "$made"; [ "$check" = no ] || rm -rf "$folder"' EXIT
+"$generator" -o "$made" --roof gable --storeys 1 --width 9 --depth 7 --features window,door,chimney \
+  --add "my_class panel on roof1 at 1,1 size 1.7x1x0.06" --add "my_class panel on roof1 at 3,1 size 1.7x1x0.06"
+[ "$check" = yes ] || cp "$made/house.stripped.city.json" "$starter"
+
 if [ "$check" = yes ]; then
+  diff -q "$starter" "$made/house.stripped.city.json"
   diff -rq "$samples" "$folder"
 fi

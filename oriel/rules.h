@@ -6,6 +6,7 @@
 /// back as issues with codes, all at once.
 #include "interpret/pack/pack_schema.h"    // IWYU pragma: export
 #include "interpret/pack/rule_base.h"      // IWYU pragma: export
+#include "interpret/pack/starter.h"        // IWYU pragma: export
 #include "interpret/pack/vocabulary.h"     // IWYU pragma: export
 #include "interpret/plan/profile.h"        // IWYU pragma: export
 #include "interpret/testing/rule_tests.h"  // IWYU pragma: export

@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/commands/options.h"
 #include "cli/commands/rules_reference.h"
 #include "cli/output/named_files.h"
 #include "cli/terminal/logging.h"
@@ -7,6 +8,7 @@
 #include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -84,6 +86,11 @@ struct RulesTestArguments {
   std::string junit;
   double min_coverage = 0;
   double min_conditions = 0;
+  bool is_with_base = false;
+
+  [[nodiscard]] CoverageOf coverage() const {
+    return is_with_base ? CoverageOf::all_rules : CoverageOf::own_rules;
+  }
 };
 
 /// The tests stand beside the pack: `town.test.yaml` beside `town.yaml`.
@@ -96,8 +103,9 @@ std::string tests_of(const std::string& file) {
 }
 
 bool is_covered(const RuleTestReport& report, const RulesTestArguments& arguments) {
-  return report.rule_coverage() * 100 >= arguments.min_coverage &&
-         report.condition_coverage() * 100 >= arguments.min_conditions;
+  const CoverageOf of = arguments.coverage();
+  return report.rule_coverage(of) * 100 >= arguments.min_coverage &&
+         report.condition_coverage(of) * 100 >= arguments.min_conditions;
 }
 
 ExitCode test(const RulesTestArguments& arguments) {
@@ -118,7 +126,7 @@ ExitCode test(const RulesTestArguments& arguments) {
       code = ExitCode::rules;
       continue;
     }
-    print_out(to_text(*tested.value));
+    print_out(to_text(*tested.value, arguments.coverage()));
     if (!is_covered(*tested.value, arguments)) {
       code = ExitCode::rules;
       run_log().write(LogLevel::error, printable(file) + ": less is covered than was asked for");
@@ -146,6 +154,8 @@ void add_test(CLI::App& rules, Action& action) {
       ->add_option("--min-conditions", arguments->min_conditions,
                    "... or less of their conditions both holds and fails, in percent")
       ->check(CLI::Range(0.0, 100.0));
+  command->add_flag("--with-base", arguments->is_with_base,
+                    "Count the rules of the packs that a pack extends, too, not only its own");
   command->footer("Example:\n  oriel rules test my_rules.yaml --min-coverage 100");
   command->callback([arguments, &action] { action = [arguments] { return test(*arguments); }; });
 }
@@ -231,6 +241,62 @@ void add_schema(CLI::App& rules, Action& action) {
   });
 }
 
+/// Throws E604 if there is something at one of the paths.
+void refuse_present(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    std::error_code none;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, none)))
+      refuse_usage("name", Code::E604, printable(path) + " is there already; nothing is written");
+  }
+}
+
+/// All of the files, or none of them.
+void write_all(const std::vector<std::string>& paths, const std::vector<StarterFile>& files) {
+  std::vector<std::unique_ptr<OutputFile>> outputs;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    outputs.push_back(std::make_unique<OutputFile>(paths[i]));
+    outputs.back()->append(files[i].text);
+  }
+  std::size_t done = 0;
+  try {
+    for (; done < outputs.size(); ++done) outputs[done]->commit();
+  } catch (const OutputError&) {
+    for (std::size_t i = 0; i < done; ++i) std::filesystem::remove(paths[i]);
+    throw;
+  }
+}
+
+ExitCode make_new(const std::string& argument) {
+  const std::filesystem::path given(argument);
+  const auto files = starter_pack(given.filename().string());
+  for (const Issue& issue : files.issues) refuse_usage("name", issue.code, issue.sentence);
+  std::vector<std::string> paths;
+  for (const StarterFile& file : *files.value)
+    paths.push_back((given.parent_path() / file.name).string());
+  refuse_present(paths);
+  write_all(paths, *files.value);
+  print_out(
+      fmt::format("{}: a class and a rule for it, on top of residential\n{}: its tests\n{}: a "
+                  "house with two of "
+                  "them\nnow:\n  oriel rules test {}\n  oriel label {} --rules {}\n",
+                  printable(paths[0]), printable(paths[1]), printable(paths[2]),
+                  printable(paths[0]), printable(paths[2]), printable(paths[0])));
+  return ExitCode::clean;
+}
+
+void add_new(CLI::App& rules, Action& action) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* command = rules.add_subcommand(
+      "new", "Write a rule pack to start from, with its tests and a sample building");
+  command
+      ->add_option("name", *name,
+                   "What the class, the pack and its files are called, such as solar_panel or "
+                   "packs/solar_panel")
+      ->required();
+  command->footer("Example:\n  oriel rules new solar_panel");
+  command->callback([name, &action] { action = [name] { return make_new(*name); }; });
+}
+
 }  // namespace
 
 void add_rules(CLI::App& app, Action& action) {
@@ -238,6 +304,7 @@ void add_rules(CLI::App& app, Action& action) {
   rules->require_subcommand(1);
   add_check(*rules, action);
   add_test(*rules, action);
+  add_new(*rules, action);
   add_schema(*rules, action);
   add_format(*rules, action);
   add_show(*rules, action);

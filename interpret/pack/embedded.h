@@ -17,4 +17,7 @@ std::span<const EmbeddedPack> embedded();
 /// The profiles of the folder rules/profiles/, in the same way.
 std::span<const EmbeddedPack> embedded_profiles();
 
+/// The files of the folder rules/starter, by their names, the pack first (starter.h).
+std::span<const EmbeddedPack> embedded_starter();
+
 }  // namespace oriel::rules

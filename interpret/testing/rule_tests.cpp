@@ -24,11 +24,13 @@ using rules::RuleTest;
 /// Counts which rules and conditions held and failed.
 class CoverageCounter {
  public:
-  explicit CoverageCounter(const rules::Pack& pack) : pack_(&pack) {
+  CoverageCounter(const rules::Pack& pack, const std::string& file) : pack_(&pack) {
     for (const rules::Rule& rule : pack.rules) {
       RuleCoverage coverage;
       coverage.id = rule.id;
       coverage.place = pack.source.place(rule.span.begin);
+      coverage.is_own = coverage.place.file == file;
+      coverage.is_predicate = pack.classes[static_cast<std::size_t>(rule.label)].is_abstract;
       conditions_.emplace_back();
       for (const rules::ExprId id : rule.require) add(id, coverage);
       for (const rules::ExprId id : rule.unless) add(id, coverage);
@@ -39,12 +41,18 @@ class CoverageCounter {
   void count(const DescribedBuilding& building) {
     rules::EvaluationContext context(*pack_, building.table, building.graph);
     if (context.rows == 0) return;
-    rules::Labelling(*pack_, context).run();
+    for (const rules::Choice& choice : rules::Labelling(*pack_, context).run())
+      if (choice.rule >= 0) ++rules_[static_cast<std::size_t>(choice.rule)].decided;
     rules::Evaluator evaluator(*pack_, context);
-    for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, context.row_numbers);
+    for (std::size_t i = 0; i < rules_.size(); ++i) count_rule(i, evaluator, context);
   }
 
-  [[nodiscard]] const std::vector<RuleCoverage>& rules() const { return rules_; }
+  /// Own rules first.
+  [[nodiscard]] std::vector<RuleCoverage> rules() const {
+    std::vector<RuleCoverage> sorted = rules_;
+    std::ranges::stable_partition(sorted, &RuleCoverage::is_own);
+    return sorted;
+  }
 
  private:
   void add(rules::ExprId id, RuleCoverage& coverage) {
@@ -54,11 +62,15 @@ class CoverageCounter {
       return;
     }
     conditions_.back().push_back(id);
-    coverage.conditions.push_back(
-        {std::string(pack_->source.text_of(expr.span)), pack_->source.place(expr.span.begin)});
+    ConditionCoverage condition;
+    condition.text = pack_->source.text_of(expr.span);
+    condition.place = pack_->source.place(expr.span.begin);
+    coverage.conditions.push_back(std::move(condition));
   }
 
-  void count_rule(std::size_t i, rules::Evaluator& evaluator, std::span<const int> rows) {
+  void count_rule(std::size_t i, rules::Evaluator& evaluator,
+                  const rules::EvaluationContext& context) {
+    const std::span<const int> rows = context.row_numbers;
     for (const auto& judgement : rules::judge(*pack_, pack_->rules[i], evaluator, rows))
       if (judgement.truth == rules::Truth::yes) ++rules_[i].held;
     for (std::size_t c = 0; c < conditions_[i].size(); ++c)
@@ -67,7 +79,25 @@ class CoverageCounter {
         ConditionCoverage& coverage = rules_[i].conditions[c];
         if (truth == rules::Truth::yes) ++coverage.held;
         if (truth == rules::Truth::no) ++coverage.failed;
+        if (truth == rules::Truth::unknown)
+          find_missing(conditions_[i][c], context, row, coverage.missing);
       }
+  }
+
+  /// Adds the attributes of the feature itself that the expression reads and that have no value.
+  void find_missing(rules::ExprId id, const rules::EvaluationContext& context, int row,
+                    std::vector<std::string>& missing) const {
+    const rules::Expr& expr = pack_->code[static_cast<std::size_t>(id)];
+    for (const rules::ExprId arg : expr.args) find_missing(arg, context, row, missing);
+    const bool is_attribute = expr.op == rules::Op::attribute || expr.op == rules::Op::flag;
+    if (expr.level > 0 || (!is_attribute && expr.op != rules::Op::facet_is)) return;
+    const std::size_t column = expr.op == rules::Op::facet_is
+                                   ? column_of(Attribute::host_inclination)
+                                   : static_cast<std::size_t>(expr.index);
+    const std::string& name = feature_schema()[column].name;
+    if (std::isnan(context.columns[column][static_cast<std::size_t>(row)]) &&
+        std::ranges::find(missing, name) == missing.end())
+      missing.push_back(name);
   }
 
   const rules::Pack* pack_;
@@ -213,6 +243,10 @@ std::vector<DescribedBuilding> buildings_of(const RuleTest& test, const std::str
   return buildings;
 }
 
+bool is_asked(const RuleCoverage& rule, CoverageOf of) {
+  return rule.is_own || of == CoverageOf::all_rules;
+}
+
 }  // namespace
 
 std::size_t RuleTestReport::failed() const {
@@ -220,20 +254,26 @@ std::size_t RuleTestReport::failed() const {
       tests, [](const RuleTestResult& result) { return !result.failures.empty(); }));
 }
 
-double RuleTestReport::rule_coverage() const {
-  if (rules.empty()) return 1;
-  const auto covered =
-      std::ranges::count_if(rules, [](const RuleCoverage& rule) { return rule.held > 0; });
-  return static_cast<double>(covered) / static_cast<double>(rules.size());
+std::size_t RuleTestReport::rule_count(CoverageOf of) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rules, [&](const RuleCoverage& rule) { return is_asked(rule, of); }));
 }
 
-double RuleTestReport::condition_coverage() const {
+double RuleTestReport::rule_coverage(CoverageOf of) const {
+  const auto covered = std::ranges::count_if(
+      rules, [&](const RuleCoverage& rule) { return is_asked(rule, of) && rule.held > 0; });
+  const std::size_t all = rule_count(of);
+  return all == 0 ? 1 : static_cast<double>(covered) / static_cast<double>(all);
+}
+
+double RuleTestReport::condition_coverage(CoverageOf of) const {
   std::size_t all = 0, covered = 0;
-  for (const RuleCoverage& rule : rules)
-    for (const ConditionCoverage& condition : rule.conditions) {
-      ++all;
-      covered += condition.is_covered() ? 1 : 0;
-    }
+  for (const RuleCoverage& rule : rules) {
+    if (!is_asked(rule, of)) continue;
+    all += rule.conditions.size();
+    covered += static_cast<std::size_t>(
+        std::ranges::count_if(rule.conditions, &ConditionCoverage::is_covered));
+  }
   return all == 0 ? 1 : static_cast<double>(covered) / static_cast<double>(all);
 }
 
@@ -244,7 +284,7 @@ Checked<RuleTestReport> run_rule_tests(const std::string& path, const BuildingRe
   RuleTestReport report;
   report.file = path;
   report.pack = file->base->file();
-  CoverageCounter coverage(file->base->pack());
+  CoverageCounter coverage(file->base->pack(), file->base->file());
   const std::string folder = std::filesystem::path(path).parent_path().string();
   for (const RuleTest& test : file->tests) {
     RuleTestResult result{test.name, test.place, {}};

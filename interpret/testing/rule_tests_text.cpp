@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel {
 
@@ -50,38 +51,67 @@ std::string testcase(const RuleTestReport& report, const RuleTestResult& test) {
   return text + "    </testcase>\n";
 }
 
-std::string uncovered(const RuleCoverage& rule) {
+/// What the tests never showed of a condition.
+std::string gap_of(const ConditionCoverage& condition) {
+  if (condition.held > 0) return "never fails";
+  if (condition.failed > 0) return "never holds";
+  if (condition.missing.empty()) return "is never decided: no feature of the tests answers it";
+  return fmt::format("is never decided: the tests give no feature a value for {}",
+                     fmt::join(condition.missing, ", "));
+}
+
+std::string gaps_of(const RuleCoverage& rule) {
   std::string text;
+  const auto add = [&](const std::string& what, const Place& place) {
+    text += fmt::format("  {}: {} ({})\n", printable(rule.id), what, text_of(place));
+  };
   if (rule.held == 0)
-    text += fmt::format("  {}: never holds ({})\n", printable(rule.id), text_of(rule.place));
-  for (const ConditionCoverage& condition : rule.conditions) {
-    if (condition.is_covered()) continue;
-    const char* what = condition.held > 0     ? "never fails"
-                       : condition.failed > 0 ? "never holds"
-                                              : "is never known";
-    text += fmt::format("  {}: '{}' {} ({})\n", printable(rule.id), printable(condition.text), what,
-                        text_of(condition.place));
-  }
+    add("never holds", rule.place);
+  else if (rule.decided == 0 && !rule.is_predicate)
+    add("holds, but never gives a feature its label: other rules win", rule.place);
+  for (const ConditionCoverage& condition : rule.conditions)
+    if (!condition.is_covered())
+      add(fmt::format("'{}' {}", printable(condition.text), gap_of(condition)), condition.place);
   return text;
+}
+
+/// What is not covered of the pack's own rules, or else of those that it takes over.
+std::string gaps_of(const RuleTestReport& report, bool is_own) {
+  std::string text;
+  for (const RuleCoverage& rule : report.rules)
+    if (rule.is_own == is_own) text += gaps_of(rule);
+  return text;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// "95.0 % of 20 rules held, 100.0 % of their conditions both held and failed".
+std::string coverage_of(const RuleTestReport& report, CoverageOf of) {
+  const std::size_t rules = report.rule_count(of);
+  if (rules == 0) return "the pack has no rules of its own, --with-base counts those it extends";
+  return fmt::format("{:.1f} % of {}{} held, {:.1f} % of {} conditions both held and failed",
+                     report.rule_coverage(of) * 100, counted(rules, "rule"),
+                     of == CoverageOf::all_rules ? " with those it extends" : "",
+                     report.condition_coverage(of) * 100, rules == 1 ? "its" : "their");
 }
 
 }  // namespace
 
-std::string to_text(const RuleTestReport& report) {
+std::string to_text(const RuleTestReport& report, CoverageOf of) {
   std::string text;
   for (const RuleTestResult& test : report.tests)
     for (const std::string& failure : test.failures)
       text += fmt::format("{}: failed: {}: {}\n", text_of(test.place), printable(test.name),
                           printable(failure));
-  std::string gaps;
-  for (const RuleCoverage& rule : report.rules) gaps += uncovered(rule);
-  if (!gaps.empty()) text += "not covered:\n" + gaps;
-  return text + fmt::format(
-                    "{}: {} of {} tests passed; {:.1f} % of rules held, {:.1f} % of "
-                    "conditions held and failed\n",
-                    printable(report.file), report.tests.size() - report.failed(),
-                    report.tests.size(), report.rule_coverage() * 100,
-                    report.condition_coverage() * 100);
+  const std::string own = gaps_of(report, true);
+  if (!own.empty()) text += "not covered by the tests:\n" + own;
+  const std::string base = of == CoverageOf::all_rules ? gaps_of(report, false) : "";
+  if (!base.empty()) text += "not covered, of the packs that it extends:\n" + base;
+  return text + fmt::format("{}: {} of {} passed; {}\n", printable(report.file),
+                            report.tests.size() - report.failed(),
+                            counted(report.tests.size(), "test"), coverage_of(report, of));
 }
 
 std::string to_junit(const std::vector<RuleTestReport>& reports) {

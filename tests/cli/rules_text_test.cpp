@@ -59,6 +59,49 @@ TEST_SUITE("cli") {
                 .exit == 0);
   }
 
+  TEST_CASE("rules new writes a pack that passes its check and its tests at once") {
+    const Folder folder;
+    const Outcome made = run({"rules", "new", folder / "solar_panel"});
+    CHECK(made.exit == 0);
+    CHECK(folder.names() == std::vector<std::string>{"solar_panel.city.json",
+                                                     "solar_panel.test.yaml", "solar_panel.yaml"});
+    const std::string pack = folder / "solar_panel.yaml";
+    CHECK(made.out.find("oriel rules test " + pack) != std::string::npos);
+    CHECK(bytes_of(pack).find("my_class") == std::string::npos);
+    const Outcome checked = run({"rules", "check", pack});
+    CHECK(checked.exit == 0);
+    CHECK(checked.err.empty());
+    CHECK(run({"rules", "fmt", "--check", pack}).exit == 0);
+    const Outcome tested =
+        run({"rules", "test", pack, "--min-coverage", "100", "--min-conditions", "100"});
+    CHECK(tested.exit == 0);
+    CHECK(tested.out == folder / "solar_panel.test.yaml" +
+                            ": 5 of 5 tests passed; 100.0 % of 1 rule held, 100.0 % of its "
+                            "conditions both held and failed\n");
+    CHECK(run({"label", folder / "solar_panel.city.json", "--rules", pack})
+              .says("2 solar_panel, 6 window"));
+  }
+
+  TEST_CASE("rules new writes over nothing and refuses names that no class can have") {
+    const Folder folder;
+    folder.write("thing.test.yaml", "mine");
+    const Outcome refused = run({"rules", "new", folder / "thing"});
+    CHECK(refused.exit == 2);
+    CHECK(refused.says("E604"));
+    CHECK(refused.says("thing.test.yaml is there already"));
+    CHECK(folder.names() == std::vector<std::string>{"thing.test.yaml"});
+    CHECK(bytes_of(folder / "thing.test.yaml") == "mine");
+    for (const char* name : {"Solar", "solar-panel", "1st", "and", ""}) {
+      CAPTURE(name);
+      const Outcome wrong = run({"rules", "new", folder / name});
+      CHECK(wrong.exit == 2);
+      CHECK(wrong.says("R216"));
+    }
+    CHECK(run({"rules", "new", folder / "window"}).says("is a class of residential"));
+    CHECK(run({"rules", "new", folder / "no/such/thing"}).exit == 6);
+    CHECK(folder.names().size() == 1);
+  }
+
   TEST_CASE("rules show prints a pack as it is or merged") {
     const Folder folder;
     CHECK(run({"rules", "show", "residential"}).out ==

@@ -79,6 +79,7 @@ std::vector<WritingCommand> writing_commands() {
        {label}},
       {"validate", {"validate", "@/in.city.json", "--json", "-o", "@/found.jsonl"}, house()},
       {"rules fmt", {"rules", "fmt", "-w", "@/small.yaml"}, {{"small.yaml", kPack}}},
+      {"rules new", {"rules", "new", "@/thing"}, {}},
       {"rules test",
        {"rules", "test", source + "/rules/residential.test.yaml", "--junit", "@/report.xml"},
        {}},

@@ -155,6 +155,68 @@ TEST_SUITE("interpret") {
     CHECK(to_text(report).find("'a < 1 m' never holds") != std::string::npos);
   }
 
+  TEST_CASE("own rules come first and coverage is theirs unless the base is asked for") {
+    const std::string pack =
+        "schema: oriel/1\n"
+        "pack: {name: t, version: 1.0.0}\n"
+        "extends: residential\n"
+        "params: {low: {value: 0.6 m}}\n"
+        "classes: {opening_like: {}}\n"
+        "relations: {row: {within: same storey, where: base_height ~ other.base_height by 1 %}}\n"
+        "groups: {rows: {of: window, by: row, at_least: 2}}\n"
+        "rules: [{id: mine, label: opening_like, require: [sense = hole, base_height > $low], "
+        "priority: 999}]\n";
+    const auto checked =
+        run("  - {name: t, given: front, expect: {w.*: opening_like}}\n", no_buildings(), pack);
+    for (const Issue& issue : checked.issues) CAPTURE(to_string(issue));
+    REQUIRE(checked.value);
+    const RuleTestReport& report = *checked.value;
+    REQUIRE(report.rules.size() > 10);
+    CHECK(report.rules[0].id == "mine");
+    CHECK(report.rules[0].is_own);
+    CHECK(report.rules[0].decided == 6);
+    CHECK_FALSE(report.rules[1].is_own);
+    CHECK(report.rule_count() == 1);
+    CHECK(report.rule_count(CoverageOf::all_rules) == report.rules.size());
+    CHECK(report.rule_coverage() == 1);
+    CHECK(report.condition_coverage() == doctest::Approx(0.5).epsilon(1e-12));
+    CHECK(report.rule_coverage(CoverageOf::all_rules) < 0.5);
+    const std::string own = to_text(report), all = to_text(report, CoverageOf::all_rules);
+    CHECK(own.find("100.0 % of 1 rule held, 50.0 % of its conditions both held and failed") !=
+          std::string::npos);
+    CHECK(own.find("residential.yaml") == std::string::npos);
+    CHECK(all.find("not covered by the tests:\n  mine: ") == 0);
+    CHECK(all.find("not covered, of the packs that it extends:\n") != std::string::npos);
+    CHECK(all.find(" rules with those it extends held") != std::string::npos);
+  }
+
+  TEST_CASE("what the tests never decide is said in words with what they do not give") {
+    const std::string pack =
+        "schema: oriel/1\n"
+        "pack: {name: t, version: 1.0.0}\n"
+        "params: {low: {value: 0.6 m}}\n"
+        "classes: {window: {}, door: {}}\n"
+        "relations: {row: {within: same storey, where: base_height ~ other.base_height by 1 %}}\n"
+        "groups: {rows: {of: window, by: row, at_least: 2}}\n"
+        "rules:\n"
+        "  - {id: w, label: window, require: [sense = hole, base_height > $low]}\n"
+        "  - {id: v, label: window, require: base_height > $low, priority: -1}\n"
+        "  - {id: d, label: door, require: [volume > 1 m3, host is wall], unless: [natural]}\n";
+    const auto checked =
+        run("  - {name: t, given: front, expect: {w.*: window}}\n", no_buildings(), pack);
+    REQUIRE(checked.value);
+    const std::string text = to_text(*checked.value);
+    CAPTURE(text);
+    CHECK(text.find("  v: holds, but never gives a feature its label: other rules win (") !=
+          std::string::npos);
+    CHECK(text.find("  d: never holds (") != std::string::npos);
+    CHECK(text.find("  d: 'volume > 1 m3' is never decided: the tests give no feature a value for "
+                    "volume (") != std::string::npos);
+    CHECK(text.find("  d: 'natural' is never decided: the tests give no feature a value for "
+                    "natural (") != std::string::npos);
+    CHECK(text.find("  d: 'host is wall' never fails (") != std::string::npos);
+  }
+
   TEST_CASE("results are written as JUnit XML without times") {
     const auto checked = run("  - {name: \"a <b>\", given: front, expect: {d: window}}\n");
     REQUIRE(checked.value);
