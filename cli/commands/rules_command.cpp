@@ -2,6 +2,7 @@
 #include "cli/commands/options.h"
 #include "cli/commands/rules_reference.h"
 #include "cli/output/named_files.h"
+#include "cli/output/sarif.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "kernel/base/printable.h"
@@ -37,6 +38,7 @@ std::string counts_of(const std::string& path, const RuleBase& pack) {
 struct RulesCheckArguments {
   std::vector<std::string> packs;
   bool is_json = false;
+  std::string sarif;
 };
 
 /// A finding as editors read it.
@@ -47,11 +49,18 @@ nlohmann::ordered_json as_json(const Issue& issue) {
 }
 
 ExitCode check(const RulesCheckArguments& arguments) {
+  NamedFiles names;
+  for (const std::string& path : arguments.packs)
+    if (!embedded_pack(path)) names.add_input("pack", path);
+  names.add_output("--sarif", arguments.sarif);
+  names.check();
+  SarifLog log;
   Report report(true);
   ExitCode code = ExitCode::clean;
   nlohmann::ordered_json findings = nlohmann::ordered_json::array();
   for (const std::string& path : arguments.packs) {
     const auto pack = load_pack_file(path);
+    log.add(pack.issues);
     if (arguments.is_json)
       for (const Issue& issue : pack.issues) findings.push_back(as_json(issue));
     else
@@ -65,6 +74,7 @@ ExitCode check(const RulesCheckArguments& arguments) {
     print_out(
         findings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n",
         true);
+  if (!arguments.sarif.empty()) write_file(arguments.sarif, log.text());
   return code;
 }
 
@@ -77,6 +87,8 @@ void add_check(CLI::App& rules, Action& action) {
                    "Rule packs: files, or names of packs that are built in")
       ->required();
   command->add_flag("--json", arguments->is_json, "All findings as one JSON array");
+  command->add_option("--sarif", arguments->sarif,
+                      "Write all findings to this file, as SARIF 2.1.0, which code hosts show");
   command->footer("Example:\n  oriel rules check my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return check(*arguments); }; });
 }

@@ -1,6 +1,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
+#include "cli/output/sarif.h"
 #include "cli/terminal/logging.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/cityjson/object_survey.h"
@@ -40,6 +41,7 @@ struct ValidateArguments : RunOptions {
   bool shows_problems_only = false;
   std::string primitive = "stated";
   std::string out = "-";
+  std::string sarif;
   ValidateOptions options;
 };
 
@@ -185,11 +187,20 @@ class Validation {
         read(input, arguments_.read_options(input));
     report_emptiness();
     if (has_ended_ || arguments_.out == "-") out_.commit();
+    if (!arguments_.sarif.empty()) write_file(arguments_.sarif, sarif_.text());
     report_summary();
     return code_;
   }
 
  private:
+  void report(const Issue& issue) {
+    report_.add(issue);
+    sarif_.add(issue);
+  }
+  void report(const std::vector<Issue>& issues) {
+    for (const Issue& issue : issues) report(issue);
+  }
+
   void raise(ExitCode code) { code_ = graver(code_, code); }
 
   [[nodiscard]] bool is_of_all_lods() const { return arguments_.lod == kAllLods; }
@@ -212,12 +223,13 @@ class Validation {
   }
 
   void read(const std::string& input, const ReadOptions& options) {
+    input_ = input;
     UnjudgedObjects unjudged;
     read(input, options, unjudged);
     if (is_survey_ || !arguments_.selection.is_all() || has_told_.contains(input)) return;
     has_told_.insert(input);
     unjudged_ += unjudged.count();
-    for (const Issue& issue : unjudged.issues(input)) report_.add(issue);
+    for (const Issue& issue : unjudged.issues(input)) report(issue);
     if (unjudged.count() > 0) raise(ExitCode::set_aside);
   }
 
@@ -241,14 +253,14 @@ class Validation {
           continue;
         }
         if (is_survey_) continue;
-        report_.add(record->issues);
+        report(record->issues);
         const bool is_line = reader.format() == Format::cityjson_seq && !is_first;
         raise(is_line ? ExitCode::set_aside : ExitCode::input);
         unread_records_ += is_line ? 1 : 0;
       }
     } catch (const InputError& error) {
       if (is_survey_) return;
-      report_.add(error.issue());
+      report(error.issue());
       raise(ExitCode::input);
     }
   }
@@ -274,7 +286,7 @@ class Validation {
              "",
              {finding_of(issue)}});
       else if (issue.code != Code::E311 && issue.code != Code::E312)  // judged with their places
-        report_.add(issue);
+        report(issue);
     }
     std::vector<BuildingFindings> judged;
     std::map<std::size_t, std::vector<std::size_t>> parts;  // of each family, numbers in `judged`
@@ -337,7 +349,18 @@ class Validation {
     } else if (arguments_.shows_problems_only) {
       return;
     }
+    note(found);
     out_.append(arguments_.is_json ? json_line(found) : text_of(found, is_of_all_lods()));
+  }
+
+  /// For the SARIF log: every finding is an error in the input at hand.
+  void note(const BuildingFindings& found) {
+    for (const Finding& finding : found.findings) {
+      Issue issue = building_issue(Severity::error, finding.code, found.id,
+                                   found.id + ": " + finding.sentence);
+      issue.place.file = input_;
+      sarif_.add(issue);
+    }
   }
 
   /// What was asked for and is not there; nothing to judge is no clean end either.
@@ -346,7 +369,7 @@ class Validation {
     auto issues = arguments_.selection.unmet(found_ids_, buildings_ > 0);
     if (arguments_.selection.is_all() && buildings_ == 0)
       issues.push_back(nothing_to_work_on(arguments_.inputs, "no building"));
-    for (const Issue& issue : issues) report_.add(issue);
+    for (const Issue& issue : issues) report(issue);
     if (!issues.empty()) raise(ExitCode::set_aside);
   }
 
@@ -373,6 +396,8 @@ class Validation {
   const ValidateArguments& arguments_;
   Report report_;
   OutputFile out_;
+  SarifLog sarif_;
+  std::string input_;  ///< the one at hand
   ExitCode code_ = ExitCode::clean;
   bool has_ended_ = false;  ///< an input did
   int buildings_ = 0;
@@ -391,6 +416,7 @@ ExitCode work(const ValidateArguments& arguments) {
   NamedFiles files;
   files.add(arguments);
   files.add_output("-o", arguments.out);
+  files.add_output("--sarif", arguments.sarif);
   files.check();
   return Validation(arguments).go();
 }
@@ -434,6 +460,8 @@ void add_validate(CLI::App& app, Action& action) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
+  command->add_option("--sarif", arguments->sarif,
+                      "Write all findings to this file, too, as SARIF 2.1.0");
   command->add_flag("-v,--verbose", arguments->is_verbose, "Show notes, too");
   command->footer(
       "Example:\n  oriel validate tile.city.jsonl --lod 2.2 --only-problems\n  oriel validate "

@@ -1,0 +1,131 @@
+#include "cli/output/sarif.h"
+
+#include "cli/output/help_pages.h"
+#include "kernel/model/version.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace oriel::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Findings without a code of their own.
+constexpr const char* kNoCode = "oriel";
+
+std::string id_of(Code code) { return code == Code::none ? kNoCode : to_string(code); }
+
+/// What SARIF calls a severity: the same words.
+std::string level_of(Severity severity) { return to_string(severity); }
+
+/// The section of a code: its heading, and what stands below.
+struct HelpSection {
+  std::string_view page, heading, text;
+};
+
+HelpSection section_of(const std::string& code) {
+  for (const HelpPage& page : help_pages()) {
+    const std::string mark = "\n### " + code + " ";
+    const std::size_t at = page.text.find(mark);
+    if (at == std::string_view::npos) continue;
+    const std::size_t end_of_heading = page.text.find('\n', at + 1);
+    const std::size_t end = std::min(page.text.find("\n##", end_of_heading), page.text.size());
+    return {page.name, page.text.substr(at + 5, end_of_heading - at - 5),
+            page.text.substr(end_of_heading + 1, end - end_of_heading - 1)};
+  }
+  return {};
+}
+
+/// A heading as the anchor that renderers of Markdown make of it.
+std::string anchor_of(std::string_view heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const auto u = static_cast<unsigned char>(c);
+    if (std::isalnum(u) != 0 || c == '_' || c == '-') anchor += static_cast<char>(std::tolower(u));
+    if (c == ' ') anchor += '-';
+  }
+  return anchor;
+}
+
+ordered_json rule_of(Code code) {
+  ordered_json rule{{"id", id_of(code)}};
+  if (code == Code::none) {
+    rule["shortDescription"]["text"] = "A finding without a code";
+    return rule;
+  }
+  const std::string meaning(meaning_of(code));
+  rule["shortDescription"]["text"] = meaning;
+  const HelpSection section = section_of(id_of(code));
+  const std::string help(section.text.empty() ? meaning : section.text);
+  rule["help"] = {{"text", help}, {"markdown", help}};
+  const std::string page(section.page.empty() ? "errors.md" : section.page);
+  rule["helpUri"] = fmt::format("{}/{}#{}", ORIEL_DOCS_URL, page, anchor_of(section.heading));
+  return rule;
+}
+
+/// A path as a URI reference: relative to where the command runs, or file://.
+std::string uri_of(const std::string& path) {
+  std::string uri = std::filesystem::path(path).is_absolute() ? "file://" : "";
+  for (const char c : path) {
+    const auto u = static_cast<unsigned char>(c);
+    const bool is_plain =
+        std::isalnum(u) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos;
+    uri += is_plain ? std::string(1, c) : fmt::format("%{:02X}", u);
+  }
+  return uri;
+}
+
+ordered_json location_of(const Issue& issue) {
+  ordered_json location = ordered_json::object();
+  const Place& place = issue.place;
+  if (!place.file.empty()) {
+    ordered_json& physical = location["physicalLocation"];
+    physical["artifactLocation"]["uri"] = uri_of(place.file);
+    if (place.line > 0) {
+      physical["region"]["startLine"] = place.line;
+      if (place.column > 0) physical["region"]["startColumn"] = place.column;
+      const std::string line = issue.excerpt.substr(0, issue.excerpt.find('\n'));
+      if (!line.empty()) physical["region"]["snippet"]["text"] = line;
+    }
+  }
+  if (!place.building.empty()) {
+    const std::string name =
+        place.feature.empty() ? place.building : place.building + "/" + place.feature;
+    location["logicalLocations"] = {{{"fullyQualifiedName", name}, {"kind", "element"}}};
+  }
+  return location;
+}
+
+}  // namespace
+
+std::string SarifLog::text() const {
+  std::map<std::string, Code> codes;
+  for (const Issue& issue : issues_) codes.emplace(id_of(issue.code), issue.code);
+  ordered_json rules = ordered_json::array(), results = ordered_json::array();
+  for (const auto& [id, code] : codes) rules.push_back(rule_of(code));
+  for (const Issue& issue : issues_) {
+    const std::string id = id_of(issue.code);
+    ordered_json result{{"ruleId", id},
+                        {"ruleIndex", std::distance(codes.begin(), codes.find(id))},
+                        {"level", level_of(issue.severity)},
+                        {"message", {{"text", issue.sentence}}}};
+    ordered_json location = location_of(issue);
+    if (!location.empty()) result["locations"] = {std::move(location)};
+    results.push_back(std::move(result));
+  }
+  const ordered_json driver{
+      {"name", "oriel"}, {"semanticVersion", std::string(kVersion)}, {"rules", std::move(rules)}};
+  const ordered_json log{
+      {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+      {"version", "2.1.0"},
+      {"runs", {{{"tool", {{"driver", driver}}}, {"results", std::move(results)}}}}};
+  return log.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace oriel::cli
