@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -60,8 +61,8 @@ class Validator {
 
  private:
   bool holds(const std::string& keyword, const json& wanted, const json& value, const json& rule) {
-    if (keyword == "$schema" || keyword == "title" || keyword == "description" ||
-        keyword == "definitions")
+    if (keyword == "$schema" || keyword == "$id" || keyword == "title" ||
+        keyword == "description" || keyword == "defaultSnippets" || keyword == "definitions")
       return true;
     if (keyword == "$ref")
       return conforms(value, schema().at(json::json_pointer(wanted.get<std::string>().substr(1))));
@@ -140,6 +141,42 @@ std::set<std::string> keys_of_loader(const std::string& pack) {
   return keys;
 }
 
+/// The keys without a description, with their paths.
+void find_undescribed(const json& rule, const std::string& path, std::vector<std::string>& found) {
+  if (rule.is_array())
+    for (const json& one : rule) find_undescribed(one, path, found);
+  if (!rule.is_object()) return;
+  for (const auto& member : rule.items()) {
+    if (member.key() == "defaultSnippets") continue;
+    if (member.key() == "properties" && member.value().is_object())
+      for (const auto& property : member.value().items())
+        if (property.value().value("description", "").size() < 5)
+          found.push_back(path + "/" + property.key());
+    find_undescribed(member.value(), path + "/" + member.key(), found);
+  }
+}
+
+/// A snippet as an editor inserts it: `${1:text}` is text, and `^` before it makes a number of it.
+json inserted(const json& body) {
+  if (body.is_string()) {
+    std::string text = body;
+    const bool is_number = text.starts_with("^");
+    if (is_number) text.erase(0, 1);
+    text = std::regex_replace(text, std::regex("\\$\\{[0-9]+:([^}]*)\\}"), "$1");
+    return is_number ? json::parse(text) : json(text);
+  }
+  if (body.is_array()) {
+    json list = json::array();
+    for (const json& item : body) list.push_back(inserted(item));
+    return list;
+  }
+  if (!body.is_object()) return body;
+  json map = json::object();
+  for (const auto& member : body.items())
+    map[inserted(json(member.key())).get<std::string>()] = inserted(member.value());
+  return map;
+}
+
 std::set<std::string> keys_of_schema(const json& rule) {
   std::set<std::string> keys;
   for (const auto& property : rule.at("properties").items()) keys.insert(property.key());
@@ -149,7 +186,7 @@ std::set<std::string> keys_of_schema(const json& rule) {
 TEST_SUITE("interpret") {
   TEST_CASE("every pack that loads conforms to the schema") {
     std::size_t packs = 0;
-    for (const char* folder : {"rules", "bench/rules", "tests/data/rules"})
+    for (const char* folder : {"rules", "rules/starter", "bench/rules", "tests/data/rules"})
       for (const auto& entry : fs::directory_iterator(fs::path(ORIEL_SOURCE_DIR) / folder)) {
         const std::string path = entry.path();
         if (!path.ends_with(".yaml") || !load_pack_file(path).value) continue;
@@ -201,6 +238,29 @@ TEST_SUITE("interpret") {
     check("emission", "emit: {window: {zzz: 1}}\n");
     check("surface", "surfaces: [{zzz: 1}]\n");
     check("entry", "generalise: [{zzz: 1}]\n");
+  }
+
+  TEST_CASE("the schema has an id and a description for every key") {
+    CHECK(schema()["$id"] == "urn:oriel:schema:oriel-1");
+    std::vector<std::string> undescribed;
+    find_undescribed(schema(), "", undescribed);
+    for (const std::string& key : undescribed) FAIL_CHECK(key);
+  }
+
+  TEST_CASE("what editors offer as snippets conforms to the schema") {
+    std::size_t snippets = 0;
+    const auto check = [&](const json& rule) {
+      for (const json& snippet : rule.value("defaultSnippets", json::array())) {
+        CAPTURE(snippet.dump());
+        CHECK(Validator().conforms(inserted(snippet.at("body")), rule));
+        CHECK_FALSE(snippet.at("label").get<std::string>().empty());
+        CHECK_FALSE(snippet.at("description").get<std::string>().empty());
+        ++snippets;
+      }
+    };
+    check(schema());
+    for (const auto& definition : schema()["definitions"].items()) check(definition.value());
+    CHECK(snippets >= 10);
   }
 
   TEST_CASE("the schema has the operators that a pack may name with their arguments") {
