@@ -4,8 +4,9 @@
 #include "kernel/model/version.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
-#include <set>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -97,7 +98,7 @@ ordered_json location_of(const Issue& issue) {
   if (!place.building.empty()) {
     const std::string name =
         place.feature.empty() ? place.building : place.building + "/" + place.feature;
-    location["logicalLocations"] = {{{"fullyQualifiedName", name}, {"kind", "element"}}};
+    location["logicalLocations"].push_back({{"fullyQualifiedName", name}, {"kind", "element"}});
   }
   return location;
 }
@@ -116,15 +117,18 @@ std::string SarifLog::text() const {
                         {"level", level_of(issue.severity)},
                         {"message", {{"text", issue.sentence}}}};
     ordered_json location = location_of(issue);
-    if (!location.empty()) result["locations"] = {std::move(location)};
+    if (!location.empty()) result["locations"].push_back(std::move(location));
     results.push_back(std::move(result));
   }
   const ordered_json driver{
       {"name", "oriel"}, {"semanticVersion", std::string(kVersion)}, {"rules", std::move(rules)}};
-  const ordered_json log{
-      {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
-      {"version", "2.1.0"},
-      {"runs", {{{"tool", {{"driver", driver}}}, {"results", std::move(results)}}}}};
+  ordered_json run;
+  run["tool"]["driver"] = driver;
+  run["results"] = std::move(results);
+  ordered_json log;
+  log["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
+  log["version"] = "2.1.0";
+  log["runs"].push_back(std::move(run));
   return log.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
