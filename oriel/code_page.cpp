@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <initializer_list>
 #include <string>
@@ -58,6 +59,17 @@ std::string_view row_of(std::string_view text, const std::string& code) {
   return "";
 }
 
+/// A heading as the anchor that renderers of Markdown make of it.
+std::string as_anchor(std::string_view heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const auto u = static_cast<unsigned char>(c);
+    if (std::isalnum(u) != 0 || c == '_' || c == '-') anchor += static_cast<char>(std::tolower(u));
+    if (c == ' ') anchor += '-';
+  }
+  return anchor;
+}
+
 /// Page and text.
 std::pair<std::string_view, std::string_view> find_page(Code code) {
   const std::string name = to_string(code);
@@ -73,5 +85,15 @@ std::pair<std::string_view, std::string_view> find_page(Code code) {
 std::string_view page_of(Code code) { return find_page(code).second; }
 
 std::string_view document_of(Code code) { return find_page(code).first; }
+
+std::string anchor_of(Code code) {
+  const std::string mark = std::string(kHeading) + to_string(code) + " ";
+  for (const BuiltInPage& page : kPages) {
+    const std::size_t at = code == Code::none ? std::string_view::npos : page.text.find(mark);
+    if (at != std::string_view::npos)
+      return as_anchor(up_to(page.text, at + kHeading.size(), {"\n"}));
+  }
+  return "";
+}
 
 }  // namespace oriel

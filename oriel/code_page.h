@@ -15,4 +15,7 @@ std::string_view page_of(Code code);
 /// Where that stands: "errors.md".
 std::string_view document_of(Code code);
 
+/// The section there, as links name it: "e504-a-scale-that-is-none". Nothing for rows of a table.
+std::string anchor_of(Code code);
+
 }  // namespace oriel

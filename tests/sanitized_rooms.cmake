@@ -47,8 +47,12 @@ function(oriel_command_of_threads)
   add_executable(oriel_of_threads ${all_objects} ${sources})
   target_link_libraries(oriel_of_threads PRIVATE ${libraries})
   target_link_options(oriel_of_threads PRIVATE -fsanitize=thread)
+  get_target_property(definitions oriel COMPILE_DEFINITIONS)
+  target_compile_definitions(oriel_of_threads PRIVATE ${definitions})
+  add_dependencies(oriel_of_threads oriel)  # which makes what --version says
   foreach(target ${objects} oriel_of_threads)
-    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+    target_include_directories(${target} PRIVATE
+      ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated $<TARGET_PROPERTY:oriel_oriel,INCLUDE_DIRECTORIES>)
     target_compile_options(${target} PRIVATE -O0 -g1 -fsanitize=thread $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
     target_precompile_headers(${target} PRIVATE ${ORIEL_COMMON_HEADERS})
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${ORIEL_UNITY} UNITY_BUILD_BATCH_SIZE 24)

@@ -1,7 +1,7 @@
 #include "cli/output/sarif.h"
 
-#include "cli/output/help_pages.h"
 #include "kernel/model/version.h"
+#include "oriel/code_page.h"
 
 #include <algorithm>
 #include <cctype>
@@ -25,35 +25,6 @@ std::string id_of(Code code) { return code == Code::none ? kNoCode : to_string(c
 /// What SARIF calls a severity: the same words.
 std::string level_of(Severity severity) { return to_string(severity); }
 
-/// The section of a code: its heading, and what stands below.
-struct HelpSection {
-  std::string_view page, heading, text;
-};
-
-HelpSection section_of(const std::string& code) {
-  for (const HelpPage& page : help_pages()) {
-    const std::string mark = "\n### " + code + " ";
-    const std::size_t at = page.text.find(mark);
-    if (at == std::string_view::npos) continue;
-    const std::size_t end_of_heading = page.text.find('\n', at + 1);
-    const std::size_t end = std::min(page.text.find("\n##", end_of_heading), page.text.size());
-    return {page.name, page.text.substr(at + 5, end_of_heading - at - 5),
-            page.text.substr(end_of_heading + 1, end - end_of_heading - 1)};
-  }
-  return {};
-}
-
-/// A heading as the anchor that renderers of Markdown make of it.
-std::string anchor_of(std::string_view heading) {
-  std::string anchor;
-  for (const char c : heading) {
-    const auto u = static_cast<unsigned char>(c);
-    if (std::isalnum(u) != 0 || c == '_' || c == '-') anchor += static_cast<char>(std::tolower(u));
-    if (c == ' ') anchor += '-';
-  }
-  return anchor;
-}
-
 ordered_json rule_of(Code code) {
   ordered_json rule{{"id", id_of(code)}};
   if (code == Code::none) {
@@ -62,11 +33,9 @@ ordered_json rule_of(Code code) {
   }
   const std::string meaning(meaning_of(code));
   rule["shortDescription"]["text"] = meaning;
-  const HelpSection section = section_of(id_of(code));
-  const std::string help(section.text.empty() ? meaning : section.text);
+  const std::string help(page_of(code).empty() ? meaning : page_of(code));
   rule["help"] = {{"text", help}, {"markdown", help}};
-  const std::string page(section.page.empty() ? "errors.md" : section.page);
-  rule["helpUri"] = fmt::format("{}/{}#{}", ORIEL_DOCS_URL, page, anchor_of(section.heading));
+  rule["helpUri"] = fmt::format("{}/{}#{}", ORIEL_DOCS_URL, document_of(code), anchor_of(code));
   return rule;
 }
 

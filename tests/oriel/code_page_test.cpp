@@ -67,4 +67,11 @@ TEST_SUITE("oriel") {
     CHECK(page_of(Code::R274) == "its sizes are no chain");
     CHECK(document_of(Code::R274) == "generalisation.md");
   }
+
+  TEST_CASE("a section of a code has an anchor, and a row of a table has none") {
+    CHECK(anchor_of(Code::E901).starts_with("e901-"));
+    CHECK(anchor_of(Code::E901).find(' ') == std::string::npos);
+    CHECK(anchor_of(Code::none).empty());
+    CHECK(anchor_of(Code::G405).empty());
+  }
 }
