@@ -37,6 +37,6 @@ install_missing() {
 echo "installing ${missing[*]}"
 if ! install_missing; then
   echo "reading the list of Debian's packages"
-  "${root[@]}" apt-get update -qq
+  "${root[@]}" apt-get update -q
   install_missing || { cat "$faults" >&2; exit 1; }
 fi
