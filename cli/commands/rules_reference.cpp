@@ -34,7 +34,7 @@ struct RulesWordsArguments {
   bool is_json = false;
 };
 
-nlohmann::ordered_json as_json(const VocabularyWord& word, const std::string& kind) {
+nlohmann::ordered_json word_as_json(const VocabularyWord& word, const std::string& kind) {
   nlohmann::ordered_json json{{"name", word.name}};
   if (!word.unit.empty()) json["unit"] = word.unit;
   json["meaning"] = word.meaning;
@@ -48,7 +48,7 @@ void print_json(const std::vector<WordList>& lists) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const WordList& list : lists) {
     nlohmann::ordered_json words = nlohmann::ordered_json::array();
-    for (const VocabularyWord& word : list.words) words.push_back(as_json(word, list.kind));
+    for (const VocabularyWord& word : list.words) words.push_back(word_as_json(word, list.kind));
     json[list.key] = std::move(words);
   }
   print_out(json.dump(2) + "\n", true);

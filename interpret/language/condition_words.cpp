@@ -9,7 +9,7 @@ namespace oriel::rules {
 
 namespace {
 
-using Kind = Syntax::Kind;
+using SyntaxKind = Syntax::Kind;
 
 /// What the others of a relation are called; the first word gets an s where there are several.
 struct RelationWords {
@@ -35,11 +35,11 @@ std::string plural(const std::string& others) {
 }
 
 bool is_of_several(const Syntax& syntax) {
-  return syntax.kind == Kind::all_of || syntax.kind == Kind::any_of;
+  return syntax.kind == SyntaxKind::all_of || syntax.kind == SyntaxKind::any_of;
 }
 
 bool is_sum(const Syntax& syntax) {
-  return syntax.kind == Kind::binary &&
+  return syntax.kind == SyntaxKind::binary &&
          (syntax.symbol == Token::Kind::plus || syntax.symbol == Token::Kind::minus ||
           syntax.symbol == Token::Kind::star || syntax.symbol == Token::Kind::slash);
 }
@@ -84,7 +84,8 @@ std::string_view arithmetic(Token::Kind symbol) {
 /// The comparison of a difference: `abs(x - y) <= t`.
 bool is_difference(const Syntax& syntax) {
   const Syntax& left = syntax.children[0];
-  return left.kind == Kind::call && left.name == "abs" && left.children[0].kind == Kind::binary &&
+  return left.kind == SyntaxKind::call && left.name == "abs" &&
+         left.children[0].kind == SyntaxKind::binary &&
          left.children[0].symbol == Token::Kind::minus && syntax.symbol != Token::Kind::equal &&
          syntax.symbol != Token::Kind::not_equal;
 }
@@ -97,76 +98,81 @@ std::string with_article(std::string_view name, std::string_view mark) {
   return fmt::format("{} {}{}{}", has_vowel ? "an" : "a", mark, name, mark);
 }
 
-std::string ConditionWords::macro(const Syntax& syntax) const { return say(syntax, Place::inside); }
+std::string ConditionWords::macro(const Syntax& syntax) const {
+  return say(syntax, Speaker::inside);
+}
 
 std::string ConditionWords::condition(const Syntax& syntax) const {
-  return say(syntax, Place::top);
+  return say(syntax, Speaker::top);
 }
 
 std::string ConditionWords::pair_condition(const Syntax& syntax) const {
-  return say(syntax, Place::pair);
+  return say(syntax, Speaker::pair);
 }
 
 std::string ConditionWords::value(const Syntax& syntax) const {
-  return operand(syntax, Place::top);
+  return operand(syntax, Speaker::top);
 }
 
-std::string ConditionWords::say(const Syntax& syntax, Place place) const {
+std::string ConditionWords::say(const Syntax& syntax, Speaker speaker) const {
   switch (syntax.kind) {
-    case Kind::name:
-      return name(syntax, place) + " holds";
-    case Kind::is_test:
-      return is_test(syntax, false, place);
-    case Kind::negation:
-      return negation(syntax, place);
-    case Kind::quantifier:
-      return syntax.name == "count" ? operand(syntax, place) : quantifier(syntax, false, place);
-    case Kind::binary:
-      return binary(syntax, place);
-    case Kind::all_of:
-      return joined(syntax, place, "and");
-    case Kind::any_of:
-      return joined(syntax, place, "or");
-    case Kind::range_test:
-      return fmt::format("{} is between {} and {}", operand(syntax.children[0], place),
-                         operand(syntax.children[1], place), operand(syntax.children[2], place));
-    case Kind::list_test: {
+    case SyntaxKind::name:
+      return name(syntax, speaker) + " holds";
+    case SyntaxKind::is_test:
+      return is_test(syntax, false, speaker);
+    case SyntaxKind::negation:
+      return negation(syntax, speaker);
+    case SyntaxKind::quantifier:
+      return syntax.name == "count" ? operand(syntax, speaker) : quantifier(syntax, false, speaker);
+    case SyntaxKind::binary:
+      return binary(syntax, speaker);
+    case SyntaxKind::all_of:
+      return joined(syntax, speaker, "and");
+    case SyntaxKind::any_of:
+      return joined(syntax, speaker, "or");
+    case SyntaxKind::range_test:
+      return fmt::format("{} is between {} and {}", operand(syntax.children[0], speaker),
+                         operand(syntax.children[1], speaker),
+                         operand(syntax.children[2], speaker));
+    case SyntaxKind::list_test: {
       std::string words;
       for (std::size_t i = 1; i < syntax.children.size(); ++i) {
         if (i > 1) words += i + 1 == syntax.children.size() ? " or " : ", ";
         words += source_->text_of(syntax.children[i].span);
       }
-      return fmt::format("{} is {}", operand(syntax.children[0], place), words);
+      return fmt::format("{} is {}", operand(syntax.children[0], speaker), words);
     }
-    case Kind::similarity:
-      return fmt::format("{} and {} differ by at most {}", operand(syntax.children[0], place),
-                         operand(syntax.children[1], place), operand(syntax.children[2], place));
+    case SyntaxKind::similarity:
+      return fmt::format("{} and {} differ by at most {}", operand(syntax.children[0], speaker),
+                         operand(syntax.children[1], speaker),
+                         operand(syntax.children[2], speaker));
     default:
-      return operand(syntax, place);
+      return operand(syntax, speaker);
   }
 }
 
 /// The same as a part of `outer`, in brackets where it would be misread.
-std::string ConditionWords::say_in(const Syntax& outer, const Syntax& syntax, Place place) const {
-  const bool has_where = syntax.kind == Kind::quantifier && !syntax.children.empty();
+std::string ConditionWords::say_in(const Syntax& outer, const Syntax& syntax,
+                                   Speaker speaker) const {
+  const bool has_where = syntax.kind == SyntaxKind::quantifier && !syntax.children.empty();
   const bool is_other = is_of_several(syntax) && syntax.kind != outer.kind;
-  const std::string text = say(syntax, place);
+  const std::string text = say(syntax, speaker);
   return has_where || is_other ? "(" + text + ")" : text;
 }
 
-std::string ConditionWords::joined(const Syntax& syntax, Place place, const char* word) const {
+std::string ConditionWords::joined(const Syntax& syntax, Speaker speaker, const char* word) const {
   std::string text;
   for (const Syntax& child : syntax.children) {
     if (!text.empty()) text += fmt::format(", {} ", word);
-    text += say_in(syntax, child, place);
+    text += say_in(syntax, child, speaker);
   }
   return text;
 }
 
-std::string ConditionWords::name(const Syntax& syntax, Place place) const {
-  if (syntax.scope == Syntax::Scope::other && place == Place::pair)
+std::string ConditionWords::name(const Syntax& syntax, Speaker speaker) const {
+  if (syntax.scope == Syntax::Scope::other && speaker == Speaker::pair)
     return fmt::format("the other's `{}`", syntax.name);
-  if (syntax.scope == Syntax::Scope::self && place == Place::inside)
+  if (syntax.scope == Syntax::Scope::self && speaker == Speaker::inside)
     return fmt::format("the feature's own `{}`", syntax.name);
   return fmt::format("`{}`", syntax.name);
 }
@@ -183,11 +189,11 @@ std::string ConditionWords::parameter(const Syntax& syntax) const {
                                 : fmt::format("`${}` ({})", syntax.name, found->second);
 }
 
-std::string ConditionWords::is_test(const Syntax& syntax, bool is_negated, Place place) const {
+std::string ConditionWords::is_test(const Syntax& syntax, bool is_negated, Speaker speaker) const {
   const std::string_view is = is_negated ? "is not" : "is";
   std::string_view who = "it";
-  if (syntax.scope == Syntax::Scope::self && place == Place::inside) who = "the feature itself";
-  if (syntax.scope == Syntax::Scope::other && place == Place::pair) who = "the other";
+  if (syntax.scope == Syntax::Scope::self && speaker == Speaker::inside) who = "the feature itself";
+  if (syntax.scope == Syntax::Scope::other && speaker == Speaker::pair) who = "the other";
   if (!syntax.is_of_host) return fmt::format("{} {} {}", who, is, with_article(syntax.name));
   if (syntax.name == "wall" || syntax.name == "roof" || syntax.name == "ground")
     return fmt::format("{} {} in {} {}", who, is_negated ? "does not lie" : "lies",
@@ -196,16 +202,17 @@ std::string ConditionWords::is_test(const Syntax& syntax, bool is_negated, Place
   return fmt::format("the host of {} {} {}", who, is, with_article(syntax.name));
 }
 
-std::string ConditionWords::negation(const Syntax& syntax, Place place) const {
+std::string ConditionWords::negation(const Syntax& syntax, Speaker speaker) const {
   const Syntax& inner = syntax.children[0];
-  if (inner.kind == Kind::is_test) return is_test(inner, true, place);
-  if (inner.kind == Kind::name) return name(inner, place) + " does not hold";
-  if (inner.kind == Kind::quantifier && inner.name != "all") return quantifier(inner, true, place);
-  return fmt::format("it is not so that {}", say_in(syntax, inner, place));
+  if (inner.kind == SyntaxKind::is_test) return is_test(inner, true, speaker);
+  if (inner.kind == SyntaxKind::name) return name(inner, speaker) + " does not hold";
+  if (inner.kind == SyntaxKind::quantifier && inner.name != "all")
+    return quantifier(inner, true, speaker);
+  return fmt::format("it is not so that {}", say_in(syntax, inner, speaker));
 }
 
 std::string ConditionWords::quantifier(const Syntax& syntax, bool is_negated,
-                                       Place /*place*/) const {
+                                       Speaker /*speaker*/) const {
   const bool is_none = (syntax.name == "none") != is_negated;
   if (syntax.name == "all")
     return fmt::format("all {}", others(syntax, true, 0)) +
@@ -220,74 +227,75 @@ std::string ConditionWords::others(const Syntax& syntax, bool is_plural, std::si
   std::string text = others_of(syntax.relation);
   if (is_plural) text = plural(text);
   if (syntax.children.size() <= where) return text;
-  const bool is_all = syntax.kind == Kind::quantifier && syntax.name == "all";
-  std::string condition = say(syntax.children[where], Place::inside);
+  const bool is_all = syntax.kind == SyntaxKind::quantifier && syntax.name == "all";
+  std::string condition = say(syntax.children[where], Speaker::inside);
   if (is_plural && !is_all && is_of_several(syntax.children[where]))
     condition = "(" + condition + ")";
   return fmt::format("{} {} {}", text, is_all ? "are such that" : "for which", condition);
 }
 
-std::string ConditionWords::binary(const Syntax& syntax, Place place) const {
-  if (is_sum(syntax)) return operand(syntax, place);
-  const std::string right = operand(syntax.children[1], place);
+std::string ConditionWords::binary(const Syntax& syntax, Speaker speaker) const {
+  if (is_sum(syntax)) return operand(syntax, speaker);
+  const std::string right = operand(syntax.children[1], speaker);
   const bool is_word =
-      syntax.children[1].kind == Kind::name && syntax.children[1].scope == Syntax::Scope::here &&
+      syntax.children[1].kind == SyntaxKind::name &&
+      syntax.children[1].scope == Syntax::Scope::here &&
       (syntax.symbol == Token::Kind::equal || syntax.symbol == Token::Kind::not_equal);
   if (!is_difference(syntax))
-    return fmt::format("{} {} {}", operand(syntax.children[0], place), comparison(syntax.symbol),
+    return fmt::format("{} {} {}", operand(syntax.children[0], speaker), comparison(syntax.symbol),
                        is_word ? syntax.children[1].name : right);
   const Syntax& difference = syntax.children[0].children[0];
   const std::string_view how = comparison(syntax.symbol).substr(std::string_view("is ").size());
-  return fmt::format("{} and {} differ by {} {}", operand(difference.children[0], place),
-                     operand(difference.children[1], place), how, right);
+  return fmt::format("{} and {} differ by {} {}", operand(difference.children[0], speaker),
+                     operand(difference.children[1], speaker), how, right);
 }
 
 /// A value: a number, a name, what is calculated of them.
-std::string ConditionWords::operand(const Syntax& syntax, Place place) const {
+std::string ConditionWords::operand(const Syntax& syntax, Speaker speaker) const {
   switch (syntax.kind) {
-    case Kind::number:
+    case SyntaxKind::number:
       return number(syntax);
-    case Kind::parameter:
+    case SyntaxKind::parameter:
       return parameter(syntax);
-    case Kind::name:
-      return name(syntax, place);
-    case Kind::negate:
-      return "-" + operand(syntax.children[0], place);
-    case Kind::call:
-      return call(syntax, place);
-    case Kind::quantifier:
+    case SyntaxKind::name:
+      return name(syntax, speaker);
+    case SyntaxKind::negate:
+      return "-" + operand(syntax.children[0], speaker);
+    case SyntaxKind::call:
+      return call(syntax, speaker);
+    case SyntaxKind::quantifier:
       if (syntax.name == "count") return "the number of " + others(syntax, true, 0);
-      return quantifier(syntax, false, place);
-    case Kind::aggregate: {
+      return quantifier(syntax, false, speaker);
+    case SyntaxKind::aggregate: {
       const std::string_view which = syntax.name == "min"   ? "smallest"
                                      : syntax.name == "max" ? "largest"
                                                             : "mean";
-      return fmt::format("the {} {} of all {}", which, operand(syntax.children[0], Place::inside),
+      return fmt::format("the {} {} of all {}", which, operand(syntax.children[0], Speaker::inside),
                          others(syntax, true, 1));
     }
-    case Kind::distance:
+    case SyntaxKind::distance:
       return "the distance along the facade";
-    case Kind::group_gap:
+    case SyntaxKind::group_gap:
       return "the gap between the members";
-    case Kind::binary:
+    case SyntaxKind::binary:
       if (is_sum(syntax)) {
         const auto side = [&](std::size_t i) {
-          const std::string text = operand(syntax.children[i], place);
+          const std::string text = operand(syntax.children[i], speaker);
           return needs_brackets(syntax, syntax.children[i], i == 1) ? "(" + text + ")" : text;
         };
         return fmt::format("{} {} {}", side(0), arithmetic(syntax.symbol), side(1));
       }
-      return say(syntax, place);
+      return say(syntax, speaker);
     default:
-      return say(syntax, place);
+      return say(syntax, speaker);
   }
 }
 
-std::string ConditionWords::call(const Syntax& syntax, Place place) const {
+std::string ConditionWords::call(const Syntax& syntax, Speaker speaker) const {
   std::string list;
   for (std::size_t i = 0; i < syntax.children.size(); ++i) {
     if (i > 0) list += i + 1 == syntax.children.size() ? " and " : ", ";
-    list += operand(syntax.children[i], place);
+    list += operand(syntax.children[i], speaker);
   }
   if (syntax.name == "abs") return fmt::format("the absolute value of ({})", list);
   if (syntax.name == "sqrt") return fmt::format("the square root of ({})", list);

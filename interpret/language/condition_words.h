@@ -32,21 +32,23 @@ class ConditionWords {
  private:
   /// Which feature a name without a scope means: the one at hand, one of a relation, or in a
   /// relation's own condition the first of the two.
-  enum class Place { top, inside, pair };
+  enum class Speaker { top, inside, pair };
 
-  [[nodiscard]] std::string say(const Syntax& syntax, Place place) const;
-  [[nodiscard]] std::string say_in(const Syntax& outer, const Syntax& syntax, Place place) const;
-  [[nodiscard]] std::string name(const Syntax& syntax, Place place) const;
+  [[nodiscard]] std::string say(const Syntax& syntax, Speaker speaker) const;
+  [[nodiscard]] std::string say_in(const Syntax& outer, const Syntax& syntax,
+                                   Speaker speaker) const;
+  [[nodiscard]] std::string name(const Syntax& syntax, Speaker speaker) const;
   [[nodiscard]] std::string number(const Syntax& syntax) const;
   [[nodiscard]] std::string parameter(const Syntax& syntax) const;
-  [[nodiscard]] std::string is_test(const Syntax& syntax, bool is_negated, Place place) const;
-  [[nodiscard]] std::string negation(const Syntax& syntax, Place place) const;
-  [[nodiscard]] std::string quantifier(const Syntax& syntax, bool is_negated, Place place) const;
+  [[nodiscard]] std::string is_test(const Syntax& syntax, bool is_negated, Speaker speaker) const;
+  [[nodiscard]] std::string negation(const Syntax& syntax, Speaker speaker) const;
+  [[nodiscard]] std::string quantifier(const Syntax& syntax, bool is_negated,
+                                       Speaker speaker) const;
   [[nodiscard]] std::string others(const Syntax& syntax, bool is_plural, std::size_t where) const;
-  [[nodiscard]] std::string binary(const Syntax& syntax, Place place) const;
-  [[nodiscard]] std::string operand(const Syntax& syntax, Place place) const;
-  [[nodiscard]] std::string call(const Syntax& syntax, Place place) const;
-  [[nodiscard]] std::string joined(const Syntax& syntax, Place place, const char* word) const;
+  [[nodiscard]] std::string binary(const Syntax& syntax, Speaker speaker) const;
+  [[nodiscard]] std::string operand(const Syntax& syntax, Speaker speaker) const;
+  [[nodiscard]] std::string call(const Syntax& syntax, Speaker speaker) const;
+  [[nodiscard]] std::string joined(const Syntax& syntax, Speaker speaker, const char* word) const;
 
   const Source* source_;
   std::map<std::string, std::string> values_;

@@ -23,7 +23,7 @@ const YamlNode* value_of(const YamlNode& map, std::string_view key) {
   return nullptr;
 }
 
-std::string text_of(const YamlNode& map, std::string_view key) {
+std::string scalar_at(const YamlNode& map, std::string_view key) {
   const YamlNode* value = value_of(map, key);
   return value == nullptr ? "" : value->text;
 }
@@ -89,7 +89,7 @@ class PackPageWriter {
     std::map<std::string, std::string> values;
     if (const YamlNode* params = value_of(tree, "params"))
       for (const YamlEntry& param : params->entries)
-        values[param.key.text] = text_of(param.value, "value");
+        values[param.key.text] = scalar_at(param.value, "value");
     return values;
   }
 
@@ -211,8 +211,8 @@ void PackPageWriter::write_params() {
     const int index = index_of(pack_->params, entry.key.text);
     const Dimension dimension = pack_->params[static_cast<std::size_t>(index)].dimension;
     const std::string unit = dimension.is_plain() ? "none" : unit_of(dimension);
-    line("| `{}` | {} | {} | {} | {} |", entry.key.text, text_of(entry.value, "value"), unit,
-         text_of(entry.value, "range"), cell(text_of(entry.value, "why")));
+    line("| `{}` | {} | {} | {} | {} |", entry.key.text, scalar_at(entry.value, "value"), unit,
+         scalar_at(entry.value, "range"), cell(scalar_at(entry.value, "why")));
   }
 }
 
@@ -231,7 +231,7 @@ void PackPageWriter::write_relations() {
   for (const YamlEntry& entry : relations->entries) {
     const YamlNode& where = *value_of(entry.value, "where");
     const auto syntax = parse_expression(where.span, *findings_);
-    line("- **{}**: pairs of `{}` for which {}", entry.key.text, text_of(entry.value, "within"),
+    line("- **{}**: pairs of `{}` for which {}", entry.key.text, scalar_at(entry.value, "within"),
          syntax ? words_.pair_condition(*syntax) : where.text);
   }
 }
@@ -246,10 +246,10 @@ void PackPageWriter::write_rules() {
 }
 
 void PackPageWriter::write_rule(const YamlNode& rule) {
-  line("### {}\n", text_of(rule, "id"));
+  line("### {}\n", scalar_at(rule, "id"));
   const YamlNode& require = *value_of(rule, "require");
   const bool is_one = require.kind != YamlNode::Kind::sequence || require.items.size() == 1;
-  line("A feature is {} if {}:\n", with_article(text_of(rule, "label"), "**"),
+  line("A feature is {} if {}:\n", with_article(scalar_at(rule, "label"), "**"),
        is_one ? "this holds" : "all of this holds");
   list_conditions(require);
   const YamlNode* unless = value_of(rule, "unless");
@@ -257,7 +257,7 @@ void PackPageWriter::write_rule(const YamlNode& rule) {
     line("\nunless one of these holds:\n");
     list_conditions(*unless);
   }
-  const std::string priority = text_of(rule, "priority");
+  const std::string priority = scalar_at(rule, "priority");
   if (!priority.empty()) line("\nPriority {}: the highest that holds decides.", priority);
   if (const YamlNode* score = value_of(rule, "score")) write_score(*score);
 }
@@ -284,16 +284,16 @@ std::string PackPageWriter::term(const YamlNode& node) const {
   add_ramp("fall", "1 up to", "0 from");
   const std::string judged = text.empty() ? fmt::format("1 if {}, else 0", condition(entry.key))
                                           : fmt::format("{}: {}", value(entry.key), text);
-  const std::string weight = text_of(entry.value, "weight");
+  const std::string weight = scalar_at(entry.value, "weight");
   return weight.empty() ? judged : fmt::format("{} (weight {})", judged, weight);
 }
 
 void PackPageWriter::write_decisions() {
   const YamlNode* decide = section("decide", "Decisions");
   if (decide != nullptr) {
-    const std::string least = text_of(*decide, "min_score");
-    const std::string close = text_of(*decide, "ambiguous_below");
-    const std::string evidence = text_of(*decide, "evidence");
+    const std::string least = scalar_at(*decide, "min_score");
+    const std::string close = scalar_at(*decide, "ambiguous_below");
+    const std::string evidence = scalar_at(*decide, "evidence");
     line("- A label needs a score of at least {}; what gets none is unknown.",
          least.empty() ? "0" : least);
     if (!close.empty()) line("- A lead of less than {} over another label is reported.", close);
@@ -310,9 +310,9 @@ void PackPageWriter::write_groups() {
   const YamlNode* groups = section("groups", "Groups");
   if (groups == nullptr) return;
   for (const YamlEntry& entry : groups->entries) {
-    const std::string least = text_of(entry.value, "at_least");
+    const std::string least = scalar_at(entry.value, "at_least");
     line("- **{}**: at least {} features of class `{}` that hang together by `{}`", entry.key.text,
-         least.empty() ? "2" : least, text_of(entry.value, "of"), text_of(entry.value, "by"));
+         least.empty() ? "2" : least, scalar_at(entry.value, "of"), scalar_at(entry.value, "by"));
   }
 }
 
@@ -321,7 +321,7 @@ void PackPageWriter::write_surfaces() {
   if (surfaces == nullptr) return;
   line("The first that holds decides what a polygon is.\n");
   for (const YamlNode& item : surfaces->items)
-    line("- **{}**: `{}` if {}", text_of(item, "id"), text_of(item, "type"),
+    line("- **{}**: `{}` if {}", scalar_at(item, "id"), scalar_at(item, "type"),
          conditions(*value_of(item, "when"), "and"));
 }
 
@@ -349,15 +349,16 @@ void PackPageWriter::write_generalise() {
   if (entries == nullptr) return;
   line("For each feature the first entry that fits decides.\n");
   for (const YamlNode& entry : entries->items) {
-    const std::string target = text_of(entry, "for");
+    const std::string target = scalar_at(entry, "for");
     constexpr std::string_view kGroup = "group ";
     const std::string what = target == "any" ? "any feature"
                              : target.starts_with(kGroup)
                                  ? fmt::format("each `{}`", target.substr(kGroup.size()))
                                  : with_article(target);
     const YamlNode* when = value_of(entry, "when");
-    line("- **{}** ({}): {}{}: {}", text_of(entry, "id"), scales_in_words(text_of(entry, "scale")),
-         what, when == nullptr ? "" : " if " + condition(*when), operation(*value_of(entry, "do")));
+    line("- **{}** ({}): {}{}: {}", scalar_at(entry, "id"),
+         scales_in_words(scalar_at(entry, "scale")), what,
+         when == nullptr ? "" : " if " + condition(*when), operation(*value_of(entry, "do")));
   }
   page_ += '\n';
   for (const auto& [name, meaning] : operations_) line("`{}` {}.  ", name, meaning);

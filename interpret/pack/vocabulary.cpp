@@ -62,7 +62,7 @@ std::string example_of(const OperatorKind& kind) {
   return fmt::format("{{{}: {{{}}}}}", kind.name, arguments);
 }
 
-std::string describe(const OperatorArgument& argument) {
+std::string argument_in_words(const OperatorArgument& argument) {
   const std::string kind =
       argument.kind == "word" ? "one of " + rules::join(argument.words) : "a " + argument.kind;
   return fmt::format("{}: {} ({})", argument.name, argument.meaning, kind);
@@ -75,8 +75,8 @@ std::vector<std::string> synonyms_of(rules::NameKind kind, std::string_view name
   return synonyms;
 }
 
-std::vector<VocabularyWord> words_of(const std::vector<AttributeInfo>& schema,
-                                     rules::NameKind kind) {
+std::vector<VocabularyWord> vocabulary_of(const std::vector<AttributeInfo>& schema,
+                                          rules::NameKind kind) {
   std::vector<VocabularyWord> words;
   for (const AttributeInfo& attribute : schema)
     words.push_back({attribute.name, unit_name(attribute.unit), attribute.meaning,
@@ -87,11 +87,11 @@ std::vector<VocabularyWord> words_of(const std::vector<AttributeInfo>& schema,
 }  // namespace
 
 std::vector<VocabularyWord> attribute_words() {
-  return words_of(feature_schema(), rules::NameKind::attribute);
+  return vocabulary_of(feature_schema(), rules::NameKind::attribute);
 }
 
 std::vector<VocabularyWord> surface_attribute_words() {
-  return words_of(surface_schema(), rules::NameKind::surface_attribute);
+  return vocabulary_of(surface_schema(), rules::NameKind::surface_attribute);
 }
 
 std::vector<VocabularyWord> relation_words() {
@@ -114,7 +114,7 @@ std::vector<VocabularyWord> operator_words() {
     word.meaning = kind.meaning;
     word.example = example_of(kind);
     for (const OperatorArgument& argument : kind.arguments)
-      word.values.push_back(describe(argument));
+      word.values.push_back(argument_in_words(argument));
     word.synonyms = synonyms_of(rules::NameKind::operation, kind.name);
   }
   return words;

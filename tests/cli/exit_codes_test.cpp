@@ -72,6 +72,7 @@ std::vector<TableRow> table_rows() {
       {"rules check", "yaml", {"rules", "check", "IN"}},
       {"rules fmt", "yaml", {"rules", "fmt", "IN"}},
       {"rules show", "yaml", {"rules", "show", "IN"}},
+      {"rules doc", "yaml", {"rules", "doc", "IN"}},
       {"rules test", "yaml", {"rules", "test", "IN", "--junit", "OUT"}, "o.xml"}};
 }
 

@@ -1,4 +1,3 @@
-#include "oriel/code_page.h"
 #include "tests/cli/command.h"
 
 #include <doctest/doctest.h>
@@ -35,7 +34,7 @@ TEST_SUITE("cli") {
           "  also called  select, thin, reduce, typification\n");
     const Outcome unknown = run({"rules", "relations", "besides"});
     CHECK(unknown.exit == 2);
-    CHECK(unknown.err == "error: there is no relation 'besides'; did you mean 'beside'?\n");
+    CHECK(unknown.err == "there is no relation 'besides'; did you mean 'beside'?\n");
   }
 
   TEST_CASE("the lists are printed as JSON") {
@@ -56,8 +55,9 @@ TEST_SUITE("cli") {
   TEST_CASE("rules explain prints the page of a code") {
     const Outcome outcome = run({"rules", "explain", "r204"});
     CHECK(outcome.exit == 0);
-    CHECK(outcome.out ==
-          "R204 Unknown attribute\n\n" + std::string(oriel::page_of(oriel::Code::R204)) + "\n");
+    REQUIRE(outcome.out.starts_with("R204 Unknown attribute\n\n"));
+    const std::string docs = bytes_of(std::string(ORIEL_SOURCE_DIR) + "/docs/rules.md");
+    CHECK(docs.find("\n### " + outcome.out + "\n### ") != std::string::npos);
     const auto json =
         nlohmann::json::parse(run({"rules", "explain", "E101", "G404", "--json"}).out);
     REQUIRE(json.size() == 2);
@@ -65,7 +65,7 @@ TEST_SUITE("cli") {
     CHECK(json[1]["document"] == "errors.md");
     const Outcome unknown = run({"rules", "explain", "R2044"});
     CHECK(unknown.exit == 2);
-    CHECK(unknown.err == "error: there is no code 'R2044'; did you mean 'R204'?\n");
+    CHECK(unknown.err == "there is no code 'R2044'; did you mean 'R204'?\n");
   }
 
   TEST_CASE("rules doc prints a page or what is wrong with the pack") {
