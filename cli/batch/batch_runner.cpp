@@ -4,6 +4,7 @@
 #include "cli/terminal/last_words.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/log.h"
 #include "kernel/base/printable.h"
 #include "kernel/base/sha256.h"
@@ -102,6 +103,7 @@ ExitCode BatchRunner::run_all() {
   if (state_.code == ExitCode::set_aside && options_.allows(state_.set_aside, state_.buildings))
     state_.code = ExitCode::clean;
   report_emptiness();
+  report_.finish();
   if (status_) write_status();
   if (resume_) resume_->remove();
   return state_.code;
@@ -392,7 +394,7 @@ void BatchRunner::restore(const ordered_json& journal) {
   status_->restore(journal.at("ledger"));
   if (auto* counts = producer_ != nullptr ? producer_->counts() : nullptr)
     *counts = counts_of(journal.at("counts"));
-  run_log().info("resumes after {} building{}", state_.buildings, state_.buildings == 1 ? "" : "s");
+  run_log().info("resumes after {}", counted(state_.buildings, "building"));
 }
 
 void BatchRunner::write_status() {
@@ -403,7 +405,7 @@ void BatchRunner::write_status() {
                     records.passed_on, records.refused, records.not_selected));
   if (cache_) {
     cache_->commit();
-    run_log().info("took {} records from {}", reused_, printable(options_.reuse));
+    run_log().info("took {} from {}", counted(reused_, "record"), printable(options_.reuse));
   }
   status_->close();
   RunStatus status;
@@ -440,8 +442,8 @@ void BatchRunner::report_summary(const std::string& verb, const std::map<std::st
     if (!label.empty()) parts.push_back(fmt::format("{} {}", count, printable(label)));
   if (const auto unknown = counts.find(""); unknown != counts.end())
     parts.push_back(fmt::format("{} unknown", unknown->second));
-  std::string text = fmt::format("{} of {} building{} {}", state_.buildings - state_.set_aside,
-                                 state_.buildings, state_.buildings == 1 ? "" : "s", verb);
+  std::string text = fmt::format(
+      "{} {}", counted_of(state_.buildings - state_.set_aside, state_.buildings, "building"), verb);
   if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), suffix);
   if (state_.open > 0) text += fmt::format("; {} open", state_.open);
   if (state_.set_aside > 0) text += fmt::format("; {} rejected", state_.set_aside);

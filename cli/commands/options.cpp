@@ -139,7 +139,7 @@ void add_run_arguments(CLI::App& command, RunOptions& a) {
                          : "'" + text + "' is neither a number nor a share such as 1%";
       })
       ->capture_default_str();
-  command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too");
+  command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too, and every finding");
 }
 
 void add_resume_argument(CLI::App& command, RunOptions& a) {

@@ -169,6 +169,30 @@ void Report::add(const std::vector<Issue>& issues) {
 
 void Report::add(const Issue& issue) {
   if (issue.severity == Severity::error) ++errors_[to_string(issue.code)];
+  const bool lists_all = is_verbose_ || logs_json() || findings_log().is_on(LogLevel::debug);
+  if (lists_all || !sums_.keep(issue)) write(issue);
+}
+
+void Report::finish() {
+  bool is_summed = false;
+  for (const Issue& issue : sums_.take()) {
+    is_summed = is_summed || issue.place.building.empty();
+    write(issue);
+  }
+  if (is_summed)
+    run_log().info("findings about several buildings are summed by code; --verbose lists all");
+}
+
+/// Words that cannot be said any more for want of memory are no reason to end by a signal.
+Report::~Report() {
+  try {
+    finish();
+  } catch (...) {
+    return;
+  }
+}
+
+void Report::write(const Issue& issue) const {
   LogLevel level = is_verbose_ ? LogLevel::info : LogLevel::debug;
   if (issue.severity == Severity::warning) level = LogLevel::warning;
   if (issue.severity == Severity::error) level = LogLevel::error;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cli/terminal/issue_sums.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/log.h"
 
@@ -42,13 +43,20 @@ Log progress_log();
 Log run_log();
 
 /// Reports to the user what was found (findings_log), and counts errors. Notes stand on level debug
-/// unless they are asked for.
+/// unless they are asked for. What is found about the buildings of a city is summed by code
+/// (IssueSums), unless notes are asked for, or JSON.
 class Report {
  public:
   explicit Report(bool is_verbose) : is_verbose_(is_verbose) {}
+  /// Reports the sums that are left.
+  ~Report();
+  Report(const Report&) = delete;
+  Report& operator=(const Report&) = delete;
 
   void add(const std::vector<Issue>& issues);
   void add(const Issue& issue);
+  /// The sums so far: no more of what they sum is to come.
+  void finish();
 
   /// What an earlier part of the run has reported.
   void restore(std::map<std::string, int> errors) { errors_ = std::move(errors); }
@@ -57,8 +65,11 @@ class Report {
   [[nodiscard]] const std::map<std::string, int>& errors() const { return errors_; }
 
  private:
+  void write(const Issue& issue) const;
+
   bool is_verbose_;
   std::map<std::string, int> errors_;
+  IssueSums sums_;
 };
 
 }  // namespace oriel::cli
