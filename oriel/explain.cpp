@@ -3,7 +3,6 @@
 #include "interpret/surfaces/surfaces.h"
 #include "kernel/base/printable.h"
 #include "kernel/geometry/planar.h"
-#include "kernel/model/description/feature_names.h"
 #include "kernel/model/polygon_owners.h"
 #include "kernel/model/vec3.h"
 

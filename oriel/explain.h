@@ -4,6 +4,7 @@
 #include "interpret/pack/rule_base.h"
 #include "kernel/base/ids.h"
 #include "kernel/model/building.h"
+#include "kernel/model/description/feature_names.h"  // IWYU pragma: export
 #include "oriel/result.h"
 
 #include <cstddef>

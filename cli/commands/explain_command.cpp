@@ -5,7 +5,6 @@
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/printable.h"
-#include "kernel/model/description/feature_names.h"
 #include "oriel/explain.h"
 
 #include <algorithm>
@@ -314,8 +313,7 @@ void add_explain(CLI::App& app, Action& action) {
       "house.city.json 'window 3 of facade south, storey 1'");
   arguments->joins_installations = true;
   command->callback([arguments, &action] {
-    // Measuring all of every surface takes longer than all else, and of features nothing is said
-    // that needs it.
+    // What is said of features needs no attributes of surfaces.
     arguments->only_names_surfaces = arguments->surface < 0 && arguments->at.empty();
     action = [arguments] { return work(*arguments); };
   });
