@@ -22,7 +22,7 @@ std::string text_of_file(const fs::path& path) {
 /// What the Dockerfile takes from the sources: not what one stage takes from another.
 std::set<std::string> copied_paths() {
   std::set<std::string> paths;
-  std::istringstream lines(text_of_file(kSources / "Dockerfile"));
+  std::istringstream lines(text_of_file(kSources / "examples/packages/Dockerfile"));
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string word, path;
