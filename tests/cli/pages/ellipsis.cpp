@@ -101,7 +101,7 @@ std::vector<std::pair<std::size_t, std::size_t>> align(const Parts& shown, const
 /// What was printed, with an ellipsis wherever one stood between the same neighbours. `write` says
 /// how a part is written that is like one that was shown.
 template <class Alike, class Write>
-Parts merge(const Parts& shown, const Parts& printed, Alike alike, Write write) {
+Parts merge_parts(const Parts& shown, const Parts& printed, Alike alike, Write write) {
   Parts merged;
   std::size_t i = 0, j = 0;
   const bool shortens = std::ranges::find(shown, kEllipsis) != shown.end();
@@ -145,8 +145,8 @@ std::string line_again(const std::string& shown, const std::string& printed) {
   if (shown.find(kEllipsis) == std::string::npos) return without_end(printed);
   std::string line;
   for (const std::string& part :
-       merge(parts_of(shown, false), parts_of(without_end(printed), false), alike_words,
-             [](const std::string&, const std::string& word) { return word; }))
+       merge_parts(parts_of(shown, false), parts_of(without_end(printed), false), alike_words,
+                   [](const std::string&, const std::string& word) { return word; }))
     line += part;
   return line;
 }
@@ -170,7 +170,7 @@ Parts shown_again(const Parts& shown, const Parts& printed) {
   Parts trimmed;
   for (const std::string& line : printed) trimmed.push_back(without_end(line));
   if (align(shown, trimmed, alike_lines).empty()) return shortened(trimmed);
-  return merge(shown, trimmed, alike_lines, line_again);
+  return merge_parts(shown, trimmed, alike_lines, line_again);
 }
 
 }  // namespace oriel::test

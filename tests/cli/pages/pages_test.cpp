@@ -100,7 +100,7 @@ std::vector<PageStep> steps_of(const Page& page) {
   return steps;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string indented(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += "  " + line + "\n";
   return text;
@@ -126,15 +126,15 @@ void check_page(const Page& page) {
                               std::to_string(page.blocks[step.block].begin) + ": " + step.command;
     if (!step.shown) {
       CHECK_MESSAGE(all[i].exit == 0, place, " ended with ", all[i].exit, "\n",
-                    joined(all[i].lines));
+                    indented(all[i].lines));
       continue;
     }
     CHECK_MESSAGE(all[i].exit >= 0, place, " was not run");
     std::vector<std::string>& printed = consoles[step.block][*step.shown].printed;
     const bool is_same = fits(printed, all[i].lines);
     if (!rewrites_pages())
-      CHECK_MESSAGE(is_same, place, "\nthe page shows\n", joined(printed), "printed is\n",
-                    joined(all[i].lines));
+      CHECK_MESSAGE(is_same, place, "\nthe page shows\n", indented(printed), "printed is\n",
+                    indented(all[i].lines));
     else if (!is_same && all[i].exit >= 0)
       printed = shown_again(printed, all[i].lines);
     blocks[step.block] = lines_of_commands(consoles[step.block]);

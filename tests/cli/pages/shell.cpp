@@ -17,7 +17,7 @@ constexpr char kBegin = '\x1e';
 constexpr char kEnd = '\x1f';
 
 /// The seconds that all commands of a page may take: on a busy machine, under sanitizers.
-constexpr int kMostSeconds = 1200;
+constexpr int kMostSecondsOfPage = 1200;
 
 const fs::path kSources = ORIEL_SOURCE_DIR;
 
@@ -70,7 +70,8 @@ std::vector<Shown> Checkout::run(const std::vector<std::string>& commands) const
   const std::string output = output_of(
       "cd " + quoted(path()) + " && PATH=" + quoted(folder_ / "bin") +
       ":$PATH LC_ALL=C.UTF-8 ASAN_OPTIONS=$ASAN_OPTIONS:verify_asan_link_order=0 timeout " +
-      std::to_string(kMostSeconds) + " stdbuf -oL bash " + quoted(script) + " </dev/null 2>&1");
+      std::to_string(kMostSecondsOfPage) + " stdbuf -oL bash " + quoted(script) +
+      " </dev/null 2>&1");
   std::vector<Shown> shown(commands.size());
   std::size_t at = 0;
   for (Shown& command : shown) {
