@@ -17,6 +17,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 #include <stdexcept>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -277,11 +278,26 @@ void BatchRunner::settle(WorkItem& item, const Record& record) {
 
 void BatchRunner::settle(const InputEnd& end) {
   bytes_ = end.bytes;
-  if (end.is_whole) command_->end(end.input);
+  if (end.is_whole && !loses_records(end)) command_->end(end.input);
   state_.records.read += end.records;
   if (!end.sha256.empty()) input_sha256_[end.input_name] = end.sha256;
   if (resume_) resume_->note_read(end.input_name, end.sha256);
   note({end.input + 1, 0, ""});
+}
+
+/// --force may replace the input by what was read of it, and so delete what could not be.
+bool BatchRunner::loses_records(const InputEnd& end) {
+  const std::size_t refused = std::exchange(refused_of_input_, 0);
+  if (!options_.is_forced || refused == 0) return false;
+  Issue issue;
+  issue.code = Code::E601;
+  issue.sentence = fmt::format(
+      "nothing is written: {} could not be read and would be lost by --force; name another output",
+      counted(refused, "record"));
+  issue.place.file = end.input_name;
+  report({issue});
+  state_.raise(ExitCode::output);
+  return true;
 }
 
 void BatchRunner::settle(const InputFailure& failure) {
@@ -296,6 +312,7 @@ void BatchRunner::settle(const InputFailure& failure) {
 /// A line that cannot be read counts as one building.
 void BatchRunner::settle_refused(const Record& record) {
   ++state_.records.refused;
+  ++refused_of_input_;
   state_.raise(record.is_one_of_many ? ExitCode::set_aside : ExitCode::input);
   if (!record.is_one_of_many) return;
   ++state_.buildings;

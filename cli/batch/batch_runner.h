@@ -70,6 +70,7 @@ class BatchRunner {
   void settle(WorkItem& item, const Record& record);
   void settle(const InputEnd& end);
   void settle(const InputFailure& failure);
+  [[nodiscard]] bool loses_records(const InputEnd& end);
   void settle_read(WorkItem& item, const Record& record);
   void settle_refused(const Record& record);
   void note_found_ids(const Checked<Document>& document);
@@ -104,7 +105,8 @@ class BatchRunner {
   std::optional<Resume> resume_;
   bool was_done_ = false;
   std::optional<ResultCache> cache_;
-  int reused_ = 0;  ///< records from it
+  int reused_ = 0;                    ///< records from it
+  std::size_t refused_of_input_ = 0;  ///< records, of the input at hand
 };
 
 }  // namespace oriel::cli

@@ -61,6 +61,9 @@ struct RunOptions {
   /// What the input calls its polygons is not looked at.
   bool ignores_semantics = false;
   bool is_verbose = false;
+  /// The command has --force; and it was given: -o may replace an input.
+  bool offers_force = false;
+  bool is_forced = false;
   std::string timings_file;
   int repeat = 1;
   /// Records that are worked on at the same time; results do not depend on it.

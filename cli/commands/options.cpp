@@ -161,6 +161,15 @@ void add_reuse_argument(CLI::App& command, RunOptions& a) {
       ->excludes(command.get_option("--repeat"));
 }
 
+void add_force_argument(CLI::App& command, RunOptions& a) {
+  a.offers_force = true;
+  auto* option =
+      command.add_flag("--force", a.is_forced,
+                       "-o may be an input, which is replaced when the whole output is written");
+  for (const char* other : {"--resume", "--reuse"})
+    if (auto* there = command.get_option_no_throw(other)) option->excludes(there);
+}
+
 void add_isolate_argument(CLI::App& command, RunOptions& a) {
   command.add_flag("--isolate", a.is_isolated,
                    "Work in forked processes: a hard crash (a signal) costs one building, which is "
@@ -226,6 +235,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_safe_cells_argument(command, a.has_safe_cells);
   add_resume_argument(command, a);
   add_reuse_argument(command, a);
+  add_force_argument(command, a);
   add_isolate_argument(command, a);
   command
       .add_option("--codelist", a.codelist,

@@ -42,6 +42,10 @@ void add_resume_argument(CLI::App& command, RunOptions& arguments);
 /// Adds `--reuse`, for commands whose records are made one by one. After add_run_arguments.
 void add_reuse_argument(CLI::App& command, RunOptions& arguments);
 
+/// Adds `--force`: -o may replace an input. After add_resume_argument and add_reuse_argument, which
+/// it excludes: they need the input as it was.
+void add_force_argument(CLI::App& command, RunOptions& arguments);
+
 /// Adds `--isolate` and `--most-seconds`.
 void add_isolate_argument(CLI::App& command, RunOptions& arguments);
 

@@ -140,6 +140,7 @@ void add_repair(CLI::App& app, Action& action) {
                       "Write what was done to this file: one JSON object per building and line");
   add_solid_arguments(*command, *arguments);
   add_run_arguments(*command, *arguments);
+  add_force_argument(*command, *arguments);
   command->footer(
       "Buildings that stay open are written unchanged, and the exit code is 3.\n"
       "Example:\n  oriel repair house.city.json -o repaired.city.json\n"

@@ -58,6 +58,8 @@ void NamedFiles::add_input(const std::string& option, const std::string& path) {
 }
 
 void NamedFiles::add(const RunOptions& options) {
+  offers_force_ = options.offers_force;
+  is_forced_ = options.is_forced;
   for (const std::string& input : options.inputs) add_input("input", input);
   add_output("--timings", options.timings_file);
   if (options.status_stem.empty()) return;
@@ -65,21 +67,32 @@ void NamedFiles::add(const RunOptions& options) {
     add_output("--status", options.status_stem + ending);
 }
 
+/// An input of the run, which comes back changed; never rules or truth.
+bool NamedFiles::may_replace(const Named& output, const Named& first) {
+  return !first.is_output && first.option == "input" && output.option == "-o";
+}
+
+void NamedFiles::refuse(const Named& named, const Named& first) const {
+  if (first.is_output)
+    refuse_usage(named.option, Code::E602,
+                 fmt::format("'{}' is written by {}, too", named.path, first.option));
+  const bool has_force = offers_force_ && may_replace(named, first);
+  refuse_usage(named.option, Code::E602,
+               fmt::format("'{}' is an input, which would be overwritten; {}", named.path,
+                           has_force ? "name another file, or replace it with --force"
+                                     : "name another file"));
+}
+
 void NamedFiles::check() const {
   static const Named kStdout{"stdout", "-", true};
   Places places;
   // The same input twice is no harm.
   for (const Named& input : inputs_) places.enter(input, input.path == "-" ? STDIN_FILENO : -1);
-  const auto refuse = [](const Named& named, const Named& first) {
-    refuse_usage(named.option, Code::E602,
-                 first.is_output
-                     ? fmt::format("'{}' is written by {}, too", named.path, first.option)
-                     : fmt::format("'{}' is an input, which would be overwritten", named.path));
-  };
   for (const Named& output : outputs_) {
     const bool is_stdout = output.path == "-";
     const Named* first = is_stdout ? places.enter_stdout(output) : places.enter(output);
-    if (first != nullptr) refuse(output, *first);
+    const bool is_allowed = first != nullptr && is_forced_ && may_replace(output, *first);
+    if (first != nullptr && !is_allowed) refuse(output, *first);
   }
   if (const Named* first = places.enter(kStdout, STDOUT_FILENO)) refuse(*first, kStdout);
 }

@@ -21,9 +21,10 @@ class NamedFiles {
   /// The inputs of a run, and what it writes about itself: --timings, --status.
   void add(const RunOptions& options);
 
-  /// Throws CLI::ValidationError E602 if an output is the same file as another output, an input or
-  /// what stdout goes to, under whatever name: links are resolved and regular files compared by
-  /// their number on the disk. What is no regular file (/dev/null, a pipe) may be named twice.
+  /// Throws CLI::ValidationError E602, which names --force where the command has it, if an output
+  /// is the same file as another output, an input or what stdout goes to, under whatever name:
+  /// links are resolved and regular files compared by their number on the disk. With --force -o may
+  /// be an input of the run. What is no regular file (/dev/null, a pipe) may be named twice.
   void check() const;
 
  private:
@@ -34,7 +35,11 @@ class NamedFiles {
   using FileNumber = std::pair<std::uint64_t, std::uint64_t>;  ///< device, file
   class Places;
 
+  [[noreturn]] void refuse(const Named& named, const Named& first) const;
+  [[nodiscard]] static bool may_replace(const Named& output, const Named& first);
+
   std::vector<Named> inputs_, outputs_;
+  bool offers_force_ = false, is_forced_ = false;
 };
 
 }  // namespace oriel::cli

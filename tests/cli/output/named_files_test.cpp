@@ -105,6 +105,55 @@ TEST_SUITE("cli") {
     }
   }
 
+  TEST_CASE("with force an input is replaced by the whole output") {
+    const std::string before = cubes({"a"}).dump();
+    for (const Words& words : std::vector<Words>{
+             {"label"}, {"generalise", "--scale", "1:500"}, {"repair"}, {"label", "--jobs", "2"}}) {
+      const Folder folder;
+      const std::string in = folder.write("in.city.json", before);
+      Words arguments = words;
+      for (const char* word : {"IN", "-o", "IN"}) arguments.emplace_back(word);
+      for (std::string& word : arguments)
+        if (word == "IN") word = in;
+      const Outcome refused = run(arguments);
+      CHECK(refused.exit == 2);
+      CHECK(refused.says("-o: E602 '" + in + "' is an input, which would be overwritten; name " +
+                         "another file, or replace it with --force"));
+      CHECK(bytes_of(in) == before);
+      arguments.emplace_back("--force");
+      const Outcome outcome = run(arguments);
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit == 0);
+      CHECK(bytes_of(in) != before);
+      CHECK(folder.names() == Words{"in.city.json"});
+    }
+  }
+
+  TEST_CASE("with force an input stays where the output is not whole") {
+    const Folder folder;
+    const std::string lines = cube_lines({"a", "b"}) + "{\"broken\n";
+    const std::string in = folder.write("in.city.jsonl", lines);
+    const Outcome outcome = run({"label", in, "-o", in, "--force"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit == 6);
+    CHECK(outcome.says("1 record could not be read and would be lost by --force"));
+    CHECK(bytes_of(in) == lines);
+    CHECK(run({"label", in, "-o", in, "--force"}, {.file_limit = 1}).exit == 6);
+    CHECK(bytes_of(in) == lines);
+  }
+
+  TEST_CASE("force replaces no rules and no file by what is said about it") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    check_refused(folder, {"label", in, "-o", folder / "x.city.json", "--timings", in, "--force"});
+    const std::string pack =
+        folder.write("p.yaml",
+                     "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
+                     "rules: [{id: w, label: window, require: natural}]\n");
+    check_refused(folder,
+                  {"label", in, "--rules", pack, "-o", pack, "--to", "cityjson", "--force"});
+  }
+
   TEST_CASE("other spellings links and hard links are the same file") {
     const Folder folder;
     const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
