@@ -43,12 +43,12 @@ Extent box_of(const Body& body, std::string_view label) {
   return {};
 }
 
-struct Result {
+struct AdditionRun {
   int code = 0;
   std::string out, err;
 };
 
-Result run(std::vector<const char*> arguments) {
+AdditionRun run_adding(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "oriel-generate");
   std::ostringstream out, err;
   const int code = run_command(static_cast<int>(arguments.size()), arguments.data(), out, err);
@@ -122,8 +122,9 @@ TEST_SUITE("examples/generator") {
     for (const auto& object : truth["objects"])
       if (object["class"] == "solar_panel") ids.insert(object["id"]);
     CHECK(ids == std::set<std::string>{"house_solar_panel_1"});
-    const Result labelled = run({"-o", "-", "--labelled", "--features", "door", "--roof", "gable",
-                                 "--add", "solar_panel panel on roof size 1.7x1"});
+    const AdditionRun labelled =
+        run_adding({"-o", "-", "--labelled", "--features", "door", "--roof", "gable", "--add",
+                    "solar_panel panel on roof size 1.7x1"});
     CHECK(labelled.code == 0);
     CHECK(labelled.out.find("\"oriel_label\":\"solar_panel\"") != std::string::npos);
   }
@@ -170,31 +171,34 @@ TEST_SUITE("examples/generator") {
         {"solar panel on front at 0,0 size 12x1", "E141", "the surface takes at most 8.40 x "},
     };
     for (const Case& wrong : cases) {
-      const Result result = run({"-o", "-", "--roof", "gable", "--width", "9", "--depth", "7",
-                                 "--features", "door", "--add", wrong.text});
+      const AdditionRun result =
+          run_adding({"-o", "-", "--roof", "gable", "--width", "9", "--depth", "7", "--features",
+                      "door", "--add", wrong.text});
       INFO(result.err);
       CHECK(result.code == 2);
       CHECK(result.err.find(std::string("--add: ") + wrong.code + " '") != std::string::npos);
       CHECK(result.err.find(wrong.message) != std::string::npos);
       CHECK(code_of(wrong.code));
     }
-    const Result twice =
-        run({"-o", "-", "--roof", "gable", "--width", "9", "--depth", "7", "--add",
-             "a panel on roof at 2,1 size 1x1", "--add", "b panel on roof at 2.5,1 size 1x1"});
+    const AdditionRun twice = run_adding({"-o", "-", "--roof", "gable", "--width", "9", "--depth",
+                                          "7", "--add", "a panel on roof at 2,1 size 1x1", "--add",
+                                          "b panel on roof at 2.5,1 size 1x1"});
     CHECK(twice.code == 2);
     CHECK(twice.err.find("E141 'b panel on roof at 2.5,1 size 1x1' does not fit: something else "
                          "stands there") != std::string::npos);
-    CHECK(run({"-o", "-", "--style", "english", "--add", "a panel on roof size 1x1"}).code == 2);
+    CHECK(run_adding({"-o", "-", "--style", "english", "--add", "a panel on roof size 1x1"}).code ==
+          2);
   }
 
   TEST_CASE("things that find no room are counted and none at all ends with 3") {
-    const Result some = run(
+    const AdditionRun some = run_adding(
         {"-o", "-", "--count", "40", "--roof", "gable", "--add", "big panel on roof size 11x1.5"});
     CHECK(some.code == 0);
     CHECK(some.err.find("warning: E141 ") != std::string::npos);
     CHECK(some.err.find(" of 40 houses have no room for 'big panel on roof size 11x1.5'") !=
           std::string::npos);
-    const Result none = run({"-o", "-", "--roof", "flat", "--add", "a panel on gable size 1x1"});
+    const AdditionRun none =
+        run_adding({"-o", "-", "--roof", "flat", "--add", "a panel on gable size 1x1"});
     CHECK(none.code == 3);
     CHECK(none.err.find("1 of 1 house has no room") != std::string::npos);
     CHECK_FALSE(none.out.empty());
