@@ -62,7 +62,7 @@ TEST_SUITE("repository") {
         CHECK(copied.contains(name));
       }
     }
-    CHECK(folders >= 7);
+    CHECK(folders >= 6);
     CHECK(copied.contains("rules"));
   }
 }
