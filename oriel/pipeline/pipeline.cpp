@@ -247,6 +247,9 @@ PipelineResult run_from_solid(PipelineResult out, const Building& building, cons
       else
         find_features(building, rules, tolerances, options, out);
     } catch (const std::exception& fault) {
+      // Features are there with their attributes and labels, or not at all.
+      out.description = {};
+      out.interpretation = {};
       out.issues.push_back(own_fault(building, fault));
     }
   }

@@ -64,7 +64,7 @@ TEST_SUITE("oriel") {
       CHECK(text_of_page(page).find(page_of(code)) != std::string::npos);
     }
     CHECK(page_of(Code::none).empty());
-    CHECK(page_of(Code::R274) == "its sizes are no chain");
+    CHECK(page_of(Code::R274).starts_with("its sizes "));
     CHECK(document_of(Code::R274) == "generalisation.md");
   }
 

@@ -91,7 +91,7 @@ TEST_SUITE("cli") {
     const std::string pack =
         folder.write("a pack.yaml",
                      "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
-                     "params: {low: {value: 1 m}}\n"
+                     "params: {low: {value: 1 m, rangee: 0 m .. 2 m}}\n"
                      "rules: [{id: w, label: window, require: heigth > 1 m}]\n");
     const std::string file = folder / "log.sarif";
     CHECK(run({"rules", "check", pack, "--sarif", file}).exit == 4);

@@ -3,7 +3,6 @@
 #include "examples/generator/output/check.h"
 #include "examples/generator/output/truth.h"
 #include "kernel/base/code.h"
-#include "tests/examples/generator/crossings.h"
 #include "tests/examples/generator/measured_bodies.h"
 
 #include <algorithm>
@@ -95,23 +94,28 @@ TEST_SUITE("examples/generator") {
     }
   }
 
-  TEST_CASE("every house with additions is a closed solid that does not cross itself") {
-    Options options = with_additions(
-        {"solar_panel panel on roof size 1.7x1x0.06", "solar_panel panel on roof size 1.7x1x0.06",
-         "skylight block on roof size 0.8x0.8x0.3", "window hole on roof size 0.6x0.8x0.1",
-         "window hole on wall size 1x1", "niche hole on wall size 1x1.2x1.2",
-         "sign block on wall size 1.2x0.4x0.2", "box block on wall size 0.8x0.8x1.5",
-         "plate panel on gable size 0.4x0.4", "shut hole on wall size 1x1x0"});
-    int placed = 0;
-    for (int i = 0; i < 150; ++i) {
-      options.jitter = i % 2 == 0 ? 200_mm : 0;
-      const Body body = generate(options, i);
-      CHECK(find_faults(body, 1).empty());
-      if (i % 5 == 0) CHECK(test::count_crossings(body) == 0);
-      placed += static_cast<int>(std::ranges::count_if(
-          body.objects, [](const Object& o) { return !o.given_class.empty(); }));
+  // tests/kernel/validate judges such houses.
+  TEST_CASE("every house with things of a kind is closed and has them") {
+    for (const char* text :
+         {"solar_panel panel on roof size 1.7x1x0.06", "skylight block on roof size 0.8x0.8x0.3",
+          "window hole on roof size 0.6x0.8x0.1", "window hole on wall size 1x1",
+          "niche hole on wall size 1x1.2x1.2", "sign block on wall size 1.2x0.4x0.2",
+          "box block on wall size 0.8x0.8x1.5", "plate panel on gable size 0.4x0.4",
+          "shut hole on wall size 1x1x0"}) {
+      const std::string kind(text);
+      CAPTURE(kind);
+      Options options = with_additions({kind});
+      int placed = 0;
+      for (int i = 0; i < 20; ++i) {
+        options.jitter = i % 2 == 0 ? 200_mm : 0;
+        const Body body = generate(options, i);
+        CHECK(find_faults(body, 1).empty());
+        placed += static_cast<int>(std::ranges::count_if(body.objects, [&](const Object& o) {
+          return kind.starts_with(std::string(o.label()) + " ");
+        }));
+      }
+      CHECK(placed > 0);
     }
-    CHECK(placed > 150 * 5);
   }
 
   TEST_CASE("the truth and the labelled file have the class that was given") {
@@ -139,7 +143,9 @@ TEST_SUITE("examples/generator") {
       if (!is_surface(object.kind)) found.push_back(object.name + " " + object.subclass);
     CHECK(found ==
           std::vector<std::string>{"window_1 Window", "window_2 roofWindow", "chimney_1 chimney"});
-    CHECK(body.objects[5 + 1].recess == 150'000);
+    const auto window = std::ranges::find(body.objects, "window_1", &Object::name);
+    REQUIRE(window != body.objects.end());
+    CHECK(window->recess == 150'000);
   }
 
   TEST_CASE("wrong additions have a code and say what is wrong") {
@@ -150,7 +156,7 @@ TEST_SUITE("examples/generator") {
     };
     const std::vector<Case> cases{
         {"", "E140", "a class is missing"},
-        {"solar panel on roof size 1x1", "E140", "'panel' where 'on' must stand"},
+        {"solar panel panel on roof size 1x1", "E140", "'panel' where 'on' must stand"},
         {"Solar panel on roof size 1x1", "E140", "'Solar' is not the name of a class"},
         {"solar slab on roof size 1x1", "E140", "'slab' is not block, hole or panel"},
         {"solar panel on roof", "E140", "its size is missing"},

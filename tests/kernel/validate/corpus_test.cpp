@@ -1,17 +1,19 @@
+#include "examples/generator/addition.h"
 #include "tests/kernel/validate/judged.h"
 #include "tests/support/generated.h"
 #include "tests/support/shared.h"
 
 #include <cstdlib>
 #include <map>
+#include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 
 namespace oriel {
 namespace {
 
-void check_generated(int count) {
-  generator::Options options;
+void check_generated(int count, generator::Options options = {}) {
   options.seed = 31;
   for (int i = 0; i < count; ++i) {
     CAPTURE(i);
@@ -21,6 +23,19 @@ void check_generated(int count) {
 
 TEST_SUITE("kernel/validate") {
   TEST_CASE("a hundred houses of the generator are valid") { check_generated(100); }
+
+  // Several kinds on one house may cross each other (docs/generator.md).
+  TEST_CASE("houses of the generator with added things of a kind are valid") {
+    for (const std::string kind :
+         {"solar_panel panel on roof size 1.7x1x0.06", "skylight block on roof size 0.8x0.8x0.3",
+          "window hole on roof size 0.6x0.8x0.1", "niche hole on wall size 1x1.2x1.2",
+          "sign block on wall size 1.2x0.4x0.2", "plate panel on gable size 0.4x0.4"}) {
+      CAPTURE(kind);
+      generator::Options options;
+      options.additions.push_back(generator::read_addition(kind));
+      check_generated(20, options);
+    }
+  }
 
   TEST_CASE("slow: a thousand houses of the generator are valid" *
             doctest::skip(std::getenv("ORIEL_SLOW") == nullptr)) {
