@@ -1,7 +1,7 @@
 #include "cli/output/sarif.h"
 
 #include "kernel/model/version.h"
-#include "oriel/code_page.h"
+#include "oriel/rules.h"
 
 #include <algorithm>
 #include <cctype>

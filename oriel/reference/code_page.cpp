@@ -1,4 +1,4 @@
-#include "oriel/code_page.h"
+#include "oriel/reference/code_page.h"
 
 #include <algorithm>
 #include <array>
