@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,8 +19,5 @@ struct YamlFault {
 /// wrong number of spaces before a line, a quote or bracket that is not closed, a colon, comma or
 /// space that is missing, a text that needs quotes. Nothing if it is none of these.
 std::optional<YamlFault> find_yaml_fault(std::string_view text, std::size_t stop);
-
-/// The keys with a fixed name that packs, profiles and tests have, sorted.
-std::span<const std::string_view> known_yaml_keys();
 
 }  // namespace oriel::rules

@@ -1,13 +1,8 @@
 #include "interpret/yaml/yaml_fault.h"
 
-#include "interpret/pack/pack_schema.h"
-
-#include <algorithm>
-#include <set>
 #include <string>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 using namespace oriel;
 using namespace oriel::rules;
@@ -25,13 +20,6 @@ std::string place_in(const std::string& text) {
   const auto fault = find_yaml_fault(text, text.size());
   REQUIRE(fault);
   return text.substr(fault->where.begin, fault->where.end - fault->where.begin);
-}
-
-void add_keys(const nlohmann::json& schema, std::set<std::string>& keys) {
-  if (schema.is_object() && schema.contains("properties"))
-    for (const auto& [key, value] : schema["properties"].items()) keys.insert(key);
-  for (const auto& inside : schema)
-    if (inside.is_structured()) add_keys(inside, keys);
 }
 
 }  // namespace
@@ -150,17 +138,5 @@ TEST_SUITE("interpret") {
         CHECK(fault->where.begin <= fault->where.end);
         CHECK(fault->where.end <= piece.size());
       }
-  }
-
-  TEST_CASE("the keys that are known are those of the schema") {
-    std::set<std::string> keys;
-    add_keys(nlohmann::json::parse(pack_schema()), keys);
-    CHECK(keys.size() > 60);
-    for (const std::string& key : keys) {
-      CAPTURE(key);
-      const bool has_blank = key.find(' ') != std::string::npos;
-      CHECK((has_blank || std::ranges::find(known_yaml_keys(), key) != known_yaml_keys().end()));
-    }
-    CHECK(std::ranges::is_sorted(known_yaml_keys()));
   }
 }
