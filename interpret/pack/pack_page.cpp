@@ -4,6 +4,7 @@
 #include "interpret/language/parser.h"
 #include "interpret/pack/names.h"
 #include "interpret/plan/operators.h"
+#include "kernel/base/counted.h"
 
 #include <algorithm>
 #include <map>
@@ -42,10 +43,6 @@ std::string capitalised(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
     text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
-}
-
-std::string count_of(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 /// "1:1000 to 1:4999", "1:2500 and smaller".
@@ -159,8 +156,8 @@ class PackPageWriter {
 void PackPageWriter::write_head() {
   line("# {} {}\n", pack_->name, pack_->version);
   const auto labels = std::ranges::count(pack_->classes, false, &Class::is_abstract);
-  line("A rule pack with {} for {}.", count_of(pack_->rules.size(), "rule", "rules"),
-       count_of(static_cast<std::size_t>(labels), "label", "labels"));
+  line("A rule pack with {} for {}.", counted(pack_->rules.size(), "rule"),
+       counted(labels, "label"));
   const auto files = pack_->source.files();
   if (files.size() < 2) return;
   std::string beneath;
