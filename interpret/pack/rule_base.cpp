@@ -285,10 +285,10 @@ Checked<RuleBase> load(const std::optional<rules::FoundPack>& found, const std::
   return refuse(path, "there is no pack here that can be read" + suggest_embedded(path));
 }
 
-/// Prints a pack that can be loaded; `printed` gives a tree and its text, of which it is certain
-/// that it says the same.
-template <class Print>
-Checked<std::string> print(const std::string& path, const Print& printed) {
+/// What `write` makes of a pack that can be loaded and of its text without a byte order mark.
+/// Findings are those of loading it; with an error among them there is no text.
+template <class Write>
+Checked<std::string> write_pack(const std::string& path, const Write& write) {
   auto found = find_pack(path);
   auto loaded = load(found, path);
   Checked<std::string> result{std::nullopt, std::move(loaded.issues)};
@@ -296,14 +296,18 @@ Checked<std::string> print(const std::string& path, const Print& printed) {
   rules::drop_byte_order_mark(found->text);
   rules::Source source(std::move(found->file), std::move(found->text));
   rules::Findings findings(source);
-  auto [tree, text] = printed(source, findings);
-  const rules::Source again(path, text);
+  result.value = write(*loaded.value, source, findings);
+  return result;
+}
+
+/// `text`, of which it is certain that it says the same as `tree`.
+std::string certain(const rules::YamlNode& tree, std::string text) {
+  const rules::Source again("", text);
   rules::Findings none(again);
   const auto read_again = rules::parse_yaml({0, text.size()}, none);
-  if (!read_again || !rules::is_same(*tree, *read_again))
+  if (!read_again || !rules::is_same(tree, *read_again))
     throw std::logic_error("the printed pack does not say the same");
-  result.value = std::move(text);
-  return result;
+  return text;
 }
 
 }  // namespace
@@ -350,30 +354,25 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
 Checked<RuleBase> load_pack_file(const std::string& path) { return load(find_pack(path), path); }
 
 Checked<std::string> format_pack_file(const std::string& path) {
-  return print(path, [](rules::Source& source, rules::Findings& findings) {
+  return write_pack(path, [](const RuleBase&, rules::Source& source, rules::Findings& findings) {
     const auto tree = rules::parse_yaml({0, source.text().size()}, findings);
-    return std::pair(tree, rules::to_yaml(tree.value(), source.text()));
+    return certain(tree.value(), rules::to_yaml(tree.value(), source.text()));
   });
 }
 
 Checked<std::string> merge_pack_file(const std::string& path) {
-  return print(path, [&](rules::Source& source, rules::Findings& findings) {
+  return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
     const auto tree = rules::read_tree(source, finder_for(path), findings);
-    return std::pair(tree, rules::to_yaml(tree.value()));
+    return certain(tree.value(), rules::to_yaml(tree.value()));
   });
 }
 
 Checked<std::string> describe_pack_file(const std::string& path) {
-  auto found = find_pack(path);
-  auto loaded = load(found, path);
-  Checked<std::string> result{std::nullopt, std::move(loaded.issues)};
-  if (!loaded.value) return result;
-  rules::drop_byte_order_mark(found->text);
-  rules::Source source(std::move(found->file), std::move(found->text));
-  rules::Findings findings(source);
-  const auto tree = rules::read_tree(source, finder_for(path), findings);
-  result.value = rules::pack_page(tree.value(), loaded.value->pack(), findings);
-  return result;
+  return write_pack(path,
+                    [&](const RuleBase& base, rules::Source& source, rules::Findings& findings) {
+                      const auto tree = rules::read_tree(source, finder_for(path), findings);
+                      return rules::pack_page(tree.value(), base.pack(), findings);
+                    });
 }
 
 std::optional<std::string_view> embedded_pack(std::string_view name) {
