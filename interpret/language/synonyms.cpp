@@ -19,6 +19,11 @@ constexpr std::string_view kOfBoundary =
 constexpr std::string_view kDepthOrRecess =
     "'depth' is along the normal of its wall; 'recess' is how far behind the wall it lies";
 constexpr std::string_view kBaseHeight = "the height of its lowest point over the ground";
+constexpr std::string_view kAboveEaves =
+    "'above_eaves' is how far its bottom lies above the eaves of its roof or wall";
+constexpr std::string_view kBelowRidge =
+    "'below_ridge' is how far its top stays below the highest point of the roofs";
+constexpr std::string_view kAlong = "of its middle, from the left end of its wall or roof";
 constexpr std::string_view kAskForClass = "the label is asked for by 'self is CLASS'";
 constexpr std::string_view kNoFeet = "a foot is 0.3048 m, an inch 2.54 cm";
 
@@ -91,14 +96,14 @@ constexpr std::array kNameSynonyms = {
     NameSynonym{attribute, "longest", "a",
                 "the longest edge of its box; 'b' and 'c' are the others"},
     NameSynonym{attribute, "shortest", "c", "the shortest edge of its box"},
-    NameSynonym{attribute, "eaves_height", "above_eaves"},
+    NameSynonym{attribute, "eaves_height", "", kAboveEaves},
     NameSynonym{attribute, "ridge_distance", "below_ridge"},
-    NameSynonym{attribute, "ridge_height", "below_ridge"},
+    NameSynonym{attribute, "ridge_height", "", kBelowRidge},
     NameSynonym{attribute, "margin", "edge_gap"},
     NameSynonym{attribute, "border_distance", "edge_gap"},
     NameSynonym{attribute, "distance_to_edge", "edge_gap"},
-    NameSynonym{attribute, "x", "along"},
-    NameSynonym{attribute, "position", "along"},
+    NameSynonym{attribute, "x", "along", kAlong},
+    NameSynonym{attribute, "position", "along", kAlong},
     NameSynonym{attribute, "floor", "storey", "from 0"},
     NameSynonym{attribute, "story", "storey", "from 0"},
     NameSynonym{attribute, "level", "storey", "from 0"},
@@ -110,8 +115,8 @@ constexpr std::array kNameSynonyms = {
     NameSynonym{attribute, "shape", "sense", "protrusion, hole, cavity or imprint"},
     NameSynonym{attribute, "label", "", kAskForClass},
     NameSynonym{attribute, "class", "", kAskForClass},
-    NameSynonym{attribute, "parent", "host",
-                "it is asked for by 'host is CLASS' or exists(host ...)"},
+    NameSynonym{attribute, "parent", "",
+                "the host is asked for by 'host is CLASS' or exists(host ...)"},
 
     NameSynonym{surface_attribute, "slope", "inclination", "90 deg is a wall, 180 deg looks down"},
     NameSynonym{surface_attribute, "pitch", "inclination", "90 deg is a wall, 180 deg looks down"},
@@ -174,7 +179,7 @@ constexpr std::array kNameSynonyms = {
     NameSynonym{relation, "super_object", "host"},
     NameSynonym{relation, "owner", "host"},
     NameSynonym{relation, "on", "host"},
-    NameSynonym{relation, "wall", "host"},
+    NameSynonym{relation, "wall", "", "whether it lies in a wall is asked for by 'host is wall'"},
     NameSynonym{relation, "similar", "alike"},
     NameSynonym{relation, "same", "alike"},
     NameSynonym{relation, "like", "alike"},
@@ -221,7 +226,7 @@ constexpr std::array kNameSynonyms = {
     NameSynonym{unit, "metres", "m"},
     NameSynonym{unit, "degree", "deg"},
     NameSynonym{unit, "degrees", "deg"},
-    NameSynonym{unit, "grad", "deg"},
+    NameSynonym{unit, "grad", "deg", "360 deg are a full turn"},
     NameSynonym{unit, "rad", "deg", "a radian is 57.2958 deg"},
     NameSynonym{unit, "radians", "deg", "a radian is 57.2958 deg"},
     NameSynonym{unit, "sqm", "m2"},
@@ -234,8 +239,8 @@ constexpr std::array kNameSynonyms = {
     NameSynonym{unit, "feet", "m", kNoFeet},
     NameSynonym{unit, "inch", "cm", kNoFeet},
     NameSynonym{unit, "inches", "cm", kNoFeet},
-    NameSynonym{unit, "km", "m"},
-    NameSynonym{unit, "dm", "cm"},
+    NameSynonym{unit, "km", "m", "a kilometre is 1000 m"},
+    NameSynonym{unit, "dm", "cm", "a decimetre is 10 cm"},
 
     NameSynonym{function, "avg", "mean"},
     NameSynonym{function, "average", "mean"},

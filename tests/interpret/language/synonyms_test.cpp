@@ -43,12 +43,32 @@ TEST_SUITE("interpret") {
     for (const NameSynonym& synonym : name_synonyms()) {
       CAPTURE(synonym.theirs);
       const auto names = names_of_kind(synonym.kind);
-      const bool leads_to_host = synonym.kind == NameKind::attribute && synonym.ours == "host";
-      if (!synonym.ours.empty() && !leads_to_host) CHECK(contains(names, synonym.ours));
+      if (!synonym.ours.empty()) CHECK(contains(names, synonym.ours));
       CHECK_FALSE(contains(names, synonym.theirs));
       CHECK((!synonym.ours.empty() || !synonym.note.empty()));
       CHECK(normal_name(synonym.theirs) == synonym.theirs);
     }
+  }
+
+  TEST_CASE("a unit of another size says how large it is") {
+    for (const char* unit : {"km", "dm", "ft", "inch", "rad", "grad"}) {
+      CAPTURE(unit);
+      const std::string said = unknown_name(NameKind::unit, "unit", unit, unit_names(), "");
+      CHECK(said.find(" (") != std::string::npos);
+    }
+    CHECK(unknown_name(NameKind::unit, "unit", "km", unit_names(), "") ==
+          "there is no unit 'km'; oriel calls it 'm' (a kilometre is 1000 m)");
+  }
+
+  TEST_CASE("a measure that oriel has not is not called by the name of another") {
+    const auto names = rules::names_of(feature_schema());
+    CHECK(unknown_name(NameKind::attribute, "attribute", "ridge_height", names, "") ==
+          "there is no attribute 'ridge_height'; 'below_ridge' is how far its top stays below the "
+          "highest point of the roofs");
+    CHECK(
+        unknown_name(NameKind::attribute, "attribute", "eaves_height", names, "") ==
+        "there is no attribute 'eaves_height'; 'above_eaves' is how far its bottom lies above the "
+        "eaves of its roof or wall");
   }
 
   TEST_CASE("no synonym has two meanings") {
