@@ -157,10 +157,12 @@ void check_scalar(const YamlNode& node, Findings& findings) {
                 findings);
 }
 
-/// Keys that people write who know other systems, or guess; the first that a map has is meant.
+/// Keys that people write who know other systems, or guess; the first that a map can have is meant.
 struct KeySynonym {
   std::string_view theirs;
   std::string_view ours;
+  /// How ours is written where its value is of another form; then theirs is not read as ours.
+  std::string_view form{};
 };
 constexpr KeySynonym kKeySynonyms[] = {{"class", "label"},
                                        {"label", "type"},
@@ -187,8 +189,8 @@ constexpr KeySynonym kKeySynonyms[] = {{"class", "label"},
                                        {"not", "unless"},
                                        {"forbid", "unless"},
                                        {"default", "value"},
-                                       {"min", "range"},
-                                       {"max", "range"},
+                                       {"min", "range", "range: lo .. hi"},
+                                       {"max", "range", "range: lo .. hi"},
                                        {"limits", "range"},
                                        {"reason", "why"},
                                        {"comment", "why"},
@@ -233,11 +235,24 @@ constexpr KeySynonym kKeySynonyms[] = {{"class", "label"},
                                        {"increasing", "rise"},
                                        {"decreasing", "fall"}};
 
-/// The one of `keys` that `key` is probably meant for, or nothing.
-std::string meant_key(std::string_view key, const std::vector<std::string>& keys) {
+bool has_key(const YamlNode& map, std::string_view key) {
+  return std::ranges::any_of(map.entries,
+                             [&](const YamlEntry& entry) { return entry.key.text == key; });
+}
+
+struct MeantKey {
+  std::string name;
+  std::string form;  ///< as in KeySynonym
+};
+
+/// The one of `keys` that `key` of `map` is probably meant for, or nothing. Another word for a key
+/// is not meant for it where the map has that key, too.
+MeantKey meant_key(const YamlNode& map, std::string_view key,
+                   const std::vector<std::string>& keys) {
   for (const KeySynonym& synonym : kKeySynonyms)
-    if (synonym.theirs == key && contains(keys, synonym.ours)) return std::string(synonym.ours);
-  return nearest(key, keys);
+    if (synonym.theirs == key && contains(keys, synonym.ours) && !has_key(map, synonym.ours))
+      return {std::string(synonym.ours), std::string(synonym.form)};
+  return {nearest(key, keys), ""};
 }
 
 std::size_t column_of(SourceSpan span, const Findings& findings) {
@@ -300,7 +315,7 @@ void YamlSection::report_unknown_key(const YamlEntry* before, const YamlEntry& e
   const bool is_below =
       before != nullptr && before->value.kind == YamlNode::Kind::null && node_->of_key.empty() &&
       column_of(before->key.span, *findings_) == column_of(entry.key.span, *findings_);
-  const std::string meant = meant_key(key, keys);
+  const auto [meant, form] = meant_key(*node_, key, keys);
   if (is_below && meant.empty()) {
     findings_->error(
         Code::R209, entry.key.span,
@@ -309,11 +324,12 @@ void YamlSection::report_unknown_key(const YamlEntry* before, const YamlEntry& e
                     key, what_, before->key.text, key));
     return;
   }
-  const std::string advice = meant.empty() ? fmt::format(" (keys: {})", join(keys))
-                                           : fmt::format("; did you mean '{}'?", meant);
+  const std::string advice = meant.empty()
+                                 ? fmt::format(" (keys: {})", join(keys))
+                                 : fmt::format("; did you mean '{}'?", form.empty() ? meant : form);
   findings_->error(Code::R209, entry.key.span,
                    fmt::format("unknown key '{}' in {}{}", key, what_, advice));
-  if (!meant.empty()) meant_.emplace_back(meant, &entry.value);
+  if (!meant.empty()) meant_.emplace_back(meant, form.empty() ? &entry.value : nullptr);
 }
 
 YamlSection::YamlSection(const YamlNode& node, std::string what,
