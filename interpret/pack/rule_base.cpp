@@ -218,9 +218,10 @@ namespace oriel {
 
 namespace {
 
-Checked<RuleBase> refuse(const std::string& path, std::string sentence) {
+template <class Value>
+Checked<Value> refuse(Code code, const std::string& path, std::string sentence) {
   Issue issue;
-  issue.code = Code::R200;
+  issue.code = code;
   issue.sentence = std::move(sentence);
   issue.place.file = path;
   return {std::nullopt, {std::move(issue)}};
@@ -282,11 +283,12 @@ std::string suggest_embedded(const std::string& path) {
 /// `found` is what find_pack has at `path`.
 Checked<RuleBase> load(const std::optional<rules::FoundPack>& found, const std::string& path) {
   if (found) return load(found->text, found->file, finder_for(path));
-  return refuse(path, "there is no pack here that can be read" + suggest_embedded(path));
+  return refuse<RuleBase>(Code::R200, path,
+                          "there is no pack here that can be read" + suggest_embedded(path));
 }
 
 /// What `write` makes of a pack that can be loaded and of its text without a byte order mark.
-/// Findings are those of loading it; with an error among them there is no text.
+/// Findings are those of loading it and of `write`; with an error among them there is no text.
 template <class Write>
 Checked<std::string> write_pack(const std::string& path, const Write& write) {
   auto found = find_pack(path);
@@ -296,18 +298,25 @@ Checked<std::string> write_pack(const std::string& path, const Write& write) {
   rules::drop_byte_order_mark(found->text);
   rules::Source source(std::move(found->file), std::move(found->text));
   rules::Findings findings(source);
-  result.value = write(*loaded.value, source, findings);
+  Checked<std::string> written = write(*loaded.value, source, findings);
+  result.value = std::move(written.value);
+  result.issues.insert(result.issues.end(), written.issues.begin(), written.issues.end());
   return result;
 }
 
-/// `text`, of which it is certain that it says the same as `tree`.
-std::string certain(const rules::YamlNode& tree, std::string text) {
-  const rules::Source again("", text);
-  rules::Findings none(again);
-  const auto read_again = rules::parse_yaml({0, text.size()}, none);
-  if (!read_again || !rules::is_same(tree, *read_again))
-    throw std::logic_error("the printed pack does not say the same");
-  return text;
+/// `text`, of which it is certain that it says the same as `tree`. Packs that can be read may be
+/// beyond the limits when they are put into one: R213.
+Checked<std::string> certain(const rules::YamlNode& tree, std::string text,
+                             const std::string& path) {
+  const rules::Source again(path, text);
+  rules::Findings findings(again);
+  const auto read_again = rules::parse_yaml({0, text.size()}, findings);
+  if (read_again && rules::is_same(tree, *read_again)) return {std::move(text), {}};
+  const auto issues = findings.issues();
+  const auto limit = std::ranges::find(issues, Code::R213, &Issue::code);
+  if (limit == issues.end()) throw std::logic_error("the printed pack does not say the same");
+  return refuse<std::string>(Code::R213, path,
+                             "the pack could not be read when printed: " + limit->sentence);
 }
 
 }  // namespace
@@ -354,25 +363,25 @@ Checked<RuleBase> load_pack(std::string text, std::string file) {
 Checked<RuleBase> load_pack_file(const std::string& path) { return load(find_pack(path), path); }
 
 Checked<std::string> format_pack_file(const std::string& path) {
-  return write_pack(path, [](const RuleBase&, rules::Source& source, rules::Findings& findings) {
+  return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
     const auto tree = rules::parse_yaml({0, source.text().size()}, findings);
-    return certain(tree.value(), rules::to_yaml(tree.value(), source.text()));
+    return certain(tree.value(), rules::to_yaml(tree.value(), source.text()), path);
   });
 }
 
 Checked<std::string> merge_pack_file(const std::string& path) {
   return write_pack(path, [&](const RuleBase&, rules::Source& source, rules::Findings& findings) {
     const auto tree = rules::read_tree(source, finder_for(path), findings);
-    return certain(tree.value(), rules::to_yaml(tree.value()));
+    return certain(tree.value(), rules::to_yaml(tree.value()), path);
   });
 }
 
 Checked<std::string> describe_pack_file(const std::string& path) {
-  return write_pack(path,
-                    [&](const RuleBase& base, rules::Source& source, rules::Findings& findings) {
-                      const auto tree = rules::read_tree(source, finder_for(path), findings);
-                      return rules::pack_page(tree.value(), base.pack(), findings);
-                    });
+  return write_pack(
+      path, [&](const RuleBase& base, rules::Source& source, rules::Findings& findings) {
+        const auto tree = rules::read_tree(source, finder_for(path), findings);
+        return Checked<std::string>{rules::pack_page(tree.value(), base.pack(), findings), {}};
+      });
 }
 
 std::optional<std::string_view> embedded_pack(std::string_view name) {

@@ -148,6 +148,26 @@ TEST_SUITE("interpret") {
     CHECK(again.value == merged.value);
   }
 
+  TEST_CASE("packs that are too long for one when they are merged are refused with their limit") {
+    const Packs packs;
+    const auto params = [](char first, int count) {
+      std::string text = "params:\n";
+      for (int i = 0; i < count; ++i)
+        text += fmt::format("  {}{}: {{value: 1 m, why: {}}}\n", first, i, std::string(1500, 'x'));
+      return text;
+    };
+    packs.write("base.yaml", kHead + "rules: []\n" + params('a', 400));
+    const std::string upper = packs.write(
+        "upper.yaml", "schema: oriel/1\npack: {name: upper, version: 2.0.0}\nextends: base.yaml\n" +
+                          params('b', 400));
+    REQUIRE(load_pack_file(upper).value);
+    const auto merged = merge_pack_file(upper);
+    CHECK_FALSE(merged.value);
+    REQUIRE_FALSE(merged.issues.empty());
+    CHECK(to_string(merged.issues.back()) ==
+          upper + ": R213 the pack could not be read when printed: a pack is no longer than 1 MiB");
+  }
+
   TEST_CASE("the default pack merged into one is the default pack") {
     const Packs packs;
     const auto whole = merge_pack_file("residential");
