@@ -273,7 +273,7 @@ bool TypedCode::report_param_without_unit(const Syntax& param, const Syntax& oth
   if (index < 0) return false;
   const SourceSpan where = pack_->params[static_cast<std::size_t>(index)].value_span;
   const std::string value(findings_->source().text_of(where));
-  if (value.empty() || value.find_first_not_of("0123456789.+-") != std::string::npos) return false;
+  if (!is_without_unit(value)) return false;
   fail(Code::R231, where,
        fmt::format("'${}' is compared with '{}', {}, and has no unit: write {} {}", param.name,
                    text_of(other), describe(wanted), value, unit_of(wanted)));

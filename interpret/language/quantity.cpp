@@ -69,6 +69,10 @@ const std::vector<std::string>& unit_names() {
   return names;
 }
 
+bool is_without_unit(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789.+-eE ") == std::string_view::npos;
+}
+
 Dimension dimension_of(Unit unit) {
   switch (unit) {
     case Unit::metre:

@@ -36,6 +36,9 @@ struct UnitWord {
 std::optional<UnitWord> unit_word(std::string_view name);
 const std::vector<std::string>& unit_names();
 
+/// The text of a number without a unit, such as `0.8`.
+bool is_without_unit(std::string_view text);
+
 Dimension dimension_of(Unit unit);
 
 /// "m", "m2", "m3", "deg", "" for plain numbers, else such as "m4".

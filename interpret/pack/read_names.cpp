@@ -37,16 +37,11 @@ bool is_version(std::string_view text) {
   }
 }
 
-/// The text of a number without a unit, such as `0.8`.
-bool is_bare(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789.+-eE ") == std::string_view::npos;
-}
-
 /// The range of a param. What is in another unit than its value is said once, of the one that has
 /// none.
 std::optional<FixedRange> read_range_of(Param& param, const YamlNode& value, const YamlNode& node,
                                         Loader& loader) {
-  if (!param.dimension.is_plain() || !is_bare(value.text))
+  if (!param.dimension.is_plain() || !is_without_unit(value.text))
     return read_range(node, param.dimension, loader);
   const auto range = read_range(node, {}, loader);
   if (!range || range->dimension.is_plain()) return range;
