@@ -53,6 +53,18 @@ constexpr std::array<Foreign, 7> kForeign = {{{"==", "write '='"},
                                               {"&&", "write 'and'"},
                                               {"||", "write 'or'"},
                                               {"**", "powers are written as products: a * a"}}};
+/// The same for single characters, where no symbol of ours begins.
+constexpr std::array<Foreign, 10> kForeignCharacters = {
+    {{"!", "write 'not'"},
+     {":", "write '='"},
+     {"&", "write 'and'"},
+     {"|", "write 'or'"},
+     {"°", "write 'deg'"},
+     {"²", "write 'm2' for m²"},
+     {"³", "write 'm3' for m³"},
+     {"^", "powers are written as products: a * a"},
+     {"≤", "write '<='"},
+     {"≥", "write '>='"}}};
 
 class Lexer {
  public:
@@ -154,17 +166,13 @@ class Lexer {
     std::size_t length = 1;
     while ((static_cast<unsigned char>(peek(length)) & 0xC0U) == 0x80U) ++length;
     const std::string_view shown = text_.substr(at_, length);
-    if (shown == "!") return fail(length, "'!': write 'not'");
     if (shown == "\"" || shown == "'")
       return fail(length,
                   "quotes have no meaning in an expression; words stand without them: "
                   "write 'sense = hole'");
-    if (shown == "°") return fail(length, "'°': write 'deg'");
-    if (shown == "²") return fail(length, "'²': write 'm2'");
-    if (shown == "³") return fail(length, "'³': write 'm3'");
-    if (shown == "^") return fail(length, "'^': powers are written as products: a * a");
-    if (shown == "≤") return fail(length, "'≤': write '<='");
-    if (shown == "≥") return fail(length, "'≥': write '>='");
+    for (const Foreign& foreign : kForeignCharacters)
+      if (shown == foreign.text)
+        return fail(length, fmt::format("'{}': {}", foreign.text, foreign.advice));
     return fail(length, fmt::format("'{}' has no meaning in an expression", shown));
   }
 

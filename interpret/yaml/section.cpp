@@ -14,6 +14,8 @@ namespace oriel::rules {
 
 namespace {
 
+constexpr const char* kExpression = "an expression";
+
 std::string describe(const YamlNode& node) {
   switch (node.kind) {
     case YamlNode::Kind::null:
@@ -66,8 +68,12 @@ std::string write_as_list(const YamlNode& node) {
                      first.value.text);
 }
 
-/// How one value is written in place of `node`.
-std::string write_as_scalar(const YamlNode& node) {
+/// How one value is written in place of `node`; `sense: hole` for a condition is a map to YAML.
+std::string write_as_scalar(const YamlNode& node, const std::string& wanted) {
+  const bool is_equation = wanted == kExpression && node.entries.size() == 1 &&
+                           node.entries[0].value.kind == YamlNode::Kind::scalar;
+  if (is_equation)
+    return fmt::format("; write '{} = {}'", node.entries[0].key.text, node.entries[0].value.text);
   if (node.kind == YamlNode::Kind::null && !node.of_key.empty())
     return fmt::format("; write it after '{}:', or take the key out", node.of_key);
   if (node.kind != YamlNode::Kind::sequence || !is_all_plain(node.items)) return "";
@@ -87,7 +93,7 @@ bool expect(const YamlNode& node, YamlNode::Kind kind, const std::string& what,
   std::string remedy;
   if (kind == YamlNode::Kind::map) remedy = write_as_map(node, first_key);
   if (kind == YamlNode::Kind::sequence) remedy = write_as_list(node);
-  if (kind == YamlNode::Kind::scalar) remedy = write_as_scalar(node);
+  if (kind == YamlNode::Kind::scalar) remedy = write_as_scalar(node, wanted);
   findings.error(Code::R211, node.span,
                  fmt::format("{} is {}, but here is {}{}", what, wanted, describe(node), remedy));
   return false;
@@ -399,8 +405,8 @@ std::optional<bool> read_flag(const YamlNode& node, const std::string& what, Fin
 }
 
 std::optional<SourceSpan> expression_span(const YamlNode& node, Findings& findings) {
-  const std::string what = node.of_key.empty() ? "an expression" : "'" + node.of_key + "'";
-  if (!expect(node, YamlNode::Kind::scalar, what, "an expression", findings)) return std::nullopt;
+  const std::string what = node.of_key.empty() ? kExpression : "'" + node.of_key + "'";
+  if (!expect(node, YamlNode::Kind::scalar, what, kExpression, findings)) return std::nullopt;
   if (node.is_verbatim) return node.span;
   const bool is_glued = node.is_plain && node.text.size() > 1 && node.text[0] == '-' &&
                         node.text.find(" -") != std::string::npos;

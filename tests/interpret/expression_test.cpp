@@ -144,6 +144,10 @@ TEST_SUITE("interpret") {
   TEST_CASE("symbols of other languages get advice") {
     check_fault("sense == hole", 15, 2, "R220 '==': write '='");
     check_fault("natural && natural", 17, 2, "R220 '&&': write 'and'");
+    check_fault("natural & natural", 17, 1, "R220 '&': write 'and'");
+    check_fault("natural | natural", 17, 1, "R220 '|': write 'or'");
+    check_fault("sense:hole", 14, 1, "R220 ':': write '='");
+    check_fault("new_area > 1 m²", 23, 1, "R220 '²': write 'm2' for m²");
     check_fault("natural || natural", 17, 2, "R220 '||': write 'or'");
     check_fault("a \xE2\x89\xA4 1 m", 11, 1, "R220 '\xE2\x89\xA4': write '<='");
     check_fault("a ; b", 11, 1, "R220 ';' has no meaning in an expression");

@@ -173,6 +173,19 @@ rules:
     require: sense == hole
                    ^~
 )says"},
+      {"a colon in place of an equals sign", R"pack(schema: oriel/1
+pack: {name: my_town, version: 1.0.0}
+classes: {window: {}, door: {}}
+rules:
+  - id: w
+    label: window
+    require:
+      - sense: hole
+)pack",
+       R"says(my_town.yaml:8:9: R211 'require' is an expression, but here is a map; write 'sense = hole'
+      - sense: hole
+        ^
+)says"},
       {"AND in capitals", R"pack(schema: oriel/1
 pack: {name: my_town, version: 1.0.0}
 classes: {window: {}, door: {}}
@@ -227,7 +240,7 @@ rules:
 
 TEST_SUITE("interpret") {
   TEST_CASE("wrong conditions and units in the first hour have answers with place and remedy") {
-    CHECK(packs_with_wrong_conditions().size() >= 18);
+    CHECK(packs_with_wrong_conditions().size() >= 19);
     check_answers(packs_with_wrong_conditions());
   }
 }
