@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,12 +48,16 @@ struct Typical {
 
 /// How objects of a class are written: `emit:`.
 struct Emission {
+  /// SIG3D's class of building installations on the outside of a building.
+  static constexpr std::string_view kUsualClass = "1000";
+  static constexpr std::string_view kUsualTop = "RoofSurface";
+
   std::string type;
   std::string class_code;
   /// Code list -> code.
   std::map<std::string, std::string> function;
   /// What its faces that look up are.
-  std::string top;
+  std::string top{kUsualTop};
 };
 
 struct Class {

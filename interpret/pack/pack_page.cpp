@@ -45,6 +45,14 @@ std::string capitalised(std::string text) {
   return text;
 }
 
+/// "Party walls: 10 %" of `party-walls-pct: 10`.
+std::string limit_in_words(std::string_view key, std::string_view value) {
+  const std::size_t unit = key.rfind('-');
+  std::string name = capitalised(std::string(key.substr(0, unit)));
+  std::ranges::replace(name, '-', ' ');
+  return fmt::format("{}: {} {}", name, value, key.substr(unit + 1) == "pct" ? "%" : "m");
+}
+
 /// "1:1000 to 1:4999", "1:2500 and smaller".
 std::string scales_in_words(std::string_view scale) {
   const std::size_t dots = scale.find("..");
@@ -137,6 +145,7 @@ class PackPageWriter {
   void write_rule(const YamlNode& rule);
   void write_score(const YamlNode& score);
   [[nodiscard]] std::string term(const YamlNode& node) const;
+  [[nodiscard]] std::string what_is_evidence() const;
   void write_decisions();
   void write_groups();
   void write_surfaces();
@@ -166,12 +175,18 @@ void PackPageWriter::write_head() {
   line("It extends {}; what follows is all of them together.", beneath);
 }
 
-/// "`Window`", "`BuildingInstallation` (sig3d 1030)", or nothing.
+/// "`Window`", "`BuildingInstallation` (sig3d 1030, top `OuterFloorSurface`)", or nothing.
 std::string PackPageWriter::written_as(const Class& c) const {
   if (!c.emission) return "";
   std::string codes;
-  for (const auto& [list, code] : c.emission->function)
-    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", list, code);
+  const auto add = [&](std::string_view what, std::string_view code) {
+    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", what, code);
+  };
+  const bool has_class = !c.emission->class_code.empty();
+  if (has_class && c.emission->class_code != Emission::kUsualClass)
+    add("class", c.emission->class_code);
+  for (const auto& [list, code] : c.emission->function) add(list, code);
+  if (c.emission->top != Emission::kUsualTop) add("top", fmt::format("`{}`", c.emission->top));
   return codes.empty() ? fmt::format("`{}`", c.emission->type)
                        : fmt::format("`{}` ({})", c.emission->type, codes);
 }
@@ -285,18 +300,32 @@ std::string PackPageWriter::term(const YamlNode& node) const {
   return weight.empty() ? judged : fmt::format("{} (weight {})", judged, weight);
 }
 
+/// "The labels of others (`alike`) and usual numbers".
+std::string PackPageWriter::what_is_evidence() const {
+  const auto names = relation_names(*pack_);
+  std::string company;
+  for (const int relation : pack_->decide.evidence.company)
+    company += fmt::format("{}`{}`", company.empty() ? "" : ", ",
+                           names[static_cast<std::size_t>(relation)]);
+  return company.empty() ? "Usual numbers"
+                         : fmt::format("The labels of others ({}) and usual numbers", company);
+}
+
 void PackPageWriter::write_decisions() {
   const YamlNode* decide = section("decide", "Decisions");
   if (decide != nullptr) {
-    const std::string least = scalar_at(*decide, "min_score");
-    const std::string close = scalar_at(*decide, "ambiguous_below");
-    const std::string evidence = scalar_at(*decide, "evidence");
+    const auto value_at = [&](std::string_view key) {
+      const YamlNode* node = value_of(*decide, key);
+      return node == nullptr ? "" : value(*node);
+    };
+    const std::string least = value_at("min_score");
+    const std::string close = value_at("ambiguous_below");
+    const std::string evidence = value_at("evidence");
     line("- A label needs a score of at least {}; what gets none is unknown.",
          least.empty() ? "0" : least);
     if (!close.empty()) line("- A lead of less than {} over another label is reported.", close);
     if (!evidence.empty())
-      line("- The labels of neighbours and usual numbers move a close score by at most {}.",
-           evidence);
+      line("- {} move a close score by at most {}.", what_is_evidence(), evidence);
   }
   if (pack_->rounds > 0)
     line("{}- The pack is run up to {} times; scores read the labels of the time before.",
@@ -374,7 +403,7 @@ void PackPageWriter::write_settings() {
   if (invariants == nullptr) return;
   line("No operation changes more than this.\n");
   for (const YamlEntry& entry : invariants->entries)
-    line("- {}: {}", capitalised(entry.key.text), entry.value.text);
+    line("- {}", limit_in_words(entry.key.text, entry.value.text));
 }
 
 }  // namespace

@@ -13,9 +13,6 @@ namespace oriel::rules {
 
 namespace {
 
-/// SIG3D's class of building installations on the outside of a building.
-constexpr const char* kOuterCharacteristics = "1000";
-
 /// What has not settled by then goes round in circles.
 constexpr int kMostRounds = 8;
 
@@ -54,7 +51,8 @@ std::optional<Emission> read_emission(const YamlNode& node, Loader& loader) {
                       loader.findings);
   const YamlNode* type_node = section.require("type");
   if (type_node == nullptr) return std::nullopt;
-  Emission emission{"", kOuterCharacteristics, {}, "RoofSurface"};
+  Emission emission;
+  emission.class_code = Emission::kUsualClass;
   const auto type = read_choice(*type_node, "an emitted type", emitted_types(), loader.findings);
   if (!type) return std::nullopt;
   emission.type = *type;

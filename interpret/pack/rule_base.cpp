@@ -133,7 +133,7 @@ void report_unused_relations(const Loader& loader) {
 void add_default_emissions(Pack& pack) {
   for (Class& c : pack.classes) {
     if (c.emission || (c.name != "window" && c.name != "door")) continue;
-    c.emission = Emission{c.name == "window" ? "Window" : "Door", "", {}, "RoofSurface"};
+    c.emission.emplace().type = c.name == "window" ? "Window" : "Door";
   }
 }
 

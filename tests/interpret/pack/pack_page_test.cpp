@@ -48,18 +48,18 @@ rules:
       - base_height: {rise: 0.1 m .. $sill, fall: 3 m .. 9 m, weight: 2}
       - natural
   - {id: door.any, label: door, require: host is wall}
-decide: {min_score: 0.3, ambiguous_below: 0.1}
+decide: {min_score: 0.3, ambiguous_below: 0.1, evidence: 0.1 * $few, company: [alike, row]}
 iterate: {rounds: 2}
 groups:
   line: {of: window, by: row, at_least: 3}
 emit:
-  window: {type: BuildingInstallation, function: {sig3d: "1000"}}
+  window: {type: BuildingInstallation, class: "1", function: {sig3d: "1000"}, top: OuterFloorSurface}
 surfaces:
   - {id: roof.any, type: RoofSurface, when: inclination < 75 deg}
 generalise:
   - {id: small, scale: "1:500 ..", for: any, when: a < 0.5 mm@map, do: omit}
   - {id: lines, scale: "1:1000 .. 1:2000", for: group line, do: {typify: {ratio: $few, gap: 10 cm}}}
-invariants: {footprint-pct: 5}
+invariants: {footprint-pct: 5, party-walls-pct: 10, top-m: 0.5}
 )") == R"(# town 1.2.3
 
 A rule pack with 3 rules for 2 labels.
@@ -71,7 +71,7 @@ A feature gets at most one label. It may be of several shapes; no label comes of
 | class | | a kind of | usual numbers | written as |
 |---|---|---|---|---|
 | `opening` | shape |  |  |  |
-| `window` | label | `opening` | 1 to 9 per storey, 1 or more per building | `BuildingInstallation` (sig3d 1000) |
+| `window` | label | `opening` | 1 to 9 per storey, 1 or more per building | `BuildingInstallation` (class 1, sig3d 1000, top `OuterFloorSurface`) |
 | `door` | label |  |  | `Door` |
 
 ## Params
@@ -127,6 +127,7 @@ A feature is a **door** if this holds:
 
 - A label needs a score of at least 0.3; what gets none is unknown.
 - A lead of less than 0.1 over another label is reported.
+- The labels of others (`alike`, `row`) and usual numbers move a close score by at most 0.1 × `$few` (0.5).
 - The pack is run up to 2 times; scores read the labels of the time before.
 
 ## Groups
@@ -163,7 +164,9 @@ What looks down is ground up to 0.5 m over the lowest point of the building.
 
 No operation changes more than this.
 
-- Footprint-pct: 5
+- Footprint: 5 %
+- Party walls: 10 %
+- Top: 0.5 m
 )");
   }
 
