@@ -4,7 +4,8 @@
 
 namespace oriel::generator {
 
-FacadeGrid::FacadeGrid(const Panel& panel, const Plan& plan) : plan_(plan) {
+FacadeGrid::FacadeGrid(const Panel& panel, const Plan& plan)
+    : plan_(plan), reserved_(panel.reserved) {
   const Um length = panel.usable.width();
   constexpr Um narrowest = 1400_mm;
   if (length >= narrowest) columns_ = std::max(1, static_cast<int>(length / plan.column_width));
@@ -16,13 +17,6 @@ FacadeGrid::FacadeGrid(const Panel& panel, const Plan& plan) : plan_(plan) {
   rows_ = static_cast<int>((panel.usable.v1 + 600_mm - plan.base) / plan.storey_height);
   rows_ = std::min(rows_, plan.storeys);
   is_taken_.assign(index(0, rows_), false);
-  for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) {
-      const Rect place = rect({column, row});
-      const auto is_hit = [&](const Rect& other) { return other.overlaps(place); };
-      if (std::any_of(panel.reserved.begin(), panel.reserved.end(), is_hit))
-        is_taken_[index(column, row)] = true;
-    }
 }
 
 Rect FacadeGrid::rect(const Cell& cell) const {
@@ -34,7 +28,9 @@ bool FacadeGrid::is_free(const Cell& cell) const {
   for (int row = cell.row; row < cell.row + cell.rows; ++row)
     for (int column = cell.column; column < cell.column + cell.span; ++column)
       if (is_taken_[index(column, row)]) return false;
-  return true;
+  Rect place = rect(cell);
+  if (cell.row == 0) place.v0 = 0;  // stairs and garages reach down to the ground
+  return std::ranges::none_of(reserved_, [&](const Rect& r) { return r.overlaps(place); });
 }
 
 void FacadeGrid::take(const Cell& cell) {

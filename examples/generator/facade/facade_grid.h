@@ -13,7 +13,8 @@ struct Cell {
   int column = 0, row = 0, span = 1, rows = 1;
 };
 
-/// The places for features on a wall: columns of equal width, one row a storey.
+/// The places for features on a wall: columns of equal width, one row a storey. A cell is free if
+/// it is not taken and nothing was reserved in it, or under the lowest row, when the grid was made.
 class FacadeGrid {
  public:
   FacadeGrid(const Panel& panel, const Plan& plan);
@@ -42,6 +43,8 @@ class FacadeGrid {
   }
 
   const Plan& plan_;
+  /// What stood on the wall before; what is placed in cells later takes them.
+  std::vector<Rect> reserved_;
   int columns_ = 0, rows_ = 0;
   Um left_ = 0, width_ = 0, border_ = 0;
   std::vector<bool> is_taken_;

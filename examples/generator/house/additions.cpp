@@ -23,6 +23,10 @@ constexpr Um kShallow = 250'000;
 /// What deep holes keep free under the top of their wall, and how far those of a roof may reach
 /// below the top of the walls: rooms behind the walls end there.
 constexpr Um kBelowWallTop = 350'000, kBelowEaves = 100'000;
+/// What everything else keeps free there: a roof or its underside may begin at the top.
+constexpr Um kFromWallTop = 100'000;
+/// Holes of different surfaces keep this distance inside the house.
+constexpr Um kBetweenHollows = 50'000;
 /// Free places are looked for so often, on a grid of this step.
 constexpr int kTries = 300;
 constexpr Um kStep = 10'000;
@@ -37,12 +41,14 @@ std::string metres_text(double um) { return fmt::format("{:.2f}", um / 1e6); }
 /// Puts one thing onto one house.
 class AdditionPlacer {
  public:
+  /// `hollows`: the boxes of the holes that were put onto the house before.
   AdditionPlacer(Draft& draft, House& house, const Addition& addition, Um wall_height,
-                 Random& random)
+                 std::vector<Extent>& hollows, Random& random)
       : draft_(draft),
         house_(house),
         addition_(addition),
         wall_height_(wall_height),
+        hollows_(hollows),
         random_(random) {}
 
   /// False: it may stand anywhere, and there is no room.
@@ -87,7 +93,7 @@ class AdditionPlacer {
       const Um u0 = random_.between(room.u0, room.u1 - width, kStep);
       const Um v0 = random_.between(room.v0, room.v1 - height, kStep);
       const Rect rect{u0, u0 + width, v0, v0 + height};
-      if (!is_free(plane, rect) || !reaches_no_room(plane, rect)) continue;
+      if (!obstacle(plane, rect).empty()) continue;
       build(plane, rect);
       return true;
     }
@@ -106,8 +112,7 @@ class AdditionPlacer {
       fail(fmt::format("X may be {} .. {} m there and Y {} .. {} m", metres_text(double(room.u0)),
                        metres_text(double(room.u1 - width)), metres_text(up(plane, room.v0)),
                        metres_text(up(plane, room.v1 - height))));
-    if (!is_free(plane, rect)) fail("something else stands there");
-    if (!reaches_no_room(plane, rect)) fail("it would reach into the walls below");
+    if (const std::string what = obstacle(plane, rect); !what.empty()) fail(what);
     build(plane, rect);
   }
 
@@ -125,14 +130,29 @@ class AdditionPlacer {
 
   [[nodiscard]] Rect room_of(const Panel& panel) const {
     Rect room = panel.usable;
-    if (addition_.surface == Surface::gable) room.v0 += kFromWallFeatures;
-    if (addition_.shape != Shape::hole || addition_.depth <= kShallow) return room;
-    room.u0 += kCornerMargin - kWallMargin;
-    room.u1 -= kCornerMargin - kWallMargin;
-    room.v1 -= kBelowWallTop;
+    const bool is_gable = addition_.surface == Surface::gable;
+    const bool is_deep = addition_.shape == Shape::hole && addition_.depth > kShallow;
+    if (is_gable) room.v0 += kFromWallFeatures;
+    if (is_deep) {
+      room.u0 += kCornerMargin - kWallMargin;
+      room.u1 -= kCornerMargin - kWallMargin;
+    }
+    if (is_deep || !is_gable) room.v1 -= is_deep ? kBelowWallTop : kFromWallTop;
     return room;
   }
   [[nodiscard]] Rect room_of(const RoofPlane& plane) const { return plane.usable; }
+
+  /// What keeps the thing from standing there; empty if nothing does.
+  template <class Plane>
+  [[nodiscard]] std::string obstacle(const Plane& plane, const Rect& rect) const {
+    if (!is_free(plane, rect)) return "something else stands there";
+    if (!reaches_no_room(plane, rect)) return "it would reach into the walls below";
+    const Extent hollow = hollow_of(plane, rect).grown(kBetweenHollows);
+    const auto meets = [&](const Extent& other) { return other.overlaps(hollow); };
+    if (addition_.shape == Shape::hole && std::ranges::any_of(hollows_, meets))
+      return "it would meet another hole inside the house";
+    return {};
+  }
 
   [[nodiscard]] bool is_free(const Panel& panel, const Rect& rect) const {
     return panel.is_free(rect, kFromWallFeatures / 2);
@@ -154,6 +174,15 @@ class AdditionPlacer {
     return whole_millimetres(static_cast<double>(addition_.depth) * stretch(plane));
   }
 
+  /// The box of a hole there.
+  [[nodiscard]] Extent hollow_of(const Panel& panel, const Rect& r) const {
+    return extent_of({panel.frame.at(r.u0, r.v0, 0), panel.frame.at(r.u1, r.v1, -addition_.depth)});
+  }
+  [[nodiscard]] Extent hollow_of(const RoofPlane& plane, const Rect& r) const {
+    return extent_of(
+        {plane.at({r.u0, r.v0}) - drop_on(plane) * plane.frame.w, plane.at({r.u1, r.v1})});
+  }
+
   [[nodiscard]] Object object_on(FacetId facet, int installation) const {
     Object object;
     object.subclass = addition_.class_name;
@@ -170,6 +199,7 @@ class AdditionPlacer {
   }
 
   void build(Panel& panel, const Rect& r) {
+    if (addition_.shape == Shape::hole) hollows_.push_back(hollow_of(panel, r));
     panel.reserved.push_back(r.grown(kFromWallFeatures / 2));
     Object object = object_on(panel.facet, panel.installation);
     if (is_opening(object.kind)) {
@@ -191,6 +221,7 @@ class AdditionPlacer {
   }
 
   void build(RoofPlane& plane, const Rect& r) {
+    if (addition_.shape == Shape::hole) hollows_.push_back(hollow_of(plane, r));
     Object object = object_on(plane.facet, -1);
     if (is_opening(object.kind)) object.recess = addition_.depth;
     const Rect plan = to_plan(plane, r);
@@ -226,6 +257,7 @@ class AdditionPlacer {
   House& house_;
   const Addition& addition_;
   Um wall_height_;
+  std::vector<Extent>& hollows_;
   Random& random_;
 };
 
@@ -234,10 +266,11 @@ class AdditionPlacer {
 std::vector<int> place_additions(Draft& draft, House& house, const std::vector<Addition>& additions,
                                  Um wall_height, Random& random) {
   std::vector<int> left;
+  std::vector<Extent> hollows;
   for (const bool has_place : {true, false})  // those that look for room leave the others theirs
     for (std::size_t i = 0; i < additions.size(); ++i)
       if (additions[i].at.has_value() == has_place &&
-          !AdditionPlacer(draft, house, additions[i], wall_height, random).place())
+          !AdditionPlacer(draft, house, additions[i], wall_height, hollows, random).place())
         left.push_back(static_cast<int>(i));
   return left;
 }

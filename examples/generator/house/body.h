@@ -96,6 +96,15 @@ struct Extent {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   [[nodiscard]] Extent moved(Point by) const { return {low + by, high + by}; }
+  [[nodiscard]] Extent grown(Um by) const {
+    const Point all{by, by, by};
+    return {low - all, high + all};
+  }
+  /// True if the two share more than a side.
+  [[nodiscard]] bool overlaps(const Extent& other) const {
+    return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y &&
+           other.low.y < high.y && low.z < other.high.z && other.low.z < high.z;
+  }
 };
 
 Extent extent_of(const std::vector<Point>& points);

@@ -1,6 +1,8 @@
 #include "tests/examples/generator/crossings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace oriel::test {
 namespace {
@@ -9,6 +11,12 @@ using generator::Body;
 using generator::Extent;
 using generator::Point;
 using generator::Polygon;
+
+/// An edge and its box.
+struct Line {
+  Point a, b;
+  Extent box;
+};
 
 /// Volumes below this (m³) count as touching: features keep centimetres apart.
 constexpr double kTouching = 1e-9;
@@ -35,21 +43,25 @@ bool are_apart(const Extent& a, const Extent& b) {
 }  // namespace
 
 int count_crossings(const Body& body) {
-  int crossings = 0;
+  const auto is_triangle = [](const Polygon& polygon) {
+    return polygon.rings.size() == 1 && polygon.rings[0].size() == 3;
+  };
+  if (!std::ranges::all_of(body.polygons, is_triangle))
+    throw std::invalid_argument("crossings are counted of triangles only");
   const auto at = [&](int vertex) { return body.vertices[static_cast<std::size_t>(vertex)]; };
+  std::vector<Line> edges;
+  for (const Polygon& triangle : body.polygons)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int a = triangle.rings[0][i], b = triangle.rings[0][(i + 1) % 3];
+      if (a < b) edges.push_back({at(a), at(b), generator::extent_of({at(a), at(b)})});
+    }
+  int crossings = 0;
   for (const Polygon& triangle : body.polygons) {
     const std::vector<int>& ring = triangle.rings[0];
     const Point corners[3] = {at(ring[0]), at(ring[1]), at(ring[2])};
     const Extent box = generator::extent_of({corners[0], corners[1], corners[2]});
-    for (const Polygon& other : body.polygons)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int a = other.rings[0][i], b = other.rings[0][(i + 1) % 3];
-        if (a > b) continue;
-        Extent edge;
-        edge.grow(at(a));
-        edge.grow(at(b));
-        if (!are_apart(box, edge) && is_pierced(corners, at(a), at(b))) ++crossings;
-      }
+    for (const Line& edge : edges)
+      if (!are_apart(box, edge.box) && is_pierced(corners, edge.a, edge.b)) ++crossings;
   }
   return crossings;
 }

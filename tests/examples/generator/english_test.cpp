@@ -90,7 +90,7 @@ TEST_SUITE("examples/generator") {
           if (!stands_alone(first) || !stands_alone(second)) continue;
           if (first.parent == static_cast<int>(b) || first.host == static_cast<int>(b)) continue;
           ++pairs;
-          if (!overlap(boxes[a], boxes[b])) continue;
+          if (!boxes[a].overlaps(boxes[b])) continue;
           FAIL_CHECK("house " << i << ": " << first.name << " and " << second.name);
         }
     }
@@ -201,7 +201,7 @@ TEST_SUITE("examples/generator") {
     for (int i : {0, 1, 2, 3, 4, 5, 199, 200, 201})
       boxes.push_back(extent_of(generate(english(1), i).vertices));
     for (std::size_t a = 0; a < boxes.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) CHECK_FALSE(overlap(boxes[a], boxes[b]));
+      for (std::size_t b = 0; b < a; ++b) CHECK_FALSE(boxes[a].overlaps(boxes[b]));
   }
 }
 

@@ -81,7 +81,7 @@ TEST_SUITE("examples/generator") {
           if (body.objects[a].parent == static_cast<int>(b)) continue;
           ++pairs;
           INFO("house " << i << ": " << body.objects[a].name << " and " << body.objects[b].name);
-          CHECK_FALSE(overlap(boxes[a], boxes[b]));
+          CHECK_FALSE(boxes[a].overlaps(boxes[b]));
         }
     }
     CHECK(pairs > 10'000);
@@ -94,6 +94,22 @@ TEST_SUITE("examples/generator") {
     options.storeys = {1, 2};
     options.jitter = 200_mm;
     for (int i = 0; i < 40; ++i) CHECK(test::count_crossings(generate(options, i)) == 0);
+  }
+
+  TEST_CASE("a triangle that is pierced is a crossing, and only triangles are looked at") {
+    Body body;
+    body.vertices = {{0, 0, 0},
+                     {1'000'000, 0, 0},
+                     {0, 1'000'000, 0},
+                     {200'000, 200'000, -500'000},
+                     {200'000, 200'000, 500'000},
+                     {5'000'000, 0, 0}};
+    body.polygons = {{{}, {{0, 1, 2}}}, {{}, {{3, 4, 5}}}};
+    CHECK(test::count_crossings(body) == 2);
+    body.vertices[3].z = 200'000;
+    CHECK(test::count_crossings(body) == 0);
+    body.polygons[0].rings[0].push_back(5);
+    CHECK_THROWS_AS(test::count_crossings(body), std::invalid_argument);
   }
 
   TEST_CASE("every class and every finer kind occurs") {
@@ -252,7 +268,7 @@ TEST_SUITE("examples/generator") {
     for (int i : {0, 1, 2, 199, 200, 201})
       boxes.push_back(extent_of(generate(options, i).vertices));
     for (std::size_t a = 0; a < boxes.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) CHECK_FALSE(overlap(boxes[a], boxes[b]));
+      for (std::size_t b = 0; b < a; ++b) CHECK_FALSE(boxes[a].overlaps(boxes[b]));
   }
 }
 

@@ -18,12 +18,6 @@ inline std::vector<Extent> boxes_of(const Body& body) {
   return boxes;
 }
 
-/// Boxes that share more than a side.
-inline bool overlap(const Extent& a, const Extent& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y &&
-         a.low.z < b.high.z && b.low.z < a.high.z;
-}
-
 struct OpeningCounts {
   int all = 0, flush = 0;
 };
