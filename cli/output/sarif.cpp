@@ -93,6 +93,7 @@ std::string SarifLog::text() const {
       {"name", "oriel"}, {"semanticVersion", std::string(kVersion)}, {"rules", std::move(rules)}};
   ordered_json run;
   run["tool"]["driver"] = driver;
+  run["columnKind"] = "unicodeCodePoints";  // as in Place; without it they would be UTF-16 units
   run["results"] = std::move(results);
   ordered_json log;
   log["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";

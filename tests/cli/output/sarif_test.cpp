@@ -62,7 +62,7 @@ json checked_log(const std::string& path) {
   CHECK(log["version"] == "2.1.0");
   REQUIRE(log["runs"].size() == 1);
   const json& run = log["runs"][0];
-  check_keys(run, {"tool", "results"}, {});
+  check_keys(run, {"tool", "results", "columnKind"}, {});
   check_keys(run["tool"], {"driver"}, {});
   check_keys(run["tool"]["driver"], {"name"}, {"semanticVersion", "rules"});
   const json& rules = run["tool"]["driver"]["rules"];
@@ -112,6 +112,21 @@ TEST_SUITE("cli") {
     CHECK(rule["helpUri"].get<std::string>().ends_with("/rules.md#r204-unknown-attribute"));
     CHECK(rule["help"]["text"].get<std::string>().size() > 40);
     CHECK(run({"rules", "check", pack, "--sarif", pack}).exit == 2);
+  }
+
+  TEST_CASE("columns of a SARIF log are characters, and it says so") {
+    const Folder folder;
+    const std::string pack = folder.write(
+        "pack.yaml",
+        "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}}\n"
+        "rules: [{id: w, label: window, why: \"ä \xF0\x9F\x8F\xA0\", require: heigth > 1 m}]\n");
+    const std::string file = folder / "log.sarif";
+    CHECK(run({"rules", "check", pack, "--sarif", file}).exit == 4);
+    const json log = checked_log(file);
+    CHECK(log["runs"][0]["columnKind"] == "unicodeCodePoints");
+    for (const json& result : log["runs"][0]["results"])
+      if (result["ruleId"] == "R204")
+        CHECK(result["locations"][0]["physicalLocation"]["region"]["startColumn"] == 53);
   }
 
   TEST_CASE("a run without findings is a SARIF log without results") {
