@@ -27,11 +27,21 @@ struct Sample {
 /// By addition: how many houses have no room for it.
 using HousesWithoutRoom = std::vector<int>;
 
+/// Of several houses an AdditionError says on which one there is no room.
+Body body_of(const Arguments& arguments, int index, const std::string& id) {
+  try {
+    return generate(arguments.options, index);
+  } catch (const AdditionError& error) {
+    if (arguments.count == 1) throw;
+    throw AdditionError(fmt::format("{} ({})", error.what(), id));
+  }
+}
+
 Sample make_sample(const Arguments& arguments, int index, HousesWithoutRoom& without_room) {
   const Options& options = arguments.options;
   const std::string id =
       arguments.count == 1 ? arguments.name : fmt::format("{}-{:06}", arguments.name, index + 1);
-  Sample sample{{id, generate(options, index), options.origin}, {id, {}, options.origin}};
+  Sample sample{{id, body_of(arguments, index, id), options.origin}, {id, {}, options.origin}};
   without_room.resize(options.additions.size());
   for (const int addition : sample.labelled.body.without_room)
     ++without_room[static_cast<std::size_t>(addition)];

@@ -71,9 +71,10 @@ class AdditionPlacer {
     for (Plane& plane : all) planes.push_back(&plane);
     const auto number = static_cast<std::size_t>(addition_.number);
     if (number == 0) return planes;
+    const bool is_roof = addition_.surface == Surface::roof;
     if (number > planes.size())
-      fail(fmt::format("the house has {} {}", planes.size(),
-                       addition_.surface == Surface::roof ? "planes of the roof" : "gables"));
+      fail(fmt::format("the {} has {} {}{}", is_roof ? "roof" : "house", planes.size(),
+                       is_roof ? "plane" : "gable", planes.size() == 1 ? "" : "s"));
     return {planes[number - 1]};
   }
 

@@ -191,7 +191,7 @@ TEST_SUITE("examples/generator") {
         {"solar panel on roof at 1 size 1x1", "E140", "'1' is not a position"},
         {"window panel on front size 1x1", "E140", "a window is a hole"},
         {"wall panel on front size 1x1", "E140", "is a surface of the bare house"},
-        {"solar panel on roof9 size 1x1", "E141", "the house has 2 planes of the roof"},
+        {"solar panel on roof9 size 1x1", "E141", "the roof has 2 planes"},
         {"solar panel on roof at 2,99 size 1x1", "E141", "X may be 0.50 .. 7.50 m there and Y 0."},
         {"niche hole on front at 0.5,0.5 size 1x1x1", "E141", "X may be 1.90 .. 6.10 m there"},
         {"solar panel on front at 0,0 size 12x1", "E141", "the surface takes at most 8.40 x "},
@@ -214,6 +214,17 @@ TEST_SUITE("examples/generator") {
                          "stands there") != std::string::npos);
     CHECK(run_adding({"-o", "-", "--style", "english", "--add", "a panel on roof size 1x1"}).code ==
           2);
+  }
+
+  TEST_CASE("a position without room is named with its house where there are several") {
+    const AdditionRun one =
+        run_adding({"-o", "-", "--roof", "flat", "--add", "a panel on roof2 size 1x1"});
+    CHECK(one.code == 2);
+    CHECK(one.err.ends_with("does not fit: the roof has 1 plane\n"));
+    const AdditionRun several = run_adding({"-o", "-", "--count", "40", "--features", "door",
+                                            "--add", "a panel on front at 10,1 size 1x1"});
+    CHECK(several.code == 2);
+    CHECK(several.err.find(" m (house-0000") != std::string::npos);
   }
 
   TEST_CASE("things that find no room are counted and none at all ends with 3") {
