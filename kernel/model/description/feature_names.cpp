@@ -1,5 +1,6 @@
 #include "kernel/model/description/feature_names.h"
 
+#include "kernel/base/edit_distance.h"
 #include "kernel/base/index.h"
 
 #include <algorithm>
@@ -286,21 +287,6 @@ std::string plain(std::string_view text) {
   return words;
 }
 
-/// Inserted, deleted and replaced letters.
-std::size_t edits_between(std::string_view p, std::string_view q) {
-  std::vector<std::size_t> row(q.size() + 1);
-  for (std::size_t j = 0; j <= q.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= p.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= q.size(); ++j) {
-      const std::size_t replaced = diagonal + (p[i - 1] == q[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[q.size()];
-}
-
 }  // namespace
 
 std::vector<std::string> feature_names(std::span<const NameParts> features) {
@@ -346,7 +332,7 @@ std::vector<std::string> nearest_names(std::span<const std::string> names, std::
   const std::string meant = plain(text.substr(0, kLongestText));
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (const std::string& name : names)
-    ranked.emplace_back(edits_between(meant, plain(name)), name);
+    ranked.emplace_back(edit_distance(meant, plain(name)), name);
   std::ranges::sort(ranked);
   const auto [first, last] = std::ranges::unique(ranked);
   ranked.erase(first, last);
