@@ -13,6 +13,8 @@ namespace {
 /// So many rows of the winner and of the nearest miss are shown, if there are more one less.
 constexpr std::size_t kMostShownFindings = 7;
 constexpr std::size_t kMostMisses = 4;
+/// Of score_text().
+constexpr double kLeastShown = 0.000001;
 /// Texts wider than this do not push the places aside.
 constexpr std::size_t kWidestText = 76;
 
@@ -44,16 +46,22 @@ const RuleReport* runner_up_of(const Explanation& explanation) {
   return best;
 }
 
-/// " by 0.10", or why it came second whatever its score.
-std::string why_second(const Explanation& explanation, const RuleReport& second) {
+/// ", ahead of window by 0.10", or why it came second whatever its score.
+std::string second_clause(const Explanation& explanation, const RuleReport& second) {
   const RuleReport* winner = winner_of(explanation);
+  const double margin = explanation.verdict.margin;
   if (second.total() < explanation.min_score)
-    return fmt::format(", whose score {} is below the least, {}",
+    return fmt::format(", ahead of {}, whose score {} is below the minimum of {}", second.label,
                        score_text(second.total(), explanation.min_score),
                        score_text(explanation.min_score, second.total()));
   if (winner != nullptr && winner->priority != second.priority)
-    return fmt::format(", whose priority {} is below {}", second.priority, winner->priority);
-  return fmt::format(" by {:.2f}", explanation.verdict.margin);
+    return fmt::format(", ahead of {}, whose priority {} is below {}", second.label,
+                       second.priority, winner->priority);
+  if (margin == 0)
+    return fmt::format(", tied with {}; of equal scores the rule whose id sorts first wins",
+                       second.label);
+  return fmt::format(", ahead of {} by {}", second.label,
+                     margin < kLeastShown ? "less than 0.000001" : score_text(margin, 0));
 }
 
 std::string without_evidence_clause(const Explanation& explanation) {
@@ -77,7 +85,7 @@ std::string sentence_of_label(const Explanation& explanation) {
                   verdict.label.text(), verdict.rule.text(), verdict.score);
   const RuleReport* second = runner_up_of(explanation);
   if (second != nullptr)
-    text += fmt::format(", ahead of {}{}", second->label, why_second(explanation, *second));
+    text += second_clause(explanation, *second);
   else
     text += "; no rule for another label holds";
   return text + without_evidence_clause(explanation) + ".";
@@ -206,7 +214,7 @@ std::string sentence(const Explanation& explanation) {
   std::string text = subject_text(explanation) + " has no label: ";
   if (explanation.best) {
     const RuleReport& best = explanation.rules[*explanation.best];
-    text += fmt::format("{} comes first with {} by {}, below the least score, {}", best.label,
+    text += fmt::format("{} comes first with {} by {}, below the minimum score of {}", best.label,
                         score_text(best.total(), explanation.min_score), best.id,
                         score_text(explanation.min_score, best.total()));
   } else {

@@ -232,7 +232,7 @@ TEST_SUITE("interpret") {
   TEST_CASE("the summary says why in one sentence and what came near") {
     CHECK(
         summary_text(explain_first(kPack, window_with_a_low_sill())) ==
-        R"(f0 has no label: window comes first with 0.29 by window.regular, below the least score, 0.35.
+        R"(f0 has no label: window comes first with 0.29 by window.regular, below the minimum score of 0.35.
 best           window.regular for window, score 0.29                                         t.yaml:14:5
                  self is opening: yes                                                        t.yaml:16:15
                  base_height is 0.61 m, above 0.60 m ($sill_max)                             t.yaml:16:35
@@ -271,9 +271,25 @@ smallest flip  sill_max 0.60 m -> 0.61 m: door 1.00 by door.ground              
           "1.");
     CHECK(said("priority: 2, require: sense = hole, score: [a: {rise: 1.5 m .. 3 m}]") ==
           "f0 is labelled window by w with score 0.80, ahead of door, whose score 0.20 is below "
-          "the least, 0.35.");
+          "the minimum of 0.35.");
+    CHECK(said("priority: 1, require: sense = hole, score: [a: {rise: 1 m .. 2.001 m}]") ==
+          "f0 is labelled window by w with score 0.80, ahead of door by 0.001.");
+    CHECK(said("priority: 1, require: sense = hole, score: [a: {rise: 1 m .. 2.000000001 m}]") ==
+          "f0 is labelled window by w with score 0.80, ahead of door by less than 0.000001.");
     CHECK(said("require: sense = cavity") ==
           "f0 is labelled window by w with score 0.80; no rule for another label holds.");
+  }
+
+  TEST_CASE("of a tie the sentence says what decided") {
+    Scene scene;
+    scene.add({{"sense", "hole"}});
+    CHECK(sentence(explain_first(
+              "schema: oriel/1\npack: {name: t, version: 1.0.0}\nclasses: {window: {}, door: {}}\n"
+              "rules:\n  - {id: w, label: window, require: sense = hole}\n"
+              "  - {id: d, label: door, require: sense = hole}\n",
+              scene)) ==
+          "f0 is labelled door by d with score 1.00, tied with window; of equal scores the rule "
+          "whose id sorts first wins.");
   }
 
   TEST_CASE("the nearest miss looks into the classes that are asked for") {
