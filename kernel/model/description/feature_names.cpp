@@ -287,6 +287,14 @@ std::string plain(std::string_view text) {
   return words;
 }
 
+/// Of a plain() text.
+std::string_view first_words(std::string_view text, std::ptrdiff_t count) {
+  std::size_t end = 0;
+  for (; count > 0 && end < text.size(); --count)
+    end = std::min(text.find(' ', end + 1), text.size());
+  return text.substr(0, end);
+}
+
 }  // namespace
 
 std::vector<std::string> feature_names(std::span<const NameParts> features) {
@@ -330,9 +338,10 @@ std::vector<std::string> nearest_names(std::span<const std::string> names, std::
   // A longer text is no name.
   constexpr std::size_t kLongestText = 200;
   const std::string meant = plain(text.substr(0, kLongestText));
+  const std::ptrdiff_t words = 1 + std::ranges::count(meant, ' ');
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (const std::string& name : names)
-    ranked.emplace_back(edit_distance(meant, plain(name)), name);
+    ranked.emplace_back(edit_distance(meant, first_words(plain(name), words)), name);
   std::ranges::sort(ranked);
   const auto [first, last] = std::ranges::unique(ranked);
   ranked.erase(first, last);

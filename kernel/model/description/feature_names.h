@@ -65,7 +65,8 @@ std::vector<std::string> feature_names(const Segmentation& segmentation, const F
 /// whole words. Case, commas and the number of spaces do not count.
 std::vector<std::size_t> find_names(std::span<const std::string> names, std::string_view text);
 
-/// The names that are fewest edits away from `text`, the nearest first; each once.
+/// The names that `text` may be meant for, the nearest first, each once: those whose first words,
+/// as many as it has, are the fewest edits away (edit_distance()).
 std::vector<std::string> nearest_names(std::span<const std::string> names, std::string_view text,
                                        std::size_t most);
 

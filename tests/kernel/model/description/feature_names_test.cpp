@@ -241,6 +241,9 @@ TEST_SUITE("kernel/model") {
     CHECK(nearest_names(names, "chimny 1 of roof slope north", 1) == std::vector{names[2]});
     CHECK(nearest_names(names, "window 3 of facade south, storey 1", 2) ==
           std::vector{names[0], names[1]});
+    // The beginning of a name is compared with beginnings.
+    CHECK(nearest_names(names, "chmney", 1) == std::vector{names[2]});
+    CHECK(nearest_names(names, "widnow 2 of facde", 1) == std::vector{names[1]});
     CHECK(nearest_names({}, "window", 3).empty());
     CHECK(nearest_names(names, std::string(100'000, 'w'), 9).size() == 3);
   }
