@@ -66,6 +66,13 @@ ExitCode end_with_nothing(ExitCode code, const std::string& option, const std::s
   return code;
 }
 
+/// What says of a feature how it is to be printed says nothing of a surface.
+void check_fit_for_surface(const ExplainArguments& arguments) {
+  const char* why = "a surface lies there: it is explained as text, with all that decided";
+  if (arguments.is_json) throw CLI::ValidationError("--json", why);
+  if (!arguments.rule.empty()) throw CLI::ValidationError("--rule", why);
+}
+
 /// What lies at a place: the feature there, or the surface where there is none.
 ExitCode explain_place(const ExplainArguments& arguments) {
   Report report(arguments.is_verbose);
@@ -76,6 +83,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
   const Vec3 point{arguments.at[0], arguments.at[1], arguments.at[2]};
   std::optional<double> nearest_m;
   std::string text;
+  bool is_surface = false;
   RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
@@ -84,15 +92,14 @@ ExitCode explain_place(const ExplainArguments& arguments) {
         continue;
       nearest_m = found->distance_m;
       const FeatureId feature = feature_of(building, lines[i], found->polygon);
-      if (!feature.is_valid()) {
-        text = explain_surface(building, lines[i], *rules, found->polygon);
-        continue;
-      }
-      text = printer.text(explain(lines[i], *rules, feature));
+      is_surface = !feature.is_valid();
+      text = is_surface ? explain_surface(building, lines[i], *rules, found->polygon)
+                        : printer.text(explain(lines[i], *rules, feature));
     }
   });
   const ExitCode code = runner.run(visitor);
   if (text.empty()) return end_with_nothing(code, "--at", "no polygon lies there");
+  if (is_surface) check_fit_for_surface(arguments);
   print_out(text, arguments.is_json);
   return code;
 }
@@ -298,15 +305,18 @@ void add_explain(CLI::App& app, Action& action) {
                    "Only the building with this id; the others are not worked on")
       ->allow_extra_args(false)
       ->type_name("BUILDING");
-  auto* full = command->add_flag("--full", arguments->is_full,
-                                 "All rules with all their conditions; of a building also its "
-                                 "features without a label");
+  auto* full =
+      command
+          ->add_flag("--full", arguments->is_full,
+                     "All rules with all their conditions; of a building also its features without "
+                     "a label")
+          ->excludes(surface);
   command
       ->add_option("--rule", arguments->rule,
                    "Only this rule with all its conditions, or all rules for this label")
       ->excludes(full)
       ->excludes(surface);
-  command->add_flag("--json", arguments->is_json, "All of it as JSON");
+  command->add_flag("--json", arguments->is_json, "All of it as JSON")->excludes(surface);
   command->footer(
       "Example:\n  oriel explain house.city.json           # lists the features\n  oriel explain "
       "house.city.json f3k9      # says why that one has its label\n  oriel explain "

@@ -131,6 +131,17 @@ TEST_SUITE("cli") {
     CHECK(run({"explain", town, "door 1 of facade south, storey 1", "--id", "l-house"}).exit == 0);
   }
 
+  TEST_CASE("a misspelt beginning of a name is answered with the names near it") {
+    CHECK(
+        run({"explain", sample("house"), "chmney"})
+            .says("no feature starts with 'chmney'; there are 'chimney 1 of roof slope north', '"));
+  }
+
+  TEST_CASE("what is only said of features is refused of a surface") {
+    for (const std::string option : {"--json", "--full"})
+      CHECK(run({"explain", sample("house"), "--surface", "3", option}).exit == 2);
+  }
+
   TEST_CASE("names are the same in records and files and on pages whatever the threads") {
     const Folder folder;
     const std::string records = folder / "parts.json", again = folder / "again.json",
@@ -276,6 +287,7 @@ TEST_SUITE("cli") {
     const json data = page_data(folder / "page.html");
     const json& building = data["models"][0]["buildings"][0];
     std::size_t of_features = 0, of_surfaces = 0;
+    std::string of_surface;
     for (std::size_t i = 0; i < building["polygons"].size(); i += 9) {
       const json& polygon = building["polygons"][i];
       if (polygon["rings"].size() > 1 || polygon["rings"][0].size() > 4) continue;
@@ -303,6 +315,17 @@ TEST_SUITE("cli") {
                                ? run({"explain", sample("house-utm"), "--surface", number})
                                : run({"explain", sample("house-utm"), feature});
       CHECK(outcome.out == same.out);
+      if (feature.empty()) of_surface = place;
+    }
+    // What is only said of features is refused.
+    using Arguments = std::vector<std::string>;
+    for (const Arguments& option : {Arguments{"--json"}, {"--rule", "window.in_wall"}}) {
+      Arguments words{"explain", sample("house-utm"), "--at", of_surface};
+      words.insert(words.end(), option.begin(), option.end());
+      const Outcome refused = run(words);
+      CHECK(refused.exit == 2);
+      CHECK(refused.out.empty());
+      CHECK(refused.says(option[0] + ": a surface lies there"));
     }
     CHECK(of_features > 5);
     CHECK(of_surfaces > 1);
