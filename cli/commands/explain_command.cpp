@@ -4,6 +4,7 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "oriel/explain.h"
 
@@ -128,13 +129,30 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
   return code;
 }
 
+/// Every number as long as the longest, so that 2 precedes 10.
+std::string with_long_numbers(std::string_view text) {
+  constexpr std::size_t kDigits = 10;
+  std::string with, number;
+  const auto end_number = [&] {
+    if (!number.empty()) with.append(kDigits - std::min(kDigits, number.size()), '0');
+    with += std::exchange(number, {});
+  };
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') {
+      number += c;
+      continue;
+    }
+    end_number();
+    with += c;
+  }
+  end_number();
+  return with;
+}
+
 /// Names in the order of a walk around the building: the place, the label, the number.
-std::tuple<std::string, std::string, std::size_t, std::string> by_place(const std::string& name) {
-  const std::size_t end = name.find(" of ");
-  const std::string counted = name.substr(0, end);
-  const std::size_t space = std::min(counted.rfind(' '), counted.size());
-  return {end == std::string::npos ? "" : name.substr(end), counted.substr(0, space),
-          counted.size(), counted};
+std::pair<std::string, std::string> by_place(const std::string& name) {
+  const std::size_t end = std::min(name.find(" of "), name.size());
+  return {with_long_numbers(name.substr(end)), with_long_numbers(name.substr(0, end))};
 }
 
 /// "house: 24 of 53 features have a label: 1 balcony, 1 canopy", a line for each that has one, and
@@ -147,9 +165,10 @@ std::string table_of(const Building& building, const PipelineResult& line, bool 
   for (const auto& [label, count] : counts)
     labels += fmt::format("{}{} {}", labels.empty() ? ": " : ", ", count, label);
   const std::size_t rows = line.description.table.rows();
-  std::string text = fmt::format("{}: {} of {} {} a label{}\n", printable(building.id),
-                                 rows - static_cast<std::size_t>(unknown), rows,
-                                 rows == 1 ? "feature has" : "features have", printable(labels));
+  const std::size_t labelled = rows - static_cast<std::size_t>(unknown);
+  std::string text = fmt::format(
+      "{}: {} {} a label{}\n", printable(building.id), counted_of(labelled, rows, "feature"),
+      agreeing(rows == 1 ? rows : labelled, "has", "have"), printable(labels));
   std::vector<std::vector<std::string>> cells = {{"name", "label", "score", "rule", "feature"}};
   const std::vector<std::string> names = names_of_features(line);
   std::vector<Verdict> verdicts = line.interpretation.verdicts;
@@ -165,7 +184,7 @@ std::string table_of(const Building& building, const PipelineResult& line, bool 
   if (cells.size() > 1) text += table(std::move(cells));
   if (unknown > 0 && !has_all)
     text += fmt::format("{} without a label: --full lists {}.\n", unknown,
-                        unknown == 1 ? "it" : "them");
+                        agreeing(unknown, "it", "them"));
   return text;
 }
 
@@ -198,22 +217,38 @@ struct FoundFeature {
   std::string name;
 };
 
-/// "f11yv1hbtweapa (chimney 1 of roof slope north)", a few of them.
+bool are_of_one_building(const std::vector<FoundFeature>& features) {
+  return std::ranges::all_of(features, [&](const FoundFeature& feature) {
+    return feature.building == features.front().building;
+  });
+}
+
+/// "f11yv1hbtweapa (chimney 1 of roof slope north)", a few of them; of several buildings with the
+/// building.
 std::string some_of(const std::vector<FoundFeature>& features) {
   constexpr std::size_t kMostShown = 5;
+  const bool is_one = are_of_one_building(features);
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMostShown, features.size()); ++i)
-    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", features[i].id, features[i].name);
+  for (std::size_t i = 0; i < std::min(kMostShown, features.size()); ++i) {
+    const FoundFeature& feature = features[i];
+    text += fmt::format("{}{} ({}{})", i == 0 ? "" : ", ", feature.id, feature.name,
+                        is_one ? "" : " in building " + printable(feature.building));
+  }
   return features.size() > kMostShown ? text + " ..." : text;
+}
+
+/// An id or its beginning: f with digits of base 32, where other texts are names.
+bool may_be_id(std::string_view text) {
+  return text.starts_with('f') &&
+         text.find_first_not_of("0123456789abcdefghjkmnpqrstvwxyz") == std::string_view::npos;
 }
 
 /// No feature is meant: those with the nearest names, or if an id seems to be meant the first ones.
 [[noreturn]] void refuse_unknown(const std::string& meant, const std::vector<FoundFeature>& all) {
   constexpr std::size_t kMostNear = 3;
   std::string which = "there are none";
-  const bool is_name = meant.find(' ') != std::string::npos;
-  if (!all.empty() && !is_name) which = "there are " + some_of(all);
-  if (!all.empty() && is_name) {
+  if (!all.empty() && may_be_id(meant)) which = "there are " + some_of(all);
+  if (!all.empty() && !may_be_id(meant)) {
     std::vector<std::string> names;
     for (const FoundFeature& feature : all) names.push_back(feature.name);
     which =
@@ -224,12 +259,10 @@ std::string some_of(const std::vector<FoundFeature>& features) {
 }
 
 [[noreturn]] void refuse_several(const std::string& meant, const std::vector<FoundFeature>& found) {
-  const bool is_one_building = std::ranges::all_of(found, [&](const FoundFeature& feature) {
-    return feature.building == found.front().building;
-  });
   throw CLI::ValidationError(
-      "feature", fmt::format("{} features start with '{}'; it may be {}{}", found.size(), meant,
-                             some_of(found), is_one_building ? "" : "; --id names one building"));
+      "feature",
+      fmt::format("{} start with '{}'; it may be {}{}", counted(found.size(), "feature"), meant,
+                  some_of(found), are_of_one_building(found) ? "" : "; --id names one building"));
 }
 
 ExitCode work(const ExplainArguments& arguments) {

@@ -1,3 +1,6 @@
+#include "examples/generator/addition.h"
+#include "examples/generator/generate.h"
+#include "examples/generator/output/cityjson.h"
 #include "tests/cli/command.h"
 #include "tests/cli/cubes.h"
 
@@ -102,6 +105,28 @@ TEST_SUITE("cli") {
     CHECK(building["features"][0]["rules"].size() > 10);
   }
 
+  TEST_CASE("the list of a building has storey 2 before storey 10") {
+    oriel::generator::Options options;
+    options.storeys = {8, 8};
+    options.roof = oriel::generator::RoofKind::flat;
+    options.features.emplace();
+    for (int i = 0; i < 12; ++i)
+      options.additions.push_back(oriel::generator::read_addition(
+          fmt::format("window hole on front at 2,{} size 0.8x0.6", 1 + 1.5 * i)));
+    const Folder folder;
+    const std::string tower = folder.write(
+        "tower.city.json",
+        oriel::generator::cityjson({"tower", oriel::generator::generate(options, 0), {}},
+                                   oriel::generator::Content::stripped));
+    const Outcome outcome = run({"explain", tower});
+    CAPTURE(outcome.out);
+    std::vector<int> storeys;
+    const std::string begin = "window 1 of facade south, storey ";
+    for (const std::string& line : lines_of(outcome.out))
+      if (line.starts_with(begin)) storeys.push_back(std::stoi(line.substr(begin.size())));
+    CHECK(storeys == std::vector{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  }
+
   TEST_CASE("a feature is explained by its name in any case and by the beginning of it") {
     const std::string id = ids_of("house", "chimney").at(0);
     const std::string by_id = run({"explain", sample("house"), id}).out;
@@ -127,7 +152,11 @@ TEST_SUITE("cli") {
     const Folder folder;
     const std::string town = folder / "town.city.json";
     REQUIRE(run({"collect", sample("house"), sample("l-house"), "-o", town}).exit == 0);
-    CHECK(run({"explain", town, "door 1 of facade south, storey 1"}).says("--id names one"));
+    const Outcome in_both = run({"explain", town, "door 1 of facade south, storey 1"});
+    CHECK(in_both.exit == 2);
+    CHECK(in_both.out.empty());
+    CHECK(in_both.says("(door 1 of facade south, storey 1 in building house), f"));
+    CHECK(in_both.says("(door 1 of facade south, storey 1 in building l-house); --id names one"));
     CHECK(run({"explain", town, "door 1 of facade south, storey 1", "--id", "l-house"}).exit == 0);
   }
 
@@ -249,9 +278,9 @@ TEST_SUITE("cli") {
   }
 
   TEST_CASE("an unknown id is answered with ids there are") {
-    const Outcome outcome = run({"explain", sample("house"), "nothing"});
+    const Outcome outcome = run({"explain", sample("house"), "fzzzz"});
     CHECK(outcome.exit == 2);
-    CHECK(outcome.says("no feature starts with 'nothing'; there are f"));
+    CHECK(outcome.says("no feature starts with 'fzzzz'; there are f"));
     CHECK(outcome.out.empty());
   }
 
