@@ -85,7 +85,7 @@ ExitCode explain_place(const ExplainArguments& arguments) {
   std::optional<double> nearest_m;
   std::string text;
   bool is_surface = false;
-  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
+  const auto look_up = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = polygon_at(building, point);
@@ -97,6 +97,10 @@ ExitCode explain_place(const ExplainArguments& arguments) {
       text = is_surface ? explain_surface(building, lines[i], *rules, found->polygon)
                         : printer.text(explain(lines[i], *rules, feature));
     }
+  };
+  RecordVisitor visitor(look_up, [&] {
+    nearest_m.reset();
+    text.clear();
   });
   const ExitCode code = runner.run(visitor);
   if (text.empty()) return end_with_nothing(code, "--at", "no polygon lies there");
@@ -112,7 +116,7 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
   if (!rules) return ExitCode::rules;
   BatchRunner runner(arguments, &*rules, report);
   std::string text;
-  RecordVisitor visitor([&](const Document& document, std::vector<PipelineResult>& lines) {
+  const auto look_up = [&](const Document& document, std::vector<PipelineResult>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Building& building = document.buildings[i];
       const auto found = std::ranges::find(building.polygons, arguments.surface, &Polygon::source);
@@ -120,7 +124,8 @@ ExitCode explain_surfaces(const ExplainArguments& arguments) {
       text += explain_surface(building, lines[i], *rules,
                               static_cast<std::size_t>(found - building.polygons.begin()));
     }
-  });
+  };
+  RecordVisitor visitor(look_up, [&] { text.clear(); });
   const ExitCode code = runner.run(visitor);
   if (text.empty())
     return end_with_nothing(code, "--surface",

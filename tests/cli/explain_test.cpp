@@ -166,6 +166,17 @@ TEST_SUITE("cli") {
             .says("no feature starts with 'chmney'; there are 'chimney 1 of roof slope north', '"));
   }
 
+  TEST_CASE("what is explained is printed once however often the work is repeated") {
+    for (const std::vector<std::string>& what :
+         {std::vector<std::string>{"--surface", "3"}, {"chimney"}, {}}) {
+      std::vector<std::string> words{"explain", sample("house")};
+      words.insert(words.end(), what.begin(), what.end());
+      const std::string once = run(words).out;
+      words.insert(words.end(), {"--repeat", "2"});
+      CHECK(run(words).out == once);
+    }
+  }
+
   TEST_CASE("what is only said of features is refused of a surface") {
     for (const std::string option : {"--json", "--full"})
       CHECK(run({"explain", sample("house"), "--surface", "3", option}).exit == 2);
