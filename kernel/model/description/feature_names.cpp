@@ -26,8 +26,9 @@ constexpr double kSteepestWall_deg = 105;
 constexpr double kFlatRoof_deg = 5;
 /// Angles are compared so coarsely: what is 22.5° but for rounding lies on one side.
 constexpr double kAngleStep_deg = 0.1;
-/// Coordinates are given to the millimetre.
-constexpr double kSamePlace_m = 0.005;
+/// Coordinates are given to the millimetre, and middles lie on halves of it: no difference is just
+/// as large as this, so that rounding, which differs with the origin, decides nothing.
+constexpr double kSamePlace_m = 0.0051;
 /// Openings that are taller are not those of one storey, nor is what reaches higher than this over
 /// the lowest of a storey.
 constexpr double kStorey_m = 3;
@@ -64,10 +65,12 @@ bool is_on_wall(const NameParts& feature) {
 
 double middle_of(double low, double high) { return (low + high) / 2; }
 
-/// The heights between which the openings of a storey lie.
+/// The heights between which the openings of a storey lie, and those of their middles.
 struct StoreyHeights {
   double bottom = 0;
   double top = 0;
+  double lowest_middle = middle_of(bottom, top);
+  double highest_middle = lowest_middle;
 };
 
 /// The storeys of a building, from the lowest.
@@ -75,20 +78,20 @@ class Storeys {
  public:
   /// Of these openings.
   explicit Storeys(std::vector<StoreyHeights> openings) {
-    const auto is_tall = [](const StoreyHeights& o) { return o.top - o.bottom > kStorey_m; };
+    const auto is_tall = [](const StoreyHeights& opening) {
+      return opening.top - opening.bottom > kStorey_m + kSamePlace_m;
+    };
     if (!std::ranges::all_of(openings, is_tall)) std::erase_if(openings, is_tall);
-    std::ranges::sort(openings, {}, [](const StoreyHeights& o) {
-      return std::tuple(middle_of(o.bottom, o.top), o.bottom);
-    });
+    std::ranges::sort(openings, {}, &StoreyHeights::lowest_middle);
     for (const StoreyHeights& opening : openings) {
-      if (all_.empty() || middle_of(opening.bottom, opening.top) > reach_of(all_.back())) {
+      if (all_.empty() || opening.lowest_middle > reach_of(all_.back()) + kSamePlace_m) {
         all_.push_back(opening);
         continue;
       }
       all_.back().bottom = std::min(all_.back().bottom, opening.bottom);
       all_.back().top = std::max(all_.back().top, opening.top);
+      all_.back().highest_middle = opening.highest_middle;
     }
-    for (StoreyHeights& storey : all_) storey.top = reach_of(storey);
   }
 
   /// From 1; nothing if there is none, or if it reaches from one into the other.
@@ -97,17 +100,25 @@ class Storeys {
     std::size_t storey = 1;
     for (std::size_t i = 0; i + 1 < all_.size(); ++i) {
       const StoreyHeights &lower = all_[i], &upper = all_[i + 1];
-      if (bottom <= middle_of(lower.bottom, lower.top) && top >= middle_of(upper.bottom, upper.top))
+      if (bottom <= middle_of(lower.bottom, reach_of(lower)) + kSamePlace_m &&
+          top >= middle_of(upper.bottom, reach_of(upper)) - kSamePlace_m)
         return std::nullopt;
-      if (middle_of(bottom, top) > middle_of(lower.top, upper.bottom) + kSamePlace_m)
-        storey = i + 2;
+      if (middle_of(bottom, top) > boundary_of(lower, upper)) storey = i + 2;
     }
     return storey;
   }
 
  private:
   static double reach_of(const StoreyHeights& storey) {
-    return std::min(storey.top, storey.bottom + kStorey_m) - kSamePlace_m;
+    return std::min(storey.top, storey.bottom + kStorey_m);
+  }
+
+  /// Half-way between the openings of the two, or where these overlap between their middles, so
+  /// that every opening stays in the storey that it belongs to.
+  static double boundary_of(const StoreyHeights& lower, const StoreyHeights& upper) {
+    const double half_way = middle_of(reach_of(lower), upper.bottom) + kSamePlace_m;
+    const bool parts_middles = half_way > lower.highest_middle && half_way < upper.lowest_middle;
+    return parts_middles ? half_way : middle_of(lower.highest_middle, upper.lowest_middle);
   }
 
   std::vector<StoreyHeights> all_;
