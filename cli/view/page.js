@@ -263,11 +263,15 @@ function pick(event) {
   select({building, polygon, feature: shownFeature(building, polygon)});
 }
 
-// The first feature or building whose id or name begins so.
-function find(id) {
-  if (!id) return undefined;
-  const name = id.toLowerCase();
-  for (const isMatch of [other => other === id, other => other.startsWith(id), other => other.toLowerCase().startsWith(name)])
+// As `oriel explain` reads names: case, commas and the number of spaces do not count.
+const plain = text => text.toLowerCase().split(/[,\s]+/).filter(Boolean).join(' ');
+
+// The first feature or building with that id or name, else the first of which it is the beginning, of names by whole words if there is one.
+function find(text) {
+  const meant = plain(text ?? '');
+  if (!meant) return undefined;
+  for (const isMatch of [other => other === text, other => plain(other) === meant, other => plain(other).startsWith(meant + ' '),
+    other => other.startsWith(text), other => plain(other).startsWith(meant)])
     for (const building of shown.model.buildings) {
       const feature = building.features.findIndex(f => isMatch(f.id) || isMatch(f.name));
       if (feature >= 0) return {building, feature};
