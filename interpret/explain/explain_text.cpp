@@ -1,4 +1,5 @@
 #include "interpret/explain/explain.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 
 #include <algorithm>
@@ -97,13 +98,13 @@ void add_evidence(const RuleReport& rule, std::vector<ExplanationRow>& rows) {
   if (!rule.evidence) return;
   add_company(*rule.evidence, rule.label, rows);
   for (const CountReport& count : rule.evidence->counts)
-    rows.push_back({4,
-                    {evidence_mark(count.shift),
-                     fmt::format("{} in the {}: {} other{}", count.label, count.per, count.others,
-                                 count.others == 1 ? "" : "s"),
-                     fmt::format("typical {} ..{}", count.low,
-                                 count.high ? fmt::format(" {}", *count.high) : "")},
-                    count.place});
+    rows.push_back(
+        {4,
+         {evidence_mark(count.shift),
+          fmt::format("{} in the {}: {}", count.label, count.per, counted(count.others, "other")),
+          fmt::format("typical {} ..{}", count.low,
+                      count.high ? fmt::format(" {}", *count.high) : "")},
+         count.place});
 }
 
 /// "; without evidence door 0.62 by door.on_ground", if that is another label.
