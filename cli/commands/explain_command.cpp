@@ -321,6 +321,9 @@ void add_explain(CLI::App& app, Action& action) {
   auto* feature = command->add_option("feature", arguments->feature,
                                       "Id or name of a feature, or the beginning of one (default: "
                                       "a line for each feature of the building)");
+  feature->check([](const std::string& text) {
+    return text.empty() ? std::string("an empty text names no feature") : std::string();
+  });
   auto* surface =
       command
           ->add_option(

@@ -295,6 +295,13 @@ TEST_SUITE("cli") {
     CHECK(outcome.out.empty());
   }
 
+  TEST_CASE("an empty text is no feature and does not list the building") {
+    const Outcome outcome = run({"explain", sample("house"), ""});
+    CHECK(outcome.exit == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.says("an empty text names no feature"));
+  }
+
   TEST_CASE("explain of an unreadable file is about the file") {
     const Outcome outcome = run({"explain", "no.city.json", "f1"});
     CHECK(outcome.exit == 5);
