@@ -173,42 +173,48 @@ void BatchRunner::run_inputs() {
 }
 
 void BatchRunner::run_in_threads(InputReader& reader) {
-  // So many records are held in memory at most.
   constexpr std::size_t kRecordsPerJob = 4;
-  using SharedItem = std::shared_ptr<WorkItem>;
+  // A record goes through the line in a slot of its own: so many are held in memory at most. What
+  // TBB itself hands on is the address, which needs no memory that two threads would see.
+  using Slot = std::unique_ptr<WorkItem>;
+  std::vector<Slot> slots(kRecordsPerJob * static_cast<std::size_t>(options_.jobs));
+  std::size_t items_read = 0;
   const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(options_.jobs));
   tbb::task_arena arena(options_.jobs);
-  const std::size_t records = kRecordsPerJob * static_cast<std::size_t>(options_.jobs);
   const RecordWorker worker = this->worker();
-  const auto read = [&](tbb::flow_control& control) -> SharedItem {
+  const auto read = [&](tbb::flow_control& control) -> Slot* {
     take_over(&reader);
-    SharedItem item = next(reader);
-    if (!item) control.stop();
-    hand_on(item.get());
+    Slot& slot = slots[items_read++ % slots.size()];
+    take_over(&slot);
+    slot = next(reader);
+    if (!slot) control.stop();
+    hand_on(&slot);
     hand_on(&reader);
-    return item;
+    return &slot;
   };
-  const auto work = [&](SharedItem item) {
-    take_over(item.get());
-    reuse(*item);
-    worker.work_on(*item);
-    hand_on(item.get());
-    return item;
+  const auto work = [&](Slot* slot) {
+    take_over(slot);
+    reuse(**slot);
+    worker.work_on(**slot);
+    hand_on(slot);
+    return slot;
   };
-  const auto end = [&](const SharedItem& item) {
-    take_over(item.get());
+  const auto end = [&](Slot* slot) {
+    take_over(slot);
     take_over(this);
-    settle(*item);
+    settle(**slot);
+    slot->reset();
+    hand_on(slot);
     hand_on(this);
   };
   // Where it lacked memory for itself, TBB waits for ever when its arena goes.
   try {
     arena.execute([&] {
       tbb::parallel_pipeline(
-          records, tbb::make_filter<void, SharedItem>(tbb::filter_mode::serial_in_order, read) &
-                       tbb::make_filter<SharedItem, SharedItem>(tbb::filter_mode::parallel, work) &
-                       tbb::make_filter<SharedItem, void>(tbb::filter_mode::serial_in_order, end));
+          slots.size(), tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order, read) &
+                            tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, work) &
+                            tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, end));
     });
   } catch (const std::bad_alloc&) {
     end_without_memory();
