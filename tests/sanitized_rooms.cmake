@@ -6,6 +6,19 @@ set(ORIEL_SANITIZED_ROOMS io solidify segment validate interpret)
 set(ORIEL_SANITIZERS
   -fsanitize=address,signed-integer-overflow,float-cast-overflow,shift,integer-divide-by-zero,bounds,enum,bool,return,unreachable
   -fno-sanitize-recover=all -fno-omit-frame-pointer)
+# Of optimisations as much as makes it fast to compile and to run together; for that, too, what is checked is a call.
+set(ORIEL_SANITIZED_OPTIONS -O1 -g1 ${ORIEL_SANITIZERS}
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;--param=asan-instrumentation-with-call-threshold=0>)
+set(ORIEL_THREAD_OPTIONS -O0 -g1 -fsanitize=thread $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
+
+# What nearly every file includes is read once for all targets of the same flags; those of a target without libraries have fewest.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/no_source.cpp "")
+function(oriel_precompiled_headers name)
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/no_source.cpp)
+  target_link_libraries(${name} PRIVATE oriel_options fmt::fmt)
+  target_compile_options(${name} PRIVATE ${ARGN})
+  target_precompile_headers(${name} PRIVATE ${ORIEL_COMMON_HEADERS})
+endfunction()
 
 # oriel_sanitized_test(ROOM TEST): TEST_sanitized, the objects of TEST on those of the room under sanitizers. TEST runs the slow cases.
 function(oriel_sanitized_test room test)
@@ -15,10 +28,12 @@ function(oriel_sanitized_test room test)
   add_library(${objects} OBJECT ${sources})
   target_link_libraries(${objects} PRIVATE ${libraries} oriel_options)
   target_compile_definitions(${objects} PRIVATE ORIEL_ASSERTIONS)
-  # Of optimisations as much as makes it fast to compile and to run together; for that, too, what is checked is a call.
-  target_compile_options(${objects} PRIVATE -O1 -g1 ${ORIEL_SANITIZERS}
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;--param=asan-instrumentation-with-call-threshold=0>)
-  target_precompile_headers(${objects} PRIVATE ${ORIEL_COMMON_HEADERS})
+  target_compile_options(${objects} PRIVATE ${ORIEL_SANITIZED_OPTIONS})
+  if(NOT TARGET oriel_sanitized_headers)
+    oriel_precompiled_headers(oriel_sanitized_headers ${ORIEL_SANITIZED_OPTIONS})
+    target_compile_definitions(oriel_sanitized_headers PRIVATE ORIEL_ASSERTIONS)
+  endif()
+  target_precompile_headers(${objects} REUSE_FROM oriel_sanitized_headers)
   set_target_properties(${objects} PROPERTIES UNITY_BUILD ${ORIEL_UNITY} UNITY_BUILD_BATCH_SIZE 16)
 
   # These objects come before the archives, whose own are then not taken.
@@ -30,10 +45,12 @@ function(oriel_sanitized_test room test)
 endfunction()
 
 # oriel_of_threads: the command under the thread sanitizer, as far as it has what threads share: itself, the library, names and
-# logs (base), and rules, which all threads read. The other rooms keep nothing between two calls (tests/repository).
+# logs (base), the tables of attributes and relations, which the first thread that asks for them makes (model), and rules, which
+# all threads read. The other rooms keep nothing between two calls (tests/repository).
 function(oriel_command_of_threads)
+  oriel_precompiled_headers(oriel_thread_headers ${ORIEL_THREAD_OPTIONS})
   set(objects "")
-  foreach(room base interpret oriel)
+  foreach(room base model interpret oriel)
     get_target_property(sources oriel_${room} SOURCES)
     get_target_property(libraries oriel_${room} LINK_LIBRARIES)
     add_library(oriel_${room}_of_threads OBJECT ${sources})
@@ -53,8 +70,8 @@ function(oriel_command_of_threads)
   foreach(target ${objects} oriel_of_threads)
     target_include_directories(${target} PRIVATE
       ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated $<TARGET_PROPERTY:oriel_oriel,INCLUDE_DIRECTORIES>)
-    target_compile_options(${target} PRIVATE -O0 -g1 -fsanitize=thread $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
-    target_precompile_headers(${target} PRIVATE ${ORIEL_COMMON_HEADERS})
+    target_compile_options(${target} PRIVATE ${ORIEL_THREAD_OPTIONS})
+    target_precompile_headers(${target} REUSE_FROM oriel_thread_headers)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${ORIEL_UNITY} UNITY_BUILD_BATCH_SIZE 24)
   endforeach()
 endfunction()

@@ -48,18 +48,18 @@ std::string shuffled_stream(unsigned seed) {
 }
 
 /// What the rules say of each feature, sorted, and all that score writes.
-struct Said {
+struct Scored {
   std::vector<std::string> labels;
   std::string score, rows, curve;
-  bool operator==(const Said&) const = default;
+  bool operator==(const Scored&) const = default;
 };
 
-Said said_of(unsigned seed, const std::string& jobs) {
+Scored scored_of(unsigned seed, const std::string& jobs) {
   const Folder folder;
   const std::string records = folder / "parts.jsonl",
                     stream = folder.write("in.city.jsonl", shuffled_stream(seed));
   REQUIRE(run({"label", stream, "--features", records, "-j", jobs}).exit == 0);
-  Said said;
+  Scored said;
   std::istringstream lines(bytes_of(records));
   for (std::string line; std::getline(lines, line);) {
     const json record = json::parse(line);
@@ -84,14 +84,14 @@ Said said_of(unsigned seed, const std::string& jobs) {
 
 TEST_SUITE("cli") {
   TEST_CASE("labels and scores are the same for shuffled input and any number of threads") {
-    const Said once = said_of(0, "1");
+    const Scored once = scored_of(0, "1");
     CHECK(once.labels.size() > 150);
     CHECK(json::parse(once.score)["classes"]["window"]["tp"].get<int>() > 50);
     for (const unsigned seed : {0U, 1U, 2U})
       for (const std::string jobs : {"1", "2", "8"}) {
         CAPTURE(seed);
         CAPTURE(jobs);
-        const Said said = said_of(seed, jobs);
+        const Scored said = scored_of(seed, jobs);
         CHECK(said.labels == once.labels);
         CHECK(said.score == once.score);
         CHECK(said.rows == once.rows);

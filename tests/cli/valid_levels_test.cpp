@@ -40,14 +40,14 @@ std::set<std::string> valid_in(const Names& files, const Names& options = {}) {
   return ids;
 }
 
-/// What the command said of buildings: those set aside, those with something refused, and those
+/// The buildings that messages name: those set aside, those with something refused, and those
 /// that it calls invalid as they were read.
-struct Said {
+struct NamedBuildings {
   std::set<std::string> set_aside, refused, invalid_before;
 };
 
-Said said_in(const std::string& text) {
-  Said said;
+NamedBuildings said_in(const std::string& text) {
+  NamedBuildings said;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
@@ -78,7 +78,7 @@ std::size_t check_valid(const std::string& data, const Names& files) {
     const Outcome made = run(joined(joined({"generalise"}, files),
                                     {target[0], level, "-j", "2", "-o", folder.path() / ""}));
     REQUIRE((made.exit == 0 || made.exit == 3));
-    const Said said = said_in(made.err);
+    const NamedBuildings said = said_in(made.err);
     for (const std::string& id : said.invalid_before) CHECK_FALSE_MESSAGE(before.contains(id), id);
     Names written;
     for (const std::string& name : folder.names()) written.push_back(folder / name);

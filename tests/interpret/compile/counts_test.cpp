@@ -16,7 +16,7 @@ std::string counting(const std::string& typical) {
   return findings_of("window: {typical: {" + typical + "}}", "ambiguous_below: 0.2, evidence: 0.1");
 }
 
-constexpr const char* kWeighing = "ambiguous_below: 0.2, evidence: 0.1";
+constexpr const char* kCountedWeighing = "ambiguous_below: 0.2, evidence: 0.1";
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -71,13 +71,13 @@ TEST_SUITE("interpret") {
   TEST_CASE("a subclass that asks for more than the class above allows is refused") {
     CHECK(has(findings_of("window: {typical: {per building: 0 .. 3}}, "
                           "dormer_window: {is: window, typical: {per building: 4 ..}}",
-                          kWeighing),
+                          kCountedWeighing),
               "t.yaml:3:92: R212 4 .. 'dormer_window' per building and 0 .. 3 'window' per "
               "building (t.yaml:3:30) exclude each other"));
     CHECK(has(findings_of("part: {abstract: true, typical: {per building: 0 .. 2}}, opening: "
                           "{is: part, abstract: true}, window: {is: opening, typical: {per "
                           "facade: 3 ..}}",
-                          kWeighing),
+                          kCountedWeighing),
               "R212 3 .. 'window' per facade and 0 .. 2 'part' per building"));
   }
 
@@ -87,7 +87,7 @@ TEST_SUITE("interpret") {
       return findings_of("opening: {abstract: true, typical: {" + opening +
                              "}}, window: {is: opening, typical: {" + window +
                              "}}, door: {is: opening, typical: {" + door + "}}",
-                         kWeighing);
+                         kCountedWeighing);
     };
     CHECK(has(parts("per storey: 0 .. 5", "per storey: 3 ..", "per storey: 3 .. 4"),
               "t.yaml:3:47: R212 0 .. 5 'opening' per storey cannot be: the classes beneath it are "
@@ -97,8 +97,9 @@ TEST_SUITE("interpret") {
     std::string many = "window: {}, part: {abstract: true, typical: {per storey: 0 .. 6}}";
     for (int i = 0; i < 7; ++i)
       many += fmt::format(", c{}: {{is: part, typical: {{per storey: 1 ..}}}}", i);
-    CHECK(has(findings_of(many, kWeighing), "are at least 7 together, 1 .. 'c0' per storey"));
-    CHECK(has(findings_of(many, kWeighing), " and 2 more\n"));
+    CHECK(
+        has(findings_of(many, kCountedWeighing), "are at least 7 together, 1 .. 'c0' per storey"));
+    CHECK(has(findings_of(many, kCountedWeighing), " and 2 more\n"));
     // A storey has fewer than its building: nothing is said of one.
     CHECK_FALSE(
         has(parts("per storey: 0 .. 5", "per building: 3 ..", "per building: 3 .."), "R212"));
@@ -111,7 +112,7 @@ TEST_SUITE("interpret") {
                              "typical: {per storey: 5 .. 9}}, window: {is: opening, typical: {per "
                              "storey: 0 .. 2}}, door: {is: opening" +
                              door + "}",
-                         kWeighing);
+                         kCountedWeighing);
     };
     CHECK(has(parts("abstract: true, ", ", typical: {per building: 0 .. 1}"),
               "R212 5 .. 9 'opening' per storey cannot be: the classes beneath it are at most 3 "
