@@ -10,6 +10,7 @@
 #include "kernel/base/sha256.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/files/partial_files.h"
+#include "kernel/io/records/feature_records.h"
 
 #include <algorithm>
 #include <new>
@@ -46,6 +47,15 @@ void hand_on([[maybe_unused]] const void* what) {
 void take_over([[maybe_unused]] const void* what) {
 #if defined(__SANITIZE_THREAD__)
   __tsan_acquire(const_cast<void*>(what));
+#endif
+}
+
+/// Tables that the first to ask for them makes are made before there are threads: where rooms are
+/// built without the thread sanitizer, it does not see that the others wait for the first.
+void make_tables() {
+#if defined(__SANITIZE_THREAD__)
+  static_cast<void>(record_fields());
+  static_cast<void>(surface_schema());
 #endif
 }
 
@@ -179,6 +189,7 @@ void BatchRunner::run_in_threads(InputReader& reader) {
   using Slot = std::unique_ptr<WorkItem>;
   std::vector<Slot> slots(kRecordsPerJob * static_cast<std::size_t>(options_.jobs));
   std::size_t items_read = 0;
+  make_tables();
   const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism,
                                             static_cast<std::size_t>(options_.jobs));
   tbb::task_arena arena(options_.jobs);
