@@ -161,7 +161,8 @@ bool report_overlap(const Pack& pack, const GeneraliseEntry& first, const Genera
 void check_entries(const Pack& pack, Findings& findings) {
   for (std::size_t i = 0; i < pack.entries.size(); ++i) {
     const GeneraliseEntry& second = pack.entries[i];
-    if (!pack.source.is_in_first(second.span.begin) || second.scale_from == 0) continue;
+    const bool is_refused = second.id.empty() || second.scale_from == 0;
+    if (is_refused || !pack.source.is_in_first(second.span.begin)) continue;
     for (std::size_t j = 0; j < i; ++j)
       if (report_overlap(pack, pack.entries[j], second, findings)) break;
   }

@@ -147,4 +147,12 @@ TEST_SUITE("interpret") {
                      "{id: b, scale: \"1:2000 ..\", for: window, do: omit}")
               .empty());
   }
+
+  TEST_CASE("an entry that is refused is not said never to decide as well") {
+    const std::string all = "{id: a, scale: \"1:1000 ..\", for: any, do: omit}, ";
+    const std::string text = of_entries(all + "{for: window, scales: \"1:2000 ..\", do: merge}");
+    CHECK(says(text, "R210"));
+    CHECK_FALSE(says(text, "R255"));
+    CHECK_FALSE(says(text, "R256"));
+  }
 }
