@@ -76,10 +76,14 @@ void print_word(const VocabularyWord& word, const WordList& list) {
   add("meaning", word.meaning);
   add("unit", word.unit);
   add("example", word.example);
-  if (list.kind == "operator")
+  if (list.kind == "operator") {
+    add("in a pack",
+        fmt::format("generalise: [{{id: mine, for: window, scale: \"1:1000 ..\", do: {}}}]",
+                    word.example));
     for (const std::string& argument : word.values) add("argument", argument);
-  else
+  } else {
     add("values", rules::join(word.values));
+  }
   add("also called", rules::join(word.synonyms));
   print_out(text);
 }

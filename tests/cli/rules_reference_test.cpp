@@ -29,6 +29,8 @@ TEST_SUITE("cli") {
           "typify (operator of generalisation)\n"
           "  meaning      replaces the recesses of a row by fewer\n"
           "  example      {typify: {ratio: 50 %, gap: 0.5 mm@map}}\n"
+          "  in a pack    generalise: [{id: mine, for: window, scale: \"1:1000 ..\", "
+          "do: {typify: {ratio: 50 %, gap: 0.5 mm@map}}}]\n"
           "  argument     ratio: how many stay (a ratio)\n"
           "  argument     gap: the least distance to neighbours (a length)\n"
           "  also called  select, thin, reduce, typification\n");
