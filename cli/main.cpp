@@ -75,8 +75,8 @@ void finish_stdout() {
 
 int run(int argc, char** argv) {
   CLI::App app(
-      "oriel finds the parts of 3D buildings, names them by rules and redraws the building for a "
-      "scale.",
+      "oriel finds the parts of 3D buildings, labels them by rules and redraws the buildings for a "
+      "map scale.",
       "oriel");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

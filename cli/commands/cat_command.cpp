@@ -77,15 +77,15 @@ void add_cat(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<CatArguments>();
   arguments->ends_at_reading = true;
   CLI::App* command = app.add_subcommand(
-      "cat", "Write buildings as a stream (CityJSONSeq): a header, then a line for each");
+      "cat", "Write buildings as a stream (CityJSONSeq): a header, then one line per feature");
   add_input_arguments(*command, *arguments, true);
   command->add_option("-o,--output", arguments->out, "File, or - for stdout")
       ->capture_default_str();
   add_run_arguments(*command, *arguments);
   command->footer(
-      "Several inputs become one stream if they have one transform and reference system.\n"
-      "Example:\n  oriel cat city.city.json | oriel label - | oriel generalise - --scale 1:5000 | "
-      "oriel collect - -o out.city.json");
+      "Several inputs become one stream if they share one transform and reference "
+      "system.\nExample:\n  oriel cat city.city.json | oriel label - | oriel generalise - --scale "
+      "1:5000 | oriel collect - -o out.city.json");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

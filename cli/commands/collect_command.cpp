@@ -81,14 +81,14 @@ void add_collect(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<CollectArguments>();
   arguments->ends_at_reading = true;
   CLI::App* command =
-      app.add_subcommand("collect", "Put the features of streams together as one CityJSON file");
+      app.add_subcommand("collect", "Combine the features of streams into one CityJSON file");
   add_input_arguments(*command, *arguments, true);
   command->add_option("-o,--output", arguments->out, "File, or - for stdout")
       ->capture_default_str();
   add_run_arguments(*command, *arguments);
   command->footer(
-      "The file is held in memory. Several inputs need one transform and reference system.\n"
-      "Example:\n  oriel collect labelled.city.jsonl -o labelled.city.json");
+      "The file is held in memory. Several inputs must share one transform and reference "
+      "system.\nExample:\n  oriel collect labelled.city.jsonl -o labelled.city.json");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

@@ -11,7 +11,7 @@ namespace oriel::cli {
 
 void add_completion(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "completion", "Print the script by which bash, zsh or fish completes commands and options");
+      "completion", "Print the script that completes commands and options in bash, zsh or fish");
   // Who installs oriel has the scripts already: not among what it does with buildings.
   command->group("");
   auto shell = std::make_shared<std::string>();

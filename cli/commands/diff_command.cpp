@@ -62,16 +62,16 @@ ExitCode work(const DiffArguments& arguments) {
 void add_diff(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<DiffArguments>();
   CLI::App* command = app.add_subcommand(
-      "diff", "Compare the labels of two runs: what changed, by which rules, for example where");
+      "diff", "Compare the labels of two runs: what changed, by which rules, with examples");
   command->add_option("before", arguments->before, "Records of features: .csv, .json or .jsonl")
       ->required();
-  command->add_option("after", arguments->after, "Those of the other run")->required();
-  command->add_option("--examples", arguments->examples, "So many features of each change")
+  command->add_option("after", arguments->after, "Records of the other run")->required();
+  command->add_option("--examples", arguments->examples, "How many features of each change to list")
       ->capture_default_str();
-  command->add_option("--fail-over", arguments->most,
-                      "Exit code 3 if more features than this have another label or are only in "
-                      "one run");
-  command->add_flag("--json", arguments->is_json, "As one JSON object");
+  command->add_option(
+      "--fail-over", arguments->most,
+      "Exit with 3 if more features than this have another label or are in only one of the runs");
+  command->add_flag("--json", arguments->is_json, "Print one JSON object");
   command->footer(
       "Example:\n  oriel interpret parts.csv --rules mine.yaml -o after.csv\n"
       "  oriel diff parts.csv after.csv --fail-over 0");

@@ -316,25 +316,25 @@ ExitCode work(const ExplainArguments& arguments) {
 void add_explain(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command = app.add_subcommand(
-      "explain", "Say why a feature has its label: every condition with its value and its bound");
+      "explain",
+      "Explain why a feature has its label: the conditions, their values and their bounds");
   add_line_arguments(*command, *arguments, false);
   auto* feature = command->add_option("feature", arguments->feature,
                                       "Id or name of a feature, or the beginning of one (default: "
-                                      "a line for each feature of the building)");
+                                      "list the features of the building)");
   feature->check([](const std::string& text) {
     return text.empty() ? std::string("an empty text names no feature") : std::string();
   });
-  auto* surface =
-      command
-          ->add_option(
-              "--surface", arguments->surface,
-              "Instead of a feature: the number of a polygon, to say what surface it is and why")
-          ->check(CLI::NonNegativeNumber)
-          ->excludes(feature);
+  auto* surface = command
+                      ->add_option("--surface", arguments->surface,
+                                   "Instead of a feature, explain which surface the polygon with "
+                                   "this number is, and why")
+                      ->check(CLI::NonNegativeNumber)
+                      ->excludes(feature);
   command
-      ->add_option("--at", arguments->at,
-                   "Instead of a feature: a place in the input's coordinates, to say what lies "
-                   "there and why")
+      ->add_option(
+          "--at", arguments->at,
+          "Instead of a feature, explain what lies at this place, in the input's coordinates")
       ->delimiter(',')
       ->expected(3)
       ->type_name("X,Y,Z")
@@ -343,21 +343,20 @@ void add_explain(CLI::App& app, Action& action) {
   add_rules_argument(*command, arguments->rules);
   command
       ->add_option("--id", arguments->selection.ids,
-                   "Only the building with this id; the others are not worked on")
+                   "Only the building with this id; the others are read and skipped")
       ->allow_extra_args(false)
       ->type_name("BUILDING");
-  auto* full =
-      command
-          ->add_flag("--full", arguments->is_full,
-                     "All rules with all their conditions; of a building also its features without "
-                     "a label")
-          ->excludes(surface);
+  auto* full = command
+                   ->add_flag("--full", arguments->is_full,
+                              "Show all rules with all their conditions; for a building, also "
+                              "the features without a label")
+                   ->excludes(surface);
   command
       ->add_option("--rule", arguments->rule,
-                   "Only this rule with all its conditions, or all rules for this label")
+                   "Show all conditions of the rule with this id, or of all rules for this label")
       ->excludes(full)
       ->excludes(surface);
-  command->add_flag("--json", arguments->is_json, "All of it as JSON")->excludes(surface);
+  command->add_flag("--json", arguments->is_json, "Print everything as JSON")->excludes(surface);
   command->footer(
       "Example:\n  oriel explain house.city.json           # lists the features\n  oriel explain "
       "house.city.json f3k9      # says why that one has its label\n  oriel explain "

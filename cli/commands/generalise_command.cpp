@@ -327,44 +327,44 @@ ExitCode work(GeneraliseArguments& arguments) {
 
 void add_generalise(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<GeneraliseArguments>();
-  CLI::App* command = app.add_subcommand("generalise",
-                                         "Redraw buildings for a target scale or level of detail: "
-                                         "a closed solid with what it can show");
+  CLI::App* command = app.add_subcommand(
+      "generalise", "Redraw buildings for a target scale or level of detail, as closed solids");
   add_label_arguments(*command, *arguments);
   command->get_option("input")->required(false);
   CLI::Option* from = command->get_option("--from");
   from->get_validator(0)->active(false);
-  from->description(from->get_description() + "; with --at the NAME of a series");
+  from->description(from->get_description() + "; with --at, the NAME of a series");
   CLI::Option_group* target = command->add_option_group("Target");
   const CLI::Option* scale =
       target->add_option("--scale", arguments->target.scale, "Target scale, such as 1:2000");
   target
       ->add_option("--to-lod", arguments->target.lods,
-                   "Levels of detail to make, such as 2.0,1.2; they share a file")
+                   "Levels of detail to make, such as 2.0,1.2, all in one file")
       ->allow_extra_args(false)
       ->delimiter(',');
   target
-      ->add_option("--series", arguments->series,
-                   "Scales such as 1:500,1:2000: a file for each, NAME.1-2000.city.json, and the "
-                   "log of all operations, NAME.oplog.jsonl; -o is NAME")
+      ->add_option(
+          "--series", arguments->series,
+          "Target scales, such as 1:500,1:2000: writes one file each, NAME.1-2000.city.json, and "
+          "the log of all operations, NAME.oplog.jsonl; -o gives NAME")
       ->allow_extra_args(false)
       ->delimiter(',');
-  target->add_option("--at", arguments->at,
-                     "The level at this scale, of the series --from NAME, without any input");
+  target->add_option(
+      "--at", arguments->at,
+      "Write the level at this scale from the stored series --from NAME; takes no input");
   target->require_option(0, 1);
   command->add_option("--explain", arguments->explain,
-                      "File for what became of each feature, by which rule, and what was refused "
-                      "and why: text, or JSON lines if it ends in .jsonl");
-  command->add_option(
-      "--metrics", arguments->metrics,
-      "File for figures before and after, a JSON line for each building and target");
-  command->add_option(
-      "--profile", arguments->target.profile,
-      "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
-      "file (--to-lod: lod; --scale: they stay); without a target its level is made");
+                      "Write what was done to each feature, by which entry, and what was refused "
+                      "and why: text, or JSON lines if the name ends in .jsonl");
+  command->add_option("--metrics", arguments->metrics,
+                      "Write figures before and after, one JSON line per building and target");
+  command->add_option("--profile", arguments->target.profile,
+                      "What to do with features that the pack has no entry for: NAME[:LEVEL] or a "
+                      "file (default with --to-lod: lod; with --scale: they stay). Without a "
+                      "target, the profile's level is made");
   command
       ->add_option("--edge-min", arguments->target.edge_min_m,
-                   "The least length of an edge and a gap that the profile asks for, in m")
+                   "Least length of an edge and width of a gap, in m, instead of the profile's")
       ->check(CLI::Range(kLeastEdge_m, kMostEdge_m));
   command->footer(
       "Example:\n  oriel generalise house.city.json --scale 1:20000 -o house-1-20000.city.json");

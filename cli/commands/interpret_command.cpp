@@ -257,25 +257,27 @@ ExitCode work(const InterpretArguments& arguments) {
 void add_interpret(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<InterpretArguments>();
   CLI::App* command = app.add_subcommand(
-      "interpret", "Name stored features by rules, without their buildings: to try rules out");
+      "interpret", "Label stored features by rules, without their buildings, to try rules out");
   command
       ->add_option("records", arguments->records,
-                   "Records of features as segment or label --features writes them")
+                   "Records of features, as segment or label --features writes them")
       ->required();
   add_rules_argument(*command, arguments->rules);
   add_records_output(*command, "-o,--output", arguments->out,
                      "Write the records with their new labels: .csv, .json or .jsonl");
   add_safe_cells_argument(*command, arguments->has_safe_cells);
   command->add_flag("--watch", arguments->is_watching,
-                    "Do it again whenever the pack is saved, and say what changed");
-  command->add_option("--examples", arguments->examples, "With --watch: so many of each change")
+                    "Run again whenever the pack is saved, and report what changed");
+  command
+      ->add_option("--examples", arguments->examples,
+                   "With --watch: how many features of each change to list")
       ->capture_default_str();
   add_jobs_argument(*command, arguments->jobs);
-  command->add_flag("-v,--verbose", arguments->is_verbose, "Show notes, too");
+  command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
   command->footer(
-      "Without -o it lists how many features each label and rule has.\n"
-      "Example:\n  oriel segment city/*.city.json --features parts.csv\n"
-      "  oriel interpret parts.csv --rules my_rules.yaml --watch");
+      "Without -o, it lists how many features each label and rule has.\nExample:\n  oriel segment "
+      "city/*.city.json --features parts.csv\n  oriel interpret parts.csv --rules my_rules.yaml "
+      "--watch");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

@@ -177,27 +177,27 @@ ExitCode work(LabelArguments& arguments) {
 void add_label(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<LabelArguments>();
   CLI::App* command = app.add_subcommand(
-      "label", "Name the parts of buildings by rules and write the buildings with their labels");
+      "label", "Label the parts of buildings by rules and write the buildings with their labels");
   add_label_arguments(*command, *arguments);
   command
-      ->add_option(
-          "--existing", arguments->existing,
-          "Semantics that are there: fill what has none, keep them untouched, replace them, "
-          "or audit: only say where the rules disagree")
+      ->add_option("--existing", arguments->existing,
+                   "Semantics that the input has: fill adds what is missing; keep does so and "
+                   "changes nothing else; replace overwrites them; audit only reports where the "
+                   "rules disagree")
       ->check(CLI::IsMember({"fill", "keep", "replace", "audit"}))
       ->capture_default_str();
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
-                    "Do not look at what the input calls its polygons");
+                    "Ignore what the input calls its polygons when looking for parts");
   command->add_flag("--repaired", arguments->is_repaired,
-                    "Write the valid solid of each building, as repair does, with its labels");
+                    "Write the valid solid of each building, as repair makes it, with its labels");
   command->add_flag("--explain", arguments->has_reasons,
-                    "Write the reason of every label and surface into the file, as oriel_why");
+                    "Write the reason for every label and surface into the file, as oriel_why");
   command->add_flag("--json", arguments->is_json, "With --existing audit: as JSON");
   command->footer(
-      "Without -o and --features the labels are listed; a stream from stdin goes to stdout. "
-      "Polygons are written unchanged, unless --repaired.\n"
-      "Example:\n  oriel label house.city.json -o labelled.city.json\n"
-      "  oriel label city/*.city.json -o labelled/ --features parts.csv --rules my_rules.yaml");
+      "Without -o and --features, the labels are listed; a stream from stdin goes to stdout. "
+      "Polygons are written unchanged unless --repaired is given.\nExample:\n  oriel label "
+      "house.city.json -o labelled.city.json\n  oriel label city/*.city.json -o labelled/ "
+      "--features parts.csv --rules my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return work(*arguments); }; });
 }
 

@@ -188,22 +188,23 @@ class Merger {
 void add_merge(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* command = app.add_subcommand(
-      "merge", "Put what was made of the shards of `split` together, in their order");
+      "merge", "Combine the outputs made from the shards of `split`, in their order");
   command
       ->add_option(
           "shards", arguments->files,
-          "What was made of every shard, in any order, each with its NAME.status.json next to it")
+          "Outputs made from all shards, in any order, each with its NAME.status.json next to it")
       ->required();
   command->add_option("--split", arguments->list, "The split.json of the shards")->required();
   command
       ->add_option("--through", arguments->through,
-                   "Folder with the NAME.status.json of a stage before; may be repeated")
+                   "Folder with the NAME.status.json files of an earlier stage; may be repeated")
       ->allow_extra_args(false);
   command->add_option("-o,--output", arguments->out, "File, or - for stdout")
       ->capture_default_str();
   command->footer(
-      "Hashes, counts and gaps are checked; nothing is written if something does not fit.\n"
-      "Example:\n  oriel merge labelled/*.city.jsonl --split shards/split.json -o city.city.jsonl");
+      "Hashes, counts and gaps are checked; nothing is written unless everything "
+      "matches.\nExample:\n  oriel merge labelled/*.city.jsonl --split shards/split.json -o "
+      "city.city.jsonl");
   command->callback([arguments, &action] {
     action = [arguments] {
       check_names(*arguments);

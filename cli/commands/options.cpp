@@ -19,17 +19,24 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
       ->allow_extra_args(false);
   command
       .add_option("--bbox", selection.bbox,
-                  "Only buildings with the middle of their box in XMIN,YMIN,XMAX,YMAX")
+                  "Only buildings whose bounding box has its centre in this rectangle")
       ->delimiter(',')
       ->expected(4)
       ->type_name("XMIN,YMIN,XMAX,YMAX");
   command.add_option("--cotype", selection.cotype,
                      "Only features of this type: Building, Road, Bridge ...");
-  command.add_option("--random", selection.one_in, "Only one in N buildings, drawn by their ids")
+  command
+      .add_option("--random", selection.one_in,
+                  "Only about one in N buildings, chosen from their ids and --seed, the same ones "
+                  "in every run")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
-  command.add_option("--seed", selection.seed, "Which ones --random draws")->capture_default_str();
-  command.add_flag("--exclude", selection.is_exclusion,
-                   "All buildings except those that --id, --bbox, --cotype and --random name");
+  command
+      .add_option("--seed", selection.seed,
+                  "Seed of --random: another seed selects other buildings")
+      ->capture_default_str();
+  command.add_flag(
+      "--exclude", selection.is_exclusion,
+      "All buildings except those that --id, --bbox, --cotype and --random select together");
 }
 
 }  // namespace
@@ -43,7 +50,9 @@ CLI::Validator input_formats() {
 }
 
 void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
-  const char* what = "CityJSON, CityJSONSeq, CityGML, OBJ, OFF or PLY; - is stdin, a CityJSONSeq";
+  const char* what =
+      "CityJSON, CityJSONSeq, CityGML, OBJ, OFF or PLY; - for stdin (CityJSONSeq unless --from is "
+      "given)";
   if (has_many) {
     command.add_option("input", a.inputs, what)->required();
   } else {
@@ -55,7 +64,7 @@ void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
                      "Level of detail to read, as written in the input (default: the highest)");
   command
       .add_option("--from", a.from,
-                  "Format of the input (default: by its name; of stdin: cityjsonseq)")
+                  "Format of the input (default: from its name; for stdin: cityjsonseq)")
       ->check(input_formats());
   if (has_many) add_selection_arguments(command, a.selection);
 }
@@ -63,34 +72,35 @@ void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
 void add_solid_arguments(CLI::App& command, RunOptions& a) {
   command
       .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
-                  "Polygons share a plane if tilted by no more than this")
+                  "Polygons share a plane if their tilt differs by no more than this, in degrees")
       ->check(CLI::Range(0.0, 30.0))
       ->capture_default_str();
   command
       .add_option("--plane-offset", a.tolerances.plane_offset_m,
-                  "... and no further off than this, in m; more where the input is noisy, if this "
-                  "is not given and buildings are segmented")
+                  "... and their offset by no more than this, in m; if not given, segmenting "
+                  "raises it for noisy buildings")
       ->check(CLI::Range(0.0, 1.0))
       ->each([&a](const std::string&) { a.is_plane_offset_given = true; })
       ->capture_default_str();
-  command.add_option("--weld", a.tolerances.weld_m, "Vertices closer than this are one, in m")
+  command.add_option("--weld", a.tolerances.weld_m, "Merge vertices closer than this, in m")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   command
       .add_option("--close", a.close,
-                  "Holes to close where a building is no closed shell: none, plane ones of up to "
-                  "--close-area, besides them a missing ground and missing walls of any size, or "
-                  "any plane one")
+                  "Holes to close in a building that is not a closed shell: none; planar: plane "
+                  "holes of up to --close-area; ground: these, and a missing ground and missing "
+                  "walls of any size; any: every plane hole")
       ->check(CLI::IsMember({"none", "planar", "ground", "any"}))
       ->capture_default_str();
-  command.add_option("--close-area", a.cap_area_m2, "... with --close planar and ground, in m2")
+  command
+      .add_option("--close-area", a.cap_area_m2,
+                  "Largest plane hole to close with --close planar or ground, in m2")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
-      .add_option(
-          "--crossings", a.crossings,
-          "Where a building is no closed shell, polygons that run through each other: leave "
-          "them, or cut them along where they meet")
+      .add_option("--crossings", a.crossings,
+                  "Polygons that cross each other in a building that is not a closed shell: leave "
+                  "them, or cut them where they meet")
       ->check(CLI::IsMember({"leave", "cut"}))
       ->capture_default_str();
 }
@@ -98,8 +108,7 @@ void add_solid_arguments(CLI::App& command, RunOptions& a) {
 void add_jobs_argument(CLI::App& command, int& jobs) {
   command
       .add_option("-j,--jobs", jobs,
-                  "Buildings to work on at the same time; 0: one for each core. The output is the "
-                  "same")
+                  "Buildings to process in parallel; 0: one per core. The output is the same")
       ->check(CLI::Range(0, 1024))
       ->transform([](const std::string& text) {
         return text == "0" ? std::to_string(std::max(1U, std::thread::hardware_concurrency()))
@@ -111,23 +120,22 @@ void add_jobs_argument(CLI::App& command, int& jobs) {
 void add_run_arguments(CLI::App& command, RunOptions& a) {
   command.add_option("--timings", a.timings_file,
                      "Write the milliseconds of each stage to this file, as JSON");
-  command.add_option("--repeat", a.repeat, "Run this many times; --timings has the medians")
+  command.add_option("--repeat", a.repeat, "Run this many times; --timings writes the medians")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_jobs_argument(command, a.jobs);
   command
-      .add_option(
-          "--progress", a.progress,
-          "On stderr: a bar and a table at the end, JSON lines, or nothing (default: bar on "
-          "a terminal)")
+      .add_option("--progress", a.progress,
+                  "Show on stderr: bar (and a table at the end), json (lines) or none (default: "
+                  "bar on a terminal)")
       ->check(CLI::IsMember({"bar", "json", "none"}));
   command.add_option("--status", a.status_stem,
                      "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
-                     "record of which something was rejected, and why)");
+                     "record with something rejected, and why)");
   command
       .add_option("--allow-bad", a.allowed_bad,
-                  "Up to this many buildings (N), or per cent of them (P%), may be rejected with "
-                  "exit code 0")
+                  "Exit with 0 if at most this many buildings (N), or per cent of them (P%), are "
+                  "rejected")
       ->check([](const std::string& text) {
         const bool is_share = text.ends_with('%');
         const std::string digits = text.substr(0, text.size() - (is_share ? 1 : 0));
@@ -139,24 +147,23 @@ void add_run_arguments(CLI::App& command, RunOptions& a) {
                          : "'" + text + "' is neither a number nor a share such as 1%";
       })
       ->capture_default_str();
-  command.add_flag("-v,--verbose", a.is_verbose, "Show notes, too, and every finding");
+  command.add_flag("-v,--verbose", a.is_verbose, "Also show notes, and list every finding");
 }
 
 void add_resume_argument(CLI::App& command, RunOptions& a) {
   command
-      .add_flag(
-          "--resume", a.is_resumable,
-          "Resume after the last whole record when the same command was killed; needs --status")
+      .add_flag("--resume", a.is_resumable,
+                "Resume the same command after it was killed, after its last whole record; needs "
+                "--status")
       ->needs(command.get_option("--status"))
       ->excludes(command.get_option("--repeat"));
 }
 
 void add_reuse_argument(CLI::App& command, RunOptions& a) {
   command
-      .add_option(
-          "--reuse", a.reuse,
-          "STEM.status.json of an earlier run with --reuse: records whose source is the same "
-          "are taken from its outputs; needs --status")
+      .add_option("--reuse", a.reuse,
+                  "STEM.status.json of an earlier run with --reuse: records whose source has not "
+                  "changed are copied from its outputs; needs --status")
       ->needs(command.get_option("--status"))
       ->excludes(command.get_option("--repeat"));
 }
@@ -165,20 +172,19 @@ void add_force_argument(CLI::App& command, RunOptions& a) {
   a.offers_force = true;
   auto* option =
       command.add_flag("--force", a.is_forced,
-                       "-o may be an input, which is replaced when the whole output is written");
+                       "Let -o be an input: it is replaced once the whole output is written");
   for (const char* other : {"--resume", "--reuse"})
     if (auto* there = command.get_option_no_throw(other)) option->excludes(there);
 }
 
 void add_isolate_argument(CLI::App& command, RunOptions& a) {
-  command.add_flag("--isolate", a.is_isolated,
-                   "Work in forked processes: a hard crash (a signal) costs one building, which is "
-                   "rejected");
+  command.add_flag(
+      "--isolate", a.is_isolated,
+      "Work in forked processes: a crash (a signal) costs only one building, which is rejected");
   command
-      .add_option(
-          "--most-seconds", a.most_seconds,
-          "Reject a building that takes longer by the clock, so results may differ from run "
-          "to run; needs --isolate")
+      .add_option("--most-seconds", a.most_seconds,
+                  "Reject a building that takes longer than this; results may then differ from run "
+                  "to run; needs --isolate")
       ->check(CLI::Range(0.001, 1e6))
       ->needs(command.get_option("--isolate"));
 }
@@ -186,22 +192,24 @@ void add_isolate_argument(CLI::App& command, RunOptions& a) {
 void add_line_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   add_input_arguments(command, a, has_many);
   command
-      .add_option("--order", a.order, "Order of cuts: along existing edges first, or the paper's")
+      .add_option("--order", a.order,
+                  "Order of cuts: natural (along existing edges first) or paper (as in the paper)")
       ->check(CLI::IsMember({"natural", "paper"}))
       ->capture_default_str();
   add_solid_arguments(command, a);
   command
-      .add_option("--value-rel", a.tolerances.value_rel, "Values within this fraction are the same")
+      .add_option("--value-rel", a.tolerances.value_rel,
+                  "Values of features that differ by no more than this fraction count as equal")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
-  command.add_option("--budget", a.budget, "Steps that each stage may take on one building")
+  command.add_option("--budget", a.budget, "Most steps that each stage may take on one building")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_run_arguments(command, a);
 }
 
 void add_rules_argument(CLI::App& command, std::string& pack) {
-  command.add_option("--rules", pack, "Rule pack: a file, or the name of a pack that is built in")
+  command.add_option("--rules", pack, "Rule pack: a file, or the name of a built-in pack")
       ->capture_default_str();
 }
 
@@ -220,16 +228,16 @@ void add_records_output(CLI::App& command, const std::string& option, std::strin
 
 void add_safe_cells_argument(CLI::App& command, bool& is_safe) {
   command.add_flag("--safe-cells", is_safe,
-                   "In CSV put a ' before cells that a spreadsheet would run as a formula: those "
-                   "that begin with = + - @ and are no numbers");
+                   "In CSV, put a ' before cells that a spreadsheet would run as a formula: those "
+                   "that begin with = + - @ and are not numbers");
 }
 
 void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_line_arguments(command, a, true);
   add_rules_argument(command, a.rules);
   command.add_option("-o,--output", a.out,
-                     "File, - for stdout, or a folder (with a / at its end) for several inputs");
-  command.add_option("--to", a.to, "Format to write (default: by the name of the output)")
+                     "File, - for stdout, or a folder (ending in /) for several inputs");
+  command.add_option("--to", a.to, "Format to write (default: from the name of the output)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   add_features_argument(command, a.features);
   add_safe_cells_argument(command, a.has_safe_cells);
@@ -239,7 +247,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   add_isolate_argument(command, a);
   command
       .add_option("--codelist", a.codelist,
-                  "Code list of installations that the pack has codes for")
+                  "Code list for the functions of installations; the pack must have codes for it")
       ->capture_default_str();
 }
 

@@ -126,18 +126,19 @@ void add_repair(CLI::App& app, Action& action) {
   arguments->ends_at_solid = true;
   arguments->crossings = "cut";
   CLI::App* command = app.add_subcommand(
-      "repair", "Make valid solids of buildings: closed, oriented, with plane faces");
+      "repair", "Turn buildings into valid solids: closed, oriented, with planar faces");
   add_input_arguments(*command, *arguments, true);
   command
       ->add_option("-o,--output", arguments->out,
-                   "File, - for stdout, or a folder (with a / at its end) for several inputs")
+                   "File, - for stdout, or a folder (ending in /) for several inputs")
       ->required();
-  command->add_option("--to", arguments->to, "Format to write (default: by the name of the output)")
+  command
+      ->add_option("--to", arguments->to, "Format to write (default: from the name of the output)")
       ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
-                    "Write the solids without the semantics that the polygons had");
+                    "Write the solids without the semantics of the input");
   command->add_option("--report", arguments->report,
-                      "Write what was done to this file: one JSON object per building and line");
+                      "Write a report of the repairs: one JSON object per line and building");
   add_solid_arguments(*command, *arguments);
   add_run_arguments(*command, *arguments);
   add_force_argument(*command, *arguments);

@@ -81,14 +81,13 @@ ExitCode check(const RulesCheckArguments& arguments) {
 void add_check(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<RulesCheckArguments>();
   CLI::App* command = rules.add_subcommand(
-      "check", "Find everything that is wrong with a rule pack before any building is read");
-  command
-      ->add_option("pack", arguments->packs,
-                   "Rule packs: files, or names of packs that are built in")
+      "check", "Check rule packs and report everything that is wrong; no building is read");
+  command->add_option("pack", arguments->packs, "Rule packs: files, or names of built-in packs")
       ->required();
-  command->add_flag("--json", arguments->is_json, "All findings as one JSON array");
-  command->add_option("--sarif", arguments->sarif,
-                      "Write all findings to this file, as SARIF 2.1.0, which code hosts show");
+  command->add_flag("--json", arguments->is_json, "Print all findings as one JSON array");
+  command->add_option(
+      "--sarif", arguments->sarif,
+      "Also write all findings to this file, as SARIF 2.1.0, which code hosts show");
   command->footer("Example:\n  oriel rules check my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return check(*arguments); }; });
 }
@@ -154,20 +153,22 @@ void add_test(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<RulesTestArguments>();
   CLI::App* command = rules.add_subcommand("test", "Run the tests of rule packs");
   command
-      ->add_option("file", arguments->files,
-                   "Packs, with their tests in NAME.test.yaml next to NAME.yaml, or those tests")
+      ->add_option(
+          "file", arguments->files,
+          "Packs, with their tests in NAME.test.yaml next to NAME.yaml, or the files of tests")
       ->required();
   command->add_option("--junit", arguments->junit, "Write the results to this file, as JUnit XML");
   command
       ->add_option("--min-coverage", arguments->min_coverage,
-                   "Fail if less than this share of the rules ever holds, in percent")
+                   "Fail if fewer than this per cent of the rules hold in any test")
       ->check(CLI::Range(0.0, 100.0));
   command
-      ->add_option("--min-conditions", arguments->min_conditions,
-                   "... or less of their conditions both holds and fails, in percent")
+      ->add_option(
+          "--min-conditions", arguments->min_conditions,
+          "Fail if fewer than this per cent of the conditions both hold and fail in the tests")
       ->check(CLI::Range(0.0, 100.0));
   command->add_flag("--with-base", arguments->is_with_base,
-                    "Count the rules of the packs that a pack extends, too, not only its own");
+                    "Also count the rules of the packs that a pack extends");
   command->footer("Example:\n  oriel rules test my_rules.yaml --min-coverage 100");
   command->callback([arguments, &action] { action = [arguments] { return test(*arguments); }; });
 }
@@ -222,9 +223,10 @@ void add_format(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<RulesPrintArguments>();
   CLI::App* command = rules.add_subcommand("fmt", "Print rule packs in canonical form");
   command->add_option("pack", arguments->packs, "Rule packs")->required();
-  CLI::Option* check = command->add_flag("--check", arguments->is_check,
-                                         "Print nothing; exit code 4 if a pack is in another form");
-  command->add_flag("-w,--write", arguments->is_write, "Write them to their files")
+  CLI::Option* check =
+      command->add_flag("--check", arguments->is_check,
+                        "Print nothing; exit with 4 if a pack is not in canonical form");
+  command->add_flag("-w,--write", arguments->is_write, "Write the result into the files")
       ->excludes(check);
   command->footer("Example:\n  oriel rules fmt -w my_rules.yaml");
   command->callback([arguments, &action] { action = [arguments] { return format(*arguments); }; });
@@ -233,17 +235,18 @@ void add_format(CLI::App& rules, Action& action) {
 void add_show(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<RulesPrintArguments>();
   arguments->packs.resize(1);
-  CLI::App* command = rules.add_subcommand("show", "Print a rule pack, also one that is built in");
-  command->add_option("pack", arguments->packs[0], "A file, or the name of a pack")->required();
+  CLI::App* command = rules.add_subcommand("show", "Print a rule pack: a file, or a built-in pack");
+  command->add_option("pack", arguments->packs[0], "A file, or the name of a built-in pack")
+      ->required();
   command->add_flag("--merged", arguments->is_merged,
-                    "With the packs that it extends put into one, without comments");
+                    "Merge it with the packs that it extends, without comments");
   command->footer("Example:\n  oriel rules show --merged my_town.yaml > all_of_it.yaml");
   command->callback([arguments, &action] { action = [arguments] { return show(*arguments); }; });
 }
 
 void add_schema(CLI::App& rules, Action& action) {
   CLI::App* command = rules.add_subcommand(
-      "schema", "Print the JSON Schema of rule packs, from which editors complete");
+      "schema", "Print the JSON Schema of rule packs, for completion in editors");
   command->footer("Example:\n  oriel rules schema > oriel-1.schema.json");
   command->callback([&action] {
     action = [] {
@@ -299,11 +302,11 @@ ExitCode make_new(const std::string& argument) {
 void add_new(CLI::App& rules, Action& action) {
   auto name = std::make_shared<std::string>();
   CLI::App* command = rules.add_subcommand(
-      "new", "Write a rule pack to start from, with its tests and a sample building");
+      "new", "Write a new rule pack to start from, with its tests and a sample building");
   command
-      ->add_option("name", *name,
-                   "What the class, the pack and its files are called, such as solar_panel or "
-                   "packs/solar_panel")
+      ->add_option(
+          "name", *name,
+          "Name of the class, the pack and its files, such as solar_panel or packs/solar_panel")
       ->required();
   command->footer("Example:\n  oriel rules new solar_panel");
   command->callback([name, &action] { action = [name] { return make_new(*name); }; });
@@ -312,7 +315,7 @@ void add_new(CLI::App& rules, Action& action) {
 }  // namespace
 
 void add_rules(CLI::App& app, Action& action) {
-  CLI::App* rules = app.add_subcommand("rules", "Work on rule packs");
+  CLI::App* rules = app.add_subcommand("rules", "Check, test, print and document rule packs");
   rules->require_subcommand(1);
   add_check(*rules, action);
   add_test(*rules, action);

@@ -128,8 +128,8 @@ void add_words(CLI::App& rules, Action& action, const std::string& name, const s
   auto arguments = std::make_shared<RulesWordsArguments>();
   CLI::App* command = rules.add_subcommand(name, help);
   CLI::Option* names = command->add_option("name", arguments->names,
-                                           "Only these, with what other systems call them");
-  command->add_flag("--json", arguments->is_json, "All of them as JSON")->excludes(names);
+                                           "Show only these, with their names in other systems");
+  command->add_flag("--json", arguments->is_json, "Print all as JSON")->excludes(names);
   command->footer("Example:\n  oriel rules " + example);
   command->callback([arguments, lists, &action] {
     action = [arguments, lists] { return list_words(*arguments, lists()); };
@@ -204,8 +204,9 @@ ExitCode document(const std::string& pack) {
 void add_rules_doc(CLI::App& rules, Action& action) {
   auto pack = std::make_shared<std::string>();
   CLI::App* command = rules.add_subcommand(
-      "doc", "Print a page about a rule pack, in Markdown: its classes, params and rules in words");
-  command->add_option("pack", *pack, "A file, or the name of a pack")->required();
+      "doc",
+      "Print a Markdown page about a rule pack: its classes, params and rules in plain words");
+  command->add_option("pack", *pack, "A file, or the name of a built-in pack")->required();
   command->footer("Example:\n  oriel rules doc my_town.yaml > my_town.md");
   command->callback([pack, &action] { action = [pack] { return document(*pack); }; });
 }
@@ -215,16 +216,16 @@ void add_rules_words(CLI::App& rules, Action& action) {
             "attributes slope", attribute_lists);
   add_words(rules, action, "relations", "List the relations between features", "relations beside",
             relation_lists);
-  add_words(rules, action, "operators", "List what `generalise:` can do", "operators enlarge",
+  add_words(rules, action, "operators", "List the operators of `generalise:`", "operators enlarge",
             operator_lists);
 }
 
 void add_rules_explain(CLI::App& rules, Action& action) {
   auto arguments = std::make_shared<RulesExplainArguments>();
-  CLI::App* command =
-      rules.add_subcommand("explain", "Print what the documentation says of a code, such as R204");
+  CLI::App* command = rules.add_subcommand(
+      "explain", "Print what the documentation says about a code, such as R204");
   command->add_option("code", arguments->codes, "Codes of findings")->required();
-  command->add_flag("--json", arguments->is_json, "As a JSON array");
+  command->add_flag("--json", arguments->is_json, "Print a JSON array");
   command->footer("Example:\n  oriel rules explain R204");
   command->callback(
       [arguments, &action] { action = [arguments] { return explain_codes(*arguments); }; });

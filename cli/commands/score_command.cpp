@@ -251,7 +251,9 @@ ExitCode score_surfaces(const ScoreArguments& arguments) {
 }
 
 void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
-  command.add_option("--iou", arguments.min_iou, "Boxes match from this overlap on (0 to 1)")
+  command
+      .add_option("--iou", arguments.min_iou,
+                  "Least intersection over union for boxes to match (0 to 1)")
       ->check([](const std::string& text) {
         double share = 0;
         const bool is_number = CLI::detail::lexical_cast(text, share);
@@ -260,18 +262,18 @@ void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
       })
       ->capture_default_str();
   command.add_option("--models", arguments.models,
-                     "The models that were labelled: also compare by the area of polygons");
+                     "The models that were labelled: compare also by the area of polygons");
   command.add_flag("--by-rule", arguments.is_by_rule,
-                   "Also of every rule what it decided, how much of it is right, what it was wrong "
-                   "about and contests with");
+                   "Also score each rule: what it decided, how much of that is right, its "
+                   "mistakes, and which labels competed");
   command.add_option("--per-building", arguments.per_building,
                      "Write what was found in each building, as CSV");
   command.add_option("--curve", arguments.curve,
-                     "Write precision and recall over the rules' score, as CSV");
+                     "Write precision and recall as a function of the rules' score, as CSV");
   add_safe_cells_argument(command, arguments.has_safe_cells);
   command
       .add_option("--bootstrap", arguments.samples,
-                  "Also the 95 % intervals of F1 over so many samples of the buildings")
+                  "Also print 95 % intervals of F1, from this many samples of the buildings")
       ->check(CLI::Range(1, 1'000'000));
 }
 
@@ -302,19 +304,21 @@ void add_score(CLI::App& app, Action& action) {
   arguments->ignores_semantics = true;
   command
       ->add_option("records", arguments->inputs,
-                   "Records of features as label --features writes them; with --surfaces models")
+                   "Records of features, as label --features writes them; with --surfaces, models")
       ->required();
   command->add_option("--truth", arguments->truth,
                       "*.truth.json and *.truth.jsonl files, or folders of them");
   command->add_flag("--surfaces", arguments->is_of_surfaces,
-                    "Name the surfaces of models as if they had no semantics, compare with those");
+                    "Classify the surfaces of models as if they had no semantics, and compare with "
+                    "those they have");
   command->add_option("--lod", arguments->lod, "With --surfaces: level of detail to read");
   command->add_option("--budget", arguments->budget,
-                      "With --surfaces: steps that each stage may take on one building");
+                      "With --surfaces: most steps that each stage may take on one building");
   add_rules_argument(*command, arguments->rules);
   add_comparison_arguments(*command, *arguments);
-  command->add_flag("--json", arguments->is_json, "As JSON, with all misses");
-  command->add_flag("-v,--verbose", arguments->is_verbose, "List all misses, not the first 20");
+  command->add_flag("--json", arguments->is_json, "Print JSON, with all misses");
+  command->add_flag("-v,--verbose", arguments->is_verbose,
+                    "List all misses, not only the first 20");
   command->footer(
       "Example:\n  oriel label data/*.stripped.city.json --features parts.jsonl\n  oriel score "
       "parts.jsonl --truth data/ --bootstrap 1000 --models data/*.stripped.city.json\n  oriel "

@@ -224,15 +224,17 @@ void add_segment(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "segment", "Find the parts of buildings: features, cells and the CSG tree");
   add_line_arguments(*command, *arguments, true);
-  CLI::Option* json = command->add_flag("--json", arguments->is_json,
-                                        "One JSON object per building and line instead of a table");
+  CLI::Option* json =
+      command->add_flag("--json", arguments->is_json,
+                        "Write one JSON object per line and building instead of a table");
   command
       ->add_flag("--faces", arguments->has_faces,
-                 "With --json: the faces between cells, and which cells touch")
+                 "With --json: also the faces between cells, and which cells touch")
       ->needs(json);
-  command->add_flag("--tree", arguments->has_tree,
-                    "Instead of the parts: the CSG tree as cut, balanced and with touching parts "
-                    "merged, its depth and weighted path, and the proof that it is the same body");
+  command->add_flag(
+      "--tree", arguments->has_tree,
+      "Instead of the parts: the CSG tree as cut, balanced, and with touching parts merged; its "
+      "depth and weighted path; the proof that it is still the same body");
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   add_features_argument(*command, arguments->features);
   add_safe_cells_argument(*command, arguments->has_safe_cells);

@@ -156,17 +156,19 @@ ExitCode work(const SplitArguments& arguments) {
 void add_split(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<SplitArguments>();
   arguments->ends_at_reading = true;
-  CLI::App* command = app.add_subcommand(
-      "split", "Part a stream into shards, each a CityJSONSeq with its header, and a list of them");
+  CLI::App* command = app.add_subcommand("split",
+                                         "Split a stream into shards, each a CityJSONSeq with its "
+                                         "header, and list them in split.json");
   add_input_arguments(*command, *arguments, true);
   command->add_option("-o,--output", arguments->folder, "Folder for the shards and split.json")
       ->required();
   CLI::Option_group* by = command->add_option_group("By");
-  by->add_option("--count", arguments->count, "Features in a shard")->check(CLI::PositiveNumber);
+  by->add_option("--count", arguments->count, "Features per shard")->check(CLI::PositiveNumber);
   by->add_option("--bytes", arguments->bytes,
-                 "Bytes of the features in a shard, unless one alone is larger")
+                 "Most bytes of features per shard, unless one feature alone is larger")
       ->check(CLI::PositiveNumber);
-  by->add_option("--grid", arguments->grid_m, "Metres of a cell; a shard is what lies in one cell")
+  by->add_option("--grid", arguments->grid_m,
+                 "Side of a grid cell, in metres; each cell makes one shard")
       ->check(CLI::PositiveNumber);
   by->require_option(1);
   add_run_arguments(*command, *arguments);

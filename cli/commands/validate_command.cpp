@@ -426,43 +426,42 @@ ExitCode work(const ValidateArguments& arguments) {
 void add_validate(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = app.add_subcommand(
-      "validate", "Check the geometry of buildings as it was read, as val3dity does");
+      "validate", "Check the geometry of buildings as it was read, with the checks of val3dity");
   add_input_arguments(*command, *arguments, true);
   command->get_option("--lod")->description(
-      "Level of detail to judge, as written in the input, or all of them (default: the highest)");
+      "Level of detail to check, as written in the input, or all (default: the highest)");
   command->add_flag("--json", arguments->is_json,
-                    "One JSON object per building and line instead of text");
+                    "Write one JSON object per line and building instead of text");
   command->add_flag("--only-problems", arguments->shows_problems_only,
                     "Leave out buildings that are valid");
   command
       ->add_option("--as", arguments->primitive,
-                   "Check as what the file states (OBJ and OFF: a solid), as a solid, or as loose "
-                   "surfaces")
+                   "Check the geometry as what the file states (OBJ, OFF and PLY: a solid), as a "
+                   "solid, or as loose surfaces")
       ->check(CLI::IsMember({"stated", "solid", "surfaces"}))
       ->capture_default_str();
-  command
-      ->add_option("--snap", arguments->options.snap_m, "Vertices closer than this are one, in m")
+  command->add_option("--snap", arguments->options.snap_m, "Count vertices closer than this as one, in m")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   command
       ->add_option("--planarity", arguments->options.planarity_m,
-                   "How far a point may lie off its polygon's plane, in m")
+                   "Largest distance of a point from its polygon's plane, in m")
       ->check(CLI::Range(0.0, 1e3))
       ->capture_default_str();
   command
       ->add_option("--planarity-deg", arguments->options.planarity_deg,
-                   "How far the normals of a polygon's triangles may deviate")
+                   "Largest deviation between the normals of a polygon's triangles, in degrees")
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();
   command
       ->add_option("--budget", arguments->options.budget,
-                   "Steps that validating may take on one building")
+                   "Most steps that the checks may take on one building")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   command->add_option("--sarif", arguments->sarif,
-                      "Write all findings to this file, too, as SARIF 2.1.0");
-  command->add_flag("-v,--verbose", arguments->is_verbose, "Show notes, too");
+                      "Also write all findings to this file, as SARIF 2.1.0");
+  command->add_flag("-v,--verbose", arguments->is_verbose, "Also show notes");
   command->footer(
       "Example:\n  oriel validate tile.city.jsonl --lod 2.2 --only-problems\n  oriel validate "
       "house.gml --json | jq '.findings[].code'");

@@ -113,13 +113,14 @@ ExitCode work(const ViewArguments& arguments) {
 void add_view(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app.add_subcommand(
-      "view", "Write a page that shows buildings: a click says what a part is called, and why");
+      "view",
+      "Write an HTML page that shows buildings; a click on a part shows its label and the reason");
   add_line_arguments(*command, *arguments, true);
   add_rules_argument(*command, arguments->rules);
-  command->add_option("-o,--output", arguments->out, "The page, one HTML file; - is stdout")
+  command->add_option("-o,--output", arguments->out, "HTML file to write, or - for stdout")
       ->required();
   command->add_option("--after", arguments->after,
-                      "The same buildings generalised: the page switches between the two");
+                      "The same buildings, generalised: the page switches between the two");
   command->footer(
       "The page needs no other file and loads nothing; page.html#ID opens it at a feature.\n"
       "Example:\n  oriel view house.city.json -o house.html\n"

@@ -133,10 +133,10 @@ void add_log_arguments(CLI::App& command, LogOptions& options) {
   if (!below.empty()) return;
   command
       .add_option("--log-level", options.level,
-                  "What is logged on stderr (default: findings and summaries)")
+                  "What to log on stderr (default: findings and summaries)")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->group("Logging");
-  command.add_flag("--log-json", options.is_json, "Log a JSON object a line")->group("Logging");
+  command.add_flag("--log-json", options.is_json, "Log one JSON object per line")->group("Logging");
 }
 
 void set_up_logging(const LogOptions& options) {

@@ -115,25 +115,25 @@ struct Typed {
 
 void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
   Options& options = arguments.options;
-  app.add_option(
-         "-o,--output", arguments.output,
-         "a folder, or all houses in a CityJSONSeq (X.city.jsonl; - is stdout) or a CityGML "
-         "file (X.gml)")
+  app.add_option("-o,--output", arguments.output,
+                 "a folder, or one file for all houses: a CityJSONSeq (X.city.jsonl; - for stdout) "
+                 "or CityGML (X.gml)")
       ->required();
-  app.add_option("--format", arguments.format,
-                 "cityjson, citygml (2.0) or citygml3; X.gml is CityGML 2.0 unless this says more")
+  app.add_option(
+         "--format", arguments.format,
+         "cityjson, citygml (2.0) or citygml3; X.gml is CityGML 2.0 unless citygml3 is given")
       ->check(CLI::IsMember({"cityjson", "citygml", "citygml3"}))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "same options and seed, same bytes")
+  app.add_option("--seed", options.seed, "the same options and seed give the same bytes")
       ->capture_default_str();
-  app.add_option("--count", arguments.count, "how many houses")
+  app.add_option("--count", arguments.count, "number of houses")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   app.add_option("--name", arguments.name, "id of the house; several are NAME-000001, ...")
       ->capture_default_str();
   app.add_option("--style", typed.style,
-                 "continental: single houses as the options below describe them; english: "
-                 "terraces, pairs, town rows and flats, which draw sizes and features themselves")
+                 "continental: single houses, described by the options below; english: terraces, "
+                 "pairs, town rows and flats, whose sizes and features are drawn at random")
       ->check(CLI::IsMember({"continental", "english"}))
       ->capture_default_str();
   app.add_option("--roof", typed.roof, "flat, gable, hip, shed or mixed")
@@ -143,7 +143,8 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
   app.add_option("--width", typed.width, "metres, X or A..B, 6 to 200 (default 8..18)");
   app.add_option("--depth", typed.depth, "metres, X or A..B, 6 to 200 (default 7..12)");
   app.add_option("--features", typed.features,
-                 "what every house has where there is room, by commas; all: each draws its own")
+                 "features of every house where there is room, separated by commas; all: each "
+                 "house draws its own")
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--add", typed.additions,
@@ -154,27 +155,31 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
   app.add_option("--chimney", typed.chimney, "where chimneys stand: slope, ridge, apex or mixed")
       ->check(CLI::IsMember({"slope", "ridge", "apex", "mixed"}))
       ->capture_default_str();
-  app.add_option("--flush", options.flush, "share of windows and doors flush with their wall")
+  app.add_option("--flush", options.flush,
+                 "share of windows and doors that are flush with their wall")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_option("--jitter", typed.jitter_m, "metres by which windows are moved and resized")
+  app.add_option("--jitter", typed.jitter_m, "most metres by which windows are moved and resized")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_option("--windows", options.windows, "size of the house in windows (about); 0: as drawn")
+  app.add_option("--windows", options.windows, "about how many windows one house has; 0: as drawn")
       ->check(CLI::Range(0, 5000))
       ->capture_default_str();
-  app.add_option("--rotate", options.rotate_deg, "degrees, counter-clockwise")
+  app.add_option("--rotate", options.rotate_deg,
+                 "degrees to rotate the houses by, counter-clockwise")
       ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();
-  app.add_option("--noise", typed.noise_mm, "millimetres by which every coordinate may be off")
+  app.add_option("--noise", typed.noise_mm, "most millimetres by which each coordinate is moved")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   app.add_flag("--triangulate", options.triangulate, "cut every polygon into triangles");
-  app.add_option("--origin", typed.origin, "X,Y,Z in metres, e.g. 604000,5403766,370");
+  app.add_option("--origin", typed.origin,
+                 "position of the first house: X,Y,Z in metres, such as 604000,5403766,370");
   app.add_flag("--labelled", arguments.is_labelled,
-               "all houses in one file: labelled, not stripped");
-  app.add_option("--truth", arguments.truth,
-                 "where the truths of such a file go: a .jsonl file or a folder");
+               "with one file for all houses: write labelled houses, not stripped ones");
+  app.add_option(
+      "--truth", arguments.truth,
+      "with one file for all houses: where to write the truths, a .jsonl file or a folder");
 }
 
 /// English houses refuse what describes a single continental one.
