@@ -212,8 +212,9 @@ void add_rules_doc(CLI::App& rules, Action& action) {
 }
 
 void add_rules_words(CLI::App& rules, Action& action) {
-  add_words(rules, action, "attributes", "List what conditions can ask of features and surfaces",
-            "attributes slope", attribute_lists);
+  add_words(rules, action, "attributes",
+            "List the attributes of features and surfaces for conditions", "attributes slope",
+            attribute_lists);
   add_words(rules, action, "relations", "List the relations between features", "relations beside",
             relation_lists);
   add_words(rules, action, "operators", "List the operators of `generalise:`", "operators enlarge",

@@ -139,18 +139,19 @@ void add_options(CLI::App& app, Typed& typed, Arguments& arguments) {
   app.add_option("--roof", typed.roof, "flat, gable, hip, shed or mixed")
       ->check(CLI::IsMember({"flat", "gable", "hip", "shed", "mixed"}))
       ->capture_default_str();
-  app.add_option("--storeys", typed.storeys, "N or A..B, 1 to 8 (default 1..4)");
-  app.add_option("--width", typed.width, "metres, X or A..B, 6 to 200 (default 8..18)");
-  app.add_option("--depth", typed.depth, "metres, X or A..B, 6 to 200 (default 7..12)");
+  app.add_option("--storeys", typed.storeys, "number of storeys: N or A..B, 1 to 8 (default 1..4)");
+  app.add_option("--width", typed.width, "width in metres: X or A..B, 6 to 200 (default 8..18)");
+  app.add_option("--depth", typed.depth, "depth in metres: X or A..B, 6 to 200 (default 7..12)");
   app.add_option("--features", typed.features,
                  "features of every house where there is room, separated by commas; all: each "
                  "house draws its own")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--add", typed.additions,
-                 "a thing that every house gets, in metres, such as\n\"solar_panel panel on roof "
-                 "size 1.7x1x0.06\" or\n\"window hole on front at 2,1 size 1.2x1.4\"; may be "
-                 "repeated")
+  app.add_option(
+         "--add", typed.additions,
+         "a block, hole or panel for every house, in metres, such as\n\"solar_panel panel on roof "
+         "size 1.7x1x0.06\" or\n\"window hole on front at 2,1 size 1.2x1.4\"; may be "
+         "repeated")
       ->allow_extra_args(false);
   app.add_option("--chimney", typed.chimney, "where chimneys stand: slope, ridge, apex or mixed")
       ->check(CLI::IsMember({"slope", "ridge", "apex", "mixed"}))

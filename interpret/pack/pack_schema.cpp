@@ -73,7 +73,7 @@ constexpr const char* kSchema = R"json({
     "decide": {"$ref": "#/definitions/decide", "description": "how scores become labels"},
     "iterate": {
       "$ref": "#/definitions/iterate",
-      "description": "run the rules several times, so that scores may ask for labels of the round before"
+      "description": "run the rules several times, so that scores may ask for labels of the previous round"
     },
     "groups": {
       "type": ["object", "null"],
@@ -88,14 +88,14 @@ constexpr const char* kSchema = R"json({
     "surfaces": {
       "type": ["array", "null"],
       "items": {"anyOf": [{"$ref": "#/definitions/surface"}, {"$ref": "#/definitions/removal"}]},
-      "description": "which semantic surface a polygon becomes that belongs to no opening; the first entry that holds decides"
+      "description": "the semantic surface of polygons that belong to no opening; the first entry that holds decides"
     },
     "generalise": {
       "type": ["array", "null"],
       "items": {"anyOf": [{"$ref": "#/definitions/entry"}, {"$ref": "#/definitions/removal"}]},
       "description": "what is done to features at a map scale; the first entry that fits decides"
     },
-    "invariants": {"$ref": "#/definitions/invariants", "description": "how much an operation may change a building at most"}
+    "invariants": {"$ref": "#/definitions/invariants", "description": "limits of change that no operation may exceed"}
   },
   "definitions": {
     "expression": {"type": ["string", "number"], "description": "an expression of the rule language"},
@@ -119,7 +119,7 @@ constexpr const char* kSchema = R"json({
         "value": {"$ref": "#/definitions/expression", "description": "a number with its unit, such as 0.6 m"},
         "range": {
           "$ref": "#/definitions/range",
-          "description": "the values that make sense, in which the value lies: lo .. hi"
+          "description": "the range that must contain the value: lo .. hi"
         },
         "why": {"type": ["string", "number"], "description": "the reason or the source"}
       },
@@ -142,7 +142,7 @@ constexpr const char* kSchema = R"json({
         "roof": {"$ref": "#/definitions/range", "description": "inclinations of roofs: lo .. hi in degrees"},
         "ground": {
           "$ref": "#/definitions/range",
-          "description": "inclinations of grounds and ceilings: lo .. hi in degrees, 180 deg looks down"
+          "description": "inclinations of ground and ceilings: lo .. hi in degrees, 180 deg looks down"
         },
         "ground_reach": {
           "$ref": "#/definitions/expression",
@@ -158,14 +158,14 @@ constexpr const char* kSchema = R"json({
       "type": "object",
       "additionalProperties": false,
       "properties": {
-        "is": {"type": "string", "description": "the class above it"},
+        "is": {"type": "string", "description": "its superclass"},
         "abstract": {
           "type": "boolean",
           "description": "true: a predicate, of which a feature may have several; false: a label, of which it has one"
         },
         "typical": {"$ref": "#/definitions/typical", "description": "how many of the class there usually are"}
       },
-      "defaultSnippets": [{"label": "class", "description": "a class under another one", "body": {"is": "${1:opening}"}}]
+      "defaultSnippets": [{"label": "class", "description": "a subclass of another class", "body": {"is": "${1:opening}"}}]
     },
     "typical": {
       "type": "object",
@@ -182,7 +182,7 @@ constexpr const char* kSchema = R"json({
       "additionalProperties": false,
       "properties": {
         "within": {"type": "string", "description": "the relation that it narrows, such as same storey"},
-        "where": {"type": "string", "description": "a condition on self and other that keeps a pair"}
+        "where": {"type": "string", "description": "a condition on self and other; pairs for which it holds are kept"}
       },
       "defaultSnippets": [
         {
@@ -198,14 +198,14 @@ constexpr const char* kSchema = R"json({
       "additionalProperties": false,
       "properties": {
         "id": {"$ref": "#/definitions/id", "description": "names joined by points, unique in the pack"},
-        "label": {"type": "string", "description": "the class that the rule gives"},
+        "label": {"type": "string", "description": "the class that the rule assigns"},
         "priority": {"type": "integer", "description": "rules of higher priority win; 0 if it is not given"},
         "require": {"$ref": "#/definitions/conditions", "description": "conditions that must all be true"},
-        "unless": {"$ref": "#/definitions/conditions", "description": "conditions none of which may be true"},
+        "unless": {"$ref": "#/definitions/conditions", "description": "vetoes: conditions of which none may be true"},
         "score": {
           "type": ["array", "null"],
           "items": {"anyOf": [{"type": "string"}, {"$ref": "#/definitions/term"}]},
-          "description": "terms from 0 to 1, whose weighted mean is the score; without them it is 1"
+          "description": "terms from 0 to 1, whose weighted mean is the score; without terms the score is 1"
         }
       },
       "defaultSnippets": [
@@ -216,7 +216,7 @@ constexpr const char* kSchema = R"json({
         },
         {
           "label": "rule with score",
-          "description": "a rule that says how well a feature fits",
+          "description": "a rule with a score for how well a feature fits",
           "body": {
             "id": "${1:class.name}",
             "label": "${2:class}",
@@ -231,13 +231,13 @@ constexpr const char* kSchema = R"json({
       "required": ["id", "remove"],
       "additionalProperties": false,
       "properties": {
-        "id": {"$ref": "#/definitions/id", "description": "the rule or entry of the pack that is extended"},
-        "remove": {"const": true, "description": "takes it out"}
+        "id": {"$ref": "#/definitions/id", "description": "the rule or entry of the base pack"},
+        "remove": {"const": true, "description": "removes it"}
       },
       "defaultSnippets": [
         {
           "label": "remove",
-          "description": "take out a rule of the pack that is extended",
+          "description": "remove a rule of the base pack",
           "body": {"id": "${1:class.name}", "remove": true}
         }
       ]
@@ -252,14 +252,14 @@ constexpr const char* kSchema = R"json({
       "type": "object",
       "additionalProperties": false,
       "properties": {
-        "rise": {"$ref": "#/definitions/range", "description": "the term goes from 0 to 1 over this range: lo .. hi"},
-        "fall": {"$ref": "#/definitions/range", "description": "the term goes from 1 to 0 over this range: lo .. hi"},
+        "rise": {"$ref": "#/definitions/range", "description": "the term rises from 0 to 1 over this range: lo .. hi"},
+        "fall": {"$ref": "#/definitions/range", "description": "the term falls from 1 to 0 over this range: lo .. hi"},
         "weight": {"type": "number", "description": "how much the term counts; 1 if it is not given"}
       },
       "defaultSnippets": [
         {
           "label": "rise and fall",
-          "description": "good between two ramps",
+          "description": "a term with two ramps",
           "body": {"rise": "${1:0.4 m .. 0.9 m}", "fall": "${2:2 m .. 2.8 m}"}
         }
       ]
@@ -267,11 +267,11 @@ constexpr const char* kSchema = R"json({
     "invariants": {
       "type": "object",
       "additionalProperties": false,
-      "description": "what no operation may change by more than that",
+      "description": "limits of change that no operation may exceed",
       "properties": {
         "footprint-pct": {"type": "number", "description": "area of the footprint, in per cent"},
         "volume-pct": {"type": "number", "description": "volume, in per cent"},
-        "overhang-pct": {"type": "number", "description": "what hangs in the air, in per cent of the footprint"},
+        "overhang-pct": {"type": "number", "description": "overhanging area, in per cent of the footprint"},
         "party-walls-pct": {"type": "number", "description": "area of walls shared with neighbours, in per cent"},
         "top-m": {"type": "number", "description": "height of the highest point, in metres"},
         "ridge-m": {"type": "number", "description": "height of the ridge, in metres"},
@@ -287,19 +287,19 @@ constexpr const char* kSchema = R"json({
           "$ref": "#/definitions/expression",
           "description": "a label that leads by less than this is reported as close"
         },
-        "evidence": {"$ref": "#/definitions/expression", "description": "the most that neighbours move a score by"},
+        "evidence": {"$ref": "#/definitions/expression", "description": "the most by which neighbours change a score"},
         "company": {
           "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
-          "description": "relations to what is comparable"
+          "description": "relations that lead to comparable features"
         },
-        "otherwise": {"enum": ["unknown"], "description": "what a feature is for which no rule holds"}
+        "otherwise": {"enum": ["unknown"], "description": "the label of a feature for which no rule holds"}
       }
     },
     "iterate": {
       "type": "object",
       "required": ["rounds"],
       "additionalProperties": false,
-      "properties": {"rounds": {"type": "integer", "minimum": 2, "maximum": 8, "description": "at most so many rounds, 2 to 8"}}
+      "properties": {"rounds": {"type": "integer", "minimum": 2, "maximum": 8, "description": "the largest number of rounds, 2 to 8"}}
     },
     "group": {
       "type": "object",
@@ -333,7 +333,7 @@ constexpr const char* kSchema = R"json({
           "additionalProperties": {"type": "string"},
           "description": "the code of its function, by code list"
         },
-        "top": {"enum": ["RoofSurface", "OuterFloorSurface"], "description": "what its faces that look up are"}
+        "top": {"enum": ["RoofSurface", "OuterFloorSurface"], "description": "the surface type of its faces that look up"}
       },
       "defaultSnippets": [
         {
@@ -382,13 +382,13 @@ constexpr const char* kSchema = R"json({
           "description": "the target scales, such as 1:500 .. 1:5000, in quotes"
         },
         "for": {"type": "string", "description": "a class, any, or group NAME"},
-        "when": {"type": "string", "description": "a condition that must be true, too"},
+        "when": {"type": "string", "description": "a condition that must also be true"},
         "do": {"$ref": "#/definitions/operation", "description": "the operator, with its arguments"}
       },
       "defaultSnippets": [
         {
           "label": "omit",
-          "description": "leave out what is small on the map",
+          "description": "omit features that are small on the map",
           "body": {
             "id": "${1:small.omit}",
             "scale": "${2:1:500 .. 1:5000}",

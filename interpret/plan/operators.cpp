@@ -4,10 +4,11 @@ namespace oriel {
 
 const std::vector<OperatorKind>& operator_table() {
   static const std::vector<OperatorKind> table = {
-      {"omit", "takes the feature out; its host is closed again", {}},
+      {"omit", "removes the feature and closes its host again", {}},
       {"aggregate",
-       "makes one strip of the recesses of a row, or one block of a feature and what sits on it",
-       {{"into", "word", "what they become", {"strip", "block"}},
+       "merges the recesses of a row into one strip, or a feature and the features on it into one "
+       "block",
+       {{"into", "word", "the result", {"strip", "block"}},
         {"gap", "length", "the least distance to neighbours"}}},
       {"collapse", "leaves an outline without depth", {}},
       {"displace",
@@ -20,17 +21,17 @@ const std::vector<OperatorKind>& operator_table() {
         {"anchor", "word", "what stays in place", {"centre", "sill"}},
         {"gap", "length", "the least distance to neighbours"}}},
       {"flatten",
-       "lets what is thin go into its wall or roof, which moves if most of it is covered",
+       "absorbs a thin feature into its facet, which moves if the feature covers most of it",
        {}},
       {"merge", "makes the feature part of its host", {}},
       {"symbolise",
-       "puts a template in its place",
+       "replaces the feature with a template",
        {{"with", "word", "the template", {"chimney_block", "dormer_box", "balcony_box"}},
         {"to", "length", "the least length of its sides"},
         {"gap", "length", "the least distance to neighbours"}}},
       {"typify",
-       "replaces the recesses of a row by fewer",
-       {{"ratio", "ratio", "how many stay"},
+       "replaces the recesses of a row with fewer ones",
+       {{"ratio", "ratio", "the share that stays"},
         {"gap", "length", "the least distance to neighbours"}}},
   };
   return table;

@@ -27,11 +27,11 @@ TEST_SUITE("cli") {
                                "  also called  slope, pitch, tilt, gradient, steepness, angle\n"));
     CHECK(run({"rules", "operators", "typify"}).out ==
           "typify (operator of generalisation)\n"
-          "  meaning      replaces the recesses of a row by fewer\n"
+          "  meaning      replaces the recesses of a row with fewer ones\n"
           "  example      {typify: {ratio: 50 %, gap: 0.5 mm@map}}\n"
           "  in a pack    generalise: [{id: mine, for: window, scale: \"1:1000 ..\", "
           "do: {typify: {ratio: 50 %, gap: 0.5 mm@map}}}]\n"
-          "  argument     ratio: how many stay (a ratio)\n"
+          "  argument     ratio: the share that stays (a ratio)\n"
           "  argument     gap: the least distance to neighbours (a length)\n"
           "  also called  select, thin, reduce, typification\n");
     const Outcome unknown = run({"rules", "relations", "besides"});

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Judges with val3dity every solid that `repair` and `generalise` write over all data sets, in files, in streams and
-# alone: docs/validate.md, "The outside judge". Run by hand.
+# alone: docs/validate.md, "Validation with val3dity". Run by hand.
 #
 #   bash tests/judge/val3dity.sh VAL3DITY DATA [WORD...]
 #

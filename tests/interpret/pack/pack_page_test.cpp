@@ -147,8 +147,8 @@ For each feature the first entry that fits decides.
 - **small** (1:500 and smaller): any feature if `a` is less than 0.5 mm on the map: `omit`
 - **lines** (1:1000 to 1:2000): each `line`: `typify` ratio `$few` (0.5), gap 10 cm
 
-`omit` takes the feature out; its host is closed again.  
-`typify` replaces the recesses of a row by fewer.  
+`omit` removes the feature and closes its host again.  
+`typify` replaces the recesses of a row with fewer ones.  
 
 ## Facets
 
