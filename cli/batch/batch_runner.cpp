@@ -97,7 +97,7 @@ ExitCode BatchRunner::run_all() {
   NamedFiles files;
   files.add(options_);
   command_->name_files(files);
-  files.check();
+  replaces_input_ = files.check();
   if (!begin_status()) return state_.code;
   const bool is_all_read =
       resume_ && resume_->state() && resume_->position().input >= options_.inputs.size();
@@ -302,10 +302,10 @@ void BatchRunner::settle(const InputEnd& end) {
   note({end.input + 1, 0, ""});
 }
 
-/// --force may replace the input by what was read of it, and so delete what could not be.
+/// With --force the input is replaced by what was read of it: what could not be would be deleted.
 bool BatchRunner::loses_records(const InputEnd& end) {
   const std::size_t refused = std::exchange(refused_of_input_, 0);
-  if (!options_.is_forced || refused == 0) return false;
+  if (!replaces_input_ || refused == 0) return false;
   Issue issue;
   issue.code = Code::E601;
   issue.sentence = fmt::format(

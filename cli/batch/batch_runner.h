@@ -105,7 +105,8 @@ class BatchRunner {
   std::optional<Resume> resume_;
   bool was_done_ = false;
   std::optional<ResultCache> cache_;
-  int reused_ = 0;                    ///< records from it
+  int reused_ = 0;  ///< records from it
+  bool replaces_input_ = false;
   std::size_t refused_of_input_ = 0;  ///< records, of the input at hand
 };
 

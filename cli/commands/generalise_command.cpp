@@ -288,6 +288,9 @@ void check_source(const GeneraliseArguments& arguments) {
       throw CLI::ValidationError("--at", "has no input but the series that --from names");
     if (arguments.from.empty())
       throw CLI::ValidationError("--at", "--from says the NAME of the series");
+    if (!arguments.selection.is_all())
+      throw CLI::ValidationError(
+          "--at", "writes the whole level, without --id, --bbox, --cotype, --random and --exclude");
     return;
   }
   if (arguments.inputs.empty()) throw CLI::RequiredError("input");

@@ -53,7 +53,7 @@ class Repairer final : public VisitingCommand {
         sink_(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format) {}
 
   void name_files(NamedFiles& files) const override {
-    for (const std::string& path : sink_.paths()) files.add_output("-o", path);
+    sink_.name_files(files, !arguments_.selection.is_all());
     files.add_output("--report", arguments_.report);
   }
   void begin(std::size_t input) override {

@@ -53,8 +53,7 @@ LabelledBuilding LabelOutputs::annotated(const Building& building,
 
 void LabelOutputs::name_files(NamedFiles& files) const {
   files.add_input("--rules", arguments_.rules);
-  if (sink_)
-    for (const std::string& path : sink_->paths()) files.add_output("-o", path);
+  if (sink_) sink_->name_files(files, !arguments_.selection.is_all());
   files.add_output("--features", arguments_.features);
 }
 

@@ -49,8 +49,9 @@ class NamedFiles::Places {
   const Named* stdout_ = nullptr;
 };
 
-void NamedFiles::add_output(const std::string& option, const std::string& path) {
-  if (!path.empty()) outputs_.push_back({option, path, true});
+void NamedFiles::add_output(const std::string& option, const std::string& path,
+                            const std::string& loss) {
+  if (!path.empty()) outputs_.push_back({option, path, true, loss});
 }
 
 void NamedFiles::add_input(const std::string& option, const std::string& path) {
@@ -76,14 +77,16 @@ void NamedFiles::refuse(const Named& named, const Named& first) const {
   if (first.is_output)
     refuse_usage(named.option, Code::E602,
                  fmt::format("'{}' is written by {}, too", named.path, first.option));
-  const bool has_force = offers_force_ && may_replace(named, first);
+  const bool offers_it = offers_force_ && may_replace(named, first);
+  const bool is_lossy = offers_it && !named.loss.empty();
   refuse_usage(named.option, Code::E602,
-               fmt::format("'{}' is an input, which would be overwritten; {}", named.path,
-                           has_force ? "name another file, or replace it with --force"
-                                     : "name another file"));
+               fmt::format("'{}' is an input, which would be overwritten{}; name another file{}",
+                           named.path, is_lossy ? ": " + named.loss : "",
+                           offers_it && !is_lossy ? ", or replace it with --force" : ""));
 }
 
-void NamedFiles::check() const {
+bool NamedFiles::check() const {
+  bool replaces_input = false;
   static const Named kStdout{"stdout", "-", true};
   Places places;
   // The same input twice is no harm.
@@ -91,10 +94,12 @@ void NamedFiles::check() const {
   for (const Named& output : outputs_) {
     const bool is_stdout = output.path == "-";
     const Named* first = is_stdout ? places.enter_stdout(output) : places.enter(output);
-    const bool is_allowed = first != nullptr && is_forced_ && may_replace(output, *first);
-    if (first != nullptr && !is_allowed) refuse(output, *first);
+    if (first == nullptr) continue;
+    if (!is_forced_ || !may_replace(output, *first) || !output.loss.empty()) refuse(output, *first);
+    replaces_input = true;
   }
   if (const Named* first = places.enter(kStdout, STDOUT_FILENO)) refuse(*first, kStdout);
+  return replaces_input;
 }
 
 }  // namespace oriel::cli

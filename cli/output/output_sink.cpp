@@ -94,10 +94,21 @@ std::string OutputSink::path_for(std::size_t input) const {
   return (fs::path(out_) / (stem_of(inputs_[input]) + extension_of(to))).string();
 }
 
-std::vector<std::string> OutputSink::paths() const {
-  std::vector<std::string> paths;
-  for (std::size_t i = 0; i < inputs_.size(); ++i) paths.push_back(path_for(i));
-  return paths;
+void OutputSink::name_files(NamedFiles& files, bool is_selection) const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    files.add_output("-o", path_for(i), loss(i, is_selection));
+}
+
+/// What the input would lose if its output replaced it.
+std::string OutputSink::loss(std::size_t input, bool is_selection) const {
+  const Format to = format_of_output(input);
+  const bool is_stream = to == Format::cityjson_seq;
+  if (to != format_of_input(input) || (to != Format::cityjson && !is_stream))
+    return fmt::format("{} would keep only what oriel reads of it", to_string(to));
+  if (is_stream && is_selection)
+    return "only the records that --id, --bbox, --cotype, --random and --exclude select would be "
+           "kept";
+  return {};
 }
 
 Format OutputSink::format_of_output(std::size_t input) const {

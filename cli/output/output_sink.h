@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/batch/outcome.h"
+#include "cli/output/named_files.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/write.h"
@@ -28,8 +29,8 @@ class OutputSink {
   /// A file says which feature its faces belong to.
   [[nodiscard]] bool names_features() const;
 
-  /// The files of all inputs, in their order; "-": stdout.
-  [[nodiscard]] std::vector<std::string> paths() const;
+  /// Adds the file of each input; `is_selection`: of a stream only some records are written.
+  void name_files(NamedFiles& files, bool is_selection) const;
   /// The file at hand and its size so far.
   [[nodiscard]] PartPlace place() const;
   /// With `is_rehearsal` the bytes go to nowhere.
@@ -51,6 +52,7 @@ class OutputSink {
   [[nodiscard]] Format format_of_input(std::size_t input) const;
   [[nodiscard]] Format format_of_output(std::size_t input) const;
   [[nodiscard]] std::string path_for(std::size_t input) const;
+  [[nodiscard]] std::string loss(std::size_t input, bool is_selection) const;
   void check(std::size_t input) const;
 
   std::string out_;

@@ -121,8 +121,9 @@ SeriesFiles::SeriesFiles(const LabellingArguments& arguments, const std::vector<
 }
 
 void SeriesFiles::name_files(NamedFiles& files) const {
-  for (const double scale : scales_) files.add_output("-o", path_of(scale));
-  files.add_output("-o", arguments_.out + ".oplog.jsonl");
+  const std::string loss = "a series would keep only what is drawn of it";
+  for (const double scale : scales_) files.add_output("-o", path_of(scale), loss);
+  files.add_output("-o", arguments_.out + ".oplog.jsonl", loss);
 }
 
 std::string SeriesFiles::path_of(double scale) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace oriel::test;
 
@@ -140,6 +141,65 @@ TEST_SUITE("cli") {
     CHECK(bytes_of(in) == lines);
     CHECK(run({"label", in, "-o", in, "--force"}, {.file_limit = 1}).exit == 6);
     CHECK(bytes_of(in) == lines);
+  }
+
+  TEST_CASE("force replaces no stream by some of its records") {
+    const Words selections[] = {{"--id", "a"},
+                                {"--bbox", "0,0,1,1"},
+                                {"--cotype", "Building"},
+                                {"--random", "2"},
+                                {"--id", "a", "--exclude"}};
+    for (const Words& words :
+         std::vector<Words>{{"label"}, {"generalise", "--scale", "1:500"}, {"repair"}})
+      for (const Words& selection : selections) {
+        const Folder folder;
+        const std::string in = folder.write("in.city.jsonl", cube_lines({"a", "b"}));
+        Words arguments = words;
+        for (const std::string& word : {in, std::string("-o"), in, std::string("--force")})
+          arguments.push_back(word);
+        arguments.insert(arguments.end(), selection.begin(), selection.end());
+        check_refused(folder, arguments);
+        CHECK(run(arguments).says(
+            "-o: E602 '" + in +
+            "' is an input, which would be overwritten: only the records that " +
+            "--id, --bbox, --cotype, --random and --exclude select would be kept; name another " +
+            "file"));
+      }
+  }
+
+  TEST_CASE("with force a file of which one building is selected keeps the others") {
+    for (const Words& words :
+         std::vector<Words>{{"label"}, {"generalise", "--to-lod", "1.2"}, {"repair"}}) {
+      const Folder folder;
+      const std::string in = folder.write("in.city.json", cubes({"a", "b"}).dump());
+      const nlohmann::json whole = cubes({"a", "b"})["CityObjects"]["b"];
+      Words arguments = words;
+      for (const std::string& word : {in, std::string("-o"), in, std::string("--force"),
+                                      std::string("--id"), std::string("a")})
+        arguments.push_back(word);
+      CHECK(run(arguments).exit == 0);
+      CHECK(nlohmann::json::parse(bytes_of(in))["CityObjects"]["b"] == whole);
+    }
+  }
+
+  TEST_CASE("force replaces no input by another format nor a mesh nor a series") {
+    const Folder folder;
+    const std::string city = folder.write("in.city.json", cubes({"a"}).dump());
+    const std::string level = folder.write("s.1-500.city.json", cubes({"a"}).dump());
+    const std::string mesh = folder.write("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    check_refused(folder, {"label", city, "-o", city, "--to", "obj", "--force"});
+    check_refused(folder, {"repair", mesh, "-o", mesh, "--force"});
+    check_refused(folder,
+                  {"generalise", "--series", "1:500", level, "-o", folder / "s", "--force"});
+    CHECK(run({"label", mesh, "-o", mesh, "--force"})
+              .says("overwritten: obj would keep only what oriel reads of it; name another file"));
+  }
+
+  TEST_CASE("with force a record that cannot be read does not keep another file from being there") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.jsonl", cube_lines({"a"}) + "{\"broken\n");
+    CHECK(run({"label", in, "-o", folder / "out.city.jsonl", "--force"}).exit == 3);
+    CHECK(lines_of(bytes_of(folder / "out.city.jsonl")).size() == 2);
   }
 
   TEST_CASE("force replaces no rules and no file by what is said about it") {
