@@ -2,6 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
+#include "kernel/base/counted.h"
 #include "oriel/interpret.h"
 
 #include <memory>
@@ -52,8 +53,9 @@ ExitCode work(const DiffArguments& arguments) {
   const std::string text = arguments.is_json ? to_json(diff) + "\n" : to_text(diff);
   print_out(text, arguments.is_json);
   if (!arguments.most || diff.differences() <= *arguments.most) return code;
-  run_log().write(LogLevel::error, fmt::format("{} differences; {} are allowed", diff.differences(),
-                                               *arguments.most));
+  run_log().write(LogLevel::error,
+                  fmt::format("{}; {} {} allowed", counted(diff.differences(), "difference"),
+                              *arguments.most, agreeing(*arguments.most, "is", "are")));
   return graver(code, ExitCode::set_aside);
 }
 

@@ -5,6 +5,7 @@
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "oriel/interpret.h"
 
@@ -219,8 +220,9 @@ void print_now(const std::string& text) {
       is_first = false;
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    run_log().info("{} buildings in {:.2f} s; waiting for {} to be saved",
-                   features.buildings().size(), took.count(), printable(arguments.rules));
+    run_log().info("{} in {:.2f} s; waiting for {} to be saved",
+                   counted(features.buildings().size(), "building"), took.count(),
+                   printable(arguments.rules));
     files.wait();
   }
 }

@@ -5,6 +5,7 @@
 #include "cli/output/label_outputs.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "oriel/explain.h"
 #include "oriel/repair.h"
@@ -48,8 +49,10 @@ std::string listing(const Building& building, const PipelineResult& line) {
                     number(verdict.feature, Attribute::base_height),
                     names[verdict.feature.index()]});
   }
-  return fmt::format("{}: {} of {} features have a label\n{}\n", printable(building.id),
-                     rows.size() - 1, line.interpretation.verdicts.size(), table(rows));
+  const std::size_t labelled = rows.size() - 1, all = line.interpretation.verdicts.size();
+  return fmt::format("{}: {} {} a label\n{}\n", printable(building.id),
+                     counted_of(labelled, all, "feature"),
+                     agreeing(all == 1 ? all : labelled, "has", "have"), table(rows));
 }
 
 /// --repaired: the labels on the facets of the building's solid. Without one that is valid they

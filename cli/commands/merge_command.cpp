@@ -4,6 +4,7 @@
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/issue.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/files/partial_files.h"
@@ -97,9 +98,9 @@ std::optional<Issue> check_provenance(const Shard& shard, const std::string& fil
     }
   }
   if (mark.lines == expected) return std::nullopt;
-  return shard_issue(
-      file, fmt::format("has {} lines; shard {} has {}, of which {} were left out", mark.lines,
-                        shard.name, shard.features + 1, shard.features + 1 - expected));
+  return shard_issue(file, fmt::format("has {}; shard {} has {}, of which {} left out",
+                                       counted(mark.lines, "line"), shard.name, shard.features + 1,
+                                       counted(shard.features + 1 - expected, "was", "were")));
 }
 
 void check_names(const MergeArguments& arguments) {
@@ -123,8 +124,8 @@ class Merger {
     for (const Shard& shard : list_.shards) append(shard, file_of_.at(shard.name), out);
     if (has_errors_) return ExitCode::input;
     out.commit();
-    run_log().info("merged {} of {} features of {} shards", features_, expected_,
-                   list_.shards.size());
+    run_log().info("merged {} of {}", counted_of(features_, expected_, "feature"),
+                   counted(list_.shards.size(), "shard"));
     return ExitCode::clean;
   }
 

@@ -3,6 +3,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/output_sink.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
@@ -32,17 +33,22 @@ std::string summary_of(const Building& building, const Repaired& repaired) {
     return fmt::format("{}: {}", building.id,
                        repaired.solid ? "closed already" : "could not be repaired");
   if (!repaired.solid)
-    return fmt::format("{}: stays open, {} open edges", building.id, report.open_edges.size());
+    return fmt::format("{}: stays open, {}", building.id,
+                       counted(report.open_edges.size(), "open edge"));
   double closed_m2 = 0;
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return fmt::format(
-      "{}: repaired: {} doubles dropped, {} vertices put into edges, {} polygons cut at contacts, "
-      "{} edges of more than two "
-      "polygons, {} polygons turned round, {} dangling sheets ({:.2f} m2) and {} inner faces "
-      "({:.2f} m2) left out, {} holes closed ({:.2f} m2), {} detached shells, {} cavities",
-      building.id, report.duplicates.size(), report.t_vertices, report.cut, report.crowded_edges,
-      report.turned, report.dangling.size(), report.dangling_area_m2, report.inner.size(),
-      report.inner_area_m2, report.caps.size(), closed_m2, report.detached_shells, report.cavities);
+      "{}: repaired: {} dropped, {} put into edges, {} cut at contacts, {} of more than two "
+      "polygons, {} turned round, {} ({:.2f} m2) and {} ({:.2f} m2) left out, {} closed "
+      "({:.2f} m2), {}, {}",
+      building.id, counted(report.duplicates.size(), "double"),
+      counted(report.t_vertices, "vertex", "vertices"), counted(report.cut, "polygon"),
+      counted(report.crowded_edges, "edge"), counted(report.turned, "polygon"),
+      counted(report.dangling.size(), "dangling sheet"), report.dangling_area_m2,
+      counted(report.inner.size(), "inner face"), report.inner_area_m2,
+      counted(report.caps.size(), "hole"), closed_m2,
+      counted(report.detached_shells, "detached shell"),
+      counted(report.cavities, "cavity", "cavities"));
 }
 
 class Repairer final : public VisitingCommand {

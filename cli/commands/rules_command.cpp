@@ -5,6 +5,7 @@
 #include "cli/output/sarif.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "oriel/rules.h"
@@ -27,9 +28,6 @@ namespace {
 
 /// "PATH: pack NAME VERSION, 23 rules for 10 labels".
 std::string counts_of(const std::string& path, const RuleBase& pack) {
-  const auto counted = [](std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
   return fmt::format("{}: pack {} {}, {} for {}\n", printable(path), printable(pack.name()),
                      printable(pack.version()), counted(pack.rule_count(), "rule"),
                      counted(pack.labels().size(), "label"));

@@ -5,6 +5,7 @@
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
 #include "cli/terminal/print_out.h"
+#include "kernel/base/counted.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/feature_records.h"
 #include "oriel/score.h"
@@ -173,12 +174,13 @@ std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptio
     issue.sentence = "the truth has no objects: nothing is compared";
     return issue;
   }
-  issue.sentence = missing.size() == expected.size()
-                       ? "no building of the truth has a record"
-                       : fmt::format(
-                             "{} of {} buildings of the truth have no record, and all "
-                             "their objects count as missed",
-                             missing.size(), expected.size());
+  issue.sentence =
+      missing.size() == expected.size()
+          ? "no building of the truth has a record"
+          : fmt::format("{} of the truth {} no record, and all {} objects count as missed",
+                        counted_of(missing.size(), expected.size(), "building"),
+                        agreeing(missing.size(), "has", "have"),
+                        agreeing(missing.size(), "its", "their"));
   const std::size_t shown = std::min(kShown, missing.size());
   issue.sentence +=
       ": " +

@@ -3,6 +3,7 @@
 #include "cli/commands/options.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/table.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
 #include "kernel/io/records/stage_json.h"
@@ -51,9 +52,10 @@ std::string segment_listing(const Building& building, const PipelineResult& line
                     number(id, Attribute::base_height), names[id.index()]});
   }
   const SegmentationStats& stats = segmentation.stats;
-  return fmt::format("{}: {} planes, {} features, {} leaves, {} inner nodes\n{}\n",
-                     printable(building.id), line.solid->planes.size(),
-                     segmentation.features.size(), stats.leaves, stats.inner, table(rows));
+  return fmt::format(
+      "{}: {}, {}, {}, {}\n{}\n", printable(building.id),
+      counted(line.solid->planes.size(), "plane"), counted(segmentation.features.size(), "feature"),
+      counted(stats.leaves, "leaf", "leaves"), counted(stats.inner, "inner node"), table(rows));
 }
 
 using nlohmann::ordered_json;
@@ -86,13 +88,15 @@ ordered_json json_of(const std::vector<CsgNode>& nodes, NodeId id) {
 }
 
 std::string text_of(const TreeFigures& figures) {
-  return fmt::format("{} leaves, {} inner, depth {}, weighted path {:.3f}", figures.leaves,
-                     figures.inner, figures.depth, figures.weighted_path);
+  return fmt::format("{}, {} inner, depth {}, weighted path {:.3f}",
+                     counted(figures.leaves, "leaf", "leaves"), figures.inner, figures.depth,
+                     figures.weighted_path);
 }
 
 std::string text_of(const BalanceProof& proof) {
-  return fmt::format("{}: {:.6f} m3, {} of {} points", proof.holds() ? "the same body" : "DIFFERS",
-                     proof.after_m3, proof.points - proof.differing, proof.points);
+  return fmt::format("{}: {:.6f} m3, {}", proof.holds() ? "the same body" : "DIFFERS",
+                     proof.after_m3,
+                     counted_of(proof.points - proof.differing, proof.points, "point"));
 }
 
 /// What --tree writes of a building: its CSG tree as it was cut, balanced and with touching parts

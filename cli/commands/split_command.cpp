@@ -3,6 +3,7 @@
 #include "cli/commands/options.h"
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
+#include "kernel/base/counted.h"
 #include "kernel/io/cityjson/stream_header.h"
 #include "kernel/io/files/output_file.h"
 
@@ -147,7 +148,7 @@ ExitCode work(const SplitArguments& arguments) {
   BatchRunner runner(arguments, nullptr, report);
   Splitter command(arguments);
   const ExitCode code = runner.run(command);
-  runner.report_summary(fmt::format("split into {} shards", command.shards()), {});
+  runner.report_summary("split into " + counted(command.shards(), "shard"), {});
   return code;
 }
 

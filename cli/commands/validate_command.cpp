@@ -3,6 +3,7 @@
 #include "cli/output/named_files.h"
 #include "cli/output/sarif.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/cityjson/object_survey.h"
 #include "kernel/io/files/output_file.h"
@@ -82,9 +83,8 @@ class UnjudgedObjects {
       issue.severity = is_of_building(type) ? Severity::note : Severity::warning;
       issue.code = Code::E214;
       issue.sentence = fmt::format(
-          "{} object{} of type {} with geometry {} not judged, only buildings and their parts are"
-          "{}{}{}",
-          kind.count, kind.count == 1 ? "" : "s", type, kind.count == 1 ? "is" : "are",
+          "{} of type {} with geometry {} not judged, only buildings and their parts are{}{}{}",
+          counted(kind.count, "object"), type, agreeing(kind.count, "is", "are"),
           kind.ids.empty() ? "" : ": ", fmt::join(kind.ids, ", "),
           std::cmp_less(kind.ids.size(), kind.count) && !kind.ids.empty() ? ", ..." : "");
       issue.place.file = input;
@@ -156,8 +156,7 @@ std::string text_of(const BuildingFindings& found, bool names_lod) {
   if (found.findings.empty())
     return fmt::format("{}: valid{}\n", name,
                        found.primitive == "surfaces" ? " as loose surfaces" : "");
-  std::string text = fmt::format("{}: {} finding{}\n", name, found.findings.size(),
-                                 found.findings.size() == 1 ? "" : "s");
+  std::string text = fmt::format("{}: {}\n", name, counted(found.findings.size(), "finding"));
   for (const Finding& finding : found.findings) {
     text += fmt::format("  {} {}", to_string(finding.code), printable(finding.sentence));
     // Sentences of reading name the number themselves.
@@ -374,11 +373,12 @@ class Validation {
   }
 
   void report_summary() const {
-    const char* what = is_of_all_lods() ? "geometr" : "building";
-    const char* ending = buildings_ == 1 ? (is_of_all_lods() ? "y is" : " is")
-                                         : (is_of_all_lods() ? "ies are" : "s are");
+    const auto valid = buildings_ - invalid_;
     std::string text =
-        fmt::format("{} of {} {}{} valid", buildings_ - invalid_, buildings_, what, ending);
+        fmt::format("{} {} valid",
+                    is_of_all_lods() ? counted_of(valid, buildings_, "geometry", "geometries")
+                                     : counted_of(valid, buildings_, "building"),
+                    agreeing(valid, "is", "are"));
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
       text += fmt::format("{}{} {}", separator, count, to_string(code.first));
@@ -386,10 +386,11 @@ class Validation {
         text += fmt::format(" (val3dity {} {})", code.second, val3dity_name(code.second));
       separator = ", ";
     }
-    if (unread_records_ > 0) text += fmt::format("; {} records could not be read", unread_records_);
+    if (unread_records_ > 0)
+      text += fmt::format("; {} could not be read", counted(unread_records_, "record"));
     if (unjudged_ > 0)
-      text += fmt::format("; {} other object{} not judged", unjudged_,
-                          unjudged_ == 1 ? " was" : "s were");
+      text += fmt::format("; {} not judged",
+                          counted(unjudged_, "other object was", "other objects were"));
     run_log().write(LogLevel::info, text);
   }
 

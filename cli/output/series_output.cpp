@@ -5,6 +5,7 @@
 #include "cli/output/output_sink.h"
 #include "cli/streams/stream_lines.h"
 #include "cli/terminal/logging.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/cityjson/cityjson_collector.h"
 #include "kernel/io/files/output_file.h"
@@ -365,7 +366,7 @@ ExitCode write_series(const LabellingArguments& arguments, const std::vector<dou
   SeriesWriter command(arguments, scales, std::move(profile), rules, runner, report);
   const ExitCode code = runner.run(command);
   report.add(report_unwritten(command.drawn(), rules));
-  runner.report_summary(fmt::format("drawn at {} scales", scales.size()),
+  runner.report_summary("drawn at " + counted(scales.size(), "scale"),
                         {{"operation", command.operations()}}, " in the log");
   return code;
 }

@@ -1,6 +1,7 @@
 #include "cli/terminal/progress.h"
 
 #include "cli/terminal/logging.h"
+#include "kernel/base/counted.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -91,8 +92,9 @@ std::string Progress::bar() const {
     text += fmt::format("[{}{}] {} %, ", std::string(filled, '#'),
                         std::string(kWidth - filled, '.'), done * 100 / all_bytes_);
   }
-  text += fmt::format("{} buildings, {} rejected, {:.0f}/s, {:.1f} MB/s", counts_.buildings,
-                      counts_.set_aside, buildings_per_s(), mb_per_s());
+  text +=
+      fmt::format("{}, {} rejected, {:.0f}/s, {:.1f} MB/s", counted(counts_.buildings, "building"),
+                  counts_.set_aside, buildings_per_s(), mb_per_s());
   if (left) text += ", " + time_text(*left) + " left";
   return text;
 }

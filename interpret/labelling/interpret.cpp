@@ -2,6 +2,7 @@
 
 #include "interpret/labelling/groups.h"
 #include "interpret/labelling/labelling.h"
+#include "kernel/base/counted.h"
 
 #include <algorithm>
 #include <string>
@@ -58,8 +59,9 @@ Issue unsettled(const std::string& what, const std::vector<int>& rows, const Fea
   std::ranges::sort(ids);
   const std::size_t more = ids.size() - std::min(ids.size(), kShown);
   ids.resize(ids.size() - more);
-  std::string sentence =
-      fmt::format("after {} {} features still change: {}", what, rows.size(), fmt::join(ids, ", "));
+  std::string sentence = fmt::format(
+      "after {} {}: {}", what,
+      counted(rows.size(), "feature still changes", "features still change"), fmt::join(ids, ", "));
   if (more > 0) sentence += fmt::format(" and {} more", more);
   return building_issue(Severity::warning, Code::R261, table.building(), std::move(sentence));
 }
@@ -77,7 +79,7 @@ Interpretation interpret(const RuleBase& base, const FeatureTable& table,
   if (pack.decide.ambiguous_below > 0) add_ambiguities(pack, choices, table, result);
   result.groups = rules::find_groups(pack, context, table);
   if (const auto rows = labelling.unsettled(); !rows.empty())
-    result.issues.push_back(unsettled(fmt::format("{} rounds", pack.rounds), rows, table));
+    result.issues.push_back(unsettled(counted(pack.rounds, "round"), rows, table));
   if (const auto& rows = labelling.unsettled_by_evidence(); !rows.empty())
     result.issues.push_back(unsettled(
         fmt::format("{} looks at their neighbours", rules::JointPass::kMostSweeps), rows, table));

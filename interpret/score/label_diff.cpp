@@ -1,6 +1,7 @@
 #include "interpret/score/label_diff.h"
 
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 
 #include <algorithm>
@@ -62,7 +63,8 @@ std::string count_line(const std::string& label, LabelDiff::Count count) {
 
 std::string only_line(const char* which, const LabelDiff::LabelChange& change) {
   if (change.count == 0) return "";
-  return fmt::format("{} features are only in the {} run: {}\n", change.count, which,
+  return fmt::format("{} only in the {} run: {}\n",
+                     counted(change.count, "feature is", "features are"), which,
                      examples_text(change));
 }
 
@@ -133,7 +135,8 @@ LabelDiff diff_labels(std::vector<NamedFeature> before, std::vector<NamedFeature
 
 std::string to_text(const LabelDiff& diff) {
   std::string text =
-      fmt::format("{} of {} features have another label", diff.changed(), diff.compared());
+      fmt::format("{} {} another label", counted_of(diff.changed(), diff.compared(), "feature"),
+                  agreeing(diff.changed(), "has", "have"));
   if (diff.renamed_rules() > 0)
     text += fmt::format(", {} the same by another rule", diff.renamed_rules());
   text += '\n';

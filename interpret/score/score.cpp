@@ -1,6 +1,7 @@
 #include "interpret/score/score.h"
 
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/geometry/boxes.h"
 
@@ -258,7 +259,7 @@ std::string to_text(const Score& score, std::size_t max_misses) {
   for (const auto& [label, counts] : score.classes) text += class_line(label, counts);
   text += fmt::format("macro-F1 {}\n", percent(score.macro_f1()));
   if (score.neutral > 0)
-    text += fmt::format("{} predictions on objects that are left out\n", score.neutral);
+    text += fmt::format("{} on objects that are left out\n", counted(score.neutral, "prediction"));
   if (!score.confusion.empty()) text += "truth -> predicted\n";
   for (const auto& [labels, count] : score.confusion)
     text += fmt::format("  {:<12} -> {:<12} {:>6}\n", printable(labels.first),

@@ -2,6 +2,7 @@
 
 #include "interpret/surfaces/polygon_shape.h"
 #include "interpret/yaml/json_text.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 
 #include <algorithm>
@@ -122,7 +123,8 @@ std::string to_text(const SurfaceScore& score) {
     text += fmt::format("{:<20}{:>13.2f}{:>13.2f}{:>11}{:>9}\n", printable(type), theirs, ours,
                         share_text(score.precision(type)), share_text(score.recall(type)));
   }
-  text += fmt::format("agreement {} of {} polygons", share_text(score.agreement()), score.polygons);
+  text += fmt::format("agreement {} of {}", share_text(score.agreement()),
+                      counted(score.polygons, "polygon"));
   if (score.openings_m2 > 0)
     text += fmt::format("; {:.2f} m2 of windows and doors left out", score.openings_m2);
   if (score.unnamed_m2 > 0) text += fmt::format("; {:.2f} m2 have no name", score.unnamed_m2);

@@ -2,6 +2,7 @@
 
 #include "interpret/compile/written.h"
 #include "interpret/pack/pack.h"
+#include "kernel/base/counted.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +14,9 @@ Issue unwritten_label(const rules::Pack& pack, const rules::Class& c, int featur
   Issue issue;
   issue.severity = Severity::warning;
   issue.code = Code::R258;
-  issue.sentence = fmt::format("{} feature{} with the label '{}' {} not written: {}", features,
-                               features == 1 ? "" : "s", c.name, features == 1 ? "is" : "are",
-                               rules::advice_to_emit(c.name));
+  issue.sentence =
+      fmt::format("{} with the label '{}' {} not written: {}", counted(features, "feature"), c.name,
+                  agreeing(features, "is", "are"), rules::advice_to_emit(c.name));
   issue.place = pack.source.place(c.span.begin);
   issue.excerpt = pack.source.excerpt(c.span);
   return issue;

@@ -6,6 +6,7 @@
 #include "interpret/testing/fixture.h"
 #include "interpret/testing/test_file.h"
 #include "interpret/yaml/section.h"
+#include "kernel/base/counted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,17 +134,19 @@ class TestRun {
     }
     for (const rules::Expectation& expected : test_.labels) check_labels(expected, buildings);
     for (const auto& [label, count] : test_.counts)
-      check_count("features labelled " + label, counts_[label == "unknown" ? "" : label], count);
+      check_count("feature", " labelled " + label, counts_[label == "unknown" ? "" : label], count);
     for (const auto& [group, count] : test_.groups)
-      check_count("groups " + group, groups_[group], count);
+      check_count("group", " " + group, groups_[group], count);
     if (test_.perturbation) check_property(buildings);
   }
 
  private:
   void fail(std::string sentence) { failures_.push_back(std::move(sentence)); }
 
-  void check_count(const std::string& what, std::size_t found, std::size_t wanted) {
-    if (found != wanted) fail(fmt::format("{} {}, expected {}", found, what, wanted));
+  void check_count(std::string_view noun, const std::string& which, std::size_t found,
+                   std::size_t wanted) {
+    if (found != wanted)
+      fail(fmt::format("{}{}, expected {}", counted(found, noun), which, wanted));
   }
 
   void check_labels(const rules::Expectation& expected,

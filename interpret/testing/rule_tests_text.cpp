@@ -1,4 +1,5 @@
 #include "interpret/testing/rule_tests.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 
 #include <algorithm>
@@ -83,10 +84,6 @@ std::string gaps_of(const RuleTestReport& report, bool is_own) {
   return text;
 }
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// "95.0 % of 20 rules held, 100.0 % of their conditions both held and failed".
 std::string coverage_of(const RuleTestReport& report, CoverageOf of) {
   const std::size_t rules = report.rule_count(of);
@@ -94,7 +91,7 @@ std::string coverage_of(const RuleTestReport& report, CoverageOf of) {
   return fmt::format("{:.1f} % of {}{} held, {:.1f} % of {} conditions both held and failed",
                      report.rule_coverage(of) * 100, counted(rules, "rule"),
                      of == CoverageOf::all_rules ? " with those it extends" : "",
-                     report.condition_coverage(of) * 100, rules == 1 ? "its" : "their");
+                     report.condition_coverage(of) * 100, agreeing(rules, "its", "their"));
 }
 
 }  // namespace

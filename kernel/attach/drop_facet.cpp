@@ -1,6 +1,7 @@
 #include "kernel/attach/drop_facet.h"
 
 #include "kernel/attach/clearance.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 
@@ -27,7 +28,7 @@ class FacetDropper {
     if (facet.loops.size() != 1) return refused("it has holes");
     corners_ = facet.loops[0];
     if (corners_.size() != 3 && corners_.size() != 4)
-      return refused(fmt::format("it has {} corners", corners_.size()));
+      return refused("it has " + counted(corners_.size(), "corner"));
     if (!find_sides()) return refused("more than three planes meet in one of its corners");
     if (std::string reason = meet(); !reason.empty()) return refused(std::move(reason));
     if (leaves_less_than_triangle()) return refused("a neighbouring facet would vanish");

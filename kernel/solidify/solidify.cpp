@@ -1,5 +1,6 @@
 #include "kernel/solidify/solidify.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/geometry/disjoint_sets.h"
 #include "kernel/solidify/crossings/uncross.h"
 #include "kernel/solidify/mend/mend.h"
@@ -80,8 +81,7 @@ std::string closed_holes(std::span<const Cap> caps) {
   of_kind.erase(CapKind::hole);
   const char* before = ": ";
   for (const auto& [kind, of] : of_kind) {
-    text += fmt::format("{}{} {}{} ({:.2f} m²)", before, of.count, to_string(kind),
-                        of.count == 1 ? "" : "s", of.area_m2);
+    text += fmt::format("{}{} ({:.2f} m²)", before, counted(of.count, to_string(kind)), of.area_m2);
     before = ", ";
   }
   return text;
@@ -93,24 +93,29 @@ void tell_repairs(const Building& building, const RepairReport& report, bool is_
   if (report.t_vertices > 0 || !report.duplicates.empty())
     issues.push_back(building_issue(
         Severity::note, Code::E317, building.id,
-        fmt::format("{} vertices were put into the edges that they lie on; {} polygons are there "
-                    "twice and were dropped",
-                    report.t_vertices, report.duplicates.size())));
+        fmt::format(
+            "{} put into {}; {} dropped", counted(report.t_vertices, "vertex was", "vertices were"),
+            agreeing(report.t_vertices, "the edge that it lies on", "the edges that they lie on"),
+            counted(report.duplicates.size(), "polygon is there twice and was",
+                    "polygons are there twice and were"))));
   if (is_open) return;
   if (report.turned > 0)
-    issues.push_back(warning(
-        building, Code::E308,
-        fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
-                    report.turned)));
+    issues.push_back(
+        warning(building, Code::E308,
+                fmt::format("{} turned round to agree with {} neighbours (val3dity 307)",
+                            counted(report.turned, "polygon was", "polygons were"),
+                            agreeing(report.turned, "its", "their"))));
   if (!report.caps.empty())
     issues.push_back(warning(building, Code::E316, closed_holes(report.caps)));
   if (!report.dangling.empty() || !report.inner.empty())
     issues.push_back(warning(
         building, Code::E315,
-        fmt::format("{} polygons do not bound the solid and were left out: {} dangling sheets "
-                    "({:.2f} m²), {} inner faces ({:.2f} m²)",
-                    report.dangling.size() + report.inner.size(), report.dangling.size(),
-                    report.dangling_area_m2, report.inner.size(), report.inner_area_m2)));
+        fmt::format("{} left out: {} ({:.2f} m²), {} ({:.2f} m²)",
+                    counted(report.dangling.size() + report.inner.size(),
+                            "polygon does not bound the solid and was",
+                            "polygons do not bound the solid and were"),
+                    counted(report.dangling.size(), "dangling sheet"), report.dangling_area_m2,
+                    counted(report.inner.size(), "inner face"), report.inner_area_m2)));
 }
 
 /// How many connected pieces the open edges make.
@@ -136,17 +141,19 @@ Issue not_closed(const Building& building, std::span<const OpenEdge> edges) {
     const Vec3 p = edges[i].from;
     places += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", i > 0 ? ", " : "", p.x, p.y, p.z);
   }
-  return error(building, Code::E302,
-               fmt::format("not closed: {} open edges in {} loops, the first at {} (val3dity 302)",
-                           edges.size(), count_loops(edges), places));
+  return error(
+      building, Code::E302,
+      fmt::format("not closed: {} in {}, the first at {} (val3dity 302)",
+                  counted(edges.size(), "open edge"), counted(count_loops(edges), "loop"), places));
 }
 
 /// The repair is none: it would lose what can be seen.
 Issue not_enclosed(const Building& building, const detail::ExposedFaces& exposed) {
-  return error(building, Code::E302,
-               fmt::format("not closed: a repair would leave out {} polygons ({:.2f} m², {:.0f} % "
-                           "of the surface) that can be seen from outside (val3dity 302)",
-                           exposed.polygons, exposed.area, 100 * exposed.share));
+  return error(
+      building, Code::E302,
+      fmt::format("not closed: a repair would leave out {} ({:.2f} m², {:.0f} % "
+                  "of the surface) that can be seen from outside (val3dity 302)",
+                  counted(exposed.polygons, "polygon"), exposed.area, 100 * exposed.share));
 }
 
 /// A soup and its mesh: closed, or issues have an error.
@@ -247,8 +254,8 @@ MeshedSoup shells_of(const Building& building, const Tolerances& tolerances,
   MeshedSoup shells{detail::weld(building, tolerances, out.issues), {}};
   if (shells.soup.polygons.size() < 4) {
     out.issues.push_back(error(building, Code::E301,
-                               fmt::format("{} polygons cannot enclose a volume (val3dity 301)",
-                                           shells.soup.polygons.size())));
+                               fmt::format("{} cannot enclose a volume (val3dity 301)",
+                                           counted(shells.soup.polygons.size(), "polygon"))));
     return shells;
   }
   std::vector<Issue> issues;

@@ -1,6 +1,7 @@
 #include "oriel/pipeline/pipeline.h"
 
 #include "interpret/labelling/interpret.h"
+#include "kernel/base/counted.h"
 #include "kernel/segment/flush/imprints.h"
 #include "kernel/segment/rings/ring_features.h"
 #include "kernel/solidify/noise.h"
@@ -39,9 +40,10 @@ Issue supposed_faces(const Building& building, std::span<const Cap> faces) {
     largest = std::max(largest, face.area_m2);
   }
   return building_issue(Severity::warning, Code::E319, building.id,
-                        fmt::format("{} missing faces were supposed, {:.2f} m² together, the "
-                                    "largest {:.2f} m²: features are found as if they were there",
-                                    faces.size(), sum, largest));
+                        fmt::format("{} supposed, {:.2f} m² together, the largest {:.2f} m²: "
+                                    "features are found as if {} there",
+                                    counted(faces.size(), "missing face was", "missing faces were"),
+                                    sum, largest, agreeing(faces.size(), "it were", "they were")));
 }
 
 /// Goes on with a building that solidify found open: with the solid that it would be if the faces
@@ -129,8 +131,8 @@ Issue left_out_note(const Building& building) {
       Severity::note, Code::E320, building.id,
       fmt::format("is no closed solid with {} that {} on it; its solid is made "
                   "without",
-                  count == 1 ? "the installation" : fmt::format("the {} installations", count),
-                  count == 1 ? "stands" : "stand"));
+                  count == 1 ? "the installation" : "the " + counted(count, "installation"),
+                  agreeing(count, "stands", "stand")));
 }
 
 int count_lumps(const Solid& solid) {

@@ -1,5 +1,6 @@
 #include "oriel/pipeline/repair_and_retry.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/validate/validate.h"
 #include "oriel/pipeline/output_check.h"
 #include "oriel/pipeline/pipeline.h"
@@ -30,8 +31,8 @@ Issue repair_warning(const Building& building, const PipelineResult& result) {
   return building_issue(
       Severity::warning, Code::G417, building.id,
       fmt::format("{} would not be valid as it is written: it is redrawn from the boundary of its "
-                  "inside, with {} polygons cut",
-                  why, result.repair.cut));
+                  "inside, with {} cut",
+                  why, counted(result.repair.cut, "polygon")));
 }
 
 /// What repair() does: with crossings cut, and if that is not valid as it is written mended, or
@@ -55,10 +56,10 @@ Issue mended_first(const Building& building, const RepairReport& report) {
   for (const Cap& cap : report.caps) closed_m2 += cap.area_m2;
   return building_issue(
       Severity::warning, Code::G420, building.id,
-      fmt::format("is open as it was read: it is repaired first, with {} polygons cut, {} left out "
-                  "and {} holes closed ({:.2f} m²)",
-                  report.cut, report.dangling.size() + report.inner.size(), report.caps.size(),
-                  closed_m2));
+      fmt::format("is open as it was read: it is repaired first, with {} cut, {} left out "
+                  "and {} closed ({:.2f} m²)",
+                  counted(report.cut, "polygon"), report.dangling.size() + report.inner.size(),
+                  counted(report.caps.size(), "hole"), closed_m2));
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST_SUITE("cli") {
                 "E131 no building of the truth has a record: block", 3);
     const Outcome some = run({"score", parts, "--truth", truth, "--truth",
                               other.substr(0, other.find(".stripped")) + ".truth.json"});
-    CHECK(some.says("1 of 2 buildings of the truth have no record"));
+    CHECK(some.says("1 of 2 buildings of the truth has no record"));
     CHECK(some.exit == 3);
   }
 }

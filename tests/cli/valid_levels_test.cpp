@@ -243,7 +243,7 @@ TEST_SUITE("cli") {
     CHECK(run({"repair", file, "-o", out, "--crossings", "leave"}).exit == 3);
     const Outcome made = run({"repair", file, "-o", out, "-v"});
     CHECK(made.exit == 0);
-    CHECK(made.err.find("1 polygons cut") != std::string::npos);
+    CHECK(made.err.find("1 polygon cut") != std::string::npos);
     CHECK(valid_in({out}).size() == 1);
   }
 

@@ -94,9 +94,9 @@ TEST_SUITE("cli") {
     const std::string path = folder.write("two.city.json", city.dump());
     const Outcome all = run({"validate", path});
     CHECK(all.exit == 3);
-    CHECK(all.out.starts_with("a: valid\nb: 1 finding\n  E302 not closed: 4 open edges"));
+    CHECK(all.out.starts_with("a: valid\nb: 1 finding\n  E302 not closed: 4 connected open edges"));
     CHECK(all.out.find("(val3dity 302 SHELL_NOT_CLOSED)") != std::string::npos);
-    CHECK(all.says("1 of 2 buildings are valid; 1 E302 (val3dity 302 SHELL_NOT_CLOSED)"));
+    CHECK(all.says("1 of 2 buildings is valid; 1 E302 (val3dity 302 SHELL_NOT_CLOSED)"));
     CHECK(run({"validate", path, "--only-problems"}).out.starts_with("b: 1 finding\n"));
     CHECK(run({"validate", path, "--as", "surfaces"}).exit == 0);
     CHECK(run({"validate", path, "--id", "a"}).exit == 0);

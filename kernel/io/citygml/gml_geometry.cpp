@@ -1,5 +1,6 @@
 #include "kernel/io/citygml/gml_geometry.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/io/json/rings.h"
 #include "kernel/io/json/words.h"
 
@@ -229,7 +230,8 @@ bool GmlReader::read_rings(const XmlNode& node, Context context,
   }
   if (rings.size() != 1)
     return fail(node, Code::E201,
-                fmt::format("a {} has {} exterior rings; expected one", node.name, rings.size()));
+                fmt::format("a {} has {}; expected one", node.name,
+                            counted(rings.size(), "exterior ring")));
   std::ranges::move(holes, std::back_inserter(rings));
   return true;
 }
@@ -263,9 +265,9 @@ bool GmlReader::read_positions(const XmlNode& node, Context context, std::vector
   if (const auto own = as_whole(node.attribute("srsDimension")))
     context.dimension = static_cast<int>(*own);
   if (context.dimension != 3)
-    return fail(
-        node, Code::E210,
-        fmt::format("coordinates of {} dimensions (srsDimension); expected 3", context.dimension));
+    return fail(node, Code::E210,
+                fmt::format("coordinates of {} (srsDimension); expected 3",
+                            counted(context.dimension, "dimension")));
   std::vector<double> numbers;
   const bool are_numbers =
       for_each_word(node.text, has_commas ? ", \t\r\n" : " \t\r\n", [&](std::string_view word) {
@@ -284,7 +286,7 @@ bool GmlReader::read_positions(const XmlNode& node, Context context, std::vector
   if (!are_numbers) return false;
   if (numbers.empty() || numbers.size() % 3 != 0 || (node.name == "pos" && numbers.size() != 3))
     return fail(node, Code::E210,
-                fmt::format("a {} of {} numbers; expected {}", node.name, numbers.size(),
+                fmt::format("a {} of {}; expected {}", node.name, counted(numbers.size(), "number"),
                             node.name == "pos" ? "three" : "three a point"));
   for (std::size_t i = 0; i < numbers.size(); i += 3)
     vertices.push_back(vertices_.add({numbers[i], numbers[i + 1], numbers[i + 2]}));

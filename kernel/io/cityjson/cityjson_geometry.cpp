@@ -1,5 +1,6 @@
 #include "kernel/io/cityjson/cityjson_geometry.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/io/json/rings.h"
 
@@ -258,8 +259,9 @@ inline int GeometryReader::local_vertex(std::int64_t number) {
 int GeometryReader::new_vertex(std::int64_t number) {
   const std::size_t polygon = polygons_.size() - 1;
   if (number < 0 || static_cast<std::size_t>(number) >= stored_.size()) {
-    fail(Code::E203, fmt::format("polygon {} uses vertex {}; there are {} vertices, counted from 0",
-                                 polygon, number, stored_.size()));
+    fail(Code::E203, fmt::format("polygon {} uses vertex {}; there {} {}, counted from 0", polygon,
+                                 number, agreeing(stored_.size(), "is", "are"),
+                                 counted(stored_.size(), "vertex", "vertices")));
     return -1;
   }
   const auto index = static_cast<std::size_t>(number);

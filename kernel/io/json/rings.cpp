@@ -1,5 +1,7 @@
 #include "kernel/io/json/rings.h"
 
+#include "kernel/base/counted.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -50,9 +52,9 @@ std::optional<Fault> find_degenerate(const std::vector<Polygon>& polygons,
     count += static_cast<int>(bad);
   }
   if (count == 0) return std::nullopt;
-  return Fault{Code::E311, fmt::format("{} rings have fewer than 3 distinct points, the first in "
+  return Fault{Code::E311, fmt::format("{} fewer than 3 distinct points, the first in "
                                        "polygon {} (val3dity 101 TOO_FEW_POINTS)",
-                                       count, first)};
+                                       counted(count, "ring has", "rings have"), first)};
 }
 
 std::optional<Fault> find_beyond_limits(const std::vector<Vec3>& points) {

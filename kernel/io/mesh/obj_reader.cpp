@@ -1,3 +1,4 @@
+#include "kernel/base/counted.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/mesh/mesh_reader.h"
 
@@ -90,8 +91,8 @@ class ObjReader {
     }
     const std::size_t count = numbers.size();
     if (count != 3 && count != 4 && count != 6)
-      return report(words_.offset(),
-                    {Code::E109, fmt::format("a vertex of {} numbers; expected x y z", count)});
+      return report(words_.offset(), {Code::E109, fmt::format("a vertex of {}; expected x y z",
+                                                              counted(count, "number"))});
     mesh_.points.push_back({numbers[0], numbers[1], numbers[2]});
   }
 
@@ -103,11 +104,10 @@ class ObjReader {
       face.push_back(*number);
     }
     if (face.size() < 3)
-      return report(
-          words_.offset(),
-          {Code::E311, fmt::format("a face of {} vertices; expected 3 or more (val3dity 101 "
-                                   "TOO_FEW_POINTS)",
-                                   face.size())});
+      return report(words_.offset(),
+                    {Code::E311, fmt::format("a face of {}; expected 3 or more (val3dity 101 "
+                                             "TOO_FEW_POINTS)",
+                                             counted(face.size(), "vertex", "vertices"))});
     mesh_.faces.push_back(std::move(face));
     mesh_.hints.push_back(hint_);
   }

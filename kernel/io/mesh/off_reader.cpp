@@ -1,3 +1,4 @@
+#include "kernel/base/counted.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/mesh/mesh_reader.h"
 
@@ -90,9 +91,9 @@ class OffReader {
     if (!corners || *corners < 0)
       return fail(Code::E110, fmt::format("{} is not a number of vertices", in_quotes(*first)));
     if (*corners < 3)
-      return fail(Code::E311, fmt::format("a face of {} vertices; expected 3 or more (val3dity 101 "
+      return fail(Code::E311, fmt::format("a face of {}; expected 3 or more (val3dity 101 "
                                           "TOO_FEW_POINTS)",
-                                          *corners));
+                                          counted(*corners, "vertex", "vertices")));
     std::vector<int> face;
     for (long long i = 0; i < *corners; ++i) {
       const auto word = words_.next_word();
@@ -100,8 +101,9 @@ class OffReader {
       if (!number)
         return fail(Code::E110, fmt::format("a face of {} vertices lists {}", *corners, i));
       if (*number < 0 || *number >= counts_[0])
-        return fail(Code::E203, fmt::format("there is no vertex {}; there are {}, counted from 0",
-                                            *number, counts_[0]));
+        return fail(Code::E203,
+                    fmt::format("there is no vertex {}; there {} {}, counted from 0", *number,
+                                agreeing(counts_[0], "is", "are"), counts_[0]));
       face.push_back(static_cast<int>(*number));
     }
     while (const auto colour = words_.next_word())

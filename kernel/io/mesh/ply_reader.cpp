@@ -1,3 +1,4 @@
+#include "kernel/base/counted.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/mesh/mesh_reader.h"
 
@@ -266,17 +267,17 @@ class PlyReader {
     const auto count = read_count();
     if (!count) return false;
     if (*count < 3)
-      return fail(fmt::format("a face of {} vertices; expected 3 or more (val3dity 101 "
+      return fail(fmt::format("a face of {}; expected 3 or more (val3dity 101 "
                               "TOO_FEW_POINTS)",
-                              *count),
+                              counted(*count, "vertex", "vertices")),
                   Code::E311);
     std::vector<int> face;
     for (long long i = 0; i < *count; ++i) {
       const auto number = as_whole(word());
       if (!number) return fail(fmt::format("a face of {} vertices lists {}", *count, i));
       if (*number < 0 || *number >= vertex_count_)
-        return fail(fmt::format("there is no vertex {}; there are {}, counted from 0", *number,
-                                vertex_count_),
+        return fail(fmt::format("there is no vertex {}; there {} {}, counted from 0", *number,
+                                agreeing(vertex_count_, "is", "are"), vertex_count_),
                     Code::E203);
       face.push_back(static_cast<int>(*number));
     }

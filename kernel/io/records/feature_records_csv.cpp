@@ -1,3 +1,4 @@
+#include "kernel/base/counted.h"
 #include "kernel/io/json/json_text.h"
 #include "kernel/io/records/feature_records.h"
 #include "kernel/io/records/record_text.h"
@@ -156,7 +157,8 @@ std::optional<std::string> take_line(const std::vector<std::size_t>& fields,
                                      const std::vector<std::string_view>& line, RecordCells& record,
                                      const RecordTaker& take) {
   if (line.size() != fields.size())
-    return fmt::format("the line has {} cells; the header names {}", line.size(), fields.size());
+    return fmt::format("the line has {}; the header names {}", counted(line.size(), "cell"),
+                       fields.size());
   for (std::size_t i = 0; i < line.size(); ++i)
     if (fields[i] < record.size()) record[fields[i]] = line[i];
   if (record[record_field::building].empty() || record[record_field::id].empty())

@@ -1,5 +1,6 @@
 #include "kernel/io/records/feature_tables.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/io/json/words.h"
 #include "kernel/io/records/record_text.h"
 
@@ -143,11 +144,13 @@ FeatureGraph TableBuilder::make_graph() {
 void TableBuilder::finish() {
   if (!rows_.empty()) result_->value->push_back({make_table(), make_graph()});
   if (dangling_ > 0)
-    result_->issues.push_back(building_issue(
-        Severity::warning, Code::E121, building_,
-        fmt::format("{} relations lead to features that are not in the file, such as '{}'; labels "
-                    "may differ from those of the whole building",
-                    dangling_, first_dangling_)));
+    result_->issues.push_back(
+        building_issue(Severity::warning, Code::E121, building_,
+                       fmt::format("{} not in the file, such as '{}'; labels "
+                                   "may differ from those of the whole building",
+                                   counted(dangling_, "relation leads to a feature that is",
+                                           "relations lead to features that are"),
+                                   first_dangling_)));
   rows_.clear();
   numbers_.clear();
   texts_.clear();

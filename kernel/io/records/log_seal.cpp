@@ -1,5 +1,6 @@
 #include "kernel/io/records/log_seal.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/base/sha256.h"
 #include "kernel/io/files/input.h"
 #include "kernel/io/json/text.h"
@@ -83,7 +84,7 @@ class LogChecker {
     is_ended_ = true;
     const ordered_json end = ordered_json::parse(line, nullptr, false);
     if (!end.is_object() || end.at("end") != operations_ || !end.contains("levels"))
-      refuse(fmt::format("does not fit the {} operations before it", operations_));
+      refuse(fmt::format("does not fit the {} before it", counted(operations_, "operation")));
     end.at("levels").get_to(seal_.levels);
   }
 

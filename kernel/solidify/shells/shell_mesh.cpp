@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/shell_mesh.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/solidify/planes/number_table.h"
 #include "kernel/solidify/shells/edge_groups.h"
@@ -96,10 +97,12 @@ bool orient_alike(Soup& soup, const ShellMesh& mesh, const EdgeGroups& groups,
         const auto ring = soup.ring(r);
         std::reverse(ring.begin() + 1, ring.end());
       }
-  issues.push_back(building_issue(
-      Severity::warning, Code::E308, building,
-      fmt::format("{} polygons were turned round to agree with their neighbours (val3dity 307)",
-                  std::ranges::count(*turned, 1))));
+  const auto count = std::ranges::count(*turned, 1);
+  issues.push_back(
+      building_issue(Severity::warning, Code::E308, building,
+                     fmt::format("{} turned round to agree with {} neighbours (val3dity 307)",
+                                 counted(count, "polygon was", "polygons were"),
+                                 agreeing(count, "its", "their"))));
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include "kernel/solidify/shells/shells.h"
 
 #include "kernel/base/assert.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/exact.h"
 #include "kernel/geometry/outlines.h"
@@ -133,9 +134,9 @@ void arrange_shells(Solid& solid, std::span<const int> component,
     outer_of_body[hints[at(c)].body].push_back(c);
   }
   if (turned > 0)
-    issues.push_back(
-        building_issue(Severity::warning, Code::E308, building,
-                       fmt::format("{} shells were turned inside out (val3dity 405)", turned)));
+    issues.push_back(building_issue(Severity::warning, Code::E308, building,
+                                    fmt::format("{} turned inside out (val3dity 405)",
+                                                counted(turned, "shell was", "shells were"))));
 
   for (int c = 0; c < std::ssize(shells); ++c) {
     Shell& shell = shells[at(c)];

@@ -1,5 +1,6 @@
 #include "kernel/solidify/shells/solid_of_shells.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/solidify/planes/plane_clusters.h"
 #include "kernel/solidify/planes/snap.h"
 #include "kernel/solidify/shells/facets.h"
@@ -75,8 +76,9 @@ void add_solid(const Building& building, const Soup& soup, const ShellMesh& mesh
   const int swallowed = snapped.swallowed + clusters.standing;
   if (swallowed > 0)
     report(Severity::warning, Code::E309,
-           fmt::format("{} facets are thinner than the tolerances ({} m) and were swallowed",
-                       swallowed, tolerances.plane_offset_m));
+           fmt::format("{} thinner than the tolerances ({} m) and {} swallowed",
+                       counted(swallowed, "facet is", "facets are"), tolerances.plane_offset_m,
+                       agreeing(swallowed, "was", "were")));
   if (solid.facets.empty())
     report(Severity::error, Code::E310, "nothing is left that encloses a volume");
   if (is_set_aside()) return;

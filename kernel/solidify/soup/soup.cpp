@@ -1,6 +1,7 @@
 #include "kernel/solidify/soup/soup.h"
 
 #include "kernel/base/assert.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/near_points.h"
 #include "kernel/model/description/counting_sort.h"
@@ -277,10 +278,11 @@ Soup weld(const Building& building, const Tolerances& tolerances, std::vector<Is
   const Numbers point_of = weld_points(building, tolerances.weld_m / soup.grid_m, soup);
   const int dropped = append_polygons(building, point_of, soup);
   if (dropped > 0)
-    issues.push_back(building_issue(
-        Severity::note, Code::E304, building.id,
-        fmt::format("{} polygons are degenerate after welding at {} m and were dropped", dropped,
-                    tolerances.weld_m)));
+    issues.push_back(
+        building_issue(Severity::note, Code::E304, building.id,
+                       fmt::format("{} degenerate after welding at {} m and {} dropped",
+                                   counted(dropped, "polygon is", "polygons are"),
+                                   tolerances.weld_m, agreeing(dropped, "was", "were"))));
   const Numbers order = canonical_order(soup);
   return arranged(std::move(soup), order);
 }

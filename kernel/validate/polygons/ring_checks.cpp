@@ -1,6 +1,7 @@
 #include "kernel/validate/polygons/ring_checks.h"
 
 #include "kernel/base/assert.h"
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
@@ -162,10 +163,10 @@ bool has_good_points(const SnappedPolygon& polygon, std::size_t number, FindingL
   const std::vector<int>& ring = polygon.rings[number];
   const Subject subject = subject_of(polygon, number);
   if (ring.size() < 3) {
-    findings.add(
-        Defect::too_few_points, subject,
-        fmt::format("{} has {} points; expected at least 3", name_of(polygon, number), ring.size()),
-        ring.empty() ? std::vector<int>{} : std::vector<int>{ring[0]});
+    findings.add(Defect::too_few_points, subject,
+                 fmt::format("{} has {}; expected at least 3", name_of(polygon, number),
+                             counted(ring.size(), "point")),
+                 ring.empty() ? std::vector<int>{} : std::vector<int>{ring[0]});
     return false;
   }
   for (std::size_t i = 0; i < ring.size(); ++i)

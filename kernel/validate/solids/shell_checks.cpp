@@ -1,5 +1,6 @@
 #include "kernel/validate/solids/shell_checks.h"
 
+#include "kernel/base/counted.h"
 #include "kernel/base/index.h"
 #include "kernel/geometry/box_tree.h"
 #include "kernel/geometry/disjoint_sets.h"
@@ -247,9 +248,12 @@ bool is_one_piece(const JudgedShell& shell, const ShellEdges& all, FindingList& 
   for (const auto& [first, size] : sizes) {
     if (first == largest->first) continue;
     findings.add(Defect::shell_in_pieces, subject_of(shell, first),
-                 fmt::format("{} polygons, polygon {} one of them, are not joined to the rest of "
-                             "the shell by edges",
-                             size, number_of(shell, first)),
+                 size == 1
+                     ? fmt::format("polygon {} is not joined to the rest of the shell by edges",
+                                   number_of(shell, first))
+                     : fmt::format("{} polygons, polygon {} one of them, are not joined to "
+                                   "the rest of the shell by edges",
+                                   size, number_of(shell, first)),
                  {shell.polygons[at(first)].polygon->rings[0][0]});
   }
   return false;
@@ -272,8 +276,9 @@ bool is_closed(const JudgedShell& shell, const ShellEdges& all, FindingList& fin
   for (const auto& [first, size] : sizes) {
     const ShellEdge& edge = *open[at(first)];
     findings.add(Defect::open_shell, subject_of(shell, edge.polygon),
-                 fmt::format("not closed: {} open edges hang together, the first one of polygon {}",
-                             size, number_of(shell, edge.polygon)),
+                 fmt::format("not closed: {}, the first of polygon {}",
+                             counted(size, "open edge", "connected open edges"),
+                             number_of(shell, edge.polygon)),
                  {edge.low, edge.high});
   }
   return false;
@@ -456,9 +461,9 @@ bool judge(const SnappedBuilding& building, const JudgedShell& shell, bool may_b
            FindingList& findings) {
   constexpr std::size_t kFewest = 4;
   if (!may_be_open && shell.polygons.size() < kFewest) {
-    findings.add(
-        Defect::too_few_polygons, {shell.body, shell.shell, -1, -1},
-        fmt::format("the shell has {} polygons; expected at least 4", shell.polygons.size()));
+    findings.add(Defect::too_few_polygons, {shell.body, shell.shell, -1, -1},
+                 fmt::format("the shell has {}; expected at least 4",
+                             counted(shell.polygons.size(), "polygon")));
     return false;
   }
   const ShellEdges edges = edges_of(shell);

@@ -47,8 +47,8 @@ TEST_SUITE("interpret") {
     CHECK(diff.compared() == 1);
     CHECK(diff.changed() == 0);
     CHECK(diff.differences() == 2);
-    CHECK(to_text(diff).find("1 features are only in the first run: h a\n") != std::string::npos);
-    CHECK(to_text(diff).find("1 features are only in the second run: h c\n") != std::string::npos);
+    CHECK(to_text(diff).find("1 feature is only in the first run: h a\n") != std::string::npos);
+    CHECK(to_text(diff).find("1 feature is only in the second run: h c\n") != std::string::npos);
   }
 
   TEST_CASE("features of the same name are compared one to one") {

@@ -86,7 +86,7 @@ TEST_SUITE("interpret") {
     CHECK(failures("given: front, expect: {w.1: not window}") ==
           Failures{"w.1 is window 1.00 by w, expected not window"});
     CHECK(failures("given: front, expect: {counts: {door: 2}}") ==
-          Failures{"1 features labelled door, expected 2"});
+          Failures{"1 feature labelled door, expected 2"});
     CHECK(failures("given: front, expect: {groups: {rows: 3}}") ==
           Failures{"2 groups rows, expected 3"});
   }

@@ -44,7 +44,7 @@ TEST_SUITE("kernel/solidify") {
     REQUIRE(building.polygons.size() == 5);
     CHECK(outcome_of(building) == "E302");
     const std::string error = error_of(building);
-    CHECK(has(error, "shed: E302 not closed: 4 open edges in 1 loops"));
+    CHECK(has(error, "shed: E302 not closed: 4 open edges in 1 loop"));
     CHECK(has(error, "5.000)"));
   }
 
