@@ -441,7 +441,9 @@ void add_validate(CLI::App& app, Action& action) {
                    "solid, or as loose surfaces")
       ->check(CLI::IsMember({"stated", "solid", "surfaces"}))
       ->capture_default_str();
-  command->add_option("--snap", arguments->options.snap_m, "Count vertices closer than this as one, in m")
+  command
+      ->add_option("--snap", arguments->options.snap_m,
+                   "Count vertices closer than this as one, in m")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
   command
