@@ -20,7 +20,7 @@ TEST_SUITE("cli") {
   TEST_CASE("one name is shown with all that is known of it") {
     CHECK(run({"rules", "attributes", "slope"})
               .out.starts_with("inclination (attribute of features)\n"
-                               "  meaning      of the largest cap: 0 horizontal, 90 vertical, "
+                               "  meaning      slope of the largest cap: 0 horizontal, 90 vertical, "
                                "above 90 facing down\n"
                                "  unit         deg\n"
                                "  example      inclination in 75 deg .. 105 deg\n"

@@ -50,17 +50,18 @@ std::string_view suffix_of(Unit unit) {
 
 const std::vector<RelationKind>& relation_schema() {
   static const std::vector<RelationKind> schema = {
-      {"host", "the feature that owns the facet its largest cap lies in"},
-      {"contains", "features it hosts, and those that they host"},
-      {"inside", "features that host it, and those that host them"},
+      {"host", "the feature that owns the facet in which its largest cap lies"},
+      {"contains", "features that it hosts, and features that those host"},
+      {"inside", "features that host it, and features that host those"},
       {"same_facade", "features on the same facade"},
       {"same_storey", "openings in the same storey"},
       {"alike",
-       "features of like size in the neighbourhood: same facade and kind, a and b within 10 %, "
+       "features of similar size nearby: same facade and kind, a and b within 10 %, "
        "centres within 6 m"},
       {"beside", "features on the same facade at overlapping heights, no more than 1 m apart"},
       {"above",
-       "features right above it on the same facade: overlapping in width, no more than 1 m apart"},
+       "features directly above it on the same facade, overlapping in width, no more than 1 m "
+       "apart"},
   };
   return schema;
 }
