@@ -18,13 +18,14 @@ TEST_SUITE("cli") {
   }
 
   TEST_CASE("one name is shown with all that is known of it") {
-    CHECK(run({"rules", "attributes", "slope"})
-              .out.starts_with("inclination (attribute of features)\n"
-                               "  meaning      slope of the largest cap: 0 horizontal, 90 vertical, "
-                               "above 90 facing down\n"
-                               "  unit         deg\n"
-                               "  example      inclination in 75 deg .. 105 deg\n"
-                               "  also called  slope, pitch, tilt, gradient, steepness, angle\n"));
+    CHECK(
+        run({"rules", "attributes", "slope"})
+            .out.starts_with("inclination (attribute of features)\n"
+                             "  meaning      slope of the largest cap: 0 horizontal, 90 vertical, "
+                             "above 90 facing down\n"
+                             "  unit         deg\n"
+                             "  example      inclination in 75 deg .. 105 deg\n"
+                             "  also called  slope, pitch, tilt, gradient, steepness, angle\n"));
     CHECK(run({"rules", "operators", "typify"}).out ==
           "typify (operator of generalisation)\n"
           "  meaning      replaces the recesses of a row with fewer ones\n"
