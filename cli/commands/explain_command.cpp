@@ -171,9 +171,9 @@ std::string table_of(const Building& building, const PipelineResult& line, bool 
     labels += fmt::format("{}{} {}", labels.empty() ? ": " : ", ", count, label);
   const std::size_t rows = line.description.table.rows();
   const std::size_t labelled = rows - static_cast<std::size_t>(unknown);
-  std::string text = fmt::format(
-      "{}: {} {} a label{}\n", printable(building.id), counted_of(labelled, rows, "feature"),
-      agreeing(rows == 1 ? rows : labelled, "has", "have"), printable(labels));
+  std::string text = fmt::format("{}: {} {} a label{}\n", printable(building.id),
+                                 counted_of(labelled, rows, "feature"),
+                                 agreeing_of(labelled, rows, "has", "have"), printable(labels));
   std::vector<std::vector<std::string>> cells = {{"name", "label", "score", "rule", "feature"}};
   const std::vector<std::string> names = names_of_features(line);
   std::vector<Verdict> verdicts = line.interpretation.verdicts;

@@ -52,7 +52,7 @@ std::string listing(const Building& building, const PipelineResult& line) {
   const std::size_t labelled = rows.size() - 1, all = line.interpretation.verdicts.size();
   return fmt::format("{}: {} {} a label\n{}\n", printable(building.id),
                      counted_of(labelled, all, "feature"),
-                     agreeing(all == 1 ? all : labelled, "has", "have"), table(rows));
+                     agreeing_of(labelled, all, "has", "have"), table(rows));
 }
 
 /// --repaired: the labels on the facets of the building's solid. Without one that is valid they

@@ -179,8 +179,8 @@ std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptio
           ? "no building of the truth has a record"
           : fmt::format("{} of the truth {} no record, and all {} objects count as missed",
                         counted_of(missing.size(), expected.size(), "building"),
-                        agreeing(missing.size(), "has", "have"),
-                        agreeing(missing.size(), "its", "their"));
+                        agreeing_of(missing.size(), expected.size(), "has", "have"),
+                        agreeing_of(missing.size(), expected.size(), "its", "their"));
   const std::size_t shown = std::min(kShown, missing.size());
   issue.sentence +=
       ": " +

@@ -378,7 +378,7 @@ class Validation {
         fmt::format("{} {} valid",
                     is_of_all_lods() ? counted_of(valid, buildings_, "geometry", "geometries")
                                      : counted_of(valid, buildings_, "building"),
-                    agreeing(valid, "is", "are"));
+                    agreeing_of(valid, buildings_, "is", "are"));
     const char* separator = "; ";
     for (const auto& [code, count] : counts_) {
       text += fmt::format("{}{} {}", separator, count, to_string(code.first));

@@ -136,7 +136,7 @@ LabelDiff diff_labels(std::vector<NamedFeature> before, std::vector<NamedFeature
 std::string to_text(const LabelDiff& diff) {
   std::string text =
       fmt::format("{} {} another label", counted_of(diff.changed(), diff.compared(), "feature"),
-                  agreeing(diff.changed(), "has", "have"));
+                  agreeing_of(diff.changed(), diff.compared(), "has", "have"));
   if (diff.renamed_rules() > 0)
     text += fmt::format(", {} the same by another rule", diff.renamed_rules());
   text += '\n';

@@ -28,4 +28,11 @@ std::string_view agreeing(Count count, std::string_view with_one, std::string_vi
   return count == 1 ? with_one : with_several;
 }
 
+/// That of counted_of(): "1 of 2 buildings is", "0 of 1 building is", "0 of 2 buildings are".
+template <std::integral Count>
+std::string_view agreeing_of(Count count, Count all, std::string_view with_one,
+                             std::string_view with_several) {
+  return agreeing(all == 1 ? all : count, with_one, with_several);
+}
+
 }  // namespace oriel

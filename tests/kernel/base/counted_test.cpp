@@ -25,4 +25,11 @@ TEST_SUITE("kernel/base") {
     CHECK(agreeing(1, "is", "are") == "is");
     CHECK(agreeing(0, "is", "are") == "are");
   }
+
+  TEST_CASE("a verb follows the count of several, or of one alone") {
+    CHECK(agreeing_of(1, 2, "is", "are") == "is");
+    CHECK(agreeing_of(0, 1, "is", "are") == "is");
+    CHECK(agreeing_of(0, 2, "is", "are") == "are");
+    CHECK(agreeing_of(0, 0, "is", "are") == "are");
+  }
 }
