@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace oriel {
@@ -55,9 +56,10 @@ class Redrawer {
 
   Redrawn run(const Segmentation& segmentation, const FeatureTable& table,
               const Interpretation& interpretation) {
+    for (const FeatureId id : generalised_.removed) gone_.insert(table.id(id));
     label_facets();
     tie_openings();
-    keep_installations(table, heirs(segmentation, table));
+    keep_installations(heirs(segmentation, table));
     count_removed(generalised_.removed, segmentation, interpretation, out_);
     out_.labelled.geometry = std::move(generalised_.solid);
     return std::move(out_);
@@ -99,6 +101,16 @@ class Redrawer {
     return is_closing ? "ClosureSurface" : type_by_slope(plane.normal);
   }
 
+  /// A wall or roof in which something was that is gone does not name it any more.
+  void forget_gone(SemanticSurface& surface) const {
+    if (surface.type == "Window" || surface.type == "Door") return;
+    const auto names_gone = [&](const auto& member) {
+      const auto* id = std::get_if<std::string>(&member.second);
+      return member.first == "oriel_id" && id != nullptr && gone_.contains(*id);
+    };
+    if (std::ranges::any_of(surface.members, names_gone)) surface.members.clear();
+  }
+
   /// Surfaces are copied once; polygons of others that went into the same facet have that facet's
   /// surface now.
   void label_facets() {
@@ -109,6 +121,7 @@ class Redrawer {
         out_.labelled.surfaces.push_back({type_of_bare(facet), -1, {}});
       } else if (const auto [entry, is_new] = number_.emplace(old, number); is_new) {
         out_.labelled.surfaces.push_back(labelled_.surfaces[at(old)]);
+        forget_gone(out_.labelled.surfaces.back());
       } else {
         number = entry->second;
       }
@@ -165,12 +178,9 @@ class Redrawer {
                             gone.cap_point);
   }
 
-  void keep_installations(const FeatureTable& table,
-                          const std::map<int, std::set<std::string>>& heirs) {
-    std::set<std::string> gone;
-    for (const FeatureId id : generalised_.removed) gone.insert(table.id(id));
+  void keep_installations(const std::map<int, std::set<std::string>>& heirs) {
     for (const Installation& installation : labelled_.installations) {
-      if (gone.contains(installation.id)) {
+      if (gone_.contains(installation.id)) {
         out_.removed_ids.push_back(installation.id);
         continue;
       }
@@ -193,6 +203,7 @@ class Redrawer {
   const LabelledBuilding& labelled_;
   Generalised generalised_;
   double reach_m_;
+  std::set<std::string> gone_;   ///< ids of features
   std::map<int, Vec3> area_;     ///< of input polygons
   std::map<int, int> number_;    ///< new number of a surface that was kept
   std::map<int, int> absorbed_;  ///< new number of the facet that took a surface's polygon in

@@ -35,9 +35,9 @@ void check_written(const Pack& pack, Findings& findings) {
     const Class& c = pack.classes[static_cast<std::size_t>(id)];
     if (c.is_abstract || !is_given_here(pack, id) || is_label_written(pack, c.name)) continue;
     findings.note(Code::R258, c.span,
-                  fmt::format("features with the label '{}' are not written to files of "
-                              "buildings: {}",
-                              c.name, advice_to_emit(c.name)));
+                  fmt::format("a feature with the label '{}' is written to files of buildings "
+                              "without a type, {}: {}",
+                              c.name, kGenericForms, advice_to_emit(c.name)));
   }
 }
 

@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -58,6 +60,8 @@ class Annotator {
   void find_parts();
   void find_owners();
   void name_surfaces();
+  void count_own_polygons();
+  int surface_naming(int feature, const std::string& type, int opening);
   void add_surfaces();
   void add_parents();
   void add_installations();
@@ -67,12 +71,15 @@ class Annotator {
   [[nodiscard]] std::span<const int> features_of(const Polygon& polygon) const {
     return (*owners_)[oriel::at(polygon.source)];
   }
-  /// The smallest feature that lists the polygon and has a role, or -1.
-  [[nodiscard]] int find_labelled(const Polygon& polygon) const;
+  /// The smallest feature that lists the polygon and whose class the pack emits, or -1.
+  [[nodiscard]] int find_emitted(const Polygon& polygon) const;
+  /// The feature without a type of its own that the polygon's surface names, or -1.
+  [[nodiscard]] int find_named(const Polygon& polygon, int emitted) const;
   [[nodiscard]] int surface_around(const Feature& opening) const;
   [[nodiscard]] int nearest_surface(const Box& box, Vec3 normal,
                                     const std::vector<int>& sources) const;
   [[nodiscard]] Members members_of(int feature) const;
+  [[nodiscard]] Members codes_of(const Emission& emission) const;
   [[nodiscard]] bool is_host_surface(const Polygon& polygon) const;
 
   const Building& building_;
@@ -84,8 +91,9 @@ class Annotator {
   const AnnotateOptions& options_;
   std::optional<Explainer> explainer_;
   std::vector<Role> roles_;
-  /// What each feature is written as, in short: every polygon asks for it.
-  enum class Kind : char { nothing, opening, installation };
+  /// What each feature is written as, in short: every polygon asks for it. Without an emission a
+  /// protrusion is a generic installation, and any other feature is named by its surfaces.
+  enum class Kind : char { nothing, opening, installation, generic_installation, named };
   std::vector<Kind> kinds_;
   /// By feature, the ids of its groups, and those of its parts.
   std::vector<std::vector<std::string>> groups_, parts_;
@@ -101,6 +109,15 @@ class Annotator {
   std::vector<std::string> reasons_;
   /// By feature, the surface of every opening that has one, or -1.
   std::vector<int> opening_surfaces_;
+  /// By opening, how many polygons no feature within it takes.
+  std::vector<int> own_polygons_;
+  /// The surfaces of features that are named, by feature and type, each with the opening that it
+  /// lies in, or -1.
+  struct NamedSurface {
+    int surface = -1;
+    int opening = -1;
+  };
+  std::map<std::pair<int, std::string>, NamedSurface> named_surfaces_;
   LabelledBuilding result_;
 };
 
@@ -123,8 +140,15 @@ void Annotator::find_roles() {
     if (verdict.label.empty()) continue;
     Role& role = roles_[verdict.feature.index()];
     role = rules::role_of(base_.pack(), verdict.label);
-    if (role.emission == nullptr) continue;
-    kinds_[verdict.feature.index()] = role.is_opening() ? Kind::opening : Kind::installation;
+    Kind& kind = kinds_[verdict.feature.index()];
+    if (role.emission != nullptr) {
+      kind = role.is_opening() ? Kind::opening : Kind::installation;
+      continue;
+    }
+    role.label = verdict.label;
+    const bool stands_out =
+        segmentation_.features[verdict.feature.index()].sense == Sense::protrusion;
+    kind = stands_out ? Kind::generic_installation : Kind::named;
   }
   groups_ = groups_by_feature(interpretation_);
   names_ = feature_names(segmentation_, table_, &interpretation_);
@@ -150,10 +174,30 @@ void Annotator::find_owners() {
   owners_ = &own_owners_;
 }
 
-int Annotator::find_labelled(const Polygon& polygon) const {
-  for (const int feature : features_of(polygon))
-    if (kinds_[oriel::at(feature)] != Kind::nothing) return feature;
+int Annotator::find_emitted(const Polygon& polygon) const {
+  for (const int feature : features_of(polygon)) {
+    const Kind kind = kinds_[oriel::at(feature)];
+    if (kind == Kind::opening || kind == Kind::installation) return feature;
+  }
   return -1;
+}
+
+/// The smallest feature with a label, unless that has another place in the file: then none.
+int Annotator::find_named(const Polygon& polygon, int emitted) const {
+  for (const int feature : features_of(polygon)) {
+    if (feature == emitted || kinds_[oriel::at(feature)] == Kind::generic_installation) return -1;
+    if (kinds_[oriel::at(feature)] == Kind::named) return feature;
+  }
+  return -1;
+}
+
+void Annotator::count_own_polygons() {
+  own_polygons_.assign(roles_.size(), 0);
+  for (const Polygon& polygon : building_.polygons)
+    if (const int feature = find_emitted(polygon); feature >= 0 &&
+                                                   kinds_[oriel::at(feature)] == Kind::opening &&
+                                                   find_named(polygon, feature) < 0)
+      ++own_polygons_[oriel::at(feature)];
 }
 
 /// They may be named already.
@@ -170,8 +214,19 @@ void Annotator::name_surfaces() {
     reasons_ = surface_reasons(base_, *table, {verdicts_.begin(), verdicts_.end()});
 }
 
+/// One surface for all polygons of the feature that are of the same type.
+int Annotator::surface_naming(int feature, const std::string& type, int opening) {
+  const auto [entry, is_new] = named_surfaces_.try_emplace({feature, type});
+  if (is_new) {
+    entry->second = {static_cast<int>(result_.surfaces.size()), opening};
+    result_.surfaces.push_back({type, -1, members_of(feature)});
+  }
+  return entry->second.surface;
+}
+
 void Annotator::add_surfaces() {
   name_surfaces();
+  count_own_polygons();
   result_.surface_of_polygon.assign(owners_->polygons(), -1);
   polygons_.assign(owners_->polygons(), nullptr);
   result_.surfaces.reserve(building_.polygons.size());
@@ -180,8 +235,18 @@ void Annotator::add_surfaces() {
     const auto next = static_cast<int>(result_.surfaces.size());
     polygons_[oriel::at(polygon.source)] = &polygon;
     int& surface = result_.surface_of_polygon[oriel::at(polygon.source)];
-    const int feature = find_labelled(polygon);
-    if (feature < 0 || kinds_[oriel::at(feature)] != Kind::opening) {
+    const int feature = find_emitted(polygon);
+    const bool is_in_opening = feature >= 0 && kinds_[oriel::at(feature)] == Kind::opening;
+    // An opening keeps at least one polygon.
+    const int named =
+        is_in_opening && own_polygons_[oriel::at(feature)] == 0 ? -1 : find_named(polygon, feature);
+    if (named >= 0) {
+      const std::string& type =
+          is_in_opening ? roles_[oriel::at(feature)].emission->type : verdicts_[row].type;
+      surface = surface_naming(named, type, is_in_opening ? feature : -1);
+      continue;
+    }
+    if (!is_in_opening) {
       surface = next;
       result_.surfaces.emplace_back().type = verdicts_[row].type;
       if (options_.has_reasons)
@@ -237,6 +302,10 @@ void Annotator::add_parents() {
   for (std::size_t feature = 0; feature < opening_surfaces_.size(); ++feature)
     if (const int surface = opening_surfaces_[feature]; surface >= 0)
       result_.surfaces[oriel::at(surface)].parent = surface_around(segmentation_.features[feature]);
+  for (const auto& [key, named] : named_surfaces_)
+    if (named.opening >= 0)
+      result_.surfaces[oriel::at(named.surface)].parent =
+          surface_around(segmentation_.features[oriel::at(named.opening)]);
 }
 
 Members Annotator::members_of(int feature) const {
@@ -256,26 +325,34 @@ Members Annotator::members_of(int feature) const {
   return members;
 }
 
+Members Annotator::codes_of(const Emission& emission) const {
+  Members codes = {{"class", emission.class_code}};
+  const auto code = emission.function.find(options_.codelist);
+  if (code != emission.function.end()) {
+    codes.emplace_back("function", code->second);
+    codes.emplace_back("oriel_codelist", options_.codelist);
+  }
+  return codes;
+}
+
 void Annotator::add_installations() {
-  if (std::ranges::find(kinds_, Kind::installation) == kinds_.end()) return;
+  const auto is_installation = [&](int feature) {
+    const Kind kind = kinds_[oriel::at(feature)];
+    return kind == Kind::installation || kind == Kind::generic_installation;
+  };
   std::vector<std::vector<int>> polygons(roles_.size());
   for (const Polygon& polygon : building_.polygons)
     for (const int feature : features_of(polygon))
-      if (kinds_[oriel::at(feature)] == Kind::installation) {
+      if (is_installation(feature)) {
         polygons[oriel::at(feature)].push_back(polygon.source);
         break;
       }
   for (std::size_t feature = 0; feature < roles_.size(); ++feature) {
     if (polygons[feature].empty()) continue;
-    const Emission& emission = *roles_[feature].emission;
     Installation installation;
     installation.id = table_.id(FeatureId{static_cast<int>(feature)});
-    installation.attributes = {{"class", emission.class_code}};
-    const auto code = emission.function.find(options_.codelist);
-    if (code != emission.function.end()) {
-      installation.attributes.emplace_back("function", code->second);
-      installation.attributes.emplace_back("oriel_codelist", options_.codelist);
-    }
+    if (const Emission* emission = roles_[feature].emission; emission != nullptr)
+      installation.attributes = codes_of(*emission);
     for (auto& member : members_of(static_cast<int>(feature)))
       installation.attributes.push_back(std::move(member));
     std::ranges::sort(polygons[feature]);

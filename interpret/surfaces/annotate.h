@@ -43,6 +43,11 @@ struct AnnotateOptions {
 /// Every feature whose class is emitted as BuildingInstallation and that has polygons becomes an
 /// Installation with all its polygons but those of installations inside it.
 ///
+/// Labels of classes that the pack does not emit are not lost: a protrusion becomes an Installation
+/// without codes; any other feature is named by the surfaces of its polygons, one for each type,
+/// which have the members of an opening and keep the type that they would have without it. In an
+/// opening that type is the opening's, which keeps its other polygons, or all if there are none.
+///
 /// `segmentation`, `table`, `graph` and `interpretation` are of `building`, with the same features;
 /// without features (all four empty, as for a building that stays open) its surfaces are named all
 /// the same. `surfaces` has a row for every polygon. Polygons have different numbers

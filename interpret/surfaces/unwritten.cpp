@@ -14,9 +14,9 @@ Issue unwritten_label(const rules::Pack& pack, const rules::Class& c, int featur
   Issue issue;
   issue.severity = Severity::warning;
   issue.code = Code::R258;
-  issue.sentence =
-      fmt::format("{} with the label '{}' {} not written: {}", counted(features, "feature"), c.name,
-                  agreeing(features, "is", "are"), rules::advice_to_emit(c.name));
+  issue.sentence = fmt::format(
+      "{} with the label '{}' {} written without a type, {}: {}", counted(features, "feature"),
+      c.name, agreeing(features, "is", "are"), rules::kGenericForms, rules::advice_to_emit(c.name));
   issue.place = pack.source.place(c.span.begin);
   issue.excerpt = pack.source.excerpt(c.span);
   return issue;

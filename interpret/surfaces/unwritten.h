@@ -13,9 +13,9 @@ namespace oriel {
 /// How many features have each label; "" counts those without one.
 std::map<std::string, int> count_labels(const Interpretation& interpretation);
 
-/// What annotate() leaves out of features with these labels, counted as count_labels() does: for
-/// each class without `emit:`, of its own or of a class above it, a warning R258 with the number of
-/// features that are lost and the place of the class in the pack; in the order of the pack.
+/// What annotate() writes without a type of features with these labels, counted as count_labels()
+/// does: for each class without `emit:`, of its own or of a class above it, a warning R258 with the
+/// number of features and the place of the class in the pack; in the order of the pack.
 std::vector<Issue> report_unwritten(const std::map<std::string, int>& features_by_label,
                                     const RuleBase& base);
 

@@ -175,7 +175,7 @@
   X(R255, 0, "A rule or an entry that never decides") \
   X(R256, 0, "Entries that overlap with different operators") \
   X(R257, 0, "Evidence that is never weighed") \
-  X(R258, 0, "A label that is not written") \
+  X(R258, 0, "A label without `emit`") \
   X(R260, 0, "A verdict that is close") \
   X(R261, 0, "Labels that do not settle") \
   X(R270, 0, "A file of tests that tests nothing") \

@@ -29,8 +29,10 @@ TEST_SUITE("interpret") {
     REQUIRE(issues.size() == 1);
     CHECK(issues[0].severity == Severity::note);
     CHECK(to_string(issues[0]) ==
-          "t.yaml:3:23: R258 features with the label 'chimney' are not written to files of "
-          "buildings: the class has no 'emit'; add emit: {chimney: {type: BuildingInstallation}}\n"
+          "t.yaml:3:23: R258 a feature with the label 'chimney' is written to files of buildings "
+          "without a type, as a generic BuildingInstallation where it protrudes and else as "
+          "oriel_label of its surfaces: the class has no 'emit'; add emit: {chimney: {type: "
+          "BuildingInstallation}}\n"
           "classes: {window: {}, chimney: {}}\n"
           "                      ^~~~~~~");
   }
@@ -55,7 +57,7 @@ TEST_SUITE("interpret") {
               .empty());
   }
 
-  TEST_CASE("what a pack beneath does not write is no finding of the pack upon it") {
+  TEST_CASE("what a pack beneath does not emit is no finding of the pack upon it") {
     const std::string over = "extends: residential\nclasses: {tower: {}}\n";
     CHECK(issues_of(over + "rules: [{id: b, label: bay, require: natural}]\n").empty());
     const auto issues =

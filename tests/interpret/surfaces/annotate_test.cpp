@@ -233,6 +233,78 @@ TEST_SUITE("interpret") {
     CHECK(text_of(other.installations[0].attributes, "oriel_codelist").empty());
   }
 
+  TEST_CASE("a protrusion of a class that is not emitted is an installation without codes") {
+    House h = house();
+    const int top = h.add({{2, -1, 3}, times(2, kX), kY});
+    const int below = h.add({{2, -1, 2.8}, kY, times(2, kX)});
+    const int lamp = h.add({{2.5, -0.5, 2.7}, times(0.2, kY), times(0.2, kX)});
+    h.add_feature("shelf", Sense::protrusion, 0.4, {top, below, lamp}, {2});
+    h.add_feature("lamp", Sense::protrusion, 0.1, {lamp});
+    const LabelledBuilding labelled = h.annotated();
+    REQUIRE(labelled.installations.size() == 2);
+    const Installation& shelf = labelled.installations[0];
+    CHECK(shelf.polygons == std::vector<int>{top, below});
+    CHECK(text_of(shelf.attributes, "oriel_label") == "shelf");
+    CHECK(text_of(shelf.attributes, "oriel_id") == "f0");
+    CHECK(text_of(shelf.attributes, "class").empty());
+    CHECK(text_of(shelf.attributes, "function").empty());
+    CHECK(labelled.installations[1].polygons == std::vector<int>{lamp});
+    CHECK(type_at(labelled, below) == "OuterCeilingSurface");
+  }
+
+  TEST_CASE("a hole or a panel of a class that is not emitted is named by its surfaces") {
+    for (const Sense sense : {Sense::hole, Sense::imprint}) {
+      House h = house();
+      const std::vector<int> niche = add_recess(h, 2, 2);
+      h.add_feature("niche", sense, 0.1, niche, {2});
+      const LabelledBuilding labelled = h.annotated();
+      CHECK(labelled.installations.empty());
+      for (const int polygon : niche) {
+        const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(polygon)];
+        const Members& members = labelled.surfaces[static_cast<std::size_t>(surface)].members;
+        CHECK(type_at(labelled, polygon) == "WallSurface");
+        CHECK(text_of(members, "oriel_label") == "niche");
+        CHECK(text_of(members, "oriel_id") == "f0");
+        CHECK(text_of(members, "oriel_rule") == "some.rule");
+        // One surface for all of them: they are of one type.
+        CHECK(surface == labelled.surface_of_polygon[static_cast<std::size_t>(niche[0])]);
+      }
+      const int wall = labelled.surface_of_polygon[2];
+      CHECK(labelled.surfaces[static_cast<std::size_t>(wall)].members.empty());
+    }
+  }
+
+  TEST_CASE("what is not emitted in a window stays window and names its part of it") {
+    House h = house();
+    std::vector<int> window = add_recess(h, 2, 2);
+    const int lamella = h.add({{2.2, 0.15, 2.2}, times(0.4, kX), times(0.4, kZ)});
+    window.push_back(lamella);
+    h.add_feature("window", Sense::hole, 0.1, window, {2});
+    h.add_feature("lamella", Sense::hole, 0.01, {lamella});
+    const LabelledBuilding labelled = h.annotated();
+    const auto surface_at = [&](int polygon) {
+      return labelled.surfaces[static_cast<std::size_t>(
+          labelled.surface_of_polygon[static_cast<std::size_t>(polygon)])];
+    };
+    CHECK(surface_at(lamella).type == "Window");
+    CHECK(text_of(surface_at(lamella).members, "oriel_label") == "lamella");
+    CHECK(surface_at(lamella).parent == surface_at(window[0]).parent);
+    CHECK(text_of(surface_at(window[0]).members, "oriel_label") == "window");
+  }
+
+  TEST_CASE("a window of which another feature has all polygons keeps them") {
+    House h = house();
+    const std::vector<int> window = add_recess(h, 2, 2);
+    h.add_feature("window", Sense::hole, 0.1, window, {2});
+    h.add_feature("lamella", Sense::hole, 0.01, window);
+    const LabelledBuilding labelled = h.annotated();
+    for (const int polygon : window) {
+      const int surface = labelled.surface_of_polygon[static_cast<std::size_t>(polygon)];
+      CHECK(text_of(labelled.surfaces[static_cast<std::size_t>(surface)].members, "oriel_label") ==
+            "window");
+    }
+  }
+
   TEST_CASE("a dormer holds its window and a chimney on it stands alone") {
     House h = house();
     const int front = h.add({{2, 1, 6}, times(2, kX), times(2, kZ)});
