@@ -27,8 +27,8 @@ struct PipelineOptions {
   /// What the input calls its polygons is not looked at.
   bool ignores_semantics = false;
   /// The level of detail that was asked for when the input was read (ReadOptions::lod); empty: the
-  /// highest. It changes nothing but the hash in `oriel_config_sha256`, and is the `lod` of the
-  /// operations of a series.
+  /// highest, and buildings without a level above 0 are rejected (E205). Otherwise it changes only
+  /// the hash in `oriel_config_sha256`, and is the `lod` of the operations of a series.
   std::string lod{};
   StageObserver observer{};
 };

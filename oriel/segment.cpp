@@ -8,6 +8,11 @@
 namespace oriel {
 
 PipelineResult solid_of(const Building& building, const PipelineOptions& options) {
+  if (auto issue = no_body(building, options)) {
+    PipelineResult without;
+    without.issues.push_back(std::move(*issue));
+    return without;
+  }
   Work work(options.budget);
   return run_to_solid(building, options.tolerances, options.repair, work, options.observer);
 }

@@ -176,10 +176,29 @@ Solidified solid_with_installations(const Building& building, const Tolerances& 
   return alone;
 }
 
+/// A hole of less is no window that stands open but a gap of the model.
+constexpr double kLeastOpening_m2 = 0.1;
+
+/// What was closed is no feature any more: E316 says of how many holes that may matter.
+void warn_of_closed_openings(PipelineResult& out) {
+  const auto count = std::ranges::count_if(out.repair.caps, [](const Cap& cap) {
+    return cap.kind == CapKind::hole && cap.area_m2 >= kLeastOpening_m2;
+  });
+  if (count == 0) return;
+  for (Issue& issue : out.issues)
+    if (issue.code == Code::E316)
+      issue.sentence += fmt::format(
+          "; {} may be {}, which cannot be found once closed (--close none keeps holes open)",
+          count == std::ssize(out.repair.caps) ? std::string(agreeing(count, "it", "they"))
+                                               : fmt::format("{} of them", count),
+          agreeing(count, "an open window or door", "open windows or doors"));
+}
+
 /// Fills what stands between the solid and the surfaces.
 void find_features(const Building& building, const RuleBase* rules, const Tolerances& tolerances,
                    const LabelOptions& options, PipelineResult& out) {
   const StageObserver& observer = options.observer;
+  warn_of_closed_openings(out);
   std::vector<Issue> of_features;
   if (!out.solid)
     of_features = measure(observer, Stage::solidify,
@@ -217,6 +236,17 @@ Issue own_fault(const Building& building, const std::exception& fault) {
   return building_issue(Severity::error, Code::E901, building.id,
                         fmt::format("a fault of oriel's own: {}", fault.what()));
 }
+
+std::optional<Issue> no_body(const Building& building, const PipelineOptions& options) {
+  if (!options.lod.empty() || !has_only_outline(building)) return std::nullopt;
+  return building_issue(
+      Severity::error, Code::E205, building.id,
+      fmt::format("has no geometry above lod {}, which is an outline on the ground or of the roof; "
+                  "expected lod 1 or higher",
+                  building.lod));
+}
+
+bool has_only_outline(const Building& building) { return building.lod.starts_with('0'); }
 
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
                             const RepairOptions& repair, Work& work,
@@ -267,6 +297,11 @@ PipelineResult run_pipeline(const Building& building, const RuleBase* rules,
                             const LabelOptions& options) {
   const Tolerances& given = options.tolerances;
   const Tolerances fitted = options.fits_noise ? fitted_to_noise(given, noise_of(building)) : given;
+  if (auto issue = no_body(building, options)) {
+    PipelineResult without;
+    without.issues.push_back(std::move(*issue));
+    return run_from_solid(std::move(without), building, rules, given, options);
+  }
   Work work(options.budget);
   PipelineResult result =
       run_from_solid(run_to_solid(building, fitted, options.repair, work, options.observer),

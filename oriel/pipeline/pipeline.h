@@ -33,6 +33,13 @@ auto measured(const StageObserver& observer, Stage stage, const char* done,
       done, building, [&] { return measure(observer, stage, work); }, counts);
 }
 
+/// True if the level of detail that was read is 0, 0.1 …: a footprint or the outline of a roof.
+bool has_only_outline(const Building& building);
+
+/// An error E205 of a building that has no higher level of detail than such an outline, unless the
+/// outline was asked for (PipelineOptions::lod).
+std::optional<Issue> no_body(const Building& building, const PipelineOptions& options);
+
 /// solid_of() with the tolerances given, and what is left of some work.
 PipelineResult run_to_solid(const Building& building, const Tolerances& tolerances,
                             const RepairOptions& repair, oriel::Work& work,

@@ -109,6 +109,11 @@ std::optional<PipelineResult> repair_open(const Document& document, const Buildi
 }
 
 Issue stays_open(const Building& building) {
+  if (has_only_outline(building))
+    return building_issue(Severity::error, Code::E205, building.id,
+                          fmt::format("has no walls and roof at lod {}: there is no solid to "
+                                      "redraw; expected lod 1 or higher",
+                                      building.lod));
   return building_issue(Severity::error, Code::G404, building.id,
                         "is open, and cannot be repaired: there is no solid to redraw");
 }

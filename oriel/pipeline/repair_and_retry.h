@@ -33,7 +33,8 @@ std::optional<PipelineResult> repair_open(const Document& document, const Buildi
                                           const PipelineResult& result, const RuleBase& rules,
                                           const LabelOptions& options, Work& work);
 
-/// The error G404: an open building that repair_open() cannot help either.
+/// The error G404: an open building that repair_open() cannot help either; of an outline (lod 0)
+/// E205.
 Issue stays_open(const Building& building);
 
 }  // namespace oriel

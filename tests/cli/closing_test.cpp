@@ -142,6 +142,40 @@ TEST_SUITE("cli") {
     CHECK(types_of(out, "c").at("ClosureSurface") == 1);
   }
 
+  TEST_CASE("windows that stand open in an OBJ and are closed are reported with their number") {
+    const Folder folder;
+    REQUIRE(run({"label", sample("house"), "-o", folder / "whole.obj"}).exit == 0);
+    std::string open, group;
+    for (const std::string& line : lines_of(bytes_of(folder / "whole.obj"))) {
+      if (line.starts_with("g ")) group = line;
+      if (!line.starts_with("f ") || !group.starts_with("g window")) open += line + "\n";
+    }
+    const std::string in = folder.write("open.obj", open);
+    const std::string said =
+        "; they may be open windows or doors, which cannot be found once closed (--close none "
+        "keeps holes open)\n";
+    const Outcome labelled = run({"label", in});
+    CAPTURE(labelled.err);
+    CHECK(labelled.exit == 0);
+    CHECK(labelled.says("warning: open: E316 16 holes were closed by faces of oriel's own, "));
+    CHECK(labelled.says(said));
+    CHECK_FALSE(labelled.says("window,"));
+    CHECK(run({"segment", in}).says(said));
+    CHECK(
+        run({"generalise", in, "--scale", "1:1000", "-o", folder / "small.city.json"}).says(said));
+    const Outcome kept = run({"label", in, "--close", "none"});
+    CHECK_FALSE(kept.says("E316"));
+    CHECK(kept.says("17 window,"));
+  }
+
+  TEST_CASE("a ground that was missing is not taken for an open window") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cube_lacking(0).dump());
+    const Outcome labelled = run({"label", in});
+    CHECK(labelled.says("E316 1 hole was closed"));
+    CHECK_FALSE(labelled.says("open window"));
+  }
+
   TEST_CASE("an open building that repair mends is mended before it is generalised") {
     const Folder folder;
     const std::string input = folder.write("in.city.json", crossed_box().dump());
