@@ -89,7 +89,8 @@ ExitCode BatchRunner::run(ProducingCommand& command) {
 ExitCode BatchRunner::run_all() {
   const auto stdins = std::ranges::count(options_.inputs, "-");
   if (stdins > 1 || (stdins > 0 && options_.repeat > 1))
-    throw CLI::ValidationError("input", "stdin can be read only once");
+    throw CLI::ValidationError("input",
+                               "stdin can be read only once: give - once, and no --repeat");
   for (const auto& [option, is_given] : {std::pair("--isolate", options_.is_isolated),
                                          std::pair("--reuse", !options_.reuse.empty())})
     if (producer_ == nullptr && is_given)
@@ -114,6 +115,7 @@ ExitCode BatchRunner::run_all() {
   if (state_.code == ExitCode::set_aside && options_.allows(state_.set_aside, state_.buildings))
     state_.code = ExitCode::clean;
   report_emptiness();
+  report_featureless();
   report_.finish();
   if (status_) write_status();
   if (resume_) resume_->remove();
@@ -124,12 +126,26 @@ ExitCode BatchRunner::run_all() {
 void BatchRunner::report_emptiness() {
   if (state_.code == ExitCode::input || !options_.reports_emptiness) return;
   const bool has_any = state_.buildings > 0 || command_->other_features() > 0;
-  std::vector<Issue> issues = options_.selection.unmet(state_.found_ids, has_any);
+  std::vector<Issue> issues = options_.selection.unmet(state_.found_ids, has_any, seen_ids_);
   if (options_.selection.is_all() && !has_any)
     issues.push_back(nothing_to_work_on(options_.inputs, "no building"));
   if (issues.empty()) return;
   report_.add(issues);
   state_.raise(ExitCode::set_aside);
+}
+
+/// Of all buildings together: of some of them the summary has the number.
+void BatchRunner::report_featureless() {
+  const int done = state_.buildings - state_.set_aside;
+  if (!options_.seeks_features || done == 0 || state_.featureless < done) return;
+  report_.add(no_feature_found(options_.inputs, done));
+  if (options_.gives_only_features) state_.raise(ExitCode::set_aside);
+}
+
+/// How many buildings have no features while others have; else 0.
+int BatchRunner::partly_featureless() const {
+  const bool is_part = state_.featureless < state_.buildings - state_.set_aside;
+  return options_.seeks_features && is_part ? state_.featureless : 0;
 }
 
 /// False if there is nothing to do: the same command has come to its end before.
@@ -359,6 +375,7 @@ void BatchRunner::settle_read(WorkItem& item, const Record& record) {
       state_.raise(ExitCode::set_aside);
     }
     if (building.is_open) ++state_.open;
+    if (building.is_done && !building.has_features) ++state_.featureless;
     for (const auto& [label, count] : building.labels) state_.labels[label] += count;
   }
   if (producer_ != nullptr)
@@ -372,8 +389,10 @@ void BatchRunner::settle_read(WorkItem& item, const Record& record) {
 void BatchRunner::note_found_ids(const Checked<Document>& document) {
   const std::vector<std::string>& ids = options_.selection.ids;
   if (ids.empty()) return;
+  constexpr std::size_t kMostSeen = 10'000;
   const auto note = [&](const std::string& id) {
     if (std::ranges::find(ids, id) != ids.end()) state_.found_ids.insert(id);
+    if (run_ == 1 && seen_ids_.size() < kMostSeen) seen_ids_.push_back(id);
   };
   for (const Building& building : document.value->buildings) note(building.id);
   for (const Issue& issue : document.issues) note(issue.place.building);
@@ -480,6 +499,8 @@ void BatchRunner::report_summary(const std::string& verb, const std::map<std::st
       "{} {}", counted_of(state_.buildings - state_.set_aside, state_.buildings, "building"), verb);
   if (!parts.empty()) text += fmt::format(": {}{}", fmt::join(parts, ", "), suffix);
   if (state_.open > 0) text += fmt::format("; {} open", state_.open);
+  if (const int without = partly_featureless(); without > 0)
+    text += fmt::format("; {} without features", without);
   if (state_.set_aside > 0) text += fmt::format("; {} rejected", state_.set_aside);
   std::vector<std::string> codes;
   for (const auto& [code, count] : report_.errors())
@@ -498,6 +519,7 @@ std::string BatchRunner::summary_table(const std::string& verb,
   add("buildings", state_.buildings);
   add("done", state_.buildings - state_.set_aside);
   if (state_.open > 0) add("open", state_.open);
+  if (const int without = partly_featureless(); without > 0) add("without features", without);
   add("rejected", state_.set_aside);
   for (const auto& [code, count] : report_.errors()) add("  " + code, count);
   for (const auto& [label, count] : counts)

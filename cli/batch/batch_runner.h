@@ -75,6 +75,8 @@ class BatchRunner {
   void settle_refused(const Record& record);
   void note_found_ids(const Checked<Document>& document);
   void report_emptiness();
+  void report_featureless();
+  [[nodiscard]] int partly_featureless() const;
   void settle_product(WorkItem& item, const Document& document);
   void report(const std::vector<Issue>& issues);
   void keep_errors(const std::vector<Issue>& issues);
@@ -107,7 +109,8 @@ class BatchRunner {
   std::optional<ResultCache> cache_;
   int reused_ = 0;  ///< records from it
   bool replaces_input_ = false;
-  std::size_t refused_of_input_ = 0;  ///< records, of the input at hand
+  std::size_t refused_of_input_ = 0;   ///< records, of the input at hand
+  std::vector<std::string> seen_ids_;  ///< the first ones, if --id asks for some
 };
 
 }  // namespace oriel::cli

@@ -1,5 +1,7 @@
 #include "cli/batch/input_reader.h"
 
+#include "cli/batch/input_files.h"
+#include "cli/terminal/file_advice.h"
 #include "kernel/base/issue.h"
 #include "kernel/base/sha256.h"
 
@@ -39,13 +41,14 @@ std::optional<InputEvent> InputReader::next_unchecked() {
     return open();
   } catch (const InputError& error) {
     auto failure = finish<InputFailure>();
-    failure.issue = error.issue();
+    failure.issue = with_file_advice(error.issue());
     return failure;
   }
 }
 
 InputEvent InputReader::open() {
   const std::string& input = options_.inputs[input_];
+  refuse_folder(input);
   ReadOptions options = options_.read_options(input);
   options.wants_sha256 = !options_.status_stem.empty();
   reader_ = std::make_unique<Reader>(input, options);

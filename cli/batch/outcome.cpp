@@ -39,6 +39,7 @@ ordered_json to_json(const RecordOutcome& outcome) {
     buildings.push_back({{"passed_over", building.is_passed_over},
                          {"done", building.is_done},
                          {"open", building.is_open},
+                         {"has_features", building.has_features},
                          {"features", building.labels},
                          {"issues", to_json(building.issues)}});
   return {{"buildings", buildings},
@@ -50,7 +51,7 @@ RecordOutcome outcome_of(const ordered_json& json) {
   RecordOutcome outcome;
   for (const ordered_json& building : json.at("buildings"))
     outcome.buildings.push_back({building.at("passed_over"), building.at("done"),
-                                 building.at("open"),
+                                 building.at("open"), building.at("has_features"),
                                  building.at("features").get<std::map<std::string, int>>(),
                                  issues_of(building.at("issues"))});
   outcome.product.issues = issues_of(json.at("issues"));

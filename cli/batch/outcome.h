@@ -53,6 +53,7 @@ struct BuildingOutcome {
   /// It came as far as the command asks for.
   bool is_done = false;
   bool is_open = false;
+  bool has_features = false;
   std::map<std::string, int> labels{};  ///< features, by label ("" = unknown)
   std::vector<Issue> issues{};
 };

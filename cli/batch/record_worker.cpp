@@ -25,6 +25,7 @@ BuildingOutcome RecordWorker::outcome_of(const PipelineResult& result) const {
   outcome.is_open = result.is_open;
   outcome.is_done = options_.ends_at_reading ||
                     (options_.ends_at_solid ? result.solid.has_value() : result.is_done());
+  outcome.has_features = result.segmentation && !result.segmentation->features.empty();
   outcome.labels = count_labels(result.interpretation);
   outcome.issues = result.issues;
   return outcome;
@@ -58,7 +59,7 @@ void RecordWorker::set_all_aside(WorkItem& item, Code code, const std::string& s
     item.results[i] = {};
     if (std::exchange(outcome.is_done, false))
       outcome.issues.push_back(building_issue(Severity::error, code, buildings[i].id, sentence));
-    outcome.is_open = false;
+    outcome.is_open = outcome.has_features = false;
     outcome.labels.clear();
   }
 }

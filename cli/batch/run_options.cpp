@@ -1,11 +1,15 @@
 #include "cli/batch/run_options.h"
 
+#include "interpret/language/suggest.h"
+#include "kernel/base/counted.h"
+
 #include <algorithm>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace oriel::cli {
 
@@ -31,6 +35,18 @@ bool is_in(const std::vector<double>& bbox, const Building& building) {
   return middle.x >= bbox[0] && middle.y >= bbox[1] && middle.x <= bbox[2] && middle.y <= bbox[3];
 }
 
+/// "; did you mean 'house'?", or which ids there are.
+std::string meant_id(const std::string& id, const std::vector<std::string>& seen) {
+  constexpr std::size_t kShown = 3;
+  if (seen.empty()) return {};
+  if (const std::string near = rules::nearest(id, seen); !near.empty())
+    return fmt::format("; did you mean '{}'?", near);
+  const std::vector<std::string> first(
+      seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, seen.size())));
+  return fmt::format("; there {} '{}'{}", agreeing(seen.size(), "is", "are"),
+                     fmt::join(first, "', '"), first.size() < seen.size() ? " ..." : "");
+}
+
 }  // namespace
 
 bool Selection::is_all() const {
@@ -54,12 +70,14 @@ bool Selection::takes(const std::string& id, const std::string& type) const {
   return (fits(id, type) && bbox.empty()) != is_exclusion;
 }
 
-std::vector<Issue> Selection::unmet(const std::set<std::string>& found, bool has_any) const {
+std::vector<Issue> Selection::unmet(const std::set<std::string>& found, bool has_any,
+                                    const std::vector<std::string>& seen) const {
   std::vector<Issue> issues;
   for (const std::string& id : std::set(ids.begin(), ids.end()))
     if (!found.contains(id) && (cotype.empty() || !has_any))
-      issues.push_back(building_issue(Severity::warning, Code::E130, id,
-                                      "is asked for by --id and is in none of the inputs"));
+      issues.push_back(
+          building_issue(Severity::warning, Code::E130, id,
+                         "is asked for by --id and is in none of the inputs" + meant_id(id, seen)));
   if (!issues.empty() || has_any || is_all()) return issues;
   Issue issue;
   issue.severity = Severity::warning;
@@ -75,6 +93,25 @@ Issue nothing_to_work_on(const std::vector<std::string>& inputs, const std::stri
   const bool is_one = inputs.size() == 1;
   if (is_one) issue.place.file = inputs[0];
   issue.sentence = fmt::format("{}there is {} to work on", is_one ? "" : "in the inputs ", what);
+  return issue;
+}
+
+Issue nothing_compared(std::string sentence) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E131;
+  issue.sentence = std::move(sentence);
+  return issue;
+}
+
+Issue no_feature_found(const std::vector<std::string>& inputs, int buildings) {
+  Issue issue;
+  issue.severity = Severity::warning;
+  issue.code = Code::E134;
+  if (inputs.size() == 1) issue.place.file = inputs[0];
+  issue.sentence = fmt::format(
+      "no feature was found in {}: nothing stands out of {} walls and roofs or is cut into them",
+      counted(buildings, "building"), agreeing(buildings, "its", "their"));
   return issue;
 }
 

@@ -38,8 +38,9 @@ struct Selection {
   /// A feature without a building that could be read: only if a type was asked for.
   [[nodiscard]] bool takes_feature(const std::string& id, const std::string& type) const;
   /// A warning E130 for each id that was asked for and is none of `found`, or for a selection that
-  /// took nothing (`has_any` is false).
-  [[nodiscard]] std::vector<Issue> unmet(const std::set<std::string>& found, bool has_any) const;
+  /// took nothing (`has_any` is false). Of the ids `seen` that is named which was probably meant.
+  [[nodiscard]] std::vector<Issue> unmet(const std::set<std::string>& found, bool has_any,
+                                         const std::vector<std::string>& seen = {}) const;
 
  private:
   [[nodiscard]] bool fits(const std::string& id, const std::string& type) const;
@@ -85,6 +86,10 @@ struct RunOptions {
   std::string allowed_bad = "0";
   /// Nothing to work on, and ids that are not there, are reported (E130, E134).
   bool reports_emptiness = true;
+  /// Features are what the command is about: of buildings without any it says so (E134).
+  bool seeks_features = false;
+  /// ... and they are all that it gives: without any, nothing was done.
+  bool gives_only_features = false;
   /// ReadOptions::joins_installations.
   bool joins_installations = false;
   /// Only what was read is asked for: buildings do not pass the pipeline.
@@ -113,5 +118,11 @@ struct RunOptions {
 
 /// A warning E134: there is `what` ("no building") in the inputs.
 Issue nothing_to_work_on(const std::vector<std::string>& inputs, const std::string& what);
+
+/// A warning E131 of a comparison that had nothing to compare.
+Issue nothing_compared(std::string sentence);
+
+/// A warning E134: none of so many buildings has a feature.
+Issue no_feature_found(const std::vector<std::string>& inputs, int buildings);
 
 }  // namespace oriel::cli

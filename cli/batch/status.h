@@ -27,7 +27,8 @@ struct RecordCounts {
 struct RunState {
   int buildings = 0;
   int set_aside = 0;
-  int open = 0;  ///< buildings that came to the end without a solid
+  int open = 0;         ///< buildings that came to the end without a solid
+  int featureless = 0;  ///< buildings that came to the end, in which no feature was found
   /// Features by label ("" = unknown).
   std::map<std::string, int> labels{};
   RecordCounts records{};

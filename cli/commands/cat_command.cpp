@@ -1,4 +1,5 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/stream_lines.h"
@@ -62,10 +63,12 @@ class Cat final : public VisitingCommand {
   bool has_ended_ = false;  ///< an input did
 };
 
-ExitCode work(const CatArguments& arguments) {
+ExitCode work(CatArguments& arguments) {
   Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   BatchRunner runner(arguments, nullptr, report);
   Cat command(arguments, runner);
+  check_output_format(arguments, command, arguments.out, Format::cityjson_seq);
   const ExitCode code = runner.run(command);
   runner.report_summary("passed on", {});
   return code;

@@ -1,4 +1,5 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/stream_lines.h"
@@ -66,10 +67,12 @@ class Collect final : public VisitingCommand {
   bool has_ended_ = false;  ///< an input did
 };
 
-ExitCode work(const CollectArguments& arguments) {
+ExitCode work(CollectArguments& arguments) {
   Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   BatchRunner runner(arguments, nullptr, report);
   Collect command(arguments, runner);
+  check_output_format(arguments, command, arguments.out, Format::cityjson);
   const ExitCode code = runner.run(command);
   runner.report_summary("collected", {});
   return code;

@@ -1,7 +1,9 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
@@ -270,11 +272,12 @@ bool may_be_id(std::string_view text) {
                   some_of(found), are_of_one_building(found) ? "" : "; --id names one building"));
 }
 
-ExitCode work(const ExplainArguments& arguments) {
+ExitCode work(ExplainArguments& arguments) {
+  Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   if (arguments.surface >= 0) return explain_surfaces(arguments);
   if (!arguments.at.empty()) return explain_place(arguments);
   if (arguments.feature.empty()) return explain_buildings(arguments);
-  Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
   const ExplanationPrinter printer(arguments, *rules);
@@ -329,7 +332,7 @@ void add_explain(CLI::App& app, Action& action) {
                       ->add_option("--surface", arguments->surface,
                                    "Instead of a feature, explain which surface the polygon with "
                                    "this number is, and why")
-                      ->check(CLI::NonNegativeNumber)
+                      ->check(at_least_zero())
                       ->excludes(feature);
   command
       ->add_option(

@@ -1,3 +1,4 @@
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
@@ -227,15 +228,16 @@ void print_now(const std::string& text) {
   }
 }
 
-ExitCode work(const InterpretArguments& arguments) {
+ExitCode work(InterpretArguments& arguments) {
   if (arguments.is_watching && !arguments.out.empty())
     throw CLI::ValidationError("--watch", "writes no file: leave out -o");
+  Report report(arguments.is_verbose);
+  read_once(arguments.records, report);
   NamedFiles names;
   for (const std::string& records : arguments.records) names.add_input("records", records);
   names.add_input("--rules", arguments.rules);
   names.add_output("-o", arguments.out);
   names.check();
-  Report report(arguments.is_verbose);
   if (arguments.is_watching) {
     const StoredFeatures features(arguments.records, report);
     if (features.code() == ExitCode::input) return ExitCode::input;

@@ -1,8 +1,10 @@
 #include "cli/batch/batch_command.h"
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/label_outputs.h"
+#include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "cli/terminal/table.h"
 #include "kernel/base/counted.h"
@@ -85,7 +87,11 @@ ExitCode audit(const LabelArguments& arguments) {
         compare_surfaces(document.buildings[i], lines[i], *rules, arguments.label_options(),
                          OpeningPolicy::compare, score);
   });
-  const ExitCode code = runner.run(visitor);
+  ExitCode code = runner.run(visitor);
+  if (const auto issue = no_names(score, runner.state().buildings)) {
+    report.add(*issue);
+    code = graver(code, ExitCode::set_aside);
+  }
   const std::string text =
       arguments.is_json ? to_json(score, true) + "\n" : differences_text(score) + to_text(score);
   print_out(text, arguments.is_json);
@@ -154,6 +160,8 @@ class Labeller final : public ProducingCommand {
 };
 
 ExitCode work(LabelArguments& arguments) {
+  Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   if (arguments.existing == "audit") return audit(arguments);
   if (arguments.is_piped_stream() && arguments.out.empty() && arguments.features.empty())
     arguments.out = "-";
@@ -163,9 +171,10 @@ ExitCode work(LabelArguments& arguments) {
   arguments.only_labels_features = !arguments.out.empty() && arguments.features.empty() &&
                                    !arguments.has_reasons && !arguments.is_repaired;
   if (arguments.is_json) throw CLI::ValidationError("--json", "works only with --existing audit");
-  Report report(arguments.is_verbose);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
+  arguments.seeks_features = rules->rule_count() > 0;
+  arguments.gives_only_features = arguments.out.empty();
   BatchRunner runner(arguments, &*rules, report);
   Labeller command(arguments, *rules, runner);
   const ExitCode code = runner.run(command);
@@ -187,7 +196,7 @@ void add_label(CLI::App& app, Action& action) {
                    "Semantics that the input has: fill adds what is missing; keep does so and "
                    "changes nothing else; replace overwrites them; audit only reports where the "
                    "rules disagree")
-      ->check(CLI::IsMember({"fill", "keep", "replace", "audit"}))
+      ->check(one_of({"fill", "keep", "replace", "audit"}))
       ->capture_default_str();
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
                     "Ignore what the input calls its polygons when looking for parts");

@@ -1,7 +1,11 @@
 #include "cli/commands/options.h"
 
+#include "cli/batch/batch_command.h"
 #include "cli/output/label_outputs.h"
+#include "cli/terminal/option_values.h"
+#include "kernel/base/counted.h"
 #include "kernel/io/records/feature_records.h"
+#include "oriel/score.h"
 
 #include <algorithm>
 #include <string>
@@ -29,7 +33,7 @@ void add_selection_arguments(CLI::App& command, Selection& selection) {
       .add_option("--random", selection.one_in,
                   "Only about one in N buildings, chosen from their ids and --seed, the same ones "
                   "in every run")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+      ->check(count_in(1, 1'000'000'000));
   command
       .add_option("--seed", selection.seed,
                   "Seed of --random: another seed selects other buildings")
@@ -45,8 +49,24 @@ void refuse_usage(const std::string& option, Code code, const std::string& sente
   throw CLI::ValidationError(option, fmt::format("{} {}", to_string(code), sentence));
 }
 
+void check_output_format(const RunOptions& arguments, const BatchCommand& command,
+                         const std::string& path, Format written) {
+  NamedFiles files;
+  files.add(arguments);
+  command.name_files(files);
+  files.check();
+  const auto named = format_of(path);
+  if (!named || *named == written) return;
+  const bool is_stream = written == Format::cityjson_seq;
+  throw CLI::ValidationError(
+      "-o", fmt::format("{} is written, and '{}' is a name of {}: end it in {} (oriel label writes "
+                        "other formats)",
+                        to_string(written), path, to_string(*named),
+                        is_stream ? ".city.jsonl" : ".city.json"));
+}
+
 CLI::Validator input_formats() {
-  return CLI::IsMember({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply"});
+  return one_of({"cityjson", "cityjsonseq", "citygml", "obj", "off", "ply"});
 }
 
 void add_input_arguments(CLI::App& command, RunOptions& a, bool has_many) {
@@ -73,35 +93,35 @@ void add_solid_arguments(CLI::App& command, RunOptions& a) {
   command
       .add_option("--coplanar-deg", a.tolerances.coplanar_deg,
                   "Polygons share a plane if their tilt differs by no more than this, in degrees")
-      ->check(CLI::Range(0.0, 30.0))
+      ->check(number_in(0.0, 30.0))
       ->capture_default_str();
   command
       .add_option("--plane-offset", a.tolerances.plane_offset_m,
                   "... and their offset by no more than this, in m; if not given, segmenting "
                   "raises it for noisy buildings")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_in(0.0, 1.0))
       ->each([&a](const std::string&) { a.is_plane_offset_given = true; })
       ->capture_default_str();
   command.add_option("--weld", a.tolerances.weld_m, "Merge vertices closer than this, in m")
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(number_in(1e-6, 1.0))
       ->capture_default_str();
   command
       .add_option("--close", a.close,
                   "Holes to close in a building that is not a closed shell: none; planar: plane "
                   "holes of up to --close-area; ground: these, and a missing ground and missing "
                   "walls of any size; any: every plane hole")
-      ->check(CLI::IsMember({"none", "planar", "ground", "any"}))
+      ->check(one_of({"none", "planar", "ground", "any"}))
       ->capture_default_str();
   command
       .add_option("--close-area", a.cap_area_m2,
                   "Largest plane hole to close with --close planar or ground, in m2")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
   command
       .add_option("--crossings", a.crossings,
                   "Polygons that cross each other in a building that is not a closed shell: leave "
                   "them, or cut them where they meet")
-      ->check(CLI::IsMember({"leave", "cut"}))
+      ->check(one_of({"leave", "cut"}))
       ->capture_default_str();
 }
 
@@ -109,7 +129,7 @@ void add_jobs_argument(CLI::App& command, int& jobs) {
   command
       .add_option("-j,--jobs", jobs,
                   "Buildings to process in parallel; 0: one per core. The output is the same")
-      ->check(CLI::Range(0, 1024))
+      ->check(count_in(0, 1024))
       ->transform([](const std::string& text) {
         return text == "0" ? std::to_string(std::max(1U, std::thread::hardware_concurrency()))
                            : text;
@@ -121,14 +141,14 @@ void add_run_arguments(CLI::App& command, RunOptions& a) {
   command.add_option("--timings", a.timings_file,
                      "Write the milliseconds of each stage to this file, as JSON");
   command.add_option("--repeat", a.repeat, "Run this many times; --timings writes the medians")
-      ->check(CLI::Range(1, 1000))
+      ->check(count_in(1, 1000))
       ->capture_default_str();
   add_jobs_argument(command, a.jobs);
   command
       .add_option("--progress", a.progress,
                   "Show on stderr: bar (and a table at the end), json (lines) or none (default: "
                   "bar on a terminal)")
-      ->check(CLI::IsMember({"bar", "json", "none"}));
+      ->check(one_of({"bar", "json", "none"}));
   command.add_option("--status", a.status_stem,
                      "Write STEM.status.json (counts, hashes) and STEM.quarantine.jsonl (every "
                      "record with something rejected, and why)");
@@ -185,7 +205,7 @@ void add_isolate_argument(CLI::App& command, RunOptions& a) {
       .add_option("--most-seconds", a.most_seconds,
                   "Reject a building that takes longer than this; results may then differ from run "
                   "to run; needs --isolate")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(number_in(0.001, 1e6))
       ->needs(command.get_option("--isolate"));
 }
 
@@ -194,16 +214,16 @@ void add_line_arguments(CLI::App& command, RunOptions& a, bool has_many) {
   command
       .add_option("--order", a.order,
                   "Order of cuts: natural (along existing edges first) or paper (as in the paper)")
-      ->check(CLI::IsMember({"natural", "paper"}))
+      ->check(one_of({"natural", "paper"}))
       ->capture_default_str();
   add_solid_arguments(command, a);
   command
       .add_option("--value-rel", a.tolerances.value_rel,
                   "Values of features that differ by no more than this fraction count as equal")
-      ->check(CLI::Range(0.0, 0.5))
+      ->check(number_in(0.0, 0.5))
       ->capture_default_str();
   command.add_option("--budget", a.budget, "Most steps that each stage may take on one building")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   add_run_arguments(command, a);
 }
@@ -238,7 +258,7 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
   command.add_option("-o,--output", a.out,
                      "File, - for stdout, or a folder (ending in /) for several inputs");
   command.add_option("--to", a.to, "Format to write (default: from the name of the output)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
+      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   add_features_argument(command, a.features);
   add_safe_cells_argument(command, a.has_safe_cells);
   add_resume_argument(command, a);
@@ -249,6 +269,13 @@ void add_label_arguments(CLI::App& command, LabellingArguments& a) {
       .add_option("--codelist", a.codelist,
                   "Code list for the functions of installations; the pack must have codes for it")
       ->capture_default_str();
+}
+
+std::optional<Issue> no_names(const SurfaceScore& score, int buildings) {
+  if (buildings == 0 || !score.area_m2.empty() || score.openings_m2 > 0) return std::nullopt;
+  return nothing_compared(
+      fmt::format("no polygon of {} has a name (semantics) in the input: nothing is compared",
+                  counted(buildings, "building")));
 }
 
 std::optional<RuleBase> load_rules(const std::string& pack, Report& report) {

@@ -2,6 +2,7 @@
 
 #include "cli/batch/run_options.h"
 #include "cli/terminal/logging.h"
+#include "kernel/io/files/format.h"
 #include "oriel/rules.h"
 
 #include <optional>
@@ -12,13 +13,23 @@ class App;
 class Validator;
 }  // namespace CLI
 
+namespace oriel {
+struct SurfaceScore;
+}
+
 namespace oriel::cli {
 
+class BatchCommand;
 struct LabellingArguments;
 
 /// Throws CLI::ValidationError: wrong usage of `option` that has a code of its own
 /// (docs/errors.md), reported as "--scale: E125 sentence"; exit code 2.
 [[noreturn]] void refuse_usage(const std::string& option, Code code, const std::string& sentence);
+
+/// Throws CLI::ValidationError if -o, `path`, names a file of another format than the command
+/// writes, which would be called what it is not; or, before that, if a file is named twice (E602).
+void check_output_format(const RunOptions& arguments, const BatchCommand& command,
+                         const std::string& path, Format written);
 
 /// What `--from` may be.
 CLI::Validator input_formats();
@@ -67,6 +78,9 @@ void add_safe_cells_argument(CLI::App& command, bool& is_safe);
 
 /// Adds all that the commands share that label buildings and write them.
 void add_label_arguments(CLI::App& command, LabellingArguments& arguments);
+
+/// A warning E131 if no polygon of the `buildings` that were read has a name to compare with.
+std::optional<Issue> no_names(const SurfaceScore& score, int buildings);
 
 /// The pack, with its findings reported; nothing if it cannot be used.
 std::optional<RuleBase> load_rules(const std::string& pack, Report& report);

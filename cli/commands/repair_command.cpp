@@ -1,8 +1,10 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/output_sink.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/files/output_file.h"
@@ -116,8 +118,9 @@ class Repairer final : public VisitingCommand {
   int repaired_ = 0, closed_ = 0;
 };
 
-ExitCode work(const RepairArguments& arguments) {
+ExitCode work(RepairArguments& arguments) {
   Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   BatchRunner runner(arguments, nullptr, report);
   Repairer command(arguments, runner);
   const ExitCode code = runner.run(command);
@@ -140,7 +143,7 @@ void add_repair(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--to", arguments->to, "Format to write (default: from the name of the output)")
-      ->check(CLI::IsMember({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
+      ->check(one_of({"cityjson", "cityjsonseq", "obj", "off", "ply", "stl"}));
   command->add_flag("--ignore-semantics", arguments->ignores_semantics,
                     "Write the solids without the semantics of the input");
   command->add_option("--report", arguments->report,

@@ -1,9 +1,11 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/safe_cells.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
 #include "cli/terminal/print_out.h"
 #include "kernel/base/counted.h"
 #include "kernel/io/files/output_file.h"
@@ -81,7 +83,7 @@ LabelsAndTruth read(const ScoreArguments& arguments, Report& report, ExitCode& c
       code = graver(code, records.value ? ExitCode::set_aside : ExitCode::input);
     if (records.value) add(std::move(*records.value), all);
   }
-  for (const std::string& path : truth_files(arguments.truth)) {
+  for (const std::string& path : arguments.truth) {
     const auto truths = read_truths(path);
     report.add(truths.issues);
     if (has_errors(truths.issues)) code = graver(code, ExitCode::input);
@@ -96,6 +98,7 @@ AreaScore compare_models(const ScoreArguments& arguments, const LabelsAndTruth& 
                          ExitCode& code) {
   RunOptions models = arguments;
   models.inputs = arguments.models;
+  settle_inputs(models, report);
   models.ends_at_reading = true;
   models.joins_installations = true;
   BatchRunner runner(models, nullptr, report);
@@ -107,6 +110,10 @@ AreaScore compare_models(const ScoreArguments& arguments, const LabelsAndTruth& 
         compared.insert(building.id);
   });
   code = graver(code, runner.run(visitor));
+  if (compared.empty()) {
+    report.add(nothing_compared("no building of the models is in the truth: no area is compared"));
+    code = graver(code, ExitCode::set_aside);
+  }
   for (const auto& [building, faces] : all.faces)
     if (!faces.truth.empty() && !compared.contains(building))
       report.add(building_issue(Severity::warning, Code::E129, building,
@@ -186,6 +193,10 @@ std::optional<Issue> missing_records(const LabelsAndTruth& all, const ScoreOptio
       ": " +
       fmt::format("{}", fmt::join(missing.begin(), missing.begin() + std::ptrdiff_t(shown), ", "));
   if (shown < missing.size()) issue.sentence += ", ...";
+  if (missing.size() == expected.size())
+    issue.sentence += recorded.empty() ? "; there are no records"
+                                       : fmt::format("; the records are of {}{}", *recorded.begin(),
+                                                     recorded.size() > 1 ? ", ..." : "");
   return issue;
 }
 
@@ -247,7 +258,11 @@ ExitCode score_surfaces(const ScoreArguments& arguments) {
         compare_surfaces(document.buildings[i], lines[i], *rules, arguments.label_options(),
                          OpeningPolicy::as_host, score);
   });
-  const ExitCode code = runner.run(visitor);
+  ExitCode code = runner.run(visitor);
+  if (const auto issue = no_names(score, runner.state().buildings)) {
+    report.add(*issue);
+    code = graver(code, ExitCode::set_aside);
+  }
   print_out(arguments.is_json ? to_json(score) + "\n" : to_text(score), arguments.is_json);
   return code;
 }
@@ -276,7 +291,7 @@ void add_comparison_arguments(CLI::App& command, ScoreArguments& arguments) {
   command
       .add_option("--bootstrap", arguments.samples,
                   "Also print 95 % intervals of F1, from this many samples of the buildings")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(count_in(1, 1'000'000));
 }
 
 void check_names(const ScoreArguments& arguments) {
@@ -290,7 +305,14 @@ void check_names(const ScoreArguments& arguments) {
   files.check();
 }
 
-ExitCode work(const ScoreArguments& arguments) {
+ExitCode work(ScoreArguments& arguments) {
+  {
+    Report report(arguments.is_verbose);
+    arguments.is_of_surfaces ? settle_inputs(arguments, report)
+                             : read_once(arguments.inputs, report);
+    arguments.truth = truth_files(arguments.truth);
+    read_once(arguments.truth, report);
+  }
   check_names(arguments);
   if (arguments.is_of_surfaces) return score_surfaces(arguments);
   if (arguments.truth.empty()) throw CLI::RequiredError("--truth");

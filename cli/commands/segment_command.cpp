@@ -1,4 +1,5 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/safe_cells.h"
@@ -212,8 +213,11 @@ class Segmenter final : public VisitingCommand {
   bool has_ended_ = false;  ///< an input did
 };
 
-ExitCode work(const SegmentArguments& arguments) {
+ExitCode work(SegmentArguments& arguments) {
   Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
+  arguments.seeks_features = true;
+  arguments.gives_only_features = !arguments.is_json && !arguments.has_tree;
   BatchRunner runner(arguments, nullptr, report);
   Segmenter command(arguments, runner);
   const ExitCode code = runner.run(command);

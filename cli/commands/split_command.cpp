@@ -1,8 +1,10 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/streams/shards.h"
 #include "cli/streams/stream_lines.h"
+#include "cli/terminal/option_values.h"
 #include "kernel/base/counted.h"
 #include "kernel/io/cityjson/stream_header.h"
 #include "kernel/io/files/output_file.h"
@@ -143,8 +145,9 @@ class Splitter final : public VisitingCommand {
   std::uint64_t features_ = 0, bytes_ = 0;  ///< of the shard at hand
 };
 
-ExitCode work(const SplitArguments& arguments) {
+ExitCode work(SplitArguments& arguments) {
   Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   BatchRunner runner(arguments, nullptr, report);
   Splitter command(arguments);
   const ExitCode code = runner.run(command);
@@ -164,13 +167,13 @@ void add_split(CLI::App& app, Action& action) {
   command->add_option("-o,--output", arguments->folder, "Folder for the shards and split.json")
       ->required();
   CLI::Option_group* by = command->add_option_group("By");
-  by->add_option("--count", arguments->count, "Features per shard")->check(CLI::PositiveNumber);
+  by->add_option("--count", arguments->count, "Features per shard")->check(above_zero());
   by->add_option("--bytes", arguments->bytes,
                  "Most bytes of features per shard, unless one feature alone is larger")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   by->add_option("--grid", arguments->grid_m,
                  "Side of a grid cell, in metres; each cell makes one shard")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   by->require_option(1);
   add_run_arguments(*command, *arguments);
   command->remove_option(command->get_option("--repeat"));

@@ -1,8 +1,11 @@
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/output/named_files.h"
 #include "cli/output/sarif.h"
+#include "cli/terminal/file_advice.h"
 #include "cli/terminal/logging.h"
+#include "cli/terminal/option_values.h"
 #include "kernel/base/counted.h"
 #include "kernel/base/printable.h"
 #include "kernel/io/cityjson/object_survey.h"
@@ -175,7 +178,7 @@ class Validation {
 
   ExitCode go() {
     if (std::ranges::count(arguments_.inputs, "-") > 1)
-      throw CLI::ValidationError("input", "stdin can be read only once");
+      throw CLI::ValidationError("input", "stdin can be read only once: give - once");
     if (is_of_all_lods() && std::ranges::count(arguments_.inputs, "-") > 0)
       throw CLI::ValidationError("--lod",
                                  "all reads its inputs several times, and stdin cannot be");
@@ -236,6 +239,7 @@ class Validation {
     ReadOptions noting = options;
     noting.notes_unread = true;
     try {
+      refuse_folder(input);
       Reader reader(input, noting);
       for (bool is_first = true;; is_first = false) {
         auto record = reader.next();
@@ -259,7 +263,7 @@ class Validation {
       }
     } catch (const InputError& error) {
       if (is_survey_) return;
-      report(error.issue());
+      report(with_file_advice(error.issue()));
       raise(ExitCode::input);
     }
   }
@@ -413,7 +417,9 @@ class Validation {
   std::map<std::pair<Code, int>, int> counts_;
 };
 
-ExitCode work(const ValidateArguments& arguments) {
+ExitCode work(ValidateArguments& arguments) {
+  Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
   NamedFiles files;
   files.add(arguments);
   files.add_output("-o", arguments.out);
@@ -439,27 +445,27 @@ void add_validate(CLI::App& app, Action& action) {
       ->add_option("--as", arguments->primitive,
                    "Check the geometry as what the file states (OBJ, OFF and PLY: a solid), as a "
                    "solid, or as loose surfaces")
-      ->check(CLI::IsMember({"stated", "solid", "surfaces"}))
+      ->check(one_of({"stated", "solid", "surfaces"}))
       ->capture_default_str();
   command
       ->add_option("--snap", arguments->options.snap_m,
                    "Count vertices closer than this as one, in m")
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(number_in(1e-6, 1.0))
       ->capture_default_str();
   command
       ->add_option("--planarity", arguments->options.planarity_m,
                    "Largest distance of a point from its polygon's plane, in m")
-      ->check(CLI::Range(0.0, 1e3))
+      ->check(number_in(0.0, 1e3))
       ->capture_default_str();
   command
       ->add_option("--planarity-deg", arguments->options.planarity_deg,
                    "Largest deviation between the normals of a polygon's triangles, in degrees")
-      ->check(CLI::Range(0.0, 180.0))
+      ->check(number_in(0.0, 180.0))
       ->capture_default_str();
   command
       ->add_option("--budget", arguments->options.budget,
                    "Most steps that the checks may take on one building")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("-o,--output", arguments->out, "Where to write (default: stdout)");
   command->add_option("--sarif", arguments->sarif,

@@ -1,10 +1,12 @@
 #include "cli/batch/batch_runner.h"
+#include "cli/batch/input_files.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/options.h"
 #include "cli/view/page.h"
 #include "kernel/io/cityjson/carried_labels.h"
 #include "kernel/io/files/output_file.h"
 
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -83,9 +85,20 @@ void check_names(const ViewArguments& arguments) {
   files.check();
 }
 
-ExitCode work(const ViewArguments& arguments) {
-  check_names(arguments);
+/// A page under another name is a file that no program opens as what it is.
+void check_page_name(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending.empty() || ending == ".html" || ending == ".htm" || path == "-") return;
+  throw CLI::ValidationError(
+      "-o",
+      fmt::format("an HTML page is written, and '{}' ends in {}: end it in .html", path, ending));
+}
+
+ExitCode work(ViewArguments& arguments) {
   Report report(arguments.is_verbose);
+  settle_inputs(arguments, report);
+  check_names(arguments);
+  check_page_name(arguments.out);
   const auto rules = load_rules(arguments.rules, report);
   if (!rules) return ExitCode::rules;
   PageData page(*rules);

@@ -28,7 +28,8 @@ LabelOutputs::LabelOutputs(const LabellingArguments& arguments, const RuleBase& 
   const auto codelists = rules.codelists();
   if (!codelists.empty() && std::ranges::find(codelists, arguments.codelist) == codelists.end())
     throw CLI::ValidationError(
-        "--codelist", fmt::format("the pack has codes for {}", fmt::join(codelists, ", ")));
+        "--codelist", fmt::format("'{}' is none of the lists that the pack has codes for: {}",
+                                  arguments.codelist, fmt::join(codelists, ", ")));
   if (!arguments.out.empty())
     sink_.emplace(arguments.out, arguments.to, arguments.inputs, arguments.read_options().format,
                   arguments.stl_solids);

@@ -75,8 +75,9 @@ bool NamedFiles::may_replace(const Named& output, const Named& first) {
 
 void NamedFiles::refuse(const Named& named, const Named& first) const {
   if (first.is_output)
-    refuse_usage(named.option, Code::E602,
-                 fmt::format("'{}' is written by {}, too", named.path, first.option));
+    refuse_usage(
+        named.option, Code::E602,
+        fmt::format("'{}' is written by {}, too; name another file", named.path, first.option));
   const bool offers_it = offers_force_ && may_replace(named, first);
   const bool is_lossy = offers_it && !named.loss.empty();
   refuse_usage(named.option, Code::E602,

@@ -53,7 +53,9 @@ OutputSink::OutputSink(std::string out, const std::string& to, std::vector<std::
     throw CLI::ValidationError("-o", "several inputs need a folder: write it with a / at its end");
   if (!is_folder_ && out_ != "-" && !to_ && !format_of(out_))
     throw CLI::ValidationError(
-        "-o", fmt::format("'{}' has no known extension; --to says the format", out_));
+        "-o", fmt::format("'{}' has no known extension; end it in .city.json, .city.jsonl, .obj, "
+                          ".off, .ply or .stl, or say the format with --to",
+                          out_));
   std::set<std::string> paths;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     check(i);

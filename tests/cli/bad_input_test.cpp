@@ -55,13 +55,6 @@ TEST_SUITE("cli") {
     CHECK(folder.names().empty());
   }
 
-  TEST_CASE("a folder as input is an unreadable input") {
-    const Folder folder;
-    const Outcome outcome = run({"label", folder.path().string(), "--from", "cityjson"});
-    CHECK(outcome.exit == 5);
-    CHECK(outcome.says("E101 cannot be read: Is a directory"));
-  }
-
   TEST_CASE("an empty file is an unreadable input") {
     check_unreadable("in.city.json", "", ": E102 ");
   }

@@ -2,6 +2,7 @@
 #include "tests/cli/cubes.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -60,7 +61,7 @@ TEST_SUITE("cli") {
     auto city = cubes({"a", "b"});
     city["CityObjects"]["a"]["geometry"][0]["boundaries"][0].erase(1);  // its roof
     const std::string in = folder.write("open.city.json", city.dump());
-    CHECK(run({"segment", in}).exit == 0);
+    CHECK(run({"segment", in, "--json"}).exit == 0);
     for (const Words& more : std::vector<Words>{{}, {"--json"}}) {
       Words arguments{"segment", in, "--tree"};
       arguments.insert(arguments.end(), more.begin(), more.end());
@@ -72,6 +73,49 @@ TEST_SUITE("cli") {
       CHECK(outcome.out.find("b") != std::string::npos);
     }
     CHECK(run({"segment", in, "--tree", "--close", "any"}).exit == 0);
+  }
+
+  TEST_CASE("buildings without any feature are reported with their number") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.jsonl", cube_lines({"a", "b"}));
+    const std::string said = "warning: " + in +
+                             ": E134 no feature was found in 2 buildings: nothing stands out of "
+                             "their walls and roofs or is cut into them\n";
+    // Surfaces, cells and trees are a result, too; a list without features is none.
+    const std::vector<std::pair<Words, int>> calls{
+        {{"label", in}, 3},
+        {{"label", in, "--features", folder / "parts.csv"}, 3},
+        {{"label", in, "-o", folder / "out.city.jsonl"}, 0},
+        {{"label", in, "-o", folder / "out.city.jsonl", "-j", "2"}, 0},
+        {{"label", in, "-o", folder / "out.city.jsonl", "--isolate"}, 0},
+        {{"segment", in}, 3},
+        {{"segment", in, "--features", folder / "parts.csv"}, 3},
+        {{"segment", in, "--json"}, 0},
+        {{"segment", in, "--tree"}, 0}};
+    for (const auto& [call, code] : calls) {
+      const Outcome outcome = run(call);
+      CAPTURE(call);
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit == code);
+      CHECK(outcome.says(said));
+    }
+    CHECK(run({"label", in, "--allow-bad", "100%"}).exit == 3);
+    CHECK_FALSE(run({"label", in, "--rules", "surfaces-only"}).says("E134"));
+    CHECK_FALSE(run({"generalise", in, "--scale", "1:1000", "-o", folder / "small.city.jsonl"})
+                    .says("E134"));
+  }
+
+  TEST_CASE("of buildings with and without features the summary says how many have none") {
+    const Folder folder;
+    const std::string in = folder.write("in.city.json", cubes({"a"}).dump());
+    for (const std::string command : {"label", "segment"}) {
+      const Outcome outcome = run({command, in, sample("house")});
+      CAPTURE(outcome.err);
+      CHECK(outcome.exit == 0);
+      CHECK_FALSE(outcome.says("E134"));
+      CHECK(outcome.says("; 1 without features\n"));
+      CHECK_FALSE(run({command, sample("house")}).says("without features"));
+    }
   }
 
   TEST_CASE("every command says that an id or a place selects nothing") {
@@ -112,13 +156,23 @@ TEST_SUITE("cli") {
   TEST_CASE("a selection that takes what is there is clean") {
     const Folder folder;
     const std::string in = folder.write("in.city.json", cubes({"a", "b"}).dump());
-    CHECK(run({"label", in, "--id", "a"}).exit == 0);
-    CHECK(run({"label", in, "--id", "a", "--exclude"}).exit == 0);
-    CHECK(run({"label", in, "--id", "x", "--exclude"}).exit == 3);
+    const std::string out = folder / "out.city.json";
+    CHECK(run({"label", in, "--id", "a", "-o", out}).exit == 0);
+    CHECK(run({"label", in, "--id", "a", "--exclude", "-o", out}).exit == 0);
+    CHECK(run({"label", in, "--id", "x", "--exclude", "-o", out}).exit == 3);
     auto roads = cubes({"a", "r"});
     roads["CityObjects"]["r"]["type"] = "Road";
     const std::string city = folder.write("roads.city.json", roads.dump());
     CHECK(run({"cat", city, "--cotype", "Road"}).exit == 0);
+  }
+
+  TEST_CASE("surfaces without names are not taken for surfaces that agree") {
+    const std::string said =
+        "E131 no polygon of 1 building has a name (semantics) in the input: nothing is compared\n";
+    check_empty({"score", "--surfaces"}, {sample("house")}, said, 3);
+    check_empty({"label", "--existing", "audit"}, {sample("house")}, said, 3);
+    const std::string named = replaced(sample("house"), ".stripped.", ".labelled.");
+    CHECK(run({"score", "--surfaces", named}).exit == 0);
   }
 
   TEST_CASE("records and truth without matches are no clean result") {
@@ -134,6 +188,11 @@ TEST_SUITE("cli") {
     check_empty({"score", parts, "--truth"},
                 {other.substr(0, other.find(".stripped")) + ".truth.json"},
                 "E131 no building of the truth has a record: block", 3);
+    check_empty({"score", folder.write("empty.csv", "building,id\n"), "--truth"}, {truth},
+                "E131 no building of the truth has a record: house; there are no records\n", 3);
+    const Outcome areas = run({"score", parts, "--truth", truth, "--models", other});
+    CHECK(areas.says("E131 no building of the models is in the truth: no area is compared\n"));
+    CHECK(areas.exit == 3);
     const Outcome some = run({"score", parts, "--truth", truth, "--truth",
                               other.substr(0, other.find(".stripped")) + ".truth.json"});
     CHECK(some.says("1 of 2 buildings of the truth has no record"));

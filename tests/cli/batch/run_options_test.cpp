@@ -118,7 +118,7 @@ TEST_SUITE("cli") {
     const Outcome all = run({"segment", "-", "--from", "cityjson"}, {.in = city.dump()});
     CHECK(all.exit == 3);
     const Outcome one =
-        run({"segment", "-", "--from", "cityjson", "--id", "b"}, {.in = city.dump()});
+        run({"segment", "-", "--from", "cityjson", "--id", "b", "--json"}, {.in = city.dump()});
     CHECK(one.exit == 0);
     CHECK(one.says("1 of 1 building segmented"));
   }

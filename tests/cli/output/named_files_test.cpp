@@ -55,7 +55,7 @@ TEST_SUITE("cli") {
               folder / "s.oplog.jsonl"},
              {"repair", in, "-o", x, "--report", x},
              {"view", in, "-o", x, "--timings", x},
-             {"cat", in, "-o", x, "--timings", x},
+             {"cat", in, "-o", x + "l", "--timings", x + "l"},
              {"collect", lines, "-o", x, "--timings", x},
              {"split", lines, "--count", "1", "-o", folder / "d", "--timings",
               folder / "d/split.json"},
